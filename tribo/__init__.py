@@ -1,0 +1,1 @@
+"""tribo: simulate wear, with every model a plugin."""

@@ -1,0 +1,1 @@
+"""Values every part shares: grid, contact problem, state, units, errors."""

@@ -1,0 +1,142 @@
+"""What a contact solver is asked, and what it answers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from tribo.core.arrays import Array
+from tribo.core.grid import Grid
+
+
+@dataclass(frozen=True)
+class WearCompliance:
+    """The wear of an implicit step, as additional compliance.
+
+    It adds to the elastic displacement ``K p`` the depth that the step wears
+    away, so that the operator becomes::
+
+        A p = K p + local * p + swept * dx * sum_x(p)
+
+    which is symmetric and positive definite whenever K is.
+
+    Parameters
+    ----------
+    local : ndarray, shape (nx, ny)
+        Depth per pressure on bodies that are stationary in the contact frame,
+        in m/Pa; not negative.
+    swept : ndarray, shape (ny,)
+        Depth per line load on bodies swept through the contact, in 1/Pa;
+        not negative.
+    """
+
+    local: Array
+    swept: Array
+
+
+@dataclass(frozen=True)
+class ContactSystem:
+    """What stays the same about a contact for a whole run.
+
+    Parameters
+    ----------
+    grid : Grid
+        The window.
+    modulus : float
+        Contact modulus E* of the two half-spaces, 1/E* = Σ(1 − ν²)/E, in Pa.
+    load : float
+        Normal load of the first contact, in N.
+    cap : float or None
+        Largest pressure the softer body bears, in Pa; None where both bodies
+        stay elastic.
+    curvature : tuple of float or None
+        Curvature of the initial gap at its lowest point along x and y, in
+        1/m; None where the surfaces do not state one.
+    """
+
+    grid: Grid
+    modulus: float
+    load: float
+    cap: float | None = None
+    curvature: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True)
+class ContactProblem:
+    """Find the pressure that carries `load` across `gap`.
+
+    The conditions are, with g = gap + A p − approach::
+
+        g >= 0 where p = 0
+        g  = 0 where 0 < p < cap
+        g <= 0 where p = cap
+        sum(p) * cell_area = load
+
+    Parameters
+    ----------
+    system : ContactSystem
+        The constants of the run.
+    gap : ndarray, shape (nx, ny)
+        Undeformed gap, worn and plastically deformed so far, in m, up to a
+        constant.
+    load : float
+        Normal load, in N; positive.
+    wear : WearCompliance, optional
+        Wear of the step that this solve is part of.
+    """
+
+    system: ContactSystem
+    gap: Array
+    load: float
+    wear: WearCompliance | None = None
+
+
+@dataclass(frozen=True)
+class Residuals:
+    """How far a solution is from the conditions of its problem.
+
+    Parameters
+    ----------
+    force : float
+        \\|sum(p) * cell_area − load\\| / load.
+    complementarity : float
+        sum(p * \\|g\\|) / (sum(p) * scale) over cells below the cap, where
+        ``scale`` is the depth by which the bodies approach (at least the
+        range of the gap under pressure).
+    penetration : float
+        Largest overlap where there is no pressure, over ``scale``.
+    """
+
+    force: float
+    complementarity: float
+    penetration: float
+
+    @property
+    def worst(self) -> float:
+        """The largest of the three."""
+        return max(self.force, self.complementarity, self.penetration)
+
+
+@dataclass(frozen=True)
+class ContactSolution:
+    """The pressure in a contact.
+
+    Parameters
+    ----------
+    pressure : ndarray, shape (nx, ny)
+        Contact pressure, in Pa; 0 outside the contact.
+    approach : float
+        Rigid approach δ, in the gap's own zero, in m.
+    overlap : ndarray, shape (nx, ny)
+        Depth by which the bodies overlap where the pressure is at the cap:
+        the plastic displacement this solution asks for, in m; 0 elsewhere.
+    iterations : int
+        Iterations on the full grid.
+    residuals : Residuals
+        Conditions at exit.
+    """
+
+    pressure: Array
+    approach: float
+    overlap: Array
+    iterations: int
+    residuals: Residuals

@@ -1,0 +1,45 @@
+"""What can go wrong, as one family of exceptions with documented exit codes."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+
+class TriboError(Exception):
+    """Base of every error tribo raises on purpose.
+
+    The message is one clear statement for a user: what was given, what is
+    allowed, what to do.
+    """
+
+    exit_code: ClassVar[int] = 1
+
+
+class CaseError(TriboError):
+    """The input is wrong: a case, an option or a file.
+
+    Parameters
+    ----------
+    message : str
+        What was given, what is allowed and what to do.
+    path : str, optional
+        Where in the case, as ``bodies.ball.material.young``.
+    """
+
+    exit_code: ClassVar[int] = 2
+
+    def __init__(self, message: str, path: str = "") -> None:
+        super().__init__(f"{path}: {message}" if path else message)
+        self.path = path
+
+
+class NumericalError(TriboError):
+    """A solve or a step could not be carried out to its tolerance."""
+
+    exit_code: ClassVar[int] = 3
+
+
+class Interrupted(TriboError):
+    """The run was stopped from outside and can be resumed."""
+
+    exit_code: ClassVar[int] = 130

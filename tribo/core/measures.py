@@ -1,0 +1,42 @@
+"""Scalars read off a pressure field: centre, half-widths, area."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tribo.core.arrays import Array, Mask
+from tribo.core.grid import Grid
+
+
+def centre(field: Array) -> float:
+    """Mean of the middle 1, 2 or 4 cells of `field`, shape (nx, ny)."""
+    nx, ny = field.shape
+    middle = field[(nx - 1) // 2 : nx // 2 + 1, (ny - 1) // 2 : ny // 2 + 1]
+    return float(np.mean(middle))
+
+
+def half_widths(pressure: Array, grid: Grid) -> tuple[float, float]:
+    """Half the extent of {p > 0} along x and along y, in m."""
+    touching = pressure > 0
+    return (
+        0.5 * _extent(touching.any(axis=1)) * grid.spacing[0],
+        0.5 * _extent(touching.any(axis=0)) * grid.spacing[1],
+    )
+
+
+def contact_area(pressure: Array, grid: Grid) -> float:
+    """Area of the cells that carry pressure, in m²."""
+    return int(np.count_nonzero(pressure > 0)) * grid.cell_area
+
+
+def reaches_border(pressure: Array) -> bool:
+    """Whether the contact reaches the border of the window."""
+    touching = pressure > 0
+    return bool(
+        touching[0].any() or touching[-1].any() or touching[:, 0].any() or touching[:, -1].any()
+    )
+
+
+def _extent(touching: Mask) -> int:
+    index = np.flatnonzero(touching)
+    return int(index[-1] - index[0] + 1) if index.size else 0
