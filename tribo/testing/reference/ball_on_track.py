@@ -1,0 +1,255 @@
+r"""A ball that slides to and fro on a flat, both wearing, in the rigid limit.
+
+Elastic displacement is neglected beside the worn depth. The ball wears by its
+local pressure, with k_b; the flat by its average along a track of length ℓ,
+with k_f, so that its depth w_f depends on y alone (x is the sliding
+direction). Then all of it is closed but for one quadrature and one root.
+
+In contact, δ = (x² + y²)/2R + w_b(x, y) + w_f(y), so that at each y
+
+- all points share dw_b/ds = k_b p = dδ/ds − dw_f/ds: p is uniform along x;
+- the contact ends where w_b = 0: b² = 2R(δ − w_f) − y², with half-length b(y);
+- dw_f/ds = (k_f/ℓ) 2bp, hence dw_f/dδ = qb/(1 + qb), q = 2k_f/(k_b ℓ).
+
+With the second, the third becomes (1 + qb) d(b²) = 2R dδ, which integrates from
+first touch, b = 0 at 2Rδ = y², to
+
+    b² + ⅔ q b³ = c² − y²,        c² = 2Rδ
+
+for the outline of the contact: half-width c across, and along, a = b(0), the
+root of a² + ⅔ q a³ = c². From there, with F = ∫∫ p dx dy,
+
+- depths: w_f = q b³/3R, and at the centre of the ball a²/2R;
+- volumes: V_b = ∫ 2b³/3R dy = k_b F s, and V_f = ℓ ∫ w_f dy = k_f F s exactly;
+- pressure: p = p_max/(1 + qb), with p_max = F/∫ 2b/(1 + qb) dy, at the edge y = ±c.
+
+The worn ball stands w_f(0) higher at its centre than at the edges of its scar
+across the track: its *crown* is the depth of the groove.
+
+Validity: half-widths small beside R, elastic approach small beside the worn
+depth, and a stroke of at least 4a, so that every flat point under the contact
+at mid-stroke has been passed by all of the contact. (A unidirectional track has no
+such limit.)
+
+References
+----------
+Derived here, after J. F. Archard (1953), J. Appl. Phys. 24, 981-988, and the
+stroke average of J. Andersson, A. Almqvist and R. Larsson, Simulation of a
+wear experiment, equation (5) with N = L.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.optimize import brentq
+
+from tribo.core.arrays import Array
+
+
+@dataclass(frozen=True)
+class BallOnTrack:
+    """The worn ball and flat at a sequence of sliding distances.
+
+    All arrays have the shape (n,) of `distance`.
+
+    Parameters
+    ----------
+    distance : ndarray
+        Sliding distance s, in m.
+    half_width_along : ndarray
+        Half-width a of the contact along the sliding direction, in m.
+    half_width_across : ndarray
+        Half-width c of the contact across it, in m.
+    ball_depth : ndarray
+        Worn depth at the centre of the ball, in m.
+    flat_depth : ndarray
+        Depth of the groove in the flat, which is also the crown left on the
+        ball, in m.
+    centre_pressure : ndarray
+        Pressure at the centre, in Pa; infinite at s = 0.
+    peak_pressure : ndarray
+        Largest pressure, at the contact's edges across the track, in Pa;
+        infinite at s = 0.
+    ball_volume : ndarray
+        Volume worn off the ball, in m³.
+    flat_volume : ndarray
+        Volume worn off the flat, over the length of the track, in m³.
+    """
+
+    distance: Array
+    half_width_along: Array
+    half_width_across: Array
+    ball_depth: Array
+    flat_depth: Array
+    centre_pressure: Array
+    peak_pressure: Array
+    ball_volume: Array
+    flat_volume: Array
+
+
+@dataclass(frozen=True)
+class TrackProfile:
+    """The contact as a function of the position across the track.
+
+    All arrays have the shape of `y`.
+
+    Parameters
+    ----------
+    y : ndarray
+        Position across the track, in m.
+    half_length : ndarray
+        Half-length b of the contact along the sliding direction, in m.
+    ball_depth : ndarray
+        Worn depth of the ball at x = 0, in m.
+    flat_depth : ndarray
+        Worn depth of the flat, in m.
+    pressure : ndarray
+        Pressure, uniform along x, in Pa; 0 outside the contact.
+    """
+
+    y: Array
+    half_length: Array
+    ball_depth: Array
+    flat_depth: Array
+    pressure: Array
+
+
+def ball_on_track(
+    distance: ArrayLike,
+    *,
+    load: float,
+    radius: float,
+    track_length: float,
+    ball_wear_coefficient: float,
+    flat_wear_coefficient: float,
+) -> BallOnTrack:
+    """Wear a ball and a flat against each other, rigid limit.
+
+    Parameters
+    ----------
+    distance : array_like, shape (n,)
+        Sliding distances s, in m; not negative, in any order.
+    load : float
+        Normal load F, in N.
+    radius : float
+        Radius R of the ball, in m.
+    track_length : float
+        ℓ, in m: the stroke, or the circumference of the track.
+    ball_wear_coefficient : float
+        Archard's k of the ball, in 1/Pa; positive.
+    flat_wear_coefficient : float
+        Archard's k of the flat, in 1/Pa; 0 leaves the flat unworn.
+
+    Returns
+    -------
+    BallOnTrack
+    """
+    s = np.atleast_1d(np.asarray(distance, dtype=float))
+    q = _groove_rate(track_length, ball_wear_coefficient, flat_wear_coefficient)
+    ball_volume = ball_wear_coefficient * load * s
+    a = np.array([_half_width_along(volume, radius, q) for volume in ball_volume])
+    peak = np.array([_peak_pressure(width, q, load) for width in a])
+    return BallOnTrack(
+        distance=s,
+        half_width_along=a,
+        half_width_across=np.sqrt(a**2 + 2.0 / 3.0 * q * a**3),
+        ball_depth=a**2 / (2.0 * radius),
+        flat_depth=q * a**3 / (3.0 * radius),
+        centre_pressure=peak / (1.0 + q * a),
+        peak_pressure=peak,
+        ball_volume=ball_volume,
+        flat_volume=flat_wear_coefficient * load * s,
+    )
+
+
+def track_profile(
+    y: ArrayLike,
+    distance: float,
+    *,
+    load: float,
+    radius: float,
+    track_length: float,
+    ball_wear_coefficient: float,
+    flat_wear_coefficient: float,
+) -> TrackProfile:
+    """Profile of the contact across the track after one sliding distance.
+
+    Parameters
+    ----------
+    y : array_like
+        Positions across the track, in m.
+    distance : float
+        Sliding distance s, in m; positive.
+    load, radius, track_length, ball_wear_coefficient, flat_wear_coefficient : float
+        As for `ball_on_track`.
+
+    Returns
+    -------
+    TrackProfile
+    """
+    positions = np.asarray(y, dtype=float)
+    q = _groove_rate(track_length, ball_wear_coefficient, flat_wear_coefficient)
+    a = _half_width_along(ball_wear_coefficient * load * distance, radius, q)
+    outline = a**2 + 2.0 / 3.0 * q * a**3 - positions**2
+    b = np.reshape([_half_length(value, a, q) for value in outline.ravel()], outline.shape)
+    pressure = np.where(outline > 0.0, _peak_pressure(a, q, load) / (1.0 + q * b), 0.0)
+    return TrackProfile(
+        y=positions,
+        half_length=b,
+        ball_depth=b**2 / (2.0 * radius),
+        flat_depth=q * b**3 / (3.0 * radius),
+        pressure=pressure,
+    )
+
+
+def _groove_rate(track_length: float, ball: float, flat: float) -> float:
+    return 2.0 * flat / (ball * track_length)
+
+
+def _half_width_along(ball_volume: float, radius: float, q: float) -> float:
+    # The ball alone would wear to `alone`; a groove makes the contact shorter.
+    alone = (4.0 * radius * ball_volume / np.pi) ** 0.25
+    if alone == 0.0:
+        return 0.0
+    root = brentq(
+        lambda t: _ball_volume(t * alone, radius, q) / ball_volume - 1.0, 0.0, 1.0 + 1e-12
+    )
+    return float(root) * float(alone)
+
+
+def _half_length(outline: float, a: float, q: float) -> float:
+    if outline <= 0.0:
+        return 0.0
+    upper = min(np.sqrt(outline), a * (1.0 + 1e-12))
+    root = brentq(
+        lambda t: (t * upper) ** 2 * (1.0 + 2.0 / 3.0 * q * t * upper) - outline, 0.0, 2.0
+    )
+    return float(root) * float(upper)
+
+
+# Integrals across the track are taken over b instead of y, by parts, and b = a(1 − t²) takes
+# away the root at b = a: Gauss points then give them to round-off.
+_nodes, _weights = np.polynomial.legendre.leggauss(40)
+_T: Array = 0.5 * (_nodes + 1.0)
+_WEIGHT: Array = 0.5 * _weights
+
+
+def _across(a: float, q: float) -> tuple[Array, Array]:
+    """Return b and the weights of ∫ y(b) db from 0 to a."""
+    u = 1.0 - _T**2
+    y = a * _T * np.sqrt(1.0 + u + 2.0 / 3.0 * q * a * (1.0 + u + u**2))
+    return a * u, _WEIGHT * 2.0 * a * _T * y
+
+
+def _ball_volume(a: float, radius: float, q: float) -> float:
+    b, weight = _across(a, q)
+    return float(4.0 / radius * np.sum(weight * b**2))
+
+
+def _peak_pressure(a: float, q: float, load: float) -> float:
+    b, weight = _across(a, q)
+    area = 4.0 * float(np.sum(weight / (1.0 + q * b) ** 2))
+    return load / area if area > 0.0 else np.inf

@@ -1,0 +1,207 @@
+"""Bodies that alone wear against a hard flat, by Archard's law.
+
+In the rigid limit elastic displacement is small beside the worn depth, the
+worn face is flat, and its shape follows from the worn volume V = kFs. Profiles
+are parabolic: half-widths must stay small beside the radius.
+
+References
+----------
+J. F. Archard (1953), J. Appl. Phys. 24, 981-988 (the law); I. I. Argatov
+(2011), Wear 271 (the elastic ball). The geometry is elementary.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from tribo.core.arrays import Array
+
+
+@dataclass(frozen=True)
+class WornFace:
+    """The flat face worn on a body.
+
+    Parameters
+    ----------
+    half_width : ndarray
+        Radius of the face, or its half-width on a cylinder, in m.
+    depth : ndarray
+        Worn depth at the centre, in m.
+    pressure : ndarray
+        Uniform pressure on the face, in Pa; infinite at zero distance.
+    """
+
+    half_width: Array
+    depth: Array
+    pressure: Array
+
+
+def ball(distance: ArrayLike, *, load: float, radius: float, wear_coefficient: float) -> WornFace:
+    """Wear a ball, rigid limit.
+
+    a = (4RkFs/π)^¼, h = a²/2R = √(kFs/πR), p = F/πa².
+
+    Parameters
+    ----------
+    distance : array_like
+        Sliding distance s, in m.
+    load : float
+        Normal load F, in N.
+    radius : float
+        Radius R of the ball, in m.
+    wear_coefficient : float
+        Archard's k, in 1/Pa.
+
+    Returns
+    -------
+    WornFace
+        Arrays shaped like `distance`.
+    """
+    a = elastic_ball_half_width(
+        distance,
+        load=load,
+        radius=radius,
+        wear_coefficient=wear_coefficient,
+        initial_half_width=0.0,
+    )
+    return WornFace(a, a**2 / (2.0 * radius), _over(load, np.pi * a**2))
+
+
+def elastic_ball_half_width(
+    distance: ArrayLike,
+    *,
+    load: float,
+    radius: float,
+    wear_coefficient: float,
+    initial_half_width: float,
+) -> Array:
+    """Contact radius of a ball that wears from its Hertzian contact (Argatov 2011).
+
+    a⁴ = a0⁴ + 4kFRs/π. It is exact on a Winkler foundation; an elastic
+    half-space stays within 1 % of it once a has grown by half.
+
+    Parameters
+    ----------
+    distance : array_like
+        Sliding distance s, in m.
+    load, radius, wear_coefficient : float
+        As for `ball`.
+    initial_half_width : float
+        Contact radius a0 at s = 0, in m.
+
+    Returns
+    -------
+    ndarray
+        Contact radius, in m, shaped like `distance`.
+    """
+    volume = worn_volume(distance, load=load, wear_coefficient=wear_coefficient)
+    return np.asarray((initial_half_width**4 + 4.0 * radius * volume / np.pi) ** 0.25)
+
+
+def cylinder(
+    distance: ArrayLike, *, line_load: float, radius: float, wear_coefficient: float
+) -> WornFace:
+    """Wear a cylinder along a generator, rigid limit.
+
+    a = (3RkF's/2)^⅓, h = a²/2R, p = F'/2a.
+
+    Parameters
+    ----------
+    distance : array_like
+        Sliding distance s, in m.
+    line_load : float
+        Load per length F', in N/m.
+    radius : float
+        Radius R of the cylinder, in m.
+    wear_coefficient : float
+        Archard's k, in 1/Pa.
+
+    Returns
+    -------
+    WornFace
+        Arrays shaped like `distance`.
+    """
+    area = worn_volume(distance, load=line_load, wear_coefficient=wear_coefficient)
+    a = np.asarray((1.5 * radius * area) ** (1.0 / 3.0))
+    return WornFace(a, a**2 / (2.0 * radius), _over(line_load, 2.0 * a))
+
+
+def cone(
+    distance: ArrayLike, *, load: float, semi_angle: float, wear_coefficient: float
+) -> WornFace:
+    """Wear the tip of a cone, rigid limit.
+
+    a = (3kFs tan α/π)^⅓, h = a cot α, p = F/πa².
+
+    Parameters
+    ----------
+    distance : array_like
+        Sliding distance s, in m.
+    load : float
+        Normal load F, in N.
+    semi_angle : float
+        Angle α between axis and flank, in rad.
+    wear_coefficient : float
+        Archard's k, in 1/Pa.
+
+    Returns
+    -------
+    WornFace
+        Arrays shaped like `distance`.
+    """
+    volume = worn_volume(distance, load=load, wear_coefficient=wear_coefficient)
+    tan = np.tan(semi_angle)
+    a = np.asarray((3.0 * volume * tan / np.pi) ** (1.0 / 3.0))
+    return WornFace(a, a / tan, _over(load, np.pi * a**2))
+
+
+def flat_pin_depth(
+    distance: ArrayLike, *, load: float, area: float, wear_coefficient: float
+) -> Array:
+    """Depth worn off a flat-ended pin, h = kFs/A, whatever its section.
+
+    Parameters
+    ----------
+    distance : array_like
+        Sliding distance s, in m.
+    load : float
+        Normal load F, in N.
+    area : float
+        Section A of the pin, in m².
+    wear_coefficient : float
+        Archard's k, in 1/Pa.
+
+    Returns
+    -------
+    ndarray
+        Depth, in m, shaped like `distance`.
+    """
+    return worn_volume(distance, load=load, wear_coefficient=wear_coefficient) / area
+
+
+def worn_volume(distance: ArrayLike, *, load: float, wear_coefficient: float) -> Array:
+    """Volume worn off one body, V = kFs.
+
+    Parameters
+    ----------
+    distance : array_like
+        Sliding distance s, in m.
+    load : float
+        Normal load F, in N; with a load per length, the result is an area.
+    wear_coefficient : float
+        Archard's k, in 1/Pa.
+
+    Returns
+    -------
+    ndarray
+        Volume, in m³, shaped like `distance`.
+    """
+    return np.asarray(wear_coefficient * load * np.asarray(distance, dtype=float))
+
+
+def _over(load: float, area: Array) -> Array:
+    with np.errstate(divide="ignore"):
+        return np.asarray(load / area)

@@ -1,0 +1,261 @@
+"""A sphere and a cylinder on a Winkler foundation, unworn and worn.
+
+The foundation answers an overlap u with the pressure p = K_w u, point by
+point. Profiles are parabolic, h = r²/2R, so half-widths must stay small
+beside the radius.
+
+References
+----------
+K. L. Johnson (1985), Contact Mechanics, section 4.3 (foundation);
+P. Podra and S. Andersson (1997), Wear 207, 79-85 (wear on it). The worn
+solutions are derived in the notes of each function.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.special import dawsn
+
+from tribo.core.arrays import Array
+
+
+@dataclass(frozen=True)
+class WinklerContact:
+    """An unworn contact on a Winkler foundation.
+
+    Parameters
+    ----------
+    half_width : float
+        Contact radius, or half-width of a line contact, in m.
+    pressure : float
+        Pressure at the centre, in Pa.
+    approach : float
+        Rigid approach, in m.
+    """
+
+    half_width: float
+    pressure: float
+    approach: float
+
+
+def sphere(load: float, radius: float, stiffness: float) -> WinklerContact:
+    """Press a rigid sphere on a Winkler foundation.
+
+    F = π K_w a⁴/4R, p0 = K_w a²/2R = 2F/πa², δ = a²/2R.
+
+    Parameters
+    ----------
+    load : float
+        Normal load F, in N.
+    radius : float
+        Radius R of the sphere, in m.
+    stiffness : float
+        Foundation stiffness K_w, in Pa/m.
+
+    Returns
+    -------
+    WinklerContact
+    """
+    a = (4.0 * radius * load / (np.pi * stiffness)) ** 0.25
+    approach = a**2 / (2.0 * radius)
+    return WinklerContact(a, stiffness * approach, approach)
+
+
+def line(line_load: float, radius: float, stiffness: float) -> WinklerContact:
+    """Press a rigid cylinder on a Winkler foundation.
+
+    F' = 2 K_w a³/3R, p0 = K_w a²/2R = 3F'/4a, δ = a²/2R.
+
+    Parameters
+    ----------
+    line_load : float
+        Load per length F', in N/m.
+    radius : float
+        Radius R of the cylinder, in m.
+    stiffness : float
+        Foundation stiffness K_w, in Pa/m.
+
+    Returns
+    -------
+    WinklerContact
+    """
+    a = (1.5 * radius * line_load / stiffness) ** (1.0 / 3.0)
+    approach = a**2 / (2.0 * radius)
+    return WinklerContact(a, stiffness * approach, approach)
+
+
+def worn_sphere_half_width(
+    distance: ArrayLike, *, load: float, radius: float, stiffness: float, wear_coefficient: float
+) -> Array:
+    """Contact radius of a sphere that alone wears, by Archard's law.
+
+    a = [4RF(ks + 1/K_w)/π]^¼.
+
+    Parameters
+    ----------
+    distance : array_like
+        Sliding distance s, in m.
+    load, radius, stiffness : float
+        As for `sphere`.
+    wear_coefficient : float
+        Archard's k, in 1/Pa.
+
+    Returns
+    -------
+    ndarray
+        Contact radius, in m, shaped like `distance`.
+
+    Notes
+    -----
+    In contact δ − h = w + p/K_w. Over the contact, whose border is unworn and
+    free of pressure, that integrates to πa⁴/4R = kFs + F/K_w, exactly.
+    """
+    s = np.asarray(distance, dtype=float)
+    compliance = wear_coefficient * s + 1.0 / stiffness
+    return np.asarray((4.0 * radius * load * compliance / np.pi) ** 0.25)
+
+
+def worn_line_half_width(
+    distance: ArrayLike,
+    *,
+    line_load: float,
+    radius: float,
+    stiffness: float,
+    wear_coefficient: float,
+) -> Array:
+    """Half-width of a line contact whose cylinder alone wears, by Archard's law.
+
+    a = [3RF'(ks + 1/K_w)/2]^⅓, by the argument of `worn_sphere_half_width`.
+
+    Parameters
+    ----------
+    distance : array_like
+        Sliding distance s, in m.
+    line_load, radius, stiffness : float
+        As for `line`.
+    wear_coefficient : float
+        Archard's k, in 1/Pa.
+
+    Returns
+    -------
+    ndarray
+        Half-width, in m, shaped like `distance`.
+    """
+    s = np.asarray(distance, dtype=float)
+    compliance = wear_coefficient * s + 1.0 / stiffness
+    return np.asarray((1.5 * radius * line_load * compliance) ** (1.0 / 3.0))
+
+
+def worn_sphere_pressure(
+    r: ArrayLike,
+    distance: ArrayLike,
+    *,
+    load: float,
+    radius: float,
+    stiffness: float,
+    wear_coefficient: float,
+) -> Array:
+    """Pressure under a sphere that alone wears, by Archard's law.
+
+    With a0, p0 of the unworn contact, z = 1 + k K_w s, ρ = r²/a0² and
+    Dawson's function D::
+
+        p/p0 = D(√z) + exp(1 − z) (1 − ρ − D(1))     r ≤ a0
+        p/p0 = D(√z) − exp(ρ² − z) D(ρ)              a0 < r ≤ a(s)
+        p    = 0                                     r > a(s)
+
+    Parameters
+    ----------
+    r : array_like
+        Distance from the axis, in m.
+    distance : array_like
+        Sliding distance s, in m; broadcast against `r`.
+    load, radius, stiffness : float
+        As for `sphere`.
+    wear_coefficient : float
+        Archard's k, in 1/Pa.
+
+    Returns
+    -------
+    ndarray
+        Pressure, in Pa.
+
+    Notes
+    -----
+    A point in contact obeys dp/ds = K_w (dδ/ds − k p), from p(r, 0) or, where
+    the contact comes later, from p = 0 at a(s) = r. With δ = δ0 √z the integral
+    of √z exp(z) is Dawson's.
+    """
+    contact = sphere(load, radius, stiffness)
+    z = 1.0 + wear_coefficient * stiffness * np.asarray(distance, dtype=float)
+    rho = (np.asarray(r, dtype=float) / contact.half_width) ** 2
+    touched_at = np.maximum(rho**2, 1.0)
+    start = np.where(rho <= 1.0, 1.0 - rho, 0.0)
+    fading = np.exp(np.minimum(touched_at - z, 0.0)) * (start - dawsn(np.sqrt(touched_at)))
+    ratio = dawsn(np.sqrt(z)) + fading
+    return np.asarray(contact.pressure * np.where(touched_at <= z, np.maximum(ratio, 0.0), 0.0))
+
+
+def stiffness_for_half_width(modulus: float, half_width: float) -> float:
+    """Foundation stiffness that gives a sphere its Hertzian contact radius.
+
+    K_w = 16E*/3πa; then p0 is 4/3 and δ is 1/2 of Hertz's.
+
+    Parameters
+    ----------
+    modulus : float
+        Contact modulus E*, in Pa.
+    half_width : float
+        Hertzian contact radius a, in m.
+
+    Returns
+    -------
+    float
+        K_w, in Pa/m.
+    """
+    return 16.0 * modulus / (3.0 * np.pi * half_width)
+
+
+def stiffness_for_pressure(modulus: float, half_width: float) -> float:
+    """Foundation stiffness that gives a sphere its Hertzian peak pressure.
+
+    K_w = 3E*/πa, with the Hertzian radius a; the contact is then 2/√3 as wide
+    and the approach 2/3 of Hertz's.
+
+    Parameters
+    ----------
+    modulus : float
+        Contact modulus E*, in Pa.
+    half_width : float
+        Hertzian contact radius a, in m.
+
+    Returns
+    -------
+    float
+        K_w, in Pa/m.
+    """
+    return 3.0 * modulus / (np.pi * half_width)
+
+
+def stiffness_for_approach(modulus: float, half_width: float) -> float:
+    """Foundation stiffness that gives a sphere its Hertzian approach.
+
+    K_w = 4E*/3πa, with the Hertzian radius a; the contact is then √2 as wide
+    and the peak pressure 2/3 of Hertz's.
+
+    Parameters
+    ----------
+    modulus : float
+        Contact modulus E*, in Pa.
+    half_width : float
+        Hertzian contact radius a, in m.
+
+    Returns
+    -------
+    float
+        K_w, in Pa/m.
+    """
+    return 4.0 * modulus / (3.0 * np.pi * half_width)
