@@ -1,0 +1,169 @@
+"""A quantity may be written with any unit of its dimension, and with no other."""
+
+from __future__ import annotations
+
+import json
+from typing import Annotated
+
+import jsonschema
+import pint
+import pytest
+from pydantic import BaseModel, TypeAdapter, ValidationError
+
+from tribo.core.errors import CaseError
+from tribo.core.units import Quantity, parse
+
+PINT = pint.UnitRegistry()
+
+WRITTEN = [
+    ("5 mm", "m"),
+    ("5mm", "m"),
+    ("0.3 mm", "m"),
+    ("12 um", "m"),
+    ("3 nm", "m"),
+    ("4 GPa", "Pa"),
+    ("-207 GPa", "Pa"),
+    ("2.5 bar", "Pa"),
+    ("25 Hz", "Hz"),
+    ("1500 1/min", "Hz"),
+    ("1 h", "s"),
+    ("2.5 day", "s"),
+    ("90 min", "s"),
+    ("3.11e-16 1/Pa", "1/Pa"),
+    ("1e-6 mm^3/(N m)", "1/Pa"),
+    ("1e-6 mm**3/(N*m)", "1/Pa"),
+    ("0.1 m/s", "m/s"),
+    ("10 cm/min", "m/s"),
+    ("7.85 g/cm^3", "kg/m^3"),
+    ("7850 kg/m^3", "kg/m^3"),
+    ("46 W/(m K)", "W/(m K)"),
+    ("460 J/(kg K)", "J/(kg K)"),
+    ("0.46 J/g/K", "J/(kg K)"),
+    ("20 GPa/mm", "Pa/m"),
+    ("90 degC", "K"),
+    ("-40 degC", "K"),
+    ("300 K", "K"),
+    ("3 kW", "W"),
+    ("0.3", "1"),
+]
+
+
+@pytest.mark.parametrize(("text", "unit"), WRITTEN)
+def test_conversion_agrees_with_pint(text: str, unit: str) -> None:
+    number, _, written = text.replace("5mm", "5 mm").partition(" ")
+    expected = PINT.Quantity(float(number), written).to(unit if unit != "1" else "").magnitude
+    # pint multiplies floats, which rounds more than once.
+    assert parse(text, unit) == pytest.approx(expected, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "exactly"),
+    [
+        ("5 mm", "m", 5e-3),
+        ("0.3 mm", "m", 3e-4),
+        ("1.1 um", "m", 1.1e-6),
+        ("1.1 µm", "m", 1.1e-6),
+        ("1.1 μm", "m", 1.1e-6),
+        ("1e-6 mm³/(N·m)", "1/Pa", 1e-15),
+        ("1e-3 m⁻¹", "1/m", 1e-3),
+        ("90 °C", "K", 363.15),
+    ],
+)
+def test_conversion_rounds_once(text: str, unit: str, exactly: float) -> None:
+    assert parse(text, unit) == exactly
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "message"),
+    [
+        ("5 s", "m", "'5 s' is a time [s]; a length [m] is needed, as in '5 mm'"),
+        ("5", "m", "'5' has no unit; a length [m] is needed, as in '5 mm'"),
+        ("5 mm", "1", "'5 mm' is a length [m]; a plain number is needed, as in '0.3'"),
+        ("5 m s", "m", "'5 m s' is a quantity in m s; a length"),
+        ("5 parsec", "m", "unknown unit 'parsec'"),
+        ("5 {m}", "m", "cannot read the unit '{m}'"),
+        ("46 W/m K", "W/(m K)", "put the divisor in parentheses"),
+        ("5 degC/s", "K", "use K in a compound unit"),
+        ("5 12", "1", "cannot read the unit '12'"),
+        ("5 m//s", "m/s", "a unit is missing"),
+        ("five mm", "m", "'five mm' is not a quantity; a length [m] is needed, as in '5 mm'"),
+        ("nan m", "m", "is not a quantity"),
+        ("1.2.3 m", "m", "is not a quantity"),
+        ("", "m", "is not a quantity"),
+        ("1e999 m", "m", "is not finite"),
+        ("1e99999999 m", "m", "e99999999"),
+        ("9" * 200 + " m", "m", "is not a quantity"),
+    ],
+)
+def test_what_is_no_such_quantity_is_refused(text: str, unit: str, message: str) -> None:
+    with pytest.raises(CaseError) as caught:
+        parse(text, unit)
+    assert message in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("quantity", "value", "message"),
+    [
+        (Quantity("Pa", above=0), "-207 GPa", "-207 GPa: must be greater than 0"),
+        (Quantity("Pa", above=0), 0, "0 Pa: must be greater than 0"),
+        (Quantity("K", above=0), "-300 degC", "-300 degC: must be greater than 0 K"),
+        (Quantity("m", at_least=0.5), "40 cm", "40 cm: must be at least 0.5 m"),
+        (Quantity("m", below=1), 1, "1 m: must be less than 1 m"),
+        (Quantity("1", at_most=10), 11, "11: must be at most 10"),
+        (Quantity("m"), float("nan"), "nan m is not finite"),
+        (Quantity("m"), float("inf"), "inf m is not finite"),
+        (Quantity("m"), 10**400, "is not finite"),
+        (Quantity("m"), True, "true is not a quantity; a length [m] is needed, as in '5 mm'"),
+        (Quantity("m"), None, "nothing is not a quantity"),
+        (Quantity("m"), [1], "a list is not a quantity"),
+    ],
+)
+def test_a_field_refuses_with_a_plain_message(
+    quantity: Quantity, value: object, message: str
+) -> None:
+    adapter = TypeAdapter(Annotated[float, quantity])
+    with pytest.raises(ValidationError) as caught:
+        adapter.validate_python(value)
+    assert message in caught.value.errors()[0]["msg"]
+
+
+@pytest.mark.parametrize(
+    ("quantity", "value"),
+    [
+        (Quantity("m", at_least=0), 0),
+        (Quantity("m", at_most=0), 0),
+        (Quantity("m", above=0), 1e-300),
+        (Quantity("m", below=0), -1),
+    ],
+)
+def test_a_bound_that_is_included_is_allowed(quantity: Quantity, value: float) -> None:
+    assert quantity.read(value) == value
+
+
+class Ball(BaseModel):
+    radius: Annotated[float, Quantity("m", above=0)]
+    hardness: Annotated[float, Quantity("Pa", above=0)] | None = None
+
+
+def test_a_model_keeps_si_floats_and_round_trips() -> None:
+    ball = Ball.model_validate({"radius": "5 mm", "hardness": "4 GPa"})
+    assert (ball.radius, ball.hardness) == (5e-3, 4e9)
+    assert json.loads(ball.model_dump_json()) == {"radius": 5e-3, "hardness": 4e9}
+    assert Ball.model_validate_json(ball.model_dump_json()) == ball
+
+
+def test_the_error_is_at_the_field_even_where_it_is_optional() -> None:
+    with pytest.raises(ValidationError) as caught:
+        Ball.model_validate({"radius": 1, "hardness": "4 mm"})
+    assert [error["loc"] for error in caught.value.errors()] == [("hardness",)]
+
+
+def test_json_schema_takes_a_number_or_text_and_states_the_unit() -> None:
+    schema = TypeAdapter(Annotated[float, Quantity("Pa", above=0)]).json_schema()
+    assert schema["x-unit"] == "Pa"
+    jsonschema.Draft202012Validator.check_schema(schema)
+    jsonschema.validate(4e9, schema)
+    jsonschema.validate("4 GPa", schema)
+    for wrong in (0, None):
+        with pytest.raises(jsonschema.ValidationError):
+            jsonschema.validate(wrong, schema)

@@ -1,0 +1,90 @@
+"""Units: their size in SI and their dimension."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+from functools import cache
+
+Dimension = tuple[int, int, int, int]
+"""Exponents of m, kg, s and K."""
+
+_SYMBOLS: dict[str, tuple[str, Dimension]] = {
+    "m": ("1", (1, 0, 0, 0)),
+    "g": ("1e-3", (0, 1, 0, 0)),
+    "s": ("1", (0, 0, 1, 0)),
+    "K": ("1", (0, 0, 0, 1)),
+    "Hz": ("1", (0, 0, -1, 0)),
+    "N": ("1", (1, 1, -2, 0)),
+    "Pa": ("1", (-1, 1, -2, 0)),
+    "bar": ("1e5", (-1, 1, -2, 0)),
+    "J": ("1", (2, 1, -2, 0)),
+    "W": ("1", (2, 1, -3, 0)),
+}
+"""Symbols that take a prefix."""
+_UNPREFIXED: dict[str, tuple[str, Dimension]] = {
+    "1": ("1", (0, 0, 0, 0)),
+    "min": ("60", (0, 0, 1, 0)),
+    "h": ("3600", (0, 0, 1, 0)),
+    "day": ("86400", (0, 0, 1, 0)),
+}
+_PREFIXES = {"p": -12, "n": -9, "u": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9, "T": 12}
+_FACTOR = re.compile(r"(1|[A-Za-z]+)(?:\^?(-?[1-9]))?")
+_PLAIN_SIGNS = str.maketrans("µμ·⋅⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "uu**0123456789-")
+
+
+@cache
+def scale(unit: str) -> tuple[Fraction, Dimension]:
+    """Return the size in SI and the dimension of a unit such as ``mm^3/(N m)``.
+
+    Raises
+    ------
+    ValueError
+        If `unit` cannot be read.
+    """
+    head, *divisors = unit.replace("**", "^").translate(_PLAIN_SIGNS).split("/")
+    factor, dimension = _product(head)
+    for divisor in divisors:
+        if not divisor.strip().startswith("(") and len(_factors(divisor)) > 1:
+            raise ValueError("put the divisor in parentheses, as in 'W/(m K)'")
+        by, per = _product(divisor)
+        factor /= by
+        dimension = _combine(dimension, per, -1)
+    return factor, dimension
+
+
+def _product(text: str) -> tuple[Fraction, Dimension]:
+    size, dimension = Fraction(1), (0, 0, 0, 0)
+    text = text.strip()
+    if text.startswith("(") and text.endswith(")"):
+        text = text[1:-1]
+    for factor in _factors(text):
+        match = _FACTOR.fullmatch(factor)
+        if match is None or (match[1] == "1" and match[2]):
+            raise ValueError(f"cannot read the unit {factor!r}" if factor else "a unit is missing")
+        exponent = int(match[2] or 1)
+        base, of = _symbol(match[1])
+        size *= base**exponent
+        dimension = _combine(dimension, of, exponent)
+    return size, dimension
+
+
+def _factors(text: str) -> list[str]:
+    return re.split(r"\s*\*\s*|\s+", text.strip())
+
+
+def _symbol(name: str) -> tuple[Fraction, Dimension]:
+    known = _SYMBOLS.get(name) or _UNPREFIXED.get(name)
+    if known:
+        return Fraction(known[0]), known[1]
+    if name[0] in _PREFIXES and name[1:] in _SYMBOLS:
+        size, dimension = _SYMBOLS[name[1:]]
+        return Fraction(size) * Fraction(10) ** _PREFIXES[name[0]], dimension
+    if name == "degC":
+        raise ValueError("degC has an offset; use K in a compound unit")
+    raise ValueError(f"unknown unit {name!r}")
+
+
+def _combine(left: Dimension, right: Dimension, power: int) -> Dimension:
+    m, kg, s, k = (a + power * b for a, b in zip(left, right, strict=True))
+    return m, kg, s, k

@@ -1,0 +1,37 @@
+"""What a body is made of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Annotated
+
+from pydantic import BaseModel, ConfigDict
+
+from tribo.core.units import Quantity
+
+
+class Material(BaseModel):
+    """An isotropic material; elastic, or elastic-perfectly-plastic with a hardness."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
+
+    young: Annotated[float, Quantity("Pa", above=0)]
+    """Young's modulus E."""
+    poisson: Annotated[float, Quantity("1", above=-1, below=0.5)]
+    """Poisson's ratio."""
+    hardness: Annotated[float, Quantity("Pa", above=0)] | None = None
+    """Hardness: the largest contact pressure it bears. Without one it stays elastic."""
+    density: Annotated[float, Quantity("kg/m^3", above=0)] | None = None
+    """Density, with which worn volume is also given as mass."""
+    conductivity: Annotated[float, Quantity("W/(m K)", above=0)] | None = None
+    """Thermal conductivity."""
+    heat_capacity: Annotated[float, Quantity("J/(kg K)", above=0)] | None = None
+    """Specific heat capacity."""
+
+
+def contact_modulus(materials: Iterable[Material]) -> float:
+    """Return the contact modulus E* of bodies in contact, in Pa.
+
+    1/E* = Σ (1 − ν²)/E; Johnson, K. L. (1985), Contact Mechanics, eq. 4.22.
+    """
+    return 1 / sum((1 - m.poisson**2) / m.young for m in materials)

@@ -1,0 +1,211 @@
+"""Quantities: kept as floats in SI, written with a unit where one likes."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from fractions import Fraction
+from numbers import Real
+from typing import Annotated, Any
+
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+
+from tribo.core.dimensions import Dimension, scale
+from tribo.core.errors import CaseError
+
+_CELSIUS = ("degC", "°C")
+_ZERO_CELSIUS = Fraction("273.15")
+
+_KINDS = {
+    "1": ("a plain number", "0.3"),
+    "m": ("a length", "5 mm"),
+    "m^2": ("an area", "1 mm^2"),
+    "m^3": ("a volume", "1 mm^3"),
+    "kg": ("a mass", "2 g"),
+    "s": ("a time", "1 h"),
+    "K": ("a temperature", "90 degC"),
+    "Hz": ("a frequency", "25 Hz"),
+    "m/s": ("a speed", "0.1 m/s"),
+    "N": ("a force", "100 N"),
+    "Pa": ("a pressure", "4 GPa"),
+    "1/Pa": ("an inverse pressure", "1e-6 mm^3/(N m)"),
+    "Pa/m": ("a foundation modulus", "20 GPa/mm"),
+    "J": ("an energy", "1 J"),
+    "W": ("a power", "1 W"),
+    "kg/m^3": ("a density", "7850 kg/m^3"),
+    "W/(m K)": ("a thermal conductivity", "46 W/(m K)"),
+    "J/(kg K)": ("a heat capacity", "460 J/(kg K)"),
+}
+"""What a quantity is called, by its SI unit, and how one may be written."""
+
+_LONGEST = 100
+_NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3}(?!\d))?)(?![\d.])(.*)", re.S)
+
+
+def parse(text: str, unit: str) -> float:
+    """Convert a number with a unit to SI.
+
+    Parameters
+    ----------
+    text : str
+        A number and a unit, as ``"5 mm"``, ``"1e-6 mm^3/(N m)"`` or
+        ``"90 degC"``.
+    unit : str
+        The SI unit of the result, as ``"m"``; ``"1"`` for none.
+
+    Returns
+    -------
+    float
+        The quantity in `unit`, rounded once.
+
+    Raises
+    ------
+    CaseError
+        If `text` cannot be read or has another dimension than `unit`.
+    """
+    match = _NUMBER.fullmatch(text.strip()) if len(text) <= _LONGEST else None
+    if match is None:
+        raise CaseError(f"{text[:_LONGEST]!r} is not a quantity; {_needed(unit)}")
+    number, symbols = Fraction(match[1]), match[2].strip()
+    zero = _ZERO_CELSIUS if symbols in _CELSIUS else 0
+    try:
+        factor, dimension = scale("K" if zero else symbols or "1")
+    except ValueError as error:
+        raise CaseError(f"{text!r}: {error}; {_needed(unit)}") from None
+    if dimension != scale(unit)[1]:
+        given = f"is {_called(dimension)}" if symbols else "has no unit"
+        raise CaseError(f"{text!r} {given}; {_needed(unit)}")
+    try:
+        return float(number * factor + zero)
+    except OverflowError:
+        raise CaseError(f"{text!r} is not finite; {_needed(unit)}") from None
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """Marks a float as a quantity that may be written with a unit.
+
+    Used as ``Annotated[float, Quantity("Pa", above=0)]``: the field takes a
+    number, in `unit`, or text such as ``"4 GPa"``, and holds a float in `unit`.
+
+    Parameters
+    ----------
+    unit : str
+        The SI unit of the value; ``"1"`` for none.
+    above, at_least, below, at_most : float, optional
+        Bounds, in `unit`.
+    """
+
+    unit: str
+    above: float | None = None
+    at_least: float | None = None
+    below: float | None = None
+    at_most: float | None = None
+
+    def read(self, value: object) -> float:
+        """Return `value` in SI.
+
+        Raises
+        ------
+        CaseError
+            If `value` is not such a quantity or is out of bounds.
+        """
+        if isinstance(value, str):
+            number, shown = parse(value, self.unit), value.strip()
+        elif isinstance(value, Real) and not isinstance(value, bool):
+            try:
+                number = float(value)
+            except OverflowError:
+                number = math.inf
+            shown = f"{number:g}" if self.unit == "1" else f"{number:g} {self.unit}"
+        else:
+            raise CaseError(f"{_shown(value)} is not a quantity; {_needed(self.unit)}")
+        if not math.isfinite(number):
+            raise CaseError(f"{shown} is not finite; {_needed(self.unit)}")
+        for words, bound, holds in (
+            ("greater than", self.above, float.__gt__),
+            ("at least", self.at_least, float.__ge__),
+            ("less than", self.below, float.__lt__),
+            ("at most", self.at_most, float.__le__),
+        ):
+            if bound is not None and not holds(number, float(bound)):
+                unit = "" if self.unit == "1" or (bound == 0 and self.unit != "K") else self.unit
+                raise CaseError(f"{shown}: must be {words} {bound:g} {unit}".rstrip())
+        return number
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        """Return how pydantic validates the field."""
+        scale(self.unit)
+        return core_schema.no_info_plain_validator_function(
+            self._validate, serialization=core_schema.plain_serializer_function_ser_schema(float)
+        )
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        """Return the JSON schema of the field: a number, or text with a unit."""
+        number: JsonSchemaValue = {"type": "number"}
+        for keyword, bound in (
+            ("exclusiveMinimum", self.above),
+            ("minimum", self.at_least),
+            ("exclusiveMaximum", self.below),
+            ("maximum", self.at_most),
+        ):
+            if bound is not None:
+                number[keyword] = bound
+        if self.unit != "1":
+            number["description"] = f"in {self.unit}"
+        if handler.mode == "serialization":
+            return {**number, "x-unit": self.unit}
+        text = {"type": "string", "description": f"with a unit, as in '{_example(self.unit)}'"}
+        return {"anyOf": [number, text], "x-unit": self.unit}
+
+    def _validate(self, value: object) -> float:
+        try:
+            return self.read(value)
+        except CaseError as error:
+            raise PydanticCustomError("quantity", "{message}", {"message": str(error)}) from None
+
+
+Length = Annotated[float, Quantity("m")]
+PositiveLength = Annotated[float, Quantity("m", above=0)]
+PositivePressure = Annotated[float, Quantity("Pa", above=0)]
+PositiveForce = Annotated[float, Quantity("N", above=0)]
+Time = Annotated[float, Quantity("s", at_least=0)]
+PositiveTime = Annotated[float, Quantity("s", above=0)]
+PositiveSpeed = Annotated[float, Quantity("m/s", above=0)]
+PositiveFrequency = Annotated[float, Quantity("Hz", above=0)]
+PositiveDensity = Annotated[float, Quantity("kg/m^3", above=0)]
+PositiveConductivity = Annotated[float, Quantity("W/(m K)", above=0)]
+PositiveHeatCapacity = Annotated[float, Quantity("J/(kg K)", above=0)]
+InversePressure = Annotated[float, Quantity("1/Pa", at_least=0)]
+Temperature = Annotated[float, Quantity("K", at_least=0)]
+
+
+def _called(dimension: Dimension) -> str:
+    for unit, (name, _) in _KINDS.items():
+        if scale(unit)[1] == dimension:
+            return name if unit == "1" else f"{name} [{unit}]"
+    powers = zip(("m", "kg", "s", "K"), dimension, strict=True)
+    return "a quantity in " + " ".join(f"{u}^{n}" if n != 1 else u for u, n in powers if n)
+
+
+def _example(unit: str) -> str:
+    return _KINDS[unit][1] if unit in _KINDS else f"1 {unit}"
+
+
+def _needed(unit: str) -> str:
+    return f"{_called(scale(unit)[1])} is needed, as in '{_example(unit)}'"
+
+
+def _shown(value: object) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, dict | list):
+        return "a table" if isinstance(value, dict) else "a list"
+    return "nothing" if value is None else repr(value)[:_LONGEST]
