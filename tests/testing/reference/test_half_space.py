@@ -1,0 +1,112 @@
+"""Punch, cone, disc, wave and yield: closed forms against integrals of themselves."""
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from tribo.testing.reference import cone, disc, plastic, punch, sinusoid
+
+MODULUS = 113.736e9
+
+
+def test_punch_pressure_carries_the_load():
+    # r = a sin t takes the edge singularity away.
+    carried, _ = quad(
+        lambda t: 2 * np.pi * np.sin(t) * np.cos(t) * float(punch.pressure(np.sin(t), 7.0, 1.0)),
+        0.0,
+        np.pi / 2,
+    )
+    assert carried == pytest.approx(7.0, rel=1e-7)
+    assert punch.pressure([0.0, 1.5], 7.0, 1.0) == pytest.approx([7 / (2 * np.pi), 0.0])
+
+
+def test_punch_approach_is_the_displacement_of_its_pressure():
+    # On the axis u = (2/E*) ∫ p dr, the sum of rings.
+    total, _ = quad(lambda t: np.cos(t) * float(punch.pressure(np.sin(t), 7.0, 1.0)), 0, np.pi / 2)
+    assert punch.approach(7.0, 1.0, MODULUS) == pytest.approx(2 * total / MODULUS, rel=1e-7)
+
+
+def test_cone_pressure_carries_the_load_and_bends_the_surface():
+    contact = cone.cone(50.0, np.radians(85.0), MODULUS)
+    a = contact.half_width
+    carried, _ = quad(
+        lambda r: 2 * np.pi * r * float(cone.pressure(r, 50.0, np.radians(85.0), MODULUS)), 0, a
+    )
+    centre, _ = quad(lambda r: float(cone.pressure(r, 50.0, np.radians(85.0), MODULUS)), 0, a)
+    assert carried == pytest.approx(50.0, rel=1e-7)
+    assert contact.approach == pytest.approx(2 * centre / MODULUS, rel=1e-6)
+    assert contact.mean_pressure == pytest.approx(50.0 / (np.pi * a**2), rel=1e-12)
+
+
+def test_disc_displacement_agrees_with_a_sum_of_point_forces():
+    p, a = 1e9, 1e-4
+    # Off the disc, point forces: u = (1/πE*) ∫∫ p dA / distance; midpoint sums, 2e-4 or better.
+    n = 400
+    edge = (np.arange(n) + 0.5) / n
+    r, angle = edge[:, None] * a, 2 * np.pi * edge[None, :]
+    for far in (1.5 * a, 3.0 * a):
+        away = np.hypot(r * np.cos(angle) - far, r * np.sin(angle))
+        total = np.sum(p * r / away) * (a / n) * (2 * np.pi / n) / (np.pi * MODULUS)
+        assert disc.displacement(far, p, a, MODULUS) == pytest.approx(total, rel=2e-4)
+
+
+def test_disc_displacement_meets_its_centre_edge_and_mean():
+    p, a = 1e9, 1e-4
+    u = disc.displacement([0.0, a, a * (1 + 1e-12)], p, a, MODULUS)
+    centre = disc.displacement_at_centre(p, a, MODULUS)
+    edge = disc.displacement_at_edge(p, a, MODULUS)
+    assert u == pytest.approx([centre, edge, edge], rel=1e-9)
+    assert edge / centre == pytest.approx(2 / np.pi, rel=1e-12)
+    mean, _ = quad(lambda r: 2 * r / a**2 * float(disc.displacement(r, p, a, MODULUS)), 0, a)
+    # Mean displacement of a uniformly loaded disc, 16pa/3πE* (Johnson 1985, section 3.4).
+    assert mean == pytest.approx(16 * p * a / (3 * np.pi * MODULUS), rel=1e-9)
+
+
+def test_sinusoid_wears_as_its_equation_says():
+    q = 2 * np.pi / 1e-4
+    compliance = sinusoid.compliance(q, MODULUS)
+    k, s = 3.11e-16, 2.0
+    left = sinusoid.worn_amplitude(s, k, compliance)
+    assert left == pytest.approx(np.exp(-k * MODULUS * q * s / 2), rel=1e-12)
+    steps = 20_000
+    for factor in (sinusoid.explicit_euler_factor, sinusoid.implicit_euler_factor):
+        # First order: the relative error is (ks/K̂)²/2n.
+        bound = 0.6 * (k * s / float(compliance)) ** 2 / steps
+        assert float(factor(s / steps, k, compliance)) ** steps == pytest.approx(left, rel=bound)
+
+
+def test_euler_factors_at_the_stability_limit():
+    compliance = 1e-15
+    limit = 2 * compliance / 3e-16
+    assert sinusoid.explicit_euler_factor(limit, 3e-16, compliance) == pytest.approx(-1.0)
+    assert sinusoid.implicit_euler_factor(limit, 3e-16, compliance) == pytest.approx(1 / 3)
+
+
+def test_westergaard_at_0_4_of_complete_contact():
+    complete = np.pi * MODULUS * 1e-6 / 1e-4
+    contact = sinusoid.westergaard(0.4 * complete, 1e-6, 1e-4, MODULUS)
+    # Known to four digits.
+    assert contact.contact_fraction == pytest.approx(0.4359, abs=5e-5)
+    assert contact.peak_pressure / contact.complete == pytest.approx(1.2649, abs=5e-5)
+
+
+@pytest.mark.parametrize("ratio", [0.05, 0.4, 0.99, 1.5])
+def test_westergaard_pressure_carries_the_load(ratio):
+    complete = np.pi * MODULUS * 1e-6 / 1e-4
+    contact = sinusoid.westergaard(ratio * complete, 1e-6, 1e-4, MODULUS)
+    half = contact.contact_fraction * 0.5e-4
+
+    def pressure(x):
+        return float(sinusoid.westergaard_pressure(x, contact, 1e-4))
+
+    carried, _ = quad(pressure, -half, half, epsabs=0, epsrel=1e-10)
+    assert carried / 1e-4 == pytest.approx(ratio * complete, rel=1e-7)
+    assert pressure(0.0) == pytest.approx(contact.peak_pressure, rel=1e-12)
+
+
+def test_loads_of_first_yield_and_of_the_cap():
+    onset = plastic.cap_onset_load(4e9, 5e-3, MODULUS)
+    assert onset == pytest.approx(639.18, abs=0.01)
+    # Hertz: p0 = (6FE*²/π³R²)^⅓, 2.15536 GPa at 100 N.
+    assert plastic.load_at_peak_pressure(2.15536e9, 5e-3, MODULUS) == pytest.approx(100, rel=2e-5)
+    assert plastic.first_yield_load(4e9, 5e-3, MODULUS) == pytest.approx(0.18659 * onset, rel=1e-4)

@@ -1,0 +1,98 @@
+"""The Winkler solutions against known figures and against quadrature."""
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from tribo.testing.reference import winkler
+
+STIFFNESS = 1.2973e15  # 16E*/3πa of the steel case, to five digits
+CASE = {"load": 100.0, "radius": 5e-3, "stiffness": STIFFNESS, "wear_coefficient": 3.11e-16}
+
+
+def test_the_unworn_sphere_carries_its_load():
+    contact = winkler.sphere(100.0, 5e-3, STIFFNESS)
+    a = contact.half_width
+    carried, _ = quad(
+        lambda r: 2 * np.pi * r * STIFFNESS * (contact.approach - r**2 / 1e-2), 0.0, a
+    )
+    assert carried == pytest.approx(100.0, rel=1e-10)
+    assert contact.pressure == pytest.approx(2 * 100.0 / (np.pi * a**2), rel=1e-12)
+
+
+def test_the_unworn_line_carries_its_load():
+    contact = winkler.line(1e5, 5e-3, STIFFNESS)
+    a = contact.half_width
+    carried, _ = quad(lambda x: STIFFNESS * (contact.approach - x**2 / 1e-2), -a, a)
+    assert carried == pytest.approx(1e5, rel=1e-10)
+    assert contact.pressure == pytest.approx(0.75 * 1e5 / a, rel=1e-12)
+
+
+def test_worn_radius_has_the_known_values():
+    a = winkler.worn_sphere_half_width([1.0, 20.0, 360.0], **CASE)
+    # K_w is given to five digits, and enters the first radius to the power 1/4.
+    assert a * 1e6 == pytest.approx([161.998, 258.287, 517.584], rel=1e-5)
+
+
+def test_worn_centre_pressure_has_the_known_values():
+    p = winkler.worn_sphere_pressure(0.0, [1.0, 20.0], **CASE)
+    assert p / 1e6 == pytest.approx([2353.98, 510.443], rel=2e-5)
+
+
+@pytest.mark.parametrize("part", [0.0, 0.3, 0.9, 1.05, 1.3])
+def test_worn_pressure_solves_its_equation(part):
+    """Against the integral over the history, without Dawson's function."""
+    contact = winkler.sphere(100.0, 5e-3, STIFFNESS)
+    r, s, rate = part * contact.half_width, 8.0, 3.11e-16 * STIFFNESS
+    first = max(part**4 - 1.0, 0.0) / rate
+    assert first < s
+
+    def fed(sigma):
+        growth = 0.5 * contact.approach * rate / np.sqrt(1.0 + rate * sigma)
+        return STIFFNESS * growth * np.exp(-rate * (s - sigma))
+
+    start = STIFFNESS * max(contact.approach - r**2 / 1e-2, 0.0)
+    expected = start * np.exp(-rate * s) + quad(fed, first, s, epsrel=1e-11)[0]
+    assert winkler.worn_sphere_pressure(r, s, **CASE) == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize("s", [0.0, 1.0, 20.0])
+def test_worn_pressure_carries_the_load(s):
+    a = float(winkler.worn_sphere_half_width(s, **CASE))
+    start = float(winkler.worn_sphere_half_width(0.0, **CASE))
+
+    def ring(r):
+        return 2 * np.pi * r * float(winkler.worn_sphere_pressure(r, s, **CASE))
+
+    pieces = [quad(ring, 0.0, start)[0], quad(ring, start, a)[0]]
+    assert sum(pieces) == pytest.approx(100.0, rel=1e-7)
+    assert winkler.worn_sphere_pressure(1.001 * a, s, **CASE) == 0.0
+
+
+def test_worn_pressure_survives_long_sliding():
+    p = winkler.worn_sphere_pressure(0.0, 1e7, **CASE)
+    a = winkler.worn_sphere_half_width(1e7, **CASE)
+    # All of the load is then on a flat face; what is left of the start fades as 1/s.
+    assert p == pytest.approx(100.0 / (np.pi * a**2), rel=1e-6)
+
+
+def test_worn_line_starts_from_the_unworn_one_and_wears_its_section():
+    kwargs = {"line_load": 1e5, "radius": 5e-3, "stiffness": STIFFNESS, "wear_coefficient": 3e-16}
+    start, late = winkler.worn_line_half_width([0.0, 1e5], **kwargs)
+    assert start == pytest.approx(winkler.line(1e5, 5e-3, STIFFNESS).half_width, rel=1e-12)
+    # The elastic part is 1/(k K_w s) = 3e-5 of the section, a third of it in the width.
+    assert 2 * late**3 / (3 * 5e-3) == pytest.approx(3e-16 * 1e5 * 1e5, rel=5e-5)
+
+
+def test_matched_stiffnesses_reproduce_hertz():
+    modulus, a, p0, approach = 113.736e9, 148.837e-6, 2.15536e9, 4.43049e-6
+    width = winkler.sphere(100.0, 5e-3, winkler.stiffness_for_half_width(modulus, a))
+    peak = winkler.sphere(100.0, 5e-3, winkler.stiffness_for_pressure(modulus, a))
+    depth = winkler.sphere(100.0, 5e-3, winkler.stiffness_for_approach(modulus, a))
+    # The Hertz values are given to six digits.
+    assert width.half_width == pytest.approx(a, rel=1e-5)
+    assert width.pressure == pytest.approx(4 / 3 * p0, rel=1e-5)
+    assert peak.pressure == pytest.approx(p0, rel=1e-5)
+    assert peak.half_width == pytest.approx(2 / np.sqrt(3) * a, rel=1e-5)
+    assert depth.approach == pytest.approx(approach, rel=1e-5)
+    assert depth.half_width == pytest.approx(np.sqrt(2) * a, rel=1e-5)
