@@ -147,7 +147,7 @@ def ball_cap_volume(diameter: float, radius: float) -> float:
 def shallow_cap_volume(diameter: float, radius: float) -> float:
     """Volume of a flat scar's cap, small scars, V = πd⁴/64R (ASTM G99).
 
-    It is low by a part d²/12R²: 0.3 % at d = R/5, 1.4 % at d = 2R/5.
+    It is low by a part d²/12R²: 0.33 % at d = R/5, 1.35 % at d = 2R/5.
 
     Parameters
     ----------
