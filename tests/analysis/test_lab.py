@@ -140,3 +140,10 @@ def test_crown_is_the_depth_of_the_groove_across_and_nothing_along():
     assert across == pytest.approx(worn.flat_depth[0], abs=5e-8)
     assert lab.crown(height[:, column], depth[:, column]) == pytest.approx(0.0, abs=1e-12)
     assert lab.crown(height[row], np.zeros_like(depth[row])) == 0.0
+
+
+def test_crown_does_not_see_a_tilt():
+    x = np.linspace(-1.0, 1.0, 201) * 1e-3
+    depth = np.where(np.abs(x) < 0.5e-3, 1e-6, 0.0)
+    bulge = -(x**2) / (2 * R)
+    assert lab.crown(bulge + 0.01 * x, depth) == pytest.approx(lab.crown(bulge, depth), rel=1e-9)
