@@ -1,0 +1,65 @@
+"""What is known about a plugin, and about a component it offers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from tribo.interfaces.component import Component
+
+Status = Literal["loaded", "disabled", "broken", "incompatible", "conflict"]
+
+
+@dataclass(frozen=True)
+class PluginRecord:
+    """A plugin, whether or not it could be loaded.
+
+    Parameters
+    ----------
+    distribution : str
+        The distribution it came with.
+    version : str
+        Version of the distribution; empty if it states none.
+    entry_point : str
+        Where it lies, as ``"acme = acme_tribo.plugin"``.
+    origin : str
+        How it was found: ``"built-in"``, ``"installed"`` or ``"given"``.
+    status : str
+        ``loaded``, ``disabled``, ``broken`` (it raised), ``incompatible`` (it
+        is made for another version of the interfaces) or ``conflict`` (it
+        claims a name that another plugin claims too).
+    reason : str
+        Why it is not ``loaded``; empty if it is.
+    """
+
+    distribution: str
+    version: str
+    entry_point: str
+    origin: Literal["built-in", "installed", "given"]
+    status: Status = "loaded"
+    reason: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.distribution} {self.version}".rstrip()
+
+
+@dataclass(frozen=True)
+class ComponentRecord:
+    """A component and the plugin that offers it.
+
+    Parameters
+    ----------
+    kind : str
+        Its kind, as ``"wear_law"``.
+    name : str
+        Its name in a case, as ``"archard"``.
+    cls : type
+        The class.
+    plugin : PluginRecord
+        Who offers it.
+    """
+
+    kind: str
+    name: str
+    cls: type[Component[Any]]
+    plugin: PluginRecord
