@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
 
@@ -31,6 +33,10 @@ class WearCompliance:
 
     local: Array
     swept: Array
+
+    def depth(self, pressure: Array, dx: float) -> Array:
+        """Return the depth worn under `pressure` (nx, ny) on cells `dx` long, in m."""
+        return self.local * pressure + self.swept * (dx * np.sum(pressure, axis=0))
 
 
 @dataclass(frozen=True)

@@ -39,7 +39,17 @@ class NumericalError(TriboError):
     exit_code: ClassVar[int] = 3
 
 
+class OutputError(TriboError):
+    """A result could not be written."""
+
+    exit_code: ClassVar[int] = 3
+
+
 class Interrupted(TriboError):
     """The run was stopped from outside and can be resumed."""
 
     exit_code: ClassVar[int] = 130
+
+
+class TriboWarning(UserWarning):
+    """Something a user should know about a run that goes on."""

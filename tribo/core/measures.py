@@ -1,15 +1,50 @@
-"""Scalars read off a pressure field: centre, half-widths, area."""
+"""Scalars read off a contact: centre, half-widths, area, depths, volumes."""
 
 from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
 from tribo.core.arrays import Array, Mask
+from tribo.core.contact import Residuals
 from tribo.core.grid import Grid
 
 
+@dataclass(frozen=True)
+class BodyMeasures:
+    """Depths in m and the worn volume in m³ of one body.
+
+    The volume is that of the whole scar, or of the whole track.
+    """
+
+    max_wear_depth: float
+    centre_wear_depth: float
+    wear_volume: float
+    max_plastic_depth: float
+
+
+@dataclass(frozen=True)
+class Measures:
+    """Scalars of one moment, in SI units."""
+
+    time: float
+    distance: float
+    max_pressure: float
+    centre_pressure: float
+    half_width_x: float
+    half_width_y: float
+    area: float
+    approach: float
+    residuals: Residuals
+    contact_solves: int
+    solver_iterations: int
+    bodies: Mapping[str, BodyMeasures]
+
+
 def centre(field: Array) -> float:
-    """Mean of the middle 1, 2 or 4 cells of `field`, shape (nx, ny)."""
+    """Mean of the middle 1, 2 or 4 cells of `field`; an axis of length 1 is kept."""
     nx, ny = field.shape
     middle = field[(nx - 1) // 2 : nx // 2 + 1, (ny - 1) // 2 : ny // 2 + 1]
     return float(np.mean(middle))

@@ -1,0 +1,123 @@
+"""The local fields that models declare, require and provide."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+
+from tribo.core.arrays import Array
+from tribo.core.grid import Grid
+from tribo.core.material import Material
+
+
+@dataclass(frozen=True)
+class Field:
+    """The declaration of a local field: what it means and in which unit.
+
+    Parameters
+    ----------
+    name : str
+        The name by which models refer to it.
+    unit : str
+        Its SI unit; ``"1"`` for none.
+    description : str
+        What it means, in one sentence.
+    """
+
+    name: str
+    unit: str
+    description: str
+
+
+PRESSURE = Field("pressure", "Pa", "Contact pressure, positive in compression.")
+SPEED = Field("speed", "m/s", "Mean sliding speed over the step.")
+FRICTION_COEFFICIENT = Field(
+    "friction_coefficient", "1", "Coefficient of friction of the case, uniform."
+)
+
+NO_FIELDS: Mapping[str, Array] = MappingProxyType({})
+
+
+@dataclass(frozen=True)
+class LocalConditions:
+    """What a wear law knows: conditions at each point of the contact, for one body.
+
+    Arrays have shape (nx, ny), are in the contact frame and must not be
+    written to.
+
+    Parameters
+    ----------
+    pressure : ndarray
+        Contact pressure, in Pa.
+    speed : float
+        Mean sliding speed over the step, in m/s.
+    material : Material
+        The body's material.
+    fields : Mapping[str, ndarray]
+        The fields the law requires, as its effects and the case provide them.
+    state : Mapping[str, ndarray]
+        The law's own state fields, at the points now in contact.
+    """
+
+    pressure: Array
+    speed: float
+    material: Material
+    fields: Mapping[str, Array] = NO_FIELDS
+    state: Mapping[str, Array] = NO_FIELDS
+
+
+@dataclass(frozen=True)
+class WearRate:
+    """What a wear law answers, each array of shape (nx, ny).
+
+    Parameters
+    ----------
+    depth : ndarray
+        Depth worn away per metre of sliding, in m/m; not negative.
+    derivative : ndarray
+        Derivative of `depth` with respect to pressure, in 1/Pa.
+    state : Mapping[str, ndarray]
+        Change of each state field per metre of sliding.
+    """
+
+    depth: Array
+    derivative: Array
+    state: Mapping[str, Array] = NO_FIELDS
+
+
+@dataclass(frozen=True)
+class ContactConditions:
+    """What an effect knows: the whole contact at one moment.
+
+    Parameters
+    ----------
+    grid : Grid
+        The window.
+    pressure : ndarray, shape (nx, ny)
+        Contact pressure, in Pa.
+    speed : float
+        Mean sliding speed over the step, in m/s.
+    time : float
+        Time at the end of the step, in s.
+    distance : float
+        Sliding distance at the end of the step, in m.
+    friction_coefficient : float or None
+        Coefficient of friction of the case, if it has one.
+    materials : Mapping[str, Material]
+        The bodies' materials, by name.
+    swept : frozenset of str
+        Names of the bodies whose points pass through the contact.
+    fields : Mapping[str, Mapping[str, ndarray]]
+        Fields of the effects that ran before, by field and body.
+    """
+
+    grid: Grid
+    pressure: Array
+    speed: float
+    time: float
+    distance: float
+    friction_coefficient: float | None
+    materials: Mapping[str, Material]
+    swept: frozenset[str]
+    fields: Mapping[str, Mapping[str, Array]] = field(default_factory=dict)

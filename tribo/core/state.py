@@ -1,0 +1,134 @@
+"""Everything that evolves in a run, as frozen values."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from tribo.core.arrays import Array
+from tribo.core.contact import ContactSolution, ContactSystem
+from tribo.core.measures import Measures
+
+
+@dataclass(frozen=True)
+class BodyState:
+    """What has happened to one body's surface.
+
+    Parameters
+    ----------
+    wear : ndarray
+        Depth worn away, in m; on the body's own surface: shape (nx, ny), or
+        (1, ny) on a body swept along a track.
+    plastic : ndarray, shape (nx, ny)
+        Permanent displacement by plastic flow, in m, positive into the body.
+    law : Mapping[str, ndarray]
+        State fields of the body's wear law, shaped as `wear`.
+    """
+
+    wear: Array
+    plastic: Array
+    law: Mapping[str, Array]
+
+
+@dataclass(frozen=True)
+class State:
+    """The whole memory of a run: a step is a pure function of case and state.
+
+    Parameters
+    ----------
+    time, distance : float
+        Time in s and path slid in m.
+    bodies : Mapping[str, BodyState]
+        By name.
+    contact : ContactSolution
+        The solved contact; it belongs to the geometry of `bodies` and is the
+        start of the next solve.
+    increment : float
+        Sliding increment the step control would take next, in m.
+    reference_depth : float
+        Approach of the first contact, in m: the depth against which the
+        first increments are judged.
+    steps, rejected_steps, contact_solves, solver_iterations : int
+        Counted from the beginning of the run.
+    saves : int
+        Number of saves passed.
+    notices : tuple of str
+        Warnings given so far, each given once.
+    """
+
+    time: float
+    distance: float
+    bodies: Mapping[str, BodyState]
+    contact: ContactSolution
+    increment: float
+    reference_depth: float
+    steps: int = 0
+    rejected_steps: int = 0
+    contact_solves: int = 1
+    solver_iterations: int = 0
+    saves: int = 0
+    notices: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class BodyInfo:
+    """What stays the same about a body.
+
+    Parameters
+    ----------
+    name : str
+        Its name in the case.
+    swept : bool
+        Whether its points pass through the contact.
+    density : float or None
+        In kg/m³.
+    height : ndarray, shape (nx, ny)
+        Its initial height outward, in m.
+    """
+
+    name: str
+    swept: bool
+    density: float | None
+    height: Array
+
+
+@dataclass(frozen=True)
+class RunInfo:
+    """What an observer is told before a run begins.
+
+    Parameters
+    ----------
+    system : ContactSystem
+        The constants of the contact: window, load, modulus.
+    bodies : tuple of BodyInfo
+        In the order of the case.
+    end_time : float
+        When the run will end if nothing stops it, in s.
+    end_distance : float
+        The path slid by then, in m.
+    case : Mapping[str, object]
+        The full configuration, as plain data.
+    provenance : Mapping[str, object]
+        Versions and the classes that take part, as plain data.
+    resumed_from : Snapshot or None
+        The state a resumed run starts from.
+    wall_time : float
+        Time spent before the run was resumed, in s.
+    """
+
+    system: ContactSystem
+    bodies: tuple[BodyInfo, ...]
+    end_time: float
+    end_distance: float
+    case: Mapping[str, object]
+    provenance: Mapping[str, object]
+    resumed_from: Snapshot | None = None
+    wall_time: float = 0.0
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """A moment of a run: its state and the scalars read off it."""
+
+    state: State
+    measures: Measures

@@ -1,0 +1,32 @@
+"""Who watches the run?"""
+
+from __future__ import annotations
+
+from tribo.core.state import RunInfo, Snapshot
+from tribo.interfaces.component import C_co, Component, ComponentConfig
+
+
+class ObserverConfig(ComponentConfig):
+    """Base configuration of an observer."""
+
+
+class Observer(Component[C_co]):
+    """Watches a run through read-only views; it cannot change the answer.
+
+    An exception that an observer raises stops the run.
+    """
+
+    def on_start(self, run: RunInfo) -> None:
+        """Before the first contact is solved, or when a run is resumed."""
+
+    def on_step(self, snapshot: Snapshot) -> None:
+        """After each accepted step, and after the first contact."""
+
+    def on_save(self, snapshot: Snapshot) -> None:
+        """At t = 0, at each requested save time, and at the end."""
+
+    def on_finish(self, snapshot: Snapshot | None, reason: str) -> None:
+        """When the run ends: ``"done"``, ``"interrupted"`` or ``"failed"``.
+
+        `snapshot` is the last accepted state, None if there is none.
+        """

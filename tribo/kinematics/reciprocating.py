@@ -1,0 +1,100 @@
+"""Back and forth over a stroke, as in a ball-on-disk oscillation tester."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Literal, Self
+
+from pydantic import model_validator
+
+from tribo.core.grid import Grid
+from tribo.core.units import Quantity
+from tribo.interfaces.exposure import Exposure
+from tribo.interfaces.kinematics import Kinematics, KinematicsConfig
+from tribo.kinematics.swept import one_swept_body
+
+
+class ReciprocatingConfig(KinematicsConfig):
+    """Give exactly one of ``duration``, ``cycles`` and ``distance``."""
+
+    type: Literal["reciprocating"] = "reciprocating"
+    stroke: Annotated[float, Quantity("m", above=0)]
+    """Distance between the two points of reversal."""
+    frequency: Annotated[float, Quantity("Hz", above=0)]
+    """Full cycles, back and forth, per second."""
+    duration: Annotated[float, Quantity("s", above=0)] | None = None
+    """How long it runs."""
+    cycles: Annotated[float, Quantity("1", above=0)] | None = None
+    """How many full cycles it runs."""
+    distance: Annotated[float, Quantity("m", above=0)] | None = None
+    """How far it slides."""
+    waveform: Literal["constant_speed", "sinusoidal"] = "constant_speed"
+    """How the speed varies along the stroke."""
+    swept: str | None = None
+    """Name of the body whose points pass through the contact; the last body if left out."""
+
+    @model_validator(mode="after")
+    def _one_end(self) -> Self:
+        if sum(end is not None for end in (self.duration, self.cycles, self.distance)) != 1:
+            raise ValueError("give exactly one of duration, cycles and distance")
+        return self
+
+
+class Reciprocating(Kinematics[ReciprocatingConfig]):
+    """Stroke S at frequency f: mean speed 2 S f, one body swept over the stroke.
+
+    With ``waveform = "sinusoidal"`` the position is −(S/2) cos(2πft). The
+    track average is over positions, so the waveform changes only the path at
+    times inside a half cycle.
+
+    The track average holds at mid-stroke while the contact, of half-width b
+    along x, passes wholly over it: S >= 4 b.
+    """
+
+    Config = ReciprocatingConfig
+
+    @property
+    def duration(self) -> float:
+        """Time at which the motion ends, in s."""
+        c = self.config
+        if c.duration is not None:
+            return c.duration
+        if c.cycles is not None:
+            return c.cycles / c.frequency
+        assert c.distance is not None
+        return self.time(c.distance)
+
+    def distance(self, time: float) -> float:
+        """Return the path slid until `time`, in m."""
+        c = self.config
+        half_cycles = 2 * c.frequency * time
+        if c.waveform == "constant_speed":
+            return half_cycles * c.stroke
+        whole = math.floor(half_cycles)
+        return (whole + math.sin(0.5 * math.pi * (half_cycles - whole)) ** 2) * c.stroke
+
+    def time(self, distance: float) -> float:
+        """Return the time at which `distance` is reached, in s."""
+        c = self.config
+        strokes = distance / c.stroke
+        if c.waveform == "sinusoidal":
+            whole = math.floor(strokes)
+            strokes = whole + math.asin(math.sqrt(strokes - whole)) / (0.5 * math.pi)
+        return strokes / (2 * c.frequency)
+
+    def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
+        """Return a track as long as the stroke for the swept body."""
+        return one_swept_body(grid, bodies, self.config.swept, self.config.stroke)
+
+    def limitation(self, grid: Grid, half_width_x: float) -> str | None:
+        """Return a warning once the contact is longer than half the stroke by over a cell."""
+        stroke = self.config.stroke
+        if half_width_x <= stroke / 4 + grid.spacing[0]:
+            return None
+        return (
+            f"the contact is {2e3 * half_width_x:.3g} mm long, more than half the stroke of "
+            f"{1e3 * stroke:.3g} mm: full stroke averaging needs stroke >= 4 half-widths "
+            f"({4e3 * half_width_x:.3g} mm), and wear of the swept body at mid-stroke is now "
+            "approximate"
+        )

@@ -1,0 +1,49 @@
+"""A cylinder lying along one axis."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+import numpy as np
+
+from tribo.core.arrays import Array
+from tribo.core.errors import CaseError
+from tribo.core.grid import Grid
+from tribo.core.units import Quantity
+from tribo.interfaces.surface import Surface, SurfaceConfig
+
+
+class CylinderConfig(SurfaceConfig):
+    """Configuration of `Cylinder`."""
+
+    type: Literal["cylinder"] = "cylinder"
+    radius: Annotated[float, Quantity("m", above=0)]
+    """Radius of the cylinder."""
+    axis: Literal["x", "y"] = "y"
+    """Axis along which it lies; y is across the sliding direction."""
+
+
+class Cylinder(Surface[CylinderConfig]):
+    """The exact arc z = √(R² − t²) − R, with t across the cylinder's axis."""
+
+    Config = CylinderConfig
+
+    def height(self, grid: Grid) -> Array:
+        """Return the height of the arc; the window must lie inside the cylinder."""
+        x, y = grid.mesh
+        across = x if self.config.axis == "y" else y
+        radius = self.config.radius
+        if float(np.max(np.abs(across))) >= radius:
+            raise CaseError(
+                f"a cylinder of radius {1e3 * radius:.4g} mm does not reach over the window; "
+                "make grid.size smaller"
+            )
+        arc = -(across**2) / (radius + np.sqrt(radius**2 - across**2))
+        height: Array = np.broadcast_to(arc, grid.cells).copy()
+        return height
+
+    @property
+    def curvature(self) -> tuple[float, float]:
+        """1/R across the axis, 0 along it."""
+        c = 1 / self.config.radius
+        return (c, 0.0) if self.config.axis == "y" else (0.0, c)

@@ -1,0 +1,46 @@
+"""A ball."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+import numpy as np
+
+from tribo.core.arrays import Array
+from tribo.core.errors import CaseError
+from tribo.core.grid import Grid
+from tribo.core.units import Quantity
+from tribo.interfaces.surface import Surface, SurfaceConfig
+
+
+class SphereConfig(SurfaceConfig):
+    """Configuration of `Sphere`."""
+
+    type: Literal["sphere"] = "sphere"
+    radius: Annotated[float, Quantity("m", above=0)]
+    """Radius of the ball."""
+
+
+class Sphere(Surface[SphereConfig]):
+    """The exact cap z = √(R² − r²) − R of a ball of radius R, highest at the origin."""
+
+    Config = SphereConfig
+
+    def height(self, grid: Grid) -> Array:
+        """Return the height of the cap; the window must lie inside the ball."""
+        x, y = grid.mesh
+        r2 = x**2 + y**2
+        radius = self.config.radius
+        if float(np.max(r2)) >= radius**2:
+            raise CaseError(
+                f"a ball of radius {1e3 * radius:.4g} mm does not reach over a window of "
+                f"{1e3 * grid.size[0]:.4g} × {1e3 * grid.size[1]:.4g} mm; make grid.size smaller"
+            )
+        # −r²/(R + √(R² − r²)) is √(R² − r²) − R without its cancellation.
+        height: Array = -r2 / (radius + np.sqrt(radius**2 - r2))
+        return height
+
+    @property
+    def curvature(self) -> tuple[float, float]:
+        """1/R along both axes."""
+        return 1 / self.config.radius, 1 / self.config.radius

@@ -1,0 +1,68 @@
+"""Archard's law: depth is proportional to pressure and sliding distance."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, Self
+
+import numpy as np
+from pydantic import model_validator
+
+from tribo.core.errors import CaseError
+from tribo.core.fields import LocalConditions, WearRate
+from tribo.core.material import Material
+from tribo.core.units import Quantity
+from tribo.interfaces.wear import WearLaw, WearLawConfig
+
+
+class ArchardConfig(WearLawConfig):
+    """Give ``k``, or ``K`` and the hardness it refers to."""
+
+    type: Literal["archard"] = "archard"
+    k: Annotated[float, Quantity("1/Pa", at_least=0)] | None = None
+    """Specific wear rate, volume per load and sliding distance."""
+    K: Annotated[float, Quantity("1", at_least=0)] | None = None
+    """Archard's dimensionless wear coefficient; k = K/H."""
+    hardness: Annotated[float, Quantity("Pa", above=0)] | None = None
+    """Hardness H for ``K``; the material's hardness if left out."""
+
+    @model_validator(mode="after")
+    def _one_coefficient(self) -> Self:
+        if (self.k is None) == (self.K is None):
+            raise ValueError("give exactly one of k (1/Pa) and K (dimensionless)")
+        if self.k is not None and self.hardness is not None:
+            raise ValueError("hardness goes with K; k does not use it")
+        return self
+
+
+class Archard(WearLaw[ArchardConfig]):
+    """dh/ds = k p, with k = K/H.
+
+    Valid for mild sliding wear in a steady regime: k independent of pressure,
+    speed and history.
+
+    References
+    ----------
+    Archard, J. F. (1953), Contact and rubbing of flat surfaces, J. Appl. Phys.
+    24, 981-988. Holm, R. (1958), Electric Contacts Handbook, Springer.
+    """
+
+    Config = ArchardConfig
+
+    def check(self, material: Material) -> None:
+        """Require a hardness where only K is given."""
+        self._coefficient(material)
+
+    def rate(self, local: LocalConditions) -> WearRate:
+        """Return k p and k."""
+        k = self._coefficient(local.material)
+        return WearRate(k * local.pressure, np.full_like(local.pressure, k))
+
+    def _coefficient(self, material: Material) -> float:
+        if self.config.k is not None:
+            return self.config.k
+        hardness = self.config.hardness or material.hardness
+        if hardness is None or self.config.K is None:
+            raise CaseError(
+                "K needs a hardness: add hardness here or to the body's material, or give k"
+            )
+        return self.config.K / hardness
