@@ -1,0 +1,1 @@
+"""Result files: written as a run proceeds, read back, resumed from."""

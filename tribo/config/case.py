@@ -1,0 +1,115 @@
+"""The whole input of a simulation."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from pydantic import Field, field_validator
+
+from tribo.config.slot import Slot
+from tribo.config.stepping import ImplicitConfig, Stepping
+from tribo.config.stop import StopConfig
+from tribo.config.table import Table
+from tribo.core.grid import Grid
+from tribo.core.material import Material
+from tribo.core.units import Quantity
+from tribo.interfaces.contact import ContactSolverConfig
+from tribo.interfaces.effect import EffectConfig
+from tribo.interfaces.kinematics import KinematicsConfig
+from tribo.interfaces.observer import ObserverConfig
+from tribo.interfaces.surface import SurfaceConfig
+from tribo.interfaces.wear import WearLawConfig
+
+Length = Annotated[float, Quantity("m", above=0)]
+Cells = Annotated[int, Field(ge=4, le=16384)]
+
+
+class GridConfig(Table):
+    """The window on the contact; one number stands for both axes."""
+
+    size: tuple[Length, Length]
+    """Edge lengths along x, the sliding direction, and y."""
+    cells: tuple[Cells, Cells]
+    """Number of cells along x and y."""
+    ends_at_window: bool = False
+    """Whether a body ends at the window's edge, as a flat pin does, so that contact may reach it."""
+
+    @field_validator("size", "cells", mode="before")
+    @classmethod
+    def _both_axes(cls, value: Any) -> Any:
+        return (value, value) if isinstance(value, int | float | str) else value
+
+    def to_grid(self) -> Grid:
+        """Return the grid."""
+        return Grid(self.size, self.cells)
+
+
+class LoadConfig(Table):
+    """The load on the contact."""
+
+    normal: Annotated[float, Quantity("N", above=0)]
+    """Normal load, constant in time."""
+
+
+class BodyConfig(Table):
+    """One of the two bodies."""
+
+    surface: Annotated[SurfaceConfig, Slot("surface")]
+    """Shape before it wears."""
+    material: Material
+    """What it is made of."""
+    wear: Annotated[WearLawConfig, Slot("wear_law")] | None = None
+    """How it wears; it does not if left out."""
+
+
+class FrictionConfig(Table):
+    """Friction, for the laws and effects that ask for it; it does not act on the contact."""
+
+    coefficient: Annotated[float, Quantity("1", at_least=0)]
+    """Coefficient of friction, uniform and constant."""
+
+
+class OutputConfig(Table):
+    """What is kept."""
+
+    save_times: tuple[Annotated[float, Quantity("s", at_least=0)], ...] = ()
+    """Times at which all fields are saved; t = 0 and the end always are."""
+
+
+class Case(Table):
+    """A case: two bodies, a load, a motion, and how to compute."""
+
+    grid: GridConfig
+    load: LoadConfig
+    bodies: dict[str, BodyConfig]
+    """The two bodies, by name."""
+    contact: Annotated[ContactSolverConfig, Slot("contact_solver")] = Field(
+        default="dcfft", validate_default=True
+    )
+    """How the normal contact is solved."""
+    kinematics: Annotated[KinematicsConfig, Slot("kinematics")]
+    """How the bodies move."""
+    stepping: Stepping = ImplicitConfig()
+    """How the run moves on in time."""
+    friction: FrictionConfig | None = None
+    effects: tuple[Annotated[EffectConfig, Slot("effect")], ...] = ()
+    """What else the contact produces."""
+    observers: tuple[Annotated[ObserverConfig, Slot("observer")], ...] = ()
+    """Who watches the run."""
+    output: OutputConfig = OutputConfig()
+    stop: StopConfig = StopConfig()
+
+    @field_validator("bodies")
+    @classmethod
+    def _two_bodies(cls, bodies: dict[str, BodyConfig]) -> dict[str, BodyConfig]:
+        if len(bodies) != 2:
+            raise ValueError(
+                f"a contact needs two bodies, as [bodies.ball] and [bodies.disk]; "
+                f"{len(bodies)} given"
+            )
+        for name in bodies:
+            if not name.replace("_", "").replace("-", "").isalnum():
+                raise ValueError(
+                    f"{name!r} is no good as a body's name; use letters, digits, - and _"
+                )
+        return bodies

@@ -1,0 +1,39 @@
+"""How a run moves on in time: a closed, built-in choice."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from tribo.config.table import Table
+from tribo.core.units import Quantity
+
+
+class ImplicitConfig(Table):
+    """Backward Euler, with increments chosen by error; stable at any length."""
+
+    type: Literal["implicit"] = "implicit"
+    depth_tolerance: Annotated[float, Quantity("1", above=0, at_most=0.1)] = 2e-3
+    """Largest local error of the wear depth in one step, relative to the depth worn so far."""
+    pressure_tolerance: Annotated[float, Quantity("1", above=0, at_most=1)] = 0.1
+    """Largest load-weighted relative change of pressure in one step."""
+    settle: Annotated[float, Quantity("1", above=0, at_most=1)] = 0.01
+    """Length of the last step before a save, relative to the distance slid by then."""
+    nonlinear_tolerance: Annotated[float, Quantity("1", above=0, at_most=1e-3)] = 1e-8
+    """How exactly a step fulfils backward Euler for a law that is not linear in pressure."""
+    max_passes: Annotated[int, Field(ge=1, le=1000)] = 60
+    """Solves a step may take to do so; more rejects it."""
+
+
+class ExplicitConfig(Table):
+    """Forward Euler with a fixed time step, as in the paper; limited by stability."""
+
+    type: Literal["explicit"] = "explicit"
+    time_step: Annotated[float, Quantity("s", above=0)]
+    """Length of a step."""
+    allow_unstable: bool = False
+    """Go on beyond the stability limit, at your own risk."""
+
+
+Stepping = Annotated[ImplicitConfig | ExplicitConfig, Field(discriminator="type")]

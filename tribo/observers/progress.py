@@ -1,0 +1,124 @@
+"""Show on the terminal how a run gets on."""
+
+from __future__ import annotations
+
+import math
+import sys
+import time
+from typing import Literal
+
+from rich.console import Console
+from rich.live import Live
+from rich.table import Table as Columns
+
+from tribo.core.state import RunInfo, Snapshot
+from tribo.interfaces.observer import Observer, ObserverConfig
+
+QUIET = 1.0
+
+
+class ProgressConfig(ObserverConfig):
+    """Configuration of `Progress`."""
+
+    type: Literal["progress"] = "progress"
+
+
+class Progress(Observer[ProgressConfig]):
+    """A live line on stderr: time, step, pressure, worn depth, time to go.
+
+    Runs shorter than a second stay silent. Where stderr is no terminal, a
+    plain line is printed at each save.
+    """
+
+    Config = ProgressConfig
+
+    def __init__(self, config: ProgressConfig | None = None) -> None:
+        super().__init__(config or ProgressConfig())
+        self._console = Console(file=sys.stderr)
+        self._live: Live | None = None
+        self._run: RunInfo | None = None
+        self._begun = 0.0
+        self._from = 0.0
+        self._steps = 0
+        self._previous = 0.0
+
+    def on_start(self, run: RunInfo) -> None:
+        """Start the clock."""
+        self._run = run
+        self._begun = time.monotonic()
+        self._from = self._previous = (
+            run.resumed_from.measures.distance if run.resumed_from is not None else 0.0
+        )
+
+    def on_step(self, snapshot: Snapshot) -> None:
+        """Renew the line."""
+        assert self._run is not None
+        distance = snapshot.measures.distance
+        part = self._done(snapshot)
+        self._previous = distance
+        elapsed = time.monotonic() - self._begun
+        if elapsed < QUIET or not self._console.is_terminal:
+            return
+        if self._live is None:
+            self._live = Live(console=self._console, refresh_per_second=8, transient=True)
+            self._live.start()
+        self._live.update(self._line(snapshot, part, elapsed))
+
+    def on_save(self, snapshot: Snapshot) -> None:
+        """Print a plain line where there is no terminal."""
+        assert self._run is not None
+        if not self._console.is_terminal and time.monotonic() - self._begun > QUIET:
+            self._console.print(
+                f"{snapshot.measures.time:g} s of {self._run.end_time:g} s, "
+                f"step {snapshot.state.steps}",
+                highlight=False,
+            )
+
+    def on_finish(self, snapshot: Snapshot | None, reason: str) -> None:
+        """Take the line away."""
+        if self._live is not None:
+            self._live.stop()
+            self._live = None
+
+    def _done(self, snapshot: Snapshot) -> float:
+        """Return the part of the work that is done, from the steps taken and to come."""
+        assert self._run is not None
+        self._steps += 1
+        s, end = snapshot.measures.distance, self._run.end_distance
+        increment = s - self._previous
+        if s >= end or increment <= 0:
+            return 1.0 if s >= end else 0.0
+        stepping = self._run.case.get("stepping")
+        explicit = isinstance(stepping, dict) and stepping.get("type") == "explicit"
+        # Implicit increments grow in proportion to the distance slid.
+        left = (end - s) / increment if explicit else math.log(end / s) / math.log1p(increment / s)
+        return self._steps / (self._steps + left)
+
+    def _line(self, snapshot: Snapshot, part: float, elapsed: float) -> Columns:
+        assert self._run is not None
+        m = snapshot.measures
+        width = 24
+        filled = round(part * width)
+        bar = "[green]" + "━" * filled + "[/][dim]" + "━" * (width - filled) + "[/]"
+        eta = elapsed * (1 - part) / part if part > 0 else math.inf
+        worn = "  ".join(
+            f"{name} {1e6 * body.max_wear_depth:.3g} µm" for name, body in m.bodies.items()
+        )
+        line = Columns.grid(padding=(0, 2))
+        line.add_row(
+            bar,
+            f"{m.time:.4g} of {self._run.end_time:.4g} s",
+            f"step {snapshot.state.steps}",
+            f"p max {1e-6 * m.max_pressure:.0f} MPa",
+            worn,
+            f"left {_clock(eta)}",
+        )
+        return line
+
+
+def _clock(seconds: float) -> str:
+    if not math.isfinite(seconds):
+        return "…"
+    minutes, rest = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours}:{minutes:02d}:{rest:02d}" if hours else f"{minutes}:{rest:02d}"

@@ -1,0 +1,109 @@
+"""Write the result file and its checkpoint."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import Annotated, Literal
+
+from tribo.core.errors import OutputError
+from tribo.core.state import RunInfo, Snapshot
+from tribo.core.units import Quantity
+from tribo.interfaces.observer import Observer, ObserverConfig
+from tribo.results.checkpoint import remove_checkpoint, write_checkpoint
+from tribo.results.read import Result
+from tribo.results.store import ResultWriter
+
+
+class RecorderConfig(ObserverConfig):
+    """Configuration of `Recorder`."""
+
+    type: Literal["recorder"] = "recorder"
+    path: Path | None = None
+    """Where to write; in memory if left out."""
+    checkpoint_every: Annotated[float, Quantity("s", at_least=0)] = 10.0
+    """Wall time between checkpoints; one is also written at every save."""
+
+
+class Recorder(Observer[RecorderConfig]):
+    """Writes a result file, and beside it a checkpoint to resume from."""
+
+    Config = RecorderConfig
+
+    def __init__(self, config: RecorderConfig) -> None:
+        super().__init__(config)
+        self.writer = ResultWriter(config.path)
+        self._clock = 0.0
+        self._spent_before = 0.0
+        self._last_checkpoint = 0.0
+        self._saved = -1.0
+
+    def on_start(self, run: RunInfo) -> None:
+        """Create the file, or go on with it."""
+        self._clock = self._last_checkpoint = time.monotonic()
+        try:
+            if run.resumed_from is None:
+                self.writer.create(run)
+            else:
+                self._spent_before = run.wall_time
+                self._saved = run.resumed_from.state.time
+                self.writer.reopen(run.resumed_from.state)
+        except OSError as error:
+            raise self._failed(error) from error
+
+    def on_step(self, snapshot: Snapshot) -> None:
+        """Add to the history; now and then write a checkpoint."""
+        self.writer.append_step(snapshot.measures)
+        if time.monotonic() - self._last_checkpoint > self.config.checkpoint_every:
+            self._checkpoint(snapshot)
+
+    def on_save(self, snapshot: Snapshot) -> None:
+        """Write the fields, then a checkpoint."""
+        try:
+            self.writer.append_save(snapshot)
+        except OSError as error:
+            raise self._failed(error) from error
+        self._saved = snapshot.state.time
+        self._checkpoint(snapshot)
+
+    def on_finish(self, snapshot: Snapshot | None, reason: str) -> None:
+        """Write what is left; keep the checkpoint unless the run is done."""
+        try:
+            if snapshot is not None and reason != "done":
+                self._checkpoint(snapshot)
+                if snapshot.state.time != self._saved:
+                    # For the user to see; resuming drops it again.
+                    self.writer.append_save(snapshot)
+            self.writer.finish(reason, self._spent())
+        except OSError as error:
+            raise self._failed(error) from error
+        if self.config.path is not None:
+            self.writer.close()
+            if reason == "done":
+                remove_checkpoint(self.config.path)
+
+    def result(self) -> Result:
+        """Return what was recorded, for reading."""
+        if self.config.path is not None:
+            return Result.open(self.config.path)
+        return Result(self.writer.file, "the result")
+
+    def _checkpoint(self, snapshot: Snapshot) -> None:
+        if self.config.path is None:
+            return
+        try:
+            # The file must hold every row that the checkpoint counts.
+            self.writer.flush()
+            write_checkpoint(self.config.path, snapshot.state, self._spent())
+        except OSError as error:
+            raise self._failed(error) from error
+        self._last_checkpoint = time.monotonic()
+
+    def _spent(self) -> float:
+        return self._spent_before + time.monotonic() - self._clock
+
+    def _failed(self, error: OSError) -> OutputError:
+        return OutputError(
+            f"cannot write {self.config.path}: {error}; free space or choose another place with "
+            "-o; what was saved before is intact"
+        )

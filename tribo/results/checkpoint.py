@@ -1,0 +1,140 @@
+"""Keep the whole state of a run beside its results, so that it can go on.
+
+A checkpoint is written to a new file, forced to disk and renamed; the one
+before is kept. It holds every bit of the state.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+
+import h5py
+
+from tribo.core.contact import ContactSolution, Residuals
+from tribo.core.errors import CaseError
+from tribo.core.state import BodyState, State
+from tribo.results.store import read_text, write_array, write_text
+
+
+def checkpoint_path(result: Path) -> Path:
+    """Return where the checkpoint of a result file is kept."""
+    return result.with_name(result.name + ".ckpt")
+
+
+def previous_path(result: Path) -> Path:
+    """Return where the checkpoint before the last one is kept."""
+    return result.with_name(result.name + ".ckpt.prev")
+
+
+def write_checkpoint(result: Path, state: State, wall_time: float) -> None:
+    """Replace the checkpoint of `result` by `state`, keeping the one before.
+
+    Parameters
+    ----------
+    result : Path
+        The result file.
+    state : State
+        What to keep.
+    wall_time : float
+        Time spent so far, in s.
+    """
+    path = checkpoint_path(result)
+    fresh = path.with_name(path.name + ".new")
+    with h5py.File(fresh, "w", libver="earliest") as file:
+        _write_state(file, state, wall_time)
+    with fresh.open("rb") as handle:
+        os.fsync(handle.fileno())
+    if path.exists():
+        path.replace(previous_path(result))
+    fresh.replace(path)
+
+
+def read_checkpoint(result: Path) -> tuple[State, float]:
+    """Return the last good state of `result` and the time spent until then.
+
+    Raises
+    ------
+    CaseError
+        If there is no readable checkpoint.
+    """
+    reasons = []
+    for path in (checkpoint_path(result), previous_path(result)):
+        if not path.exists():
+            continue
+        try:
+            with h5py.File(path, "r") as file:
+                return _read_state(file)
+        except (OSError, KeyError, ValueError) as error:
+            reasons.append(f"{path.name} cannot be read ({error})")
+    raise CaseError(
+        f"{result} has no checkpoint to resume from"
+        + (f": {'; '.join(reasons)}" if reasons else "")
+        + "; start again with 'tribo run'"
+    )
+
+
+def remove_checkpoint(result: Path) -> None:
+    """Delete the checkpoints of a run that is done."""
+    checkpoint_path(result).unlink(missing_ok=True)
+    previous_path(result).unlink(missing_ok=True)
+
+
+_SCALARS = (
+    "time",
+    "distance",
+    "increment",
+    "reference_depth",
+    "steps",
+    "rejected_steps",
+    "contact_solves",
+    "solver_iterations",
+    "saves",
+)
+
+
+def _write_state(file: h5py.File, state: State, wall_time: float) -> None:
+    contact = state.contact
+    scalars = {name: getattr(state, name) for name in _SCALARS}
+    scalars["notices"] = list(state.notices)
+    scalars["approach"] = contact.approach
+    scalars["iterations"] = contact.iterations
+    scalars["residuals"] = vars(contact.residuals)
+    scalars["wall_time"] = wall_time
+    scalars["bodies"] = {name: sorted(body.law) for name, body in state.bodies.items()}
+    # json writes floats so that they read back to the same bits.
+    write_text(file, "scalars", json.dumps(scalars))
+    write_array(file, "pressure", contact.pressure)
+    write_array(file, "overlap", contact.overlap)
+    for name, body in state.bodies.items():
+        write_array(file, f"bodies/{name}/wear", body.wear)
+        write_array(file, f"bodies/{name}/plastic", body.plastic)
+        for field, values in body.law.items():
+            write_array(file, f"bodies/{name}/law/{field}", values)
+
+
+def _read_state(file: h5py.File) -> tuple[State, float]:
+    scalars = json.loads(read_text(file, "scalars"))
+    contact = ContactSolution(
+        pressure=file["pressure"][:],
+        approach=scalars["approach"],
+        overlap=file["overlap"][:],
+        iterations=scalars["iterations"],
+        residuals=Residuals(**scalars["residuals"]),
+    )
+    bodies = {
+        name: BodyState(
+            wear=file[f"bodies/{name}/wear"][:],
+            plastic=file[f"bodies/{name}/plastic"][:],
+            law={field: file[f"bodies/{name}/law/{field}"][:] for field in fields},
+        )
+        for name, fields in scalars["bodies"].items()
+    }
+    state = State(
+        **{name: scalars[name] for name in _SCALARS},
+        bodies=bodies,
+        contact=contact,
+        notices=tuple(scalars["notices"]),
+    )
+    return state, scalars["wall_time"]

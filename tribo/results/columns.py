@@ -1,0 +1,67 @@
+"""The scalars of a result: one list for files, tables, JSON and CSV."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Generic, TypeVar
+
+from tribo.core.measures import BodyMeasures, Measures
+
+M = TypeVar("M")
+
+
+@dataclass(frozen=True)
+class Column(Generic[M]):
+    """A named scalar with its unit, meaning, and how to read it off measures."""
+
+    name: str
+    unit: str
+    description: str
+    read: Callable[[M], float]
+
+    @property
+    def label(self) -> str:
+        """Name with the unit, as in JSON and CSV: ``max_pressure_Pa``."""
+        suffix = self.unit.replace("^", "")
+        return self.name if self.unit == "1" else f"{self.name}_{suffix}"
+
+
+COLUMNS: tuple[Column[Measures], ...] = (
+    Column("time", "s", "Time", lambda m: m.time),
+    Column("distance", "m", "Path slid", lambda m: m.distance),
+    Column("max_pressure", "Pa", "Largest contact pressure", lambda m: m.max_pressure),
+    Column("centre_pressure", "Pa", "Pressure at the window's centre", lambda m: m.centre_pressure),
+    Column(
+        "contact_half_width_x", "m", "Half the contact's extent along x", lambda m: m.half_width_x
+    ),
+    Column(
+        "contact_half_width_y", "m", "Half the contact's extent along y", lambda m: m.half_width_y
+    ),
+    Column("contact_area", "m^2", "Area of the cells in contact", lambda m: m.area),
+    Column("approach", "m", "Rigid approach of the bodies", lambda m: m.approach),
+    Column("force_error", "1", "Relative error of the load carried", lambda m: m.residuals.force),
+    Column(
+        "complementarity_error",
+        "1",
+        "Relative gap under pressure",
+        lambda m: m.residuals.complementarity,
+    ),
+    Column(
+        "penetration_error",
+        "1",
+        "Relative overlap outside the contact",
+        lambda m: m.residuals.penetration,
+    ),
+    Column("contact_solves", "1", "Contact solves so far", lambda m: m.contact_solves),
+    Column("solver_iterations", "1", "Solver iterations so far", lambda m: m.solver_iterations),
+)
+
+BODY_COLUMNS: tuple[Column[BodyMeasures], ...] = (
+    Column("max_wear_depth", "m", "Largest wear depth", lambda m: m.max_wear_depth),
+    Column("centre_wear_depth", "m", "Wear depth at the centre", lambda m: m.centre_wear_depth),
+    Column("wear_volume", "m^3", "Volume of the whole scar or track", lambda m: m.wear_volume),
+    Column(
+        "max_plastic_depth", "m", "Largest permanent displacement", lambda m: m.max_plastic_depth
+    ),
+)

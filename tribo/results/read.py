@@ -1,0 +1,261 @@
+"""Read a result back."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
+
+import h5py
+import numpy as np
+
+from tribo.core.arrays import Array
+from tribo.core.contact import ContactSystem
+from tribo.core.errors import CaseError
+from tribo.core.grid import Grid
+from tribo.results.columns import BODY_COLUMNS, COLUMNS
+from tribo.results.store import FORMAT, read_text
+
+
+@dataclass(frozen=True)
+class BodyResult:
+    """What a result keeps of one body.
+
+    Parameters
+    ----------
+    name : str
+        Its name.
+    swept : bool
+        Whether its points passed through the contact.
+    density : float or None
+        In kg/m³.
+    height : ndarray, shape (nx, ny)
+        Its initial height outward, in m.
+    wear_depth, plastic_depth : ndarray, shape (saves, nx, ny)
+        At each save, in m. On a swept body the wear does not vary along x.
+    """
+
+    name: str
+    swept: bool
+    density: float | None
+    height: Array
+    wear_depth: Array
+    plastic_depth: Array
+
+    def surface(self, save: int) -> Array:
+        """Return the height outward at a save, worn and deformed, in m."""
+        surface: Array = self.height - self.wear_depth[save] - self.plastic_depth[save]
+        return surface
+
+
+class Result:
+    """A finished, stopped or running simulation, read from its file.
+
+    Use it as a context manager, or `close` it. Arrays are read when asked for.
+
+    Parameters
+    ----------
+    file : h5py.File
+        The open file; most users call `Result.open`.
+    name : str
+        What to call it in messages.
+    """
+
+    def __init__(self, file: h5py.File, name: str) -> None:
+        self._file = file
+        self.name = name
+
+    @classmethod
+    def open(cls, path: str | Path) -> Self:
+        """Open a result file.
+
+        Raises
+        ------
+        CaseError
+            If there is no such file, or it is not a tribo result.
+        """
+        path = Path(path)
+        if not path.is_file():
+            raise CaseError(f"{path} is not a file; give the .h5 file that 'tribo run' wrote")
+        try:
+            file = h5py.File(path, "r")
+        except OSError as error:
+            raise CaseError(f"{path} cannot be read as a result file: {error}") from error
+        if file.attrs.get("tribo_format") != FORMAT:
+            found = file.attrs.get("tribo_format")
+            file.close()
+            raise CaseError(
+                f"{path} is not a tribo result of format {FORMAT}"
+                + (f" but of format {found}" if found is not None else "")
+            )
+        return cls(file, str(path))
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Close the file."""
+        self._file.close()
+
+    @property
+    def status(self) -> str:
+        """``"done"``, ``"running"``, ``"interrupted"`` or ``"failed"``."""
+        return str(self._file.attrs["status"])
+
+    @property
+    def wall_time(self) -> float:
+        """Time the run took, in s."""
+        return float(self._file.attrs["wall_time_s"])
+
+    @property
+    def case(self) -> dict[str, Any]:
+        """The full configuration, as plain data."""
+        return dict(json.loads(self._text("case")))
+
+    @property
+    def provenance(self) -> dict[str, Any]:
+        """Versions and classes that made the result."""
+        return dict(json.loads(self._text("provenance")))
+
+    @property
+    def notices(self) -> tuple[str, ...]:
+        """Warnings given during the run."""
+        return tuple(json.loads(str(self._file.attrs.get("notices", "[]"))))
+
+    @property
+    def system(self) -> ContactSystem:
+        """Window, load, contact modulus, pressure cap and initial curvature."""
+        attrs = self._file.attrs
+        lx, ly = (float(size) for size in attrs["window_m"])
+        cap, curvature = attrs.get("cap_Pa"), attrs.get("curvature_1_m")
+        return ContactSystem(
+            grid=Grid((lx, ly), (self._file["x"].shape[0], self._file["y"].shape[0])),
+            modulus=float(attrs["modulus_Pa"]),
+            load=float(attrs["load_N"]),
+            cap=None if cap is None else float(cap),
+            curvature=None if curvature is None else (float(curvature[0]), float(curvature[1])),
+        )
+
+    @property
+    def grid(self) -> Grid:
+        """The window."""
+        return self.system.grid
+
+    @property
+    def times(self) -> Array:
+        """Time of each save, in s."""
+        return self._read("time")
+
+    @property
+    def distances(self) -> Array:
+        """Path slid at each save, in m."""
+        return self._read("saves/distance")
+
+    @property
+    def body_names(self) -> tuple[str, ...]:
+        """Names of the bodies in the order of the case."""
+        return tuple(self.case["bodies"])
+
+    def pressure(self, save: int) -> Array:
+        """Return the contact pressure at a save, shape (nx, ny), in Pa."""
+        return self._read("pressure", save)
+
+    def body(self, name: str) -> BodyResult:
+        """Return what is kept of a body.
+
+        Raises
+        ------
+        CaseError
+            If there is no body of that name.
+        """
+        if name not in self.body_names:
+            raise CaseError(
+                f"{self.name} has no body {name!r}; its bodies are {', '.join(self.body_names)}"
+            )
+        group = self._file[f"bodies/{name}"]
+        worn = self._read(f"bodies/{name}/wear_depth")
+        if worn.ndim == 2:
+            worn = np.broadcast_to(worn[:, None, :], (worn.shape[0], *self.grid.cells))
+        density = group.attrs.get("density_kg_m3")
+        return BodyResult(
+            name=name,
+            swept=bool(group.attrs["swept"]),
+            density=None if density is None else float(density),
+            height=self._read(f"bodies/{name}/height"),
+            wear_depth=worn,
+            plastic_depth=self._read(f"bodies/{name}/plastic_depth"),
+        )
+
+    def table(self, name: str) -> dict[str, Array]:
+        """Return ``"saves"`` or ``"history"`` as columns, named with their units.
+
+        A body's columns are called ``bodies.NAME.wear_volume_m3`` and so on.
+        """
+        columns = {column.label: self._read(f"{name}/{column.name}") for column in COLUMNS}
+        for body in self.body_names:
+            for part in BODY_COLUMNS:
+                label = f"bodies.{body}.{part.label}"
+                columns[label] = self._read(f"{name}/bodies/{body}/{part.name}")
+        return columns
+
+    def saves(self) -> list[dict[str, Any]]:
+        """Return the scalars of each save, those of the bodies under ``bodies``."""
+        table = self.table("saves")
+        rows: list[dict[str, Any]] = []
+        for i in range(len(self.times)):
+            row: dict[str, Any] = {c.label: float(table[c.label][i]) for c in COLUMNS}
+            row["bodies"] = {
+                body: {
+                    part.label: float(table[f"bodies.{body}.{part.label}"][i])
+                    for part in BODY_COLUMNS
+                }
+                for body in self.body_names
+            }
+            rows.append(row)
+        return rows
+
+    def summary(self) -> dict[str, Any]:
+        """Return the whole result but its fields, as ``tribo show --json`` prints it."""
+        return {
+            "case": self.case,
+            "status": self.status,
+            "provenance": self.provenance,
+            "notices": list(self.notices),
+            "totals": dict(self.totals()),
+            "saves": self.saves(),
+        }
+
+    def totals(self) -> Mapping[str, float | int]:
+        """Return what the run cost: solves, iterations, steps and wall time."""
+        history = self.table("history")
+        steps = len(history["time_s"])
+        last = -1 if steps else slice(0)
+        return {
+            "steps": max(steps - 1, 0),
+            "contact_solves": int(np.sum(history["contact_solves"][last])),
+            "solver_iterations": int(np.sum(history["solver_iterations"][last])),
+            "wall_time_s": self.wall_time,
+        }
+
+    def _read(self, name: str, index: int | slice = slice(None)) -> Array:
+        try:
+            return np.asarray(self._file[name][index])
+        except (OSError, KeyError) as error:
+            raise CaseError(f"{self.name} is damaged: {name!r} cannot be read ({error})") from error
+
+    def _text(self, name: str) -> str:
+        try:
+            return read_text(self._file, name)
+        except (OSError, KeyError, UnicodeDecodeError) as error:
+            raise CaseError(f"{self.name} is damaged: {name!r} cannot be read ({error})") from error

@@ -1,0 +1,52 @@
+"""Turn a validated case into a model of objects."""
+
+from __future__ import annotations
+
+from tribo.config.case import Case
+from tribo.registry.registry import Registry, default_registry
+from tribo.simulation.model import Body, Model, assemble
+
+
+def compose(case: Case, registry: Registry | None = None) -> Model:
+    """Make the objects that a case names, and join them.
+
+    Parameters
+    ----------
+    case : Case
+        A validated case.
+    registry : Registry, optional
+        Where to look classes up; the installed plugins if left out.
+
+    Raises
+    ------
+    CaseError
+        If the parts do not fit together.
+    """
+    known = registry or default_registry()
+
+    def make(kind, config):
+        return known.lookup(kind, config.type)(config)
+
+    bodies = [
+        Body(
+            name=name,
+            surface=make("surface", body.surface),
+            material=body.material,
+            wear=None if body.wear is None else make("wear_law", body.wear),
+        )
+        for name, body in case.bodies.items()
+    ]
+    return assemble(
+        grid=case.grid.to_grid(),
+        load=case.load.normal,
+        bodies=bodies,
+        contact=make("contact_solver", case.contact),
+        kinematics=make("kinematics", case.kinematics),
+        stepping=case.stepping,
+        friction_coefficient=case.friction.coefficient if case.friction else None,
+        effects=[make("effect", config) for config in case.effects],
+        observers=[make("observer", config) for config in case.observers],
+        save_times=case.output.save_times,
+        stop=case.stop,
+        ends_at_window=case.grid.ends_at_window,
+    )

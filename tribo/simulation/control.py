@@ -1,0 +1,72 @@
+"""How long the next implicit step may be."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from tribo.config.stepping import ImplicitConfig
+from tribo.core.state import State
+from tribo.simulation.model import Model
+from tribo.simulation.rates import Moment, law_states, wear_rates
+
+FIRST = 0.05
+SAFETY = 0.9
+SHRINK, GROW = 0.2, 2.5
+
+
+def first_increment(model: Model, state: State, remaining: float) -> float:
+    """Return a first increment that wears a small part of the elastic approach, in m."""
+    moment = Moment(state.time, state.distance, remaining / (model.end_time - state.time))
+    rates = wear_rates(model, state.contact.pressure, law_states(state), moment)
+    fastest = max((float(np.max(rate.depth)) for rate in rates.values()), default=0.0)
+    return min(remaining, FIRST * state.reference_depth / fastest) if fastest > 0 else remaining
+
+
+def step_error(
+    model: Model, config: ImplicitConfig, before: State, after: State
+) -> tuple[float, float]:
+    """Return the step's depth and pressure errors as multiples of their tolerances.
+
+    The local error of backward Euler in depth is half of what its wear
+    differs from forward Euler's. It is weighted with the load, since the
+    largest difference is always at newly touched edge cells, and compared
+    with the depth worn so far (and a part of the first approach, below which
+    wear does not alter the contact). The pressure lags by about a quarter of
+    the relative increment of distance, so its load-weighted relative change
+    Σ|Δp|/Σp is limited too.
+    """
+    p0, p1 = before.contact.pressure, after.contact.pressure
+    load = float(np.sum(p1))
+    pressure_error = float(np.sum(np.abs(p1 - p0))) / load
+    increment = after.distance - before.distance
+    moment = Moment(before.time, before.distance, increment / (after.time - before.time))
+    depth_error = 0.0
+    for name, rate in wear_rates(model, p0, law_states(before), moment).items():
+        worn = after.bodies[name].wear - before.bodies[name].wear
+        lag = np.abs(worn - increment * model.exposures[name].average(rate.depth))
+        scale = float(np.max(after.bodies[name].wear)) + FIRST * after.reference_depth
+        depth_error = max(depth_error, 0.5 * float(np.sum(p1 * lag)) / (load * scale))
+    return depth_error / config.depth_tolerance, pressure_error / config.pressure_tolerance
+
+
+def next_factor(depth_error: float, pressure_error: float) -> float:
+    """Return by how much the next increment may differ, from errors in tolerances."""
+    # The depth error of a step grows as its square, the pressure's in proportion.
+    wanted = SAFETY * min(
+        1 / math.sqrt(depth_error) if depth_error > 0 else GROW,
+        1 / pressure_error if pressure_error > 0 else GROW,
+    )
+    return min(GROW, max(SHRINK, wanted))
+
+
+def fitted(natural: float, remaining: float, target: float, settle: float) -> float:
+    """Return the increment to take with `remaining` metres to a save at `target`.
+
+    Before a save the increments are halved down to ``settle * target``, which
+    lets the pressure catch up with the wear.
+    """
+    shortest = settle * target
+    increment = min(natural, max(0.5 * remaining, shortest))
+    return remaining if remaining - increment < 0.5 * min(shortest, increment) else increment

@@ -1,0 +1,217 @@
+"""The loop over steps: from one accepted state to the next."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from tribo.config.stepping import ExplicitConfig, ImplicitConfig
+from tribo.core.errors import CaseError, NumericalError
+from tribo.core.measures import half_widths, reaches_border
+from tribo.core.state import State
+from tribo.simulation.control import SHRINK, first_increment, fitted, next_factor, step_error
+from tribo.simulation.model import Model
+from tribo.simulation.rates import Moment
+from tribo.simulation.step import (
+    StepRejected,
+    explicit_step,
+    first_contact,
+    implicit_step,
+    largest_stable_increment,
+    start_sliding,
+)
+
+FEW_CELLS = 6
+MAX_REJECTIONS = 40
+DEPTH_ACCURACY = 1e-6
+
+
+@dataclass(frozen=True)
+class Accepted:
+    """A state of the run, whether it is to be saved, and whether it is the last."""
+
+    state: State
+    save: bool
+    last: bool
+
+
+def begin(model: Model) -> State:
+    """Return the state at t = 0; raises as `first_contact`."""
+    return _noticed(model, replace(first_contact(model), saves=1))
+
+
+def march(model: Model, state: State) -> Iterator[Accepted]:
+    """Yield the accepted states after `state`, to the end of the run.
+
+    Raises
+    ------
+    NumericalError
+        If the contact reaches the edge of the window, or a step cannot be
+        carried out; the last state yielded stands.
+    CaseError
+        If a time step exceeds the stability limit.
+    """
+    # Which stops are left follows from the time alone, so a resumed run sees the same.
+    stops = [t for t in model.save_times if 0 < t < model.end_time]
+    for stop in [*stops, model.end_time]:
+        while state.time < stop:
+            state = _step_towards(model, state, stop)
+            _check_window(model, state)
+            state = _noticed(model, state)
+            worn_out = _depth(model, state) >= _depth_limit(model)
+            last = worn_out or state.time >= model.end_time
+            save = last or state.time >= stop
+            if save:
+                state = replace(state, saves=state.saves + 1)
+            yield Accepted(state, save, last)
+            if last:
+                return
+
+
+def _step_towards(model: Model, state: State, stop: float) -> State:
+    state = start_sliding(model, state)
+    if isinstance(model.stepping, ExplicitConfig):
+        return _explicit(model, model.stepping, state, stop)
+    return _implicit(model, model.stepping, state, stop)
+
+
+def _explicit(model: Model, config: ExplicitConfig, state: State, stop: float) -> State:
+    time = state.time + config.time_step
+    if stop - time < 1e-6 * config.time_step:
+        time = stop
+    increment = model.kinematics.distance(time) - state.distance
+    if not config.allow_unstable:
+        _check_stability(model, state, increment, time)
+    return _stop_at_depth(model, state, explicit_step, increment, time)
+
+
+def _implicit(model: Model, config: ImplicitConfig, state: State, stop: float) -> State:
+    target = model.kinematics.distance(stop)
+    remaining = target - state.distance
+    natural = state.increment or first_increment(model, state, remaining)
+    step = partial(implicit_step, config=config)
+    rejected = 0
+    while True:
+        increment = fitted(natural, remaining, target, config.settle)
+        landing = increment == remaining
+        time = stop if landing else model.kinematics.time(state.distance + increment)
+        try:
+            after = step(model, state, increment, time)
+            errors = step_error(model, config, state, after)
+            factor = next_factor(*errors)
+            if max(errors) <= 1:
+                break
+        except StepRejected:
+            factor = SHRINK
+            if rejected == MAX_REJECTIONS:
+                raise
+        rejected += 1
+        if rejected > MAX_REJECTIONS:
+            raise NumericalError(
+                f"steps down to {increment:.3g} m at {state.distance:.6g} m still miss their "
+                f"tolerances (depth error {errors[0]:.3g}, pressure change {errors[1]:.3g} times "
+                "what is allowed); raise stepping.depth_tolerance or pressure_tolerance"
+            )
+        natural = factor * increment
+    # A step cut short to meet a save says little about the next: keep the longer of the two.
+    proposal = max(factor * increment, natural if increment < natural else 0.0)
+    after = replace(after, increment=proposal, rejected_steps=state.rejected_steps + rejected)
+    if _depth(model, after) > _depth_limit(model):
+        return _stop_at_depth(model, state, step, increment, time)
+    return after
+
+
+def _stop_at_depth(
+    model: Model,
+    state: State,
+    step: Callable[[Model, State, float, float], State],
+    increment: float,
+    time: float,
+) -> State:
+    """Take a step, or the part of it that just wears to the depth where the run ends."""
+    limit = _depth_limit(model)
+    after = step(model, state, increment, time)
+    low, high = 0.0, increment
+    depth_low, depth_high = _depth(model, state), _depth(model, after)
+    if depth_high <= limit:
+        return after
+    for _ in range(MAX_REJECTIONS):
+        if depth_high - limit <= DEPTH_ACCURACY * limit:
+            break
+        # Aim just above the limit, so that the end approaches it from the side that stops.
+        part = (limit * (1 + 0.5 * DEPTH_ACCURACY) - depth_low) / (depth_high - depth_low)
+        trial = low + part * (high - low)
+        state_at = step(model, state, trial, model.kinematics.time(state.distance + trial))
+        depth = _depth(model, state_at)
+        if depth >= limit:
+            high, depth_high, after = trial, depth, state_at
+        else:
+            low, depth_low = trial, depth
+    return after
+
+
+def _depth(model: Model, state: State) -> float:
+    names = list(state.bodies) if model.stop.body is None else [model.stop.body]
+    return max(float(np.max(state.bodies[name].wear)) for name in names)
+
+
+def _depth_limit(model: Model) -> float:
+    return model.stop.depth if model.stop.depth is not None else np.inf
+
+
+def _check_stability(model: Model, state: State, increment: float, time: float) -> None:
+    moment = Moment(time, state.distance + increment, increment / (time - state.time))
+    limit = largest_stable_increment(model, state, moment)
+    if limit is None:
+        raise CaseError(
+            f"contact.type = {model.contact.type_name()!r} does not state its smallest "
+            "compliance, so the stability of explicit steps cannot be checked; set "
+            "stepping.allow_unstable = true to go on without",
+            "stepping.time_step",
+        )
+    if increment >= limit:
+        dt = time - state.time
+        raise CaseError(
+            f"{dt:.4g} s slides {increment:.4g} m, beyond the stability limit of {limit:.4g} m; "
+            f"the largest stable step is {dt * limit / increment:.4g} s (or use stepping.type = "
+            "'implicit', or set stepping.allow_unstable = true)",
+            "stepping.time_step",
+        )
+
+
+def _check_window(model: Model, state: State) -> None:
+    if model.ends_at_window or not reaches_border(state.contact.pressure):
+        return
+    width, breadth = half_widths(state.contact.pressure, model.grid)
+    raise NumericalError(
+        f"at {state.time:.6g} s ({state.distance:.6g} m) the contact, "
+        f"{2e3 * width:.3g} × {2e3 * breadth:.3g} mm, reached the edge of the window of "
+        f"{1e3 * model.grid.size[0]:.4g} × {1e3 * model.grid.size[1]:.4g} mm; make grid.size "
+        "larger (and grid.cells with it)"
+    )
+
+
+def _noticed(model: Model, state: State) -> State:
+    """Add to the state the warnings that are due and were not given before."""
+    pressure = state.contact.pressure
+    width, breadth = half_widths(pressure, model.grid)
+    due = []
+    limitation = model.kinematics.limitation(model.grid, width)
+    if limitation is not None:
+        due.append(("averaging", f"at {state.time:.6g} s ({state.distance:.6g} m) {limitation}"))
+    dx, dy = model.grid.spacing
+    cells = min(2 * width / dx, 2 * breadth / dy)
+    if state.steps == 0 and cells < FEW_CELLS:
+        due.append(
+            (
+                "resolution",
+                f"the first contact is only {cells:.0f} cells wide; its pressure is inaccurate "
+                f"until it has grown: aim for {FEW_CELLS} or more (grid.cells)",
+            )
+        )
+    given = {notice.split(":", 1)[0] for notice in state.notices}
+    new = [f"{kind}: {text}" for kind, text in due if kind not in given]
+    return replace(state, notices=(*state.notices, *new)) if new else state

@@ -1,0 +1,38 @@
+"""Read the scalars of a state."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tribo.core.measures import BodyMeasures, Measures, centre, contact_area, half_widths
+from tribo.core.state import State
+from tribo.simulation.model import Model
+
+
+def measure(model: Model, state: State) -> Measures:
+    """Return the scalars of `state` that are recorded at every step."""
+    pressure = state.contact.pressure
+    width, breadth = half_widths(pressure, model.grid)
+    bodies = {
+        name: BodyMeasures(
+            max_wear_depth=float(np.max(body.wear)),
+            centre_wear_depth=centre(body.wear),
+            wear_volume=model.exposures[name].volume(body.wear),
+            max_plastic_depth=float(np.max(body.plastic)),
+        )
+        for name, body in state.bodies.items()
+    }
+    return Measures(
+        time=state.time,
+        distance=state.distance,
+        max_pressure=float(np.max(pressure)),
+        centre_pressure=centre(pressure),
+        half_width_x=width,
+        half_width_y=breadth,
+        area=contact_area(pressure, model.grid),
+        approach=state.contact.approach,
+        residuals=state.contact.residuals,
+        contact_solves=state.contact_solves,
+        solver_iterations=state.solver_iterations,
+        bodies=bodies,
+    )

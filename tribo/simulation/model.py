@@ -1,0 +1,329 @@
+"""A case made of objects: everything checked, nothing solved yet."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+import numpy as np
+
+from tribo.config.stepping import ExplicitConfig, ImplicitConfig
+from tribo.config.stop import StopConfig
+from tribo.core.arrays import Array, readonly
+from tribo.core.contact import ContactSystem
+from tribo.core.errors import CaseError
+from tribo.core.fields import FRICTION_COEFFICIENT
+from tribo.core.grid import Grid
+from tribo.core.material import Material, contact_modulus
+from tribo.interfaces.component import Component, ComponentConfig
+from tribo.interfaces.contact import ContactSolver, ContactSolverConfig
+from tribo.interfaces.effect import Effect, EffectConfig
+from tribo.interfaces.exposure import Exposure
+from tribo.interfaces.kinematics import Kinematics, KinematicsConfig
+from tribo.interfaces.observer import Observer, ObserverConfig
+from tribo.interfaces.surface import Surface, SurfaceConfig
+from tribo.interfaces.wear import WearLaw, WearLawConfig
+
+
+@dataclass(frozen=True)
+class Body:
+    """One of the two bodies.
+
+    Parameters
+    ----------
+    name : str
+        Its name.
+    surface : Surface
+        Its shape before it wears.
+    material : Material
+        What it is made of.
+    wear : WearLaw, optional
+        How it wears; it does not if left out.
+    """
+
+    name: str
+    surface: Surface[SurfaceConfig]
+    material: Material
+    wear: WearLaw[WearLawConfig] | None = None
+
+
+@dataclass(frozen=True)
+class Model:
+    """The composed case; make one with `assemble`.
+
+    Besides what `assemble` takes, it holds what follows from it: `exposures`
+    and `plastic_share` by body name, the constants of the contact `system`,
+    and the initial `gap` in m, shape (nx, ny), with minimum 0.
+    """
+
+    grid: Grid
+    load: float
+    bodies: tuple[Body, ...]
+    contact: ContactSolver[ContactSolverConfig]
+    kinematics: Kinematics[KinematicsConfig]
+    stepping: ImplicitConfig | ExplicitConfig
+    friction_coefficient: float | None
+    effects: tuple[Effect[EffectConfig], ...]
+    observers: tuple[Observer[ObserverConfig], ...]
+    save_times: tuple[float, ...]
+    stop: StopConfig
+    ends_at_window: bool
+    exposures: Mapping[str, Exposure]
+    plastic_share: Mapping[str, float]
+    system: ContactSystem
+    gap: Array
+
+    @property
+    def end_time(self) -> float:
+        """When the run ends if no depth stops it earlier, in s."""
+        end = self.kinematics.duration
+        if self.stop.distance is not None:
+            end = min(end, self.kinematics.time(self.stop.distance))
+        return end
+
+    def is_swept(self, name: str) -> bool:
+        """Whether the body's points pass through the contact."""
+        return self.exposures[name].average(np.zeros(self.grid.cells)).shape != self.grid.cells
+
+    def components(self) -> Iterator[tuple[str, Component[ComponentConfig]]]:
+        """Yield every component with its place in a case."""
+        for body in self.bodies:
+            yield f"bodies.{body.name}.surface", body.surface
+            if body.wear is not None:
+                yield f"bodies.{body.name}.wear", body.wear
+        yield "contact", self.contact
+        yield "kinematics", self.kinematics
+        for i, effect in enumerate(self.effects):
+            yield f"effects[{i}]", effect
+        for i, observer in enumerate(self.observers):
+            yield f"observers[{i}]", observer
+
+
+def assemble(
+    *,
+    grid: Grid,
+    load: float,
+    bodies: Sequence[Body],
+    contact: ContactSolver[ContactSolverConfig],
+    kinematics: Kinematics[KinematicsConfig],
+    stepping: ImplicitConfig | ExplicitConfig | None = None,
+    friction_coefficient: float | None = None,
+    effects: Sequence[Effect[EffectConfig]] = (),
+    observers: Sequence[Observer[ObserverConfig]] = (),
+    save_times: Sequence[float] = (),
+    stop: StopConfig | None = None,
+    ends_at_window: bool = False,
+) -> Model:
+    """Check that the parts fit together and join them.
+
+    Parameters
+    ----------
+    grid : Grid
+        The window.
+    load : float
+        Normal load, in N.
+    bodies : sequence of Body
+        The two bodies.
+    contact, kinematics : ContactSolver, Kinematics
+        How the contact is solved and how the bodies move.
+    stepping : ImplicitConfig or ExplicitConfig, optional
+        How the run moves on; implicit with default tolerances if left out.
+    friction_coefficient : float, optional
+        For laws and effects that ask for it.
+    effects, observers : sequence, optional
+        In any order; effects are sorted by what they need.
+    save_times : sequence of float, optional
+        In s; t = 0 and the end are always saved.
+    stop : StopConfig, optional
+        What ends the run early.
+    ends_at_window : bool, optional
+        Whether the bodies end at the window's edge, so that the contact may
+        reach it.
+
+    Raises
+    ------
+    CaseError
+        If parts do not fit; the message names the place, and the remedy.
+    """
+    if len(bodies) != 2 or bodies[0].name == bodies[1].name:
+        raise CaseError("a contact needs two bodies with different names", "bodies")
+    names = [body.name for body in bodies]
+    exposures = kinematics.exposures(grid, names)
+    gap = np.zeros(grid.cells)
+    for body in bodies:
+        with located(f"bodies.{body.name}.surface"):
+            height = body.surface.height(grid)
+            _check_height(body, height, exposures[body.name], grid)
+        gap -= height
+        if body.wear is not None:
+            with located(f"bodies.{body.name}.wear"):
+                body.wear.check(body.material)
+    gap -= float(np.min(gap))
+    cap, share = _plastic(bodies, contact)
+    system = ContactSystem(
+        grid=grid,
+        modulus=contact_modulus([body.material for body in bodies]),
+        load=load,
+        cap=cap,
+        curvature=_curvature(bodies),
+    )
+    with located("contact"):
+        contact.check(system)
+    stepping = stepping or ImplicitConfig()
+    if isinstance(stepping, ImplicitConfig) and not contact.accepts_wear_compliance:
+        raise CaseError(
+            f"'implicit' stepping adds wear to the contact's compliance, which contact.type = "
+            f"{contact.type_name()!r} does not take; use stepping.type = 'explicit' with a "
+            "time_step, or a contact type that does",
+            "stepping.type",
+        )
+    model = Model(
+        grid=grid,
+        load=load,
+        bodies=tuple(bodies),
+        contact=contact,
+        kinematics=kinematics,
+        stepping=stepping,
+        friction_coefficient=friction_coefficient,
+        effects=_in_order(effects, bodies, friction_coefficient),
+        observers=tuple(observers),
+        save_times=tuple(save_times),
+        stop=stop or StopConfig(),
+        ends_at_window=ends_at_window,
+        exposures=exposures,
+        plastic_share=share,
+        system=system,
+        gap=readonly(gap),
+    )
+    _check_ends(model)
+    return model
+
+
+@contextmanager
+def located(path: str) -> Iterator[None]:
+    """Give a `CaseError` raised inside its place in the case, unless it has one."""
+    try:
+        yield
+    except CaseError as error:
+        if error.path:
+            raise
+        raise CaseError(str(error), path) from error
+
+
+def _check_height(body: Body, height: Array, exposure: Exposure, grid: Grid) -> None:
+    kind = body.surface.type_name()
+    if height.shape != grid.cells:
+        raise CaseError(f"{kind!r} gave heights of shape {height.shape}, not {grid.cells}")
+    if not np.all(np.isfinite(height)):
+        raise CaseError(f"{kind!r} gave heights that are not finite")
+    swept = exposure.average(height).shape != grid.cells
+    if swept and np.any(height != height[:1]):
+        raise CaseError(
+            f"body {body.name!r} is swept along x, so its surface must not vary along x, as "
+            f"{kind!r} does; let kinematics.swept name the other body, or use a 'flat' or a "
+            "'cylinder' with axis = 'x'"
+        )
+
+
+def _curvature(bodies: Sequence[Body]) -> tuple[float, float] | None:
+    known = [body.surface.curvature for body in bodies]
+    if any(c is None for c in known):
+        return None
+    return sum(c[0] for c in known if c), sum(c[1] for c in known if c)
+
+
+def _plastic(
+    bodies: Sequence[Body], contact: ContactSolver[ContactSolverConfig]
+) -> tuple[float | None, dict[str, float]]:
+    hardness = {b.name: b.material.hardness for b in bodies if b.material.hardness is not None}
+    if not hardness or not contact.config.plasticity:
+        return None, {body.name: 0.0 for body in bodies}
+    if not contact.honours_cap:
+        raise CaseError(
+            f"contact.type = {contact.type_name()!r} cannot limit the pressure to a hardness; "
+            "set contact.plasticity = false, or leave hardness out",
+            "contact.plasticity",
+        )
+    cap = min(hardness.values())
+    soft = [name for name, value in hardness.items() if value == cap]
+    return cap, {b.name: (1 / len(soft) if b.name in soft else 0.0) for b in bodies}
+
+
+def _in_order(
+    effects: Sequence[Effect[EffectConfig]],
+    bodies: Sequence[Body],
+    friction_coefficient: float | None,
+) -> tuple[Effect[EffectConfig], ...]:
+    known = set() if friction_coefficient is None else {FRICTION_COEFFICIENT.name}
+    ordered: list[Effect[EffectConfig]] = []
+    waiting = list(effects)
+    while waiting:
+        ready = next((e for e in waiting if set(e.requires) <= known), None)
+        if ready is None:
+            first = waiting[0]
+            missing = sorted(set(first.requires) - known)
+            raise CaseError(
+                _missing(f"effect {first.type_name()!r}", missing, waiting), "effects"
+            )
+        waiting.remove(ready)
+        ordered.append(ready)
+        for field in ready.provides:
+            if field.name in known:
+                raise CaseError(
+                    f"{field.name!r} is provided twice, the second time by "
+                    f"{ready.type_name()!r}; keep one",
+                    "effects",
+                )
+            known.add(field.name)
+    for body in bodies:
+        if body.wear is not None and not set(body.wear.requires) <= known:
+            missing = sorted(set(body.wear.requires) - known)
+            raise CaseError(
+                _missing(f"wear law {body.wear.type_name()!r}", missing, []),
+                f"bodies.{body.name}.wear",
+            )
+    return tuple(ordered)
+
+
+def _missing(who: str, missing: Sequence[str], waiting: Sequence[Effect[EffectConfig]]) -> str:
+    if list(missing) == [FRICTION_COEFFICIENT.name]:
+        return f"{who} needs a coefficient of friction: add [friction] coefficient = …"
+    in_circle = [
+        effect.type_name()
+        for effect in waiting
+        if any(field.name in missing for field in effect.provides)
+    ]
+    if in_circle:
+        return (
+            f"{who} needs {', '.join(missing)}, which {', '.join(in_circle)} provides, but these "
+            "effects wait for one another"
+        )
+    return (
+        f"{who} needs the field {', '.join(missing)}, which nothing in this case provides: add an "
+        "effect that does"
+    )
+
+
+def _check_ends(model: Model) -> None:
+    end = model.end_time
+    times = model.save_times
+    if any(later <= earlier for earlier, later in zip(times, times[1:], strict=False)):
+        raise CaseError(f"must increase, but are {_listed(times)} s", "output.save_times")
+    if times and times[-1] > end * (1 + 1e-12):
+        raise CaseError(
+            f"{times[-1]:g} s is beyond the end of the run at {end:g} s; lengthen the motion or "
+            "leave it out",
+            "output.save_times",
+        )
+    stop = model.stop
+    if stop.body is not None and stop.body not in {body.name for body in model.bodies}:
+        raise CaseError(
+            f"no body is called {stop.body!r}; the bodies are "
+            + ", ".join(body.name for body in model.bodies),
+            "stop.body",
+        )
+
+
+def _listed(times: Sequence[float]) -> str:
+    return ", ".join(f"{time:g}" for time in times)

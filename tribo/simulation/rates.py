@@ -1,0 +1,144 @@
+"""From a solved contact to the wear rate of each body."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from tribo.core.arrays import Array, readonly
+from tribo.core.errors import NumericalError
+from tribo.core.fields import FRICTION_COEFFICIENT, ContactConditions, LocalConditions, WearRate
+from tribo.core.state import State
+from tribo.simulation.model import Body, Model
+
+
+@dataclass(frozen=True)
+class Moment:
+    """When rates are asked for: end of the step (s, m) and its mean speed (m/s)."""
+
+    time: float
+    distance: float
+    speed: float
+
+
+LawStates = Mapping[str, Mapping[str, Array]]
+
+
+def law_states(state: State) -> LawStates:
+    """Return the state fields of each body's law."""
+    return {name: body.law for name, body in state.bodies.items()}
+
+
+def wear_rates(
+    model: Model, pressure: Array, law_states: LawStates, moment: Moment
+) -> dict[str, WearRate]:
+    """Return the rate of every body that wears, in the contact frame.
+
+    Parameters
+    ----------
+    model : Model
+        The composed case.
+    pressure : ndarray, shape (nx, ny)
+        In Pa.
+    law_states : Mapping[str, Mapping[str, ndarray]]
+        State fields of each body's law, on the body's surface.
+    moment : Moment
+        When.
+
+    Raises
+    ------
+    NumericalError
+        If an effect or a law answers with anything but finite arrays of the
+        right shape, or a negative depth.
+    """
+    pressure = readonly(pressure)
+    fields = _effect_fields(model, pressure, moment)
+    rates = {}
+    for body in model.bodies:
+        if body.wear is None:
+            continue
+        state = {
+            name: readonly(np.broadcast_to(values, pressure.shape))
+            for name, values in law_states[body.name].items()
+        }
+        local = LocalConditions(
+            pressure=pressure,
+            speed=moment.speed,
+            material=body.material,
+            fields={name: fields[name][body.name] for name in body.wear.requires},
+            state=state,
+        )
+        rates[body.name] = _checked(body, body.wear.rate(local), pressure, moment)
+    return rates
+
+
+def _effect_fields(
+    model: Model, pressure: Array, moment: Moment
+) -> dict[str, dict[str, Array]]:
+    shape = pressure.shape
+    fields: dict[str, dict[str, Array]] = {}
+    if model.friction_coefficient is not None:
+        uniform = readonly(np.full(shape, model.friction_coefficient))
+        fields[FRICTION_COEFFICIENT.name] = {body.name: uniform for body in model.bodies}
+    for effect in model.effects:
+        answer = effect.fields(
+            ContactConditions(
+                grid=model.grid,
+                pressure=pressure,
+                speed=moment.speed,
+                time=moment.time,
+                distance=moment.distance,
+                friction_coefficient=model.friction_coefficient,
+                materials={body.name: body.material for body in model.bodies},
+                swept=frozenset(b.name for b in model.bodies if model.is_swept(b.name)),
+                fields=fields,
+            )
+        )
+        for field in effect.provides:
+            fields[field.name] = {}
+            for body in model.bodies:
+                values = answer.get(field.name, {}).get(body.name)
+                who = f"effect {effect.type_name()!r}"
+                what = f"{field.name!r} for body {body.name!r}"
+                if values is None:
+                    raise NumericalError(f"{who} gave no {what}")
+                fields[field.name][body.name] = readonly(_finite(who, what, values, shape, moment))
+    return fields
+
+
+def _checked(body: Body, rate: WearRate, pressure: Array, moment: Moment) -> WearRate:
+    assert body.wear is not None
+    who = f"wear law {body.wear.type_name()!r} of body {body.name!r}"
+    depth = _finite(who, "a depth per metre", rate.depth, pressure.shape, moment)
+    slope = _finite(who, "a derivative", rate.derivative, pressure.shape, moment)
+    if np.any(depth < 0):
+        raise NumericalError(
+            f"{who} gave a negative depth per metre ({np.min(depth):.3g}) at "
+            f"{moment.distance:.6g} m; wear only removes"
+        )
+    state = {}
+    for field in body.wear.state_fields:
+        if field.name not in rate.state:
+            raise NumericalError(f"{who} gave no rate for its state field {field.name!r}")
+        what = f"a rate of {field.name!r}"
+        state[field.name] = _finite(who, what, rate.state[field.name], pressure.shape, moment)
+    return WearRate(depth, np.maximum(slope, 0.0), state)
+
+
+def _finite(
+    who: str, what: str, values: object, shape: tuple[int, ...], moment: Moment
+) -> Array:
+    try:
+        array = np.broadcast_to(np.asarray(values, dtype=np.float64), shape)
+    except (TypeError, ValueError) as error:
+        raise NumericalError(
+            f"{who} gave {what} that is not an array of shape {shape}: {error}"
+        ) from error
+    if not np.all(np.isfinite(array)):
+        raise NumericalError(
+            f"{who} gave {what} that is not finite in {np.count_nonzero(~np.isfinite(array))} "
+            f"cells, at {moment.distance:.6g} m ({moment.time:.6g} s)"
+        )
+    return array

@@ -1,0 +1,219 @@
+"""Run a case: the loop, its observers, its result."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any
+
+from tribo.config.case import Case
+from tribo.config.load import load_case, validate_case
+from tribo.core.errors import CaseError, Interrupted, TriboWarning
+from tribo.core.state import BodyInfo, RunInfo, Snapshot, State
+from tribo.interfaces.observer import Observer, ObserverConfig
+from tribo.observers.recorder import Recorder, RecorderConfig
+from tribo.registry.registry import Registry
+from tribo.results.checkpoint import read_checkpoint
+from tribo.results.provenance import provenance
+from tribo.results.read import Result
+from tribo.simulation.compose import compose
+from tribo.simulation.describe import describe
+from tribo.simulation.interrupt import InterruptGuard
+from tribo.simulation.march import begin, march
+from tribo.simulation.measure import measure
+from tribo.simulation.model import Model
+
+
+class Simulation:
+    """A composed case, ready to run.
+
+    Parameters
+    ----------
+    case : Case, Mapping, str, Path or Model
+        A validated case, one as plain data, a TOML file, or a model made of
+        objects with `assemble`.
+    registry : Registry, optional
+        Where to look classes up; the installed plugins if left out.
+
+    Raises
+    ------
+    CaseError
+        If the case is not valid or its parts do not fit together.
+
+    Examples
+    --------
+    >>> from tribo import Simulation
+    >>> result = Simulation("examples/ball_on_disk.toml").run()  # doctest: +SKIP
+    """
+
+    def __init__(
+        self,
+        case: Case | Mapping[str, Any] | str | Path | Model,
+        registry: Registry | None = None,
+    ) -> None:
+        if isinstance(case, str | Path):
+            case = load_case(case, registry=registry)
+        elif isinstance(case, Mapping):
+            case = validate_case(case, registry=registry)
+        self.model = case if isinstance(case, Model) else compose(case, registry)
+
+    def run(
+        self,
+        output: str | Path | None = None,
+        *,
+        observers: Sequence[Observer[ObserverConfig]] = (),
+        overwrite: bool = False,
+    ) -> Result:
+        """Run from the beginning.
+
+        Parameters
+        ----------
+        output : str or Path, optional
+            Result file to write; in memory if left out.
+        observers : sequence of Observer, optional
+            Watchers besides those of the case.
+        overwrite : bool, optional
+            Whether an existing file may be replaced.
+
+        Returns
+        -------
+        Result
+            The open result.
+
+        Raises
+        ------
+        CaseError
+            If the first contact does not fit the window, a time step is not
+            stable, or the file exists.
+        NumericalError
+            If a solve or a step fails; what was saved stays.
+        Interrupted
+            If it was stopped from outside; it can be resumed.
+        """
+        path = _checked_output(output, overwrite)
+        recorder = Recorder(RecorderConfig(path=path))
+        state = begin(self.model)
+        return self._follow(state, recorder, observers, resumed=False, wall_time=0.0)
+
+    def resume(
+        self, output: str | Path, *, observers: Sequence[Observer[ObserverConfig]] = ()
+    ) -> Result:
+        """Go on with a run that was stopped, from its checkpoint.
+
+        The result has the same bits as that of an uninterrupted run.
+
+        Parameters
+        ----------
+        output : str or Path
+            The result file of the stopped run.
+        observers : sequence of Observer, optional
+            Watchers besides those of the case.
+
+        Raises
+        ------
+        CaseError
+            If the file is not that of a stopped run of this case.
+        """
+        path = Path(output)
+        with Result.open(path) as result:
+            if result.status == "done":
+                raise CaseError(f"{path} is done; there is nothing to resume")
+            if result.case != describe(self.model):
+                raise CaseError(f"{path} is the result of another case; resume that one")
+        state, wall_time = read_checkpoint(path)
+        recorder = Recorder(RecorderConfig(path=path))
+        return self._follow(state, recorder, observers, resumed=True, wall_time=wall_time)
+
+    def _follow(
+        self,
+        state: State,
+        recorder: Recorder,
+        extra: Sequence[Observer[ObserverConfig]],
+        *,
+        resumed: bool,
+        wall_time: float,
+    ) -> Result:
+        observers = (recorder, *self.model.observers, *extra)
+        snapshot = self._snapshot(state)
+        info = self._info(snapshot if resumed else None, wall_time)
+        reason = "failed"
+        try:
+            with InterruptGuard() as guard:
+                for observer in observers:
+                    observer.on_start(info)
+                if not resumed:
+                    _announce((), state.notices)
+                    _tell(observers, snapshot, save=True)
+                for accepted in march(self.model, state):
+                    _announce(snapshot.state.notices, accepted.state.notices)
+                    snapshot = self._snapshot(accepted.state)
+                    _tell(observers, snapshot, save=accepted.save)
+                    if guard.requested and not accepted.last:
+                        raise KeyboardInterrupt
+            reason = "done"
+        except KeyboardInterrupt as error:
+            reason = "interrupted"
+            where = recorder.config.path
+            raise Interrupted(
+                f"stopped at {snapshot.measures.time:.6g} s of {self.model.end_time:g} s"
+                + (f"; go on with: tribo resume {where}" if where else "")
+            ) from error
+        finally:
+            # The recorder comes last, so that nothing another one raises costs a result.
+            with ExitStack() as finishing:
+                for observer in observers:
+                    finishing.callback(observer.on_finish, snapshot, reason)
+        return recorder.result()
+
+    def _snapshot(self, state: State) -> Snapshot:
+        return Snapshot(state, measure(self.model, state))
+
+    def _info(self, resumed_from: Snapshot | None, wall_time: float) -> RunInfo:
+        model = self.model
+        return RunInfo(
+            system=model.system,
+            bodies=tuple(
+                BodyInfo(
+                    name=body.name,
+                    swept=model.is_swept(body.name),
+                    density=body.material.density,
+                    height=body.surface.height(model.grid),
+                )
+                for body in model.bodies
+            ),
+            end_time=model.end_time,
+            end_distance=model.kinematics.distance(model.end_time),
+            case=describe(model),
+            provenance=provenance(model.components()),
+            resumed_from=resumed_from,
+            wall_time=wall_time,
+        )
+
+
+def _tell(
+    observers: Sequence[Observer[ObserverConfig]], snapshot: Snapshot, *, save: bool
+) -> None:
+    for observer in observers:
+        observer.on_step(snapshot)
+        if save:
+            observer.on_save(snapshot)
+
+
+def _announce(before: Sequence[str], after: Sequence[str]) -> None:
+    for notice in after[len(before) :]:
+        warnings.warn(notice, TriboWarning, stacklevel=4)
+
+
+def _checked_output(output: str | Path | None, overwrite: bool) -> Path | None:
+    if output is None:
+        return None
+    path = Path(output)
+    if path.exists() and not overwrite:
+        raise CaseError(f"{path} exists; choose another with -o, or replace it with --force")
+    if path.is_dir():
+        raise CaseError(f"{path} is a folder; give a file name, as {path / 'result.h5'}")
+    if not path.parent.is_dir():
+        raise CaseError(f"there is no folder {path.parent}; make it first")
+    return path

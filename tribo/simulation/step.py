@@ -1,0 +1,296 @@
+"""One step of a run, as pure functions of model and state."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from tribo.config.stepping import ImplicitConfig
+from tribo.core.arrays import Array
+from tribo.core.contact import ContactProblem, ContactSolution, WearCompliance
+from tribo.core.errors import CaseError, NumericalError
+from tribo.core.fields import WearRate
+from tribo.core.measures import reaches_border
+from tribo.core.state import BodyState, State
+from tribo.simulation.model import Model
+from tribo.simulation.rates import LawStates, Moment, law_states, wear_rates
+
+SETTLE_PASSES = 200
+SETTLED = 1e-6
+
+
+class StepRejected(NumericalError):
+    """A step was too long to be carried out; a shorter one may do."""
+
+
+def first_contact(model: Model) -> State:
+    """Solve the contact before any sliding, plastic flow included.
+
+    Raises
+    ------
+    CaseError
+        If the contact does not fit the window.
+    NumericalError
+        If the solver fails.
+    """
+    solution = _solve(model, model.gap, None, None)
+    if reaches_border(solution.pressure) and not model.ends_at_window:
+        raise CaseError(
+            "the first contact reaches the edge of the window of "
+            f"{1e3 * model.grid.size[0]:.4g} × {1e3 * model.grid.size[1]:.4g} mm; make it larger "
+            "(or, for a body that ends there, set grid.ends_at_window = true)",
+            "grid.size",
+        )
+    bodies = {}
+    for body in model.bodies:
+        unworn = np.zeros_like(model.exposures[body.name].average(model.gap))
+        initial = body.wear.initial_state() if body.wear is not None else {}
+        bodies[body.name] = BodyState(
+            wear=unworn,
+            plastic=model.plastic_share[body.name] * solution.overlap,
+            law={name: np.full_like(unworn, value) for name, value in initial.items()},
+        )
+    return State(
+        time=0.0,
+        distance=0.0,
+        bodies=bodies,
+        contact=solution,
+        increment=0.0,
+        reference_depth=solution.approach,
+        solver_iterations=solution.iterations,
+    )
+
+
+def geometry(model: Model, bodies: Mapping[str, BodyState]) -> Array:
+    """Return the undeformed gap, worn and plastically deformed, shape (nx, ny), in m."""
+    gap = model.gap.copy()
+    for body in bodies.values():
+        gap += body.wear
+        gap += body.plastic
+    return gap
+
+
+def implicit_step(
+    model: Model, state: State, increment: float, time: float, *, config: ImplicitConfig
+) -> State:
+    """Return the state after one backward Euler step.
+
+    The step's wear enters the contact problem as compliance; where that is
+    not the law's exact wear (a law not linear in pressure, a field that
+    depends on it), the remainder is put into the gap and the solve repeated
+    until it is.
+
+    Parameters
+    ----------
+    model : Model
+        The composed case.
+    state : State
+        Where the step starts.
+    increment : float
+        Sliding increment, in m; positive.
+    time : float
+        Time at the end, in s.
+    config : ImplicitConfig
+        Tolerances.
+
+    Raises
+    ------
+    StepRejected
+        If the passes or a solve do not converge.
+    """
+    moment = _moment(state, increment, time)
+    base = geometry(model, state.bodies)
+    dx = model.grid.spacing[0]
+    before = law_states(state)
+    law, solution = before, state.contact
+    solves = iterations = 0
+    implied: Array | None = None
+    mismatch = np.inf
+    while True:
+        rates = wear_rates(model, solution.pressure, law, moment)
+        worn = _worn(model, rates, increment)
+        depth = sum(worn.values(), np.zeros(model.grid.cells))
+        if implied is not None:
+            mismatch = float(np.max(np.abs(depth - implied)))
+            if mismatch <= config.nonlinear_tolerance * float(np.max(depth)):
+                break
+        if solves == config.max_passes:
+            raise StepRejected(
+                f"the implicit step of {increment:.3g} m at {state.distance:.6g} m did not "
+                f"converge in {solves} passes: wear depth still off by {mismatch:.2g} m; "
+                "raise stepping.max_passes or lower stepping.pressure_tolerance"
+            )
+        compliance = _compliance(model, rates, solution.pressure, increment)
+        remainder = depth - compliance.depth(solution.pressure, dx)
+        try:
+            solution = _solve(model, base + remainder, compliance, solution)
+        except StepRejected:
+            raise
+        except NumericalError as error:
+            raise StepRejected(str(error)) from error
+        implied = remainder + compliance.depth(solution.pressure, dx)
+        law = _advanced(model, before, rates, increment)
+        solves += 1
+        iterations += solution.iterations
+    worn_state = _with_wear(state, worn, _advanced(model, before, rates, increment))
+    return _accept(model, state, worn_state, solution, moment, solves, iterations)
+
+
+def explicit_step(model: Model, state: State, increment: float, time: float) -> State:
+    """Return the state after one forward Euler step; parameters as `implicit_step`."""
+    moment = _moment(state, increment, time)
+    law = law_states(state)
+    rates = wear_rates(model, state.contact.pressure, law, moment)
+    worn_state = _with_wear(
+        state, _worn(model, rates, increment), _advanced(model, law, rates, increment)
+    )
+    solution = _solve(model, geometry(model, worn_state), None, state.contact)
+    return _accept(model, state, worn_state, solution, moment, 1, solution.iterations)
+
+
+def largest_stable_increment(model: Model, state: State, moment: Moment) -> float | None:
+    """Return the increment below which forward Euler is stable, in m.
+
+    Δs λ < 2, with λ bounded from above by the largest derivative of the wear
+    rate (local, plus that of a swept body times the part of the track that is
+    in contact) over the smallest compliance. None where the contact solver
+    does not state its smallest compliance; infinity where nothing wears.
+    """
+    smallest = model.contact.smallest_compliance(model.system)
+    if smallest is None:
+        return None
+    law = law_states(state)
+    pressure = state.contact.pressure
+    compliance = _compliance(model, wear_rates(model, pressure, law, moment), pressure, 1.0)
+    touching = pressure > 0
+    length = np.count_nonzero(touching, axis=0) * model.grid.spacing[0]
+    local = float(np.max(np.where(touching, compliance.local, 0.0)))
+    slope = local + float(np.max(compliance.swept * length))
+    return 2 * smallest / slope if slope > 0 else np.inf
+
+
+def start_sliding(model: Model, state: State) -> State:
+    """Return `state` with the first indentation drawn out along the track.
+
+    At s = 0 plastic displacement is local; once a body slides, its groove is
+    the envelope along the track, and the contact in it is solved anew.
+    """
+    return _settle(model, state) if state.distance == 0 else state
+
+
+def _moment(state: State, increment: float, time: float) -> Moment:
+    return Moment(time, state.distance + increment, increment / (time - state.time))
+
+
+def _solve(
+    model: Model, gap: Array, wear: WearCompliance | None, start: ContactSolution | None
+) -> ContactSolution:
+    return model.contact.solve(ContactProblem(model.system, gap, model.load, wear), start)
+
+
+def _worn(model: Model, rates: Mapping[str, WearRate], increment: float) -> dict[str, Array]:
+    return {
+        name: increment * model.exposures[name].average(rate.depth)
+        for name, rate in rates.items()
+    }
+
+
+def _advanced(
+    model: Model, before: LawStates, rates: Mapping[str, WearRate], increment: float
+) -> dict[str, dict[str, Array]]:
+    after = {name: dict(fields) for name, fields in before.items()}
+    for name, rate in rates.items():
+        for field, values in rate.state.items():
+            change = increment * model.exposures[name].average(values)
+            after[name][field] = before[name][field] + change
+    return after
+
+
+def _compliance(
+    model: Model, rates: Mapping[str, WearRate], pressure: Array, increment: float
+) -> WearCompliance:
+    local = np.zeros(model.grid.cells)
+    swept = np.zeros(model.grid.cells[1])
+    for name, rate in rates.items():
+        part = model.exposures[name].compliance(rate.derivative, pressure)
+        if part is not None:
+            local += increment * part.local
+            swept += increment * part.swept
+    return WearCompliance(local, swept)
+
+
+def _with_wear(
+    state: State, worn: Mapping[str, Array], law: LawStates
+) -> dict[str, BodyState]:
+    return {
+        name: replace(body, wear=body.wear + worn[name], law=law[name]) if name in worn else body
+        for name, body in state.bodies.items()
+    }
+
+
+def _accept(
+    model: Model,
+    before: State,
+    bodies: Mapping[str, BodyState],
+    solution: ContactSolution,
+    moment: Moment,
+    solves: int,
+    iterations: int,
+) -> State:
+    state = replace(
+        before,
+        time=moment.time,
+        distance=moment.distance,
+        bodies=_yielded(model, bodies, solution.overlap),
+        contact=solution,
+        steps=before.steps + 1,
+        contact_solves=before.contact_solves + solves,
+        solver_iterations=before.solver_iterations + iterations,
+    )
+    return _settle(model, state) if np.any(solution.overlap > 0) else state
+
+
+def _yielded(
+    model: Model, bodies: Mapping[str, BodyState], overlap: Array
+) -> dict[str, BodyState]:
+    if not np.any(overlap > 0):
+        return dict(bodies)
+    return {
+        name: replace(body, plastic=body.plastic + model.plastic_share[name] * overlap)
+        for name, body in bodies.items()
+    }
+
+
+def _settle(model: Model, state: State) -> State:
+    """Draw grooves out along the track and re-solve until nothing yields any more."""
+    if not any(
+        model.is_swept(name) and np.any(body.plastic > 0) for name, body in state.bodies.items()
+    ):
+        return state
+    for _ in range(SETTLE_PASSES):
+        drawn = {
+            name: replace(
+                body,
+                plastic=np.broadcast_to(
+                    model.exposures[name].envelope(body.plastic), model.grid.cells
+                ).copy(),
+            )
+            for name, body in state.bodies.items()
+        }
+        solution = _solve(model, geometry(model, drawn), None, state.contact)
+        state = replace(
+            state,
+            bodies=_yielded(model, drawn, solution.overlap),
+            contact=solution,
+            contact_solves=state.contact_solves + 1,
+            solver_iterations=state.solver_iterations + solution.iterations,
+        )
+        deepest = max(float(np.max(body.plastic)) for body in state.bodies.values())
+        if float(np.max(solution.overlap)) <= SETTLED * deepest:
+            return state
+    raise NumericalError(
+        f"the groove still yields after {SETTLE_PASSES} passes of the contact at "
+        f"{state.distance:.6g} m: the load may be more than the hardness can carry"
+    )
