@@ -1,0 +1,54 @@
+"""`tribo demo`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+
+@click.command()
+@click.option(
+    "-d",
+    "--directory",
+    type=click.Path(path_type=Path),
+    default=Path("tribo-demo"),
+    show_default=True,
+    help="Folder to write to.",
+)
+@click.option("--force", is_flag=True, help="Replace the results of an earlier demo.")
+def demo(directory: Path, force: bool) -> None:
+    """Run the paper's one-hour ball-on-disk test, print its table, draw its pictures.
+
+    \b
+    Example:
+      tribo demo -d somewhere
+    """
+    from tribo.cli.report import print_report
+    from tribo.cli.running import warnings_on_stderr
+    from tribo.config.load import load_case
+    from tribo.core.errors import CaseError
+    from tribo.observers.progress import Progress
+    from tribo.plotting.figures import save_figures
+    from tribo.simulation.run import Simulation
+    from tribo.templates import template
+
+    case, output = directory / "ball_on_disk.toml", directory / "ball_on_disk.h5"
+    if output.exists() and not force:
+        raise CaseError(f"{output} exists; choose another folder with -d, or use --force")
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+        case.write_text(template("ball_on_disk"), encoding="utf-8")
+    except OSError as error:
+        raise CaseError(f"cannot write to {directory}: {error.strerror}") from error
+    click.echo("One hour of a steel ball rubbing on a steel disk: 100 N, 25 Hz, 360 m.")
+    simulation = Simulation(load_case(case))
+    with (
+        warnings_on_stderr(),
+        simulation.run(output, observers=[Progress()], overwrite=force) as result,
+    ):
+        print_report(result)
+        pictures = save_figures(result, directory)
+    click.echo(f"Case, result and {len(pictures)} pictures are in {directory}/:")
+    for path in (case, output, *pictures):
+        click.echo(f"  {path.name}")

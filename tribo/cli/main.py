@@ -1,0 +1,105 @@
+"""The `tribo` command: its subcommands, each imported only when called."""
+
+from __future__ import annotations
+
+import os
+import sys
+from importlib import import_module
+
+import click
+
+from tribo.core.errors import TriboError
+
+COMMANDS = {
+    "demo": "Run the paper's one-hour test.",
+    "new": "Write a case file to start from.",
+    "check": "Validate a case and predict what it will do.",
+    "run": "Run a case.",
+    "resume": "Go on with a run that was stopped.",
+    "show": "Print a result as a table or as JSON.",
+    "plot": "Draw the pictures of a result.",
+    "export": "Write profiles and history as CSV.",
+    "schema": "Print the JSON Schema of a case.",
+}
+
+
+class LazyGroup(click.Group):
+    """A group that imports a subcommand's module only when it is called."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Return the commands in the order a user meets them."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """Import the command's module, and return the command in it."""
+        if cmd_name not in COMMANDS:
+            return None
+        command = getattr(import_module(f"tribo.cli.{cmd_name}"), cmd_name)
+        assert isinstance(command, click.Command)
+        return command
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Suggest the nearest command for an unknown one."""
+        from difflib import get_close_matches
+
+        try:
+            return super().resolve_command(ctx, args)
+        except click.UsageError as error:
+            near = get_close_matches(args[0], COMMANDS, n=1)
+            if near:
+                raise click.UsageError(f"{error.message} Did you mean '{near[0]}'?", ctx) from None
+            raise
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """List the commands without importing any."""
+        with formatter.section("Commands"):
+            formatter.write_dl(list(COMMANDS.items()))
+
+
+@click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(package_name="tribo")
+def tribo() -> None:
+    """Simulate wear: contact mechanics, wear laws and kinematics as plugins.
+
+    \b
+    Example:
+      tribo demo
+      tribo new ball_on_disk my.toml
+      tribo check my.toml
+      tribo run my.toml
+
+    Exit codes: 0 done, 2 bad input, 3 numerical failure, 130 interrupted.
+    """
+
+
+def main() -> None:
+    """Run the command; every expected error becomes one message and an exit code."""
+    try:
+        tribo.main(standalone_mode=False)
+    except click.exceptions.Abort:
+        _fail("interrupted", 130)
+    except click.ClickException as error:
+        error.show()
+        sys.exit(error.exit_code)
+    except TriboError as error:
+        _fail(str(error), error.exit_code)
+    except BrokenPipeError:
+        # The reader of a pipe, such as `head`, has seen enough.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(1)
+    except Exception as error:
+        if os.environ.get("TRIBO_DEBUG"):
+            raise
+        _fail(
+            f"internal error: {type(error).__name__}: {error}\n"
+            "This is a fault in tribo or in a plugin; TRIBO_DEBUG=1 shows where.",
+            1,
+        )
+
+
+def _fail(message: str, code: int) -> None:
+    click.secho("error: ", fg="red", bold=True, err=True, nl=False)
+    click.echo(message, err=True)
+    sys.exit(code)

@@ -1,0 +1,37 @@
+"""`tribo new`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from tribo.templates import TEMPLATES, template
+
+
+@click.command()
+@click.argument("name", metavar="TEMPLATE", type=click.Choice(list(TEMPLATES)))
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option("--force", is_flag=True, help="Replace an existing file.")
+def new(name: str, file: Path, force: bool) -> None:
+    """Write a commented case that runs, from TEMPLATE to FILE.
+
+    \b
+    Templates:
+      ball_on_disk   the paper's one-hour test
+      weighed_split  the same with the loss that was weighed, 10:1
+      pin_on_disk    a ball on a turning disk, as in ASTM G99
+
+    \b
+    Example:
+      tribo new ball_on_disk my.toml
+    """
+    from tribo.core.errors import CaseError
+
+    if file.exists() and not force:
+        raise CaseError(f"{file} exists; choose another name, or replace it with --force")
+    try:
+        file.write_text(template(name), encoding="utf-8")
+    except OSError as error:
+        raise CaseError(f"cannot write {file}: {error.strerror}") from error
+    click.echo(f"Wrote {file}; look it over, then: tribo check {file}")

@@ -1,0 +1,31 @@
+"""`tribo resume`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+
+@click.command()
+@click.argument("output", type=click.Path(path_type=Path))
+def resume(output: Path) -> None:
+    """Go on with the stopped run whose result file is OUTPUT.
+
+    The result has the same bits as that of a run that was never stopped.
+
+    \b
+    Example:
+      tribo resume my.h5
+    """
+    from tribo.cli.report import print_report
+    from tribo.cli.running import warnings_on_stderr
+    from tribo.observers.progress import Progress
+    from tribo.results.read import Result
+    from tribo.simulation.run import Simulation
+
+    with Result.open(output) as stopped:
+        case = stopped.case
+    simulation = Simulation(case)
+    with warnings_on_stderr(), simulation.resume(output, observers=[Progress()]) as result:
+        print_report(result)

@@ -1,0 +1,38 @@
+"""`tribo run`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+
+@click.command()
+@click.argument("case", type=click.Path(path_type=Path))
+@click.option("-o", "--output", type=click.Path(path_type=Path), help="Result file; CASE.h5.")
+@click.option("--set", "overrides", multiple=True, metavar="PATH=VALUE", help="Change a value.")
+@click.option("--force", is_flag=True, help="Replace an existing result.")
+def run(case: Path, output: Path | None, overrides: tuple[str, ...], force: bool) -> None:
+    """Run CASE, a TOML file, and print what a lab would report.
+
+    \b
+    Example:
+      tribo run my.toml --set grid.cells=128 --set contact.type=winkler -o winkler.h5
+
+    Ctrl-C stops cleanly; 'tribo resume' goes on. Exit codes: 0 done, 2 bad
+    input, 3 numerical failure, 130 interrupted.
+    """
+    from tribo.cli.report import print_report
+    from tribo.cli.running import warnings_on_stderr
+    from tribo.config.load import load_case
+    from tribo.observers.progress import Progress
+    from tribo.simulation.run import Simulation
+
+    path = output or case.with_suffix(".h5")
+    simulation = Simulation(load_case(case, overrides=overrides))
+    with (
+        warnings_on_stderr(),
+        simulation.run(path, observers=[Progress()], overwrite=force) as result,
+    ):
+        print_report(result)
+    click.echo(f"Saved {path}; see it with: tribo plot {path}")

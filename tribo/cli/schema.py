@@ -1,0 +1,21 @@
+"""`tribo schema`."""
+
+from __future__ import annotations
+
+import json
+
+import click
+
+
+@click.command()
+def schema() -> None:
+    """Print the JSON Schema of a case, installed plugins included.
+
+    \b
+    Example:
+      tribo schema > tribo.schema.json
+    Then begin a case with '#:schema tribo.schema.json' for help in an editor.
+    """
+    from tribo.config.case import Case
+
+    click.echo(json.dumps(Case.model_json_schema(), indent=2))

@@ -1,0 +1,30 @@
+"""`tribo show`."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import click
+
+
+@click.command()
+@click.argument("output", type=click.Path(path_type=Path))
+@click.option("--json", "as_json", is_flag=True, help="One JSON object, in SI units.")
+def show(output: Path, as_json: bool) -> None:
+    """Print the result file OUTPUT: every save, and what a lab would report.
+
+    \b
+    Example:
+      tribo show my.h5
+      tribo show my.h5 --json
+    """
+    from tribo.results.read import Result
+
+    with Result.open(output) as result:
+        if as_json:
+            click.echo(json.dumps(result.summary(), indent=2))
+            return
+        from tribo.cli.report import print_report
+
+        print_report(result)
