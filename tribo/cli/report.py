@@ -7,13 +7,13 @@ import math
 from rich.console import Console
 from rich.table import Table
 
+from tribo.analysis.first_contact import hertz_contact
 from tribo.analysis.lab import (
     in_mm3_per_newton_metre,
     mass_from_volume,
     scar,
     specific_wear_rate,
 )
-from tribo.analysis.first_contact import hertz_contact
 from tribo.results.read import Result
 
 
@@ -82,8 +82,8 @@ def _first_contact(result: Result) -> str:
     )
     if hertz.yield_ratio is not None:
         line += (
-            f"; {100 * hertz.yield_ratio:.0f} % of the pressure at which the softer body first "
-            "yields beneath the surface (1.6 H/2.8)"
+            f"; {100 * hertz.yield_ratio:.0f} % of the pressure at which the softer body "
+            "first yields beneath the surface (1.6 H/2.8)"
         )
     return line + "."
 
@@ -110,13 +110,17 @@ def _bodies(result: Result) -> Table:
         table.add_column(f"{name} (track)" if body.swept else name, justify="right")
         worn = last["bodies"][name]
         volume = worn["wear_volume_m3"]
-        rate = specific_wear_rate(volume, result.system.load, distance) if distance > 0 else math.nan
+        rate = (
+            specific_wear_rate(volume, result.system.load, distance) if distance > 0 else math.nan
+        )
         marks = scar(body.wear_depth[-1], result.grid)
         for row, cell in zip(
             rows.values(),
             (
                 f"{1e9 * volume:.3g}",
-                "-" if body.density is None else f"{1e6 * mass_from_volume(volume, body.density):.3g}",
+                "-"
+                if body.density is None
+                else f"{1e6 * mass_from_volume(volume, body.density):.3g}",
                 f"{in_mm3_per_newton_metre(rate):.3g}" if distance > 0 else "-",
                 "whole track" if body.swept else f"{1e3 * marks.along:.3f}",
                 f"{1e3 * marks.across:.3f}",

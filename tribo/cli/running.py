@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any
+from typing import TextIO
 
 import click
 
@@ -16,7 +16,14 @@ from tribo.core.errors import TriboWarning
 def warnings_on_stderr() -> Iterator[None]:
     """Print a run's warnings as one line each."""
 
-    def show(message: Warning | str, category: type[Warning], *_: Any) -> None:
+    def show(
+        message: Warning | str,
+        category: type[Warning],
+        filename: str,
+        lineno: int,
+        file: TextIO | None = None,
+        line: str | None = None,
+    ) -> None:
         if issubclass(category, TriboWarning):
             click.secho("warning: ", fg="yellow", bold=True, err=True, nl=False)
             click.echo(str(message), err=True)

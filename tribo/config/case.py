@@ -32,7 +32,7 @@ class GridConfig(Table):
     cells: tuple[Cells, Cells]
     """Number of cells along x and y."""
     ends_at_window: bool = False
-    """Whether a body ends at the window's edge, as a flat pin does, so that contact may reach it."""
+    """Whether a body ends at the window's edge, as a flat pin does: contact may then reach it."""
 
     @field_validator("size", "cells", mode="before")
     @classmethod

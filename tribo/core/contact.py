@@ -36,7 +36,8 @@ class WearCompliance:
 
     def depth(self, pressure: Array, dx: float) -> Array:
         """Return the depth worn under `pressure` (nx, ny) on cells `dx` long, in m."""
-        return self.local * pressure + self.swept * (dx * np.sum(pressure, axis=0))
+        depth: Array = self.local * pressure + self.swept * (dx * np.sum(pressure, axis=0))
+        return depth
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from types import MappingProxyType
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
@@ -36,8 +35,6 @@ FRICTION_COEFFICIENT = Field(
     "friction_coefficient", "1", "Coefficient of friction of the case, uniform."
 )
 
-NO_FIELDS: Mapping[str, Array] = MappingProxyType({})
-
 
 @dataclass(frozen=True)
 class LocalConditions:
@@ -63,8 +60,8 @@ class LocalConditions:
     pressure: Array
     speed: float
     material: Material
-    fields: Mapping[str, Array] = NO_FIELDS
-    state: Mapping[str, Array] = NO_FIELDS
+    fields: Mapping[str, Array] = field(default_factory=dict)
+    state: Mapping[str, Array] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -83,7 +80,7 @@ class WearRate:
 
     depth: Array
     derivative: Array
-    state: Mapping[str, Array] = NO_FIELDS
+    state: Mapping[str, Array] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

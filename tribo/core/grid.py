@@ -56,4 +56,4 @@ class Grid:
 
 def _centres(count: int, step: float) -> Array:
     # Symmetric to the last bit, so that symmetric cases stay symmetric.
-    return (np.arange(count) - 0.5 * (count - 1)) * step
+    return np.asarray((np.arange(count) - 0.5 * (count - 1)) * step, dtype=np.float64)

@@ -52,10 +52,11 @@ def centre(field: Array) -> float:
 
 def half_widths(pressure: Array, grid: Grid) -> tuple[float, float]:
     """Half the extent of {p > 0} along x and along y, in m."""
-    touching = pressure > 0
+    touching: Mask = pressure > 0
+    along, across = np.any(touching, axis=1), np.any(touching, axis=0)
     return (
-        0.5 * _extent(touching.any(axis=1)) * grid.spacing[0],
-        0.5 * _extent(touching.any(axis=0)) * grid.spacing[1],
+        0.5 * _extent(np.asarray(along)) * grid.spacing[0],
+        0.5 * _extent(np.asarray(across)) * grid.spacing[1],
     )
 
 

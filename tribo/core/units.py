@@ -15,6 +15,7 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from tribo.core.dimensions import Dimension, scale
 from tribo.core.errors import CaseError
+from tribo.core.words import shown
 
 _CELSIUS = ("degC", "°C")
 _ZERO_CELSIUS = Fraction("273.15")
@@ -105,6 +106,11 @@ class Quantity:
     below: float | None = None
     at_most: float | None = None
 
+    @property
+    def needed(self) -> str:
+        """What is needed, as "a length [m] is needed, as in '5 mm'"."""
+        return _needed(self.unit)
+
     def read(self, value: object) -> float:
         """Return `value` in SI.
 
@@ -114,17 +120,17 @@ class Quantity:
             If `value` is not such a quantity or is out of bounds.
         """
         if isinstance(value, str):
-            number, shown = parse(value, self.unit), value.strip()
+            number, given = parse(value, self.unit), value.strip()
         elif isinstance(value, Real) and not isinstance(value, bool):
             try:
                 number = float(value)
             except OverflowError:
                 number = math.inf
-            shown = f"{number:g}" if self.unit == "1" else f"{number:g} {self.unit}"
+            given = f"{number:g}" if self.unit == "1" else f"{number:g} {self.unit}"
         else:
-            raise CaseError(f"{_shown(value)} is not a quantity; {_needed(self.unit)}")
+            raise CaseError(f"{shown(value)} is not a quantity; {self.needed}")
         if not math.isfinite(number):
-            raise CaseError(f"{shown} is not finite; {_needed(self.unit)}")
+            raise CaseError(f"{given} is not finite; {self.needed}")
         for words, bound, holds in (
             ("greater than", self.above, float.__gt__),
             ("at least", self.at_least, float.__ge__),
@@ -133,7 +139,7 @@ class Quantity:
         ):
             if bound is not None and not holds(number, float(bound)):
                 unit = "" if self.unit == "1" or (bound == 0 and self.unit != "K") else self.unit
-                raise CaseError(f"{shown}: must be {words} {bound:g} {unit}".rstrip())
+                raise CaseError(f"{given}: must be {words} {bound:g} {unit}".rstrip())
         return number
 
     def __get_pydantic_core_schema__(
@@ -201,11 +207,3 @@ def _example(unit: str) -> str:
 
 def _needed(unit: str) -> str:
     return f"{_called(scale(unit)[1])} is needed, as in '{_example(unit)}'"
-
-
-def _shown(value: object) -> str:
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, dict | list):
-        return "a table" if isinstance(value, dict) else "a list"
-    return "nothing" if value is None else repr(value)[:_LONGEST]

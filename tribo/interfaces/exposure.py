@@ -127,11 +127,12 @@ class Track(Exposure):
 
     def average(self, rate: Array) -> Array:
         """Return the track average, shape (1, ny)."""
-        return np.sum(rate, axis=0, keepdims=True) * (self._grid.spacing[0] / self._length)
+        line = np.sum(rate, axis=0, keepdims=True)
+        return np.asarray(line * (self._grid.spacing[0] / self._length))
 
     def envelope(self, field: Array) -> Array:
         """Return the maximum along the track, shape (1, ny)."""
-        return np.max(field, axis=0, keepdims=True)
+        return np.asarray(np.max(field, axis=0, keepdims=True))
 
     def volume(self, depth: Array) -> float:
         """Return the track length times the area of its cross-section, in m³."""

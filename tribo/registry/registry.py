@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
-from difflib import get_close_matches
 from functools import cache
 from typing import Any
 
 from tribo.core.errors import CaseError
+from tribo.core.words import did_you_mean
 from tribo.interfaces.component import Component
 from tribo.registry.kinds import KINDS
 from tribo.registry.loader import Source, builtin, given, installed, load
@@ -104,8 +104,8 @@ class Registry:
         return "; ".join(listed) or "none"
 
     def _instead(self, kind: str, name: str) -> str:
-        close = get_close_matches(name, self.names(kind), n=1)
-        text = f"did you mean {close[0]!r}? " if close else ""
+        close = did_you_mean(name, self.names(kind))
+        text = f"did you mean {close!r}? " if close else ""
         text += f"Installed: {self.choices(kind)}"
         for plugin in self.plugins:
             if plugin.status in ("broken", "incompatible", "disabled"):

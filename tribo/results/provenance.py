@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import platform
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from importlib.metadata import PackageNotFoundError, packages_distributions, version
 
 from tribo.interfaces.component import Component, ComponentConfig
@@ -31,7 +31,7 @@ def provenance(
 
 
 def _origin(
-    component: Component[ComponentConfig], owners: dict[str, list[str]]
+    component: Component[ComponentConfig], owners: Mapping[str, list[str]]
 ) -> dict[str, str]:
     cls = type(component)
     package = cls.__module__.split(".")[0]

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from tribo.config.case import Case
+from tribo.interfaces.component import ComponentConfig
 from tribo.registry.registry import Registry, default_registry
 from tribo.simulation.model import Body, Model, assemble
 
@@ -24,7 +27,7 @@ def compose(case: Case, registry: Registry | None = None) -> Model:
     """
     known = registry or default_registry()
 
-    def make(kind, config):
+    def make(kind: str, config: ComponentConfig) -> Any:
         return known.lookup(kind, config.type)(config)
 
     bodies = [

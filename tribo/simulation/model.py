@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -263,9 +264,7 @@ def _in_order(
         if ready is None:
             first = waiting[0]
             missing = sorted(set(first.requires) - known)
-            raise CaseError(
-                _missing(f"effect {first.type_name()!r}", missing, waiting), "effects"
-            )
+            raise CaseError(_missing(f"effect {first.type_name()!r}", missing, waiting), "effects")
         waiting.remove(ready)
         ordered.append(ready)
         for field in ready.provides:
@@ -308,7 +307,7 @@ def _missing(who: str, missing: Sequence[str], waiting: Sequence[Effect[EffectCo
 def _check_ends(model: Model) -> None:
     end = model.end_time
     times = model.save_times
-    if any(later <= earlier for earlier, later in zip(times, times[1:], strict=False)):
+    if any(later <= earlier for earlier, later in pairwise(times)):
         raise CaseError(f"must increase, but are {_listed(times)} s", "output.save_times")
     if times and times[-1] > end * (1 + 1e-12):
         raise CaseError(

@@ -74,9 +74,7 @@ def wear_rates(
     return rates
 
 
-def _effect_fields(
-    model: Model, pressure: Array, moment: Moment
-) -> dict[str, dict[str, Array]]:
+def _effect_fields(model: Model, pressure: Array, moment: Moment) -> dict[str, dict[str, Array]]:
     shape = pressure.shape
     fields: dict[str, dict[str, Array]] = {}
     if model.friction_coefficient is not None:
@@ -127,9 +125,7 @@ def _checked(body: Body, rate: WearRate, pressure: Array, moment: Moment) -> Wea
     return WearRate(depth, np.maximum(slope, 0.0), state)
 
 
-def _finite(
-    who: str, what: str, values: object, shape: tuple[int, ...], moment: Moment
-) -> Array:
+def _finite(who: str, what: str, values: object, shape: tuple[int, ...], moment: Moment) -> Array:
     try:
         array = np.broadcast_to(np.asarray(values, dtype=np.float64), shape)
     except (TypeError, ValueError) as error:

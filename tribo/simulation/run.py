@@ -53,11 +53,7 @@ class Simulation:
         case: Case | Mapping[str, Any] | str | Path | Model,
         registry: Registry | None = None,
     ) -> None:
-        if isinstance(case, str | Path):
-            case = load_case(case, registry=registry)
-        elif isinstance(case, Mapping):
-            case = validate_case(case, registry=registry)
-        self.model = case if isinstance(case, Model) else compose(case, registry)
+        self.model = _model(case, registry)
 
     def run(
         self,
@@ -192,9 +188,17 @@ class Simulation:
         )
 
 
-def _tell(
-    observers: Sequence[Observer[ObserverConfig]], snapshot: Snapshot, *, save: bool
-) -> None:
+def _model(case: Case | Mapping[str, Any] | str | Path | Model, registry: Registry | None) -> Model:
+    if isinstance(case, Model):
+        return case
+    if isinstance(case, str | Path):
+        case = load_case(case, registry=registry)
+    elif not isinstance(case, Case):
+        case = validate_case(case, registry=registry)
+    return compose(case, registry)
+
+
+def _tell(observers: Sequence[Observer[ObserverConfig]], snapshot: Snapshot, *, save: bool) -> None:
     for observer in observers:
         observer.on_step(snapshot)
         if save:

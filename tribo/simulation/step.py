@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -192,8 +192,7 @@ def _solve(
 
 def _worn(model: Model, rates: Mapping[str, WearRate], increment: float) -> dict[str, Array]:
     return {
-        name: increment * model.exposures[name].average(rate.depth)
-        for name, rate in rates.items()
+        name: increment * model.exposures[name].average(rate.depth) for name, rate in rates.items()
     }
 
 
@@ -221,9 +220,7 @@ def _compliance(
     return WearCompliance(local, swept)
 
 
-def _with_wear(
-    state: State, worn: Mapping[str, Array], law: LawStates
-) -> dict[str, BodyState]:
+def _with_wear(state: State, worn: Mapping[str, Array], law: LawStates) -> dict[str, BodyState]:
     return {
         name: replace(body, wear=body.wear + worn[name], law=law[name]) if name in worn else body
         for name, body in state.bodies.items()
@@ -252,9 +249,7 @@ def _accept(
     return _settle(model, state) if np.any(solution.overlap > 0) else state
 
 
-def _yielded(
-    model: Model, bodies: Mapping[str, BodyState], overlap: Array
-) -> dict[str, BodyState]:
+def _yielded(model: Model, bodies: Mapping[str, BodyState], overlap: Array) -> dict[str, BodyState]:
     if not np.any(overlap > 0):
         return dict(bodies)
     return {

@@ -1,0 +1,28 @@
+"""Values and names as they appear in messages."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from difflib import get_close_matches
+
+_LONGEST = 60
+
+
+def shown(value: object) -> str:
+    """Return `value` as a short text for a message, in the words of a case file."""
+    if value is None:
+        return "nothing"
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, Mapping):
+        return "a table"
+    if isinstance(value, list | tuple):
+        return "a list"
+    text = repr(value)
+    return text if len(text) <= _LONGEST else text[: _LONGEST - 1] + "…"
+
+
+def did_you_mean(name: str, known: Iterable[str]) -> str | None:
+    """Return the one of `known` that `name` was probably meant to be, if any."""
+    close = get_close_matches(name, list(known), n=1)
+    return close[0] if close else None
