@@ -1,0 +1,50 @@
+import numpy as np
+import pytest
+
+from tribo.core.errors import CaseError
+from tribo.core.grid import Grid
+from tribo.surfaces.cylinder import Cylinder, CylinderConfig
+from tribo.surfaces.flat import Flat, FlatConfig
+from tribo.surfaces.paraboloid import Paraboloid, ParaboloidConfig
+from tribo.surfaces.sphere import Sphere, SphereConfig
+
+GRID = Grid((2e-3, 3e-3), (40, 61))
+SURFACES = [
+    Sphere(SphereConfig(radius="5 mm")),
+    Paraboloid(ParaboloidConfig(radius_x="5 mm", radius_y="10 mm")),
+    Cylinder(CylinderConfig(radius="5 mm")),
+    Cylinder(CylinderConfig(radius="5 mm", axis="x")),
+    Flat(FlatConfig()),
+]
+
+
+@pytest.mark.parametrize("surface", SURFACES, ids=lambda s: type(s).__name__)
+def test_heights_are_outward_and_have_the_stated_curvature(surface):
+    grid = Grid((2e-5, 2e-5), (3, 3))
+    z = surface.height(grid)
+    dx, dy = grid.spacing
+    cx = -(z[2, 1] - 2 * z[1, 1] + z[0, 1]) / dx**2
+    cy = -(z[1, 2] - 2 * z[1, 1] + z[1, 0]) / dy**2
+    assert (cx, cy) == pytest.approx(surface.curvature, rel=1e-4, abs=1e-9)
+
+
+@pytest.mark.parametrize("surface", SURFACES, ids=lambda s: type(s).__name__)
+def test_heights_are_symmetric_to_the_last_bit(surface):
+    z = surface.height(GRID)
+    assert z.shape == GRID.cells
+    np.testing.assert_array_equal(z, z[::-1])
+    np.testing.assert_array_equal(z, z[:, ::-1])
+
+
+def test_a_sphere_is_the_exact_cap():
+    z = Sphere(SphereConfig(radius="5 mm")).height(GRID)
+    x, y = GRID.mesh
+    np.testing.assert_allclose((z + 5e-3) ** 2 + x**2 + y**2, 25e-6, rtol=1e-13)
+
+
+@pytest.mark.parametrize(
+    "surface", [Sphere(SphereConfig(radius="1 mm")), Cylinder(CylinderConfig(radius="0.9 mm"))]
+)
+def test_a_body_smaller_than_the_window_is_refused(surface):
+    with pytest.raises(CaseError, match=r"does not reach over .*window.* make grid\.size smaller"):
+        surface.height(GRID)

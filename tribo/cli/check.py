@@ -1,0 +1,74 @@
+"""`tribo check`."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+from pathlib import Path
+
+import click
+
+from tribo.simulation.model import Model
+from tribo.simulation.predict import Prediction
+
+
+@click.command()
+@click.argument("case", type=click.Path(path_type=Path))
+@click.option("--set", "overrides", multiple=True, metavar="PATH=VALUE", help="Change a value.")
+@click.option("--json", "as_json", is_flag=True, help="One JSON object, in SI units.")
+def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
+    """Validate CASE and predict its first contact, its final scar, and its size.
+
+    Nothing is written. The scar is estimated on a coarse grid.
+
+    \b
+    Example:
+      tribo check my.toml
+    """
+    from tribo.config.load import load_case
+    from tribo.simulation.predict import predict
+    from tribo.simulation.run import Simulation
+
+    model = Simulation(load_case(case, overrides=overrides)).model
+    prediction = predict(model)
+    if as_json:
+        click.echo(json.dumps(asdict(prediction), indent=2))
+        return
+    click.echo(f"{case} is valid.")
+    for name, value in _lines(model, prediction):
+        click.echo(f"  {name:<26}{value}")
+
+
+def _lines(model: Model, prediction: Prediction) -> list[tuple[str, str]]:
+    lines = []
+    hertz = prediction.hertz
+    if hertz is None or prediction.cells_across is None:
+        lines.append(("first contact", "no Hertz solution for these surfaces"))
+    else:
+        a, b = hertz.half_width_x, hertz.half_width_y
+        lines.append(("Hertz half-widths", f"{1e6 * a:.4g} × {1e6 * b:.4g} µm along × across"))
+        lines.append(("Hertz peak pressure p0", f"{1e-6 * hertz.peak_pressure:.1f} MPa"))
+        if model.system.cap is not None:
+            ratio = hertz.peak_pressure / model.system.cap
+            verdict = "yields from the start" if ratio > 1 else "elastic at first"
+            lines.append(("p0/H", f"{ratio:.3f}: {verdict}"))
+        x, y = prediction.cells_across
+        few = "" if min(x, y) >= 10 else "; few: raise grid.cells"
+        lines.append(("cells across the contact", f"{x:.0f} × {y:.0f}{few}"))
+    last = prediction.last
+    if last is None:
+        lines.append(("final scar", "not estimated for this contact type"))
+    else:
+        size = f"{2e3 * last.half_width_x:.2f} × {2e3 * last.half_width_y:.2f} mm"
+        lines.append(("contact at the end, about", size))
+        window = " × ".join(f"{1e3 * edge:.4g}" for edge in model.grid.size)
+        verdict = "holds it" if prediction.window_holds else "TOO SMALL: make grid.size larger"
+        lines.append((f"window of {window} mm", verdict))
+        for name, body in last.bodies.items():
+            depth = f"{1e6 * body.max_wear_depth:.3g} µm, {1e9 * body.wear_volume:.3g} mm³"
+            lines.append((f"wear of {name}, about", depth))
+    if prediction.limitation is not None:
+        lines.append(("note", prediction.limitation))
+    lines.append(("memory, at most", f"{prediction.memory / 2**20:.0f} MiB"))
+    lines.append(("result file, at most", f"{prediction.file_size / 2**20:.1f} MiB"))
+    return lines
