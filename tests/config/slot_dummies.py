@@ -1,0 +1,129 @@
+"""Small components, and a model with slots for them."""
+
+from __future__ import annotations
+
+from types import ModuleType
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+
+from tribo.config.slot import Slot
+from tribo.core.arrays import Array
+from tribo.core.fields import LocalConditions, WearRate
+from tribo.core.grid import Grid
+from tribo.core.material import Material
+from tribo.core.units import Quantity
+from tribo.interfaces.observer import Observer, ObserverConfig
+from tribo.interfaces.surface import Surface, SurfaceConfig
+from tribo.interfaces.wear import WearLaw, WearLawConfig
+from tribo.registry.hookspecs import hookimpl
+from tribo.registry.loader import given
+from tribo.registry.registry import Registry
+
+
+class LinearConfig(WearLawConfig):
+    type: Literal["linear"] = "linear"
+    k: Annotated[float, Quantity("1/Pa", above=0)]
+    """Coefficient."""
+    passes: int = 3
+
+
+class Linear(WearLaw[LinearConfig]):
+    Config = LinearConfig
+
+    def rate(self, local: LocalConditions) -> WearRate:
+        raise NotImplementedError
+
+
+class NoneConfig(WearLawConfig):
+    type: Literal["none"] = "none"
+
+
+class NoWear(WearLaw[NoneConfig]):
+    Config = NoneConfig
+
+    def rate(self, local: LocalConditions) -> WearRate:
+        raise NotImplementedError
+
+
+class BlendConfig(WearLawConfig):
+    """A law made of laws: a slot within a slot."""
+
+    type: Literal["blend"] = "blend"
+    parts: tuple[Annotated[WearLawConfig, Slot("wear_law")], ...]
+    weight: float | Literal["auto"] = "auto"
+
+    @model_validator(mode="after")
+    def _not_empty(self) -> BlendConfig:
+        if not self.parts:
+            raise ValueError("give at least one part")
+        return self
+
+
+class Blend(WearLaw[BlendConfig]):
+    Config = BlendConfig
+
+    def rate(self, local: LocalConditions) -> WearRate:
+        raise NotImplementedError
+
+
+class PlaneConfig(SurfaceConfig):
+    type: Literal["plane"] = "plane"
+
+
+class Plane(Surface[PlaneConfig]):
+    Config = PlaneConfig
+
+    def height(self, grid: Grid) -> Array:
+        raise NotImplementedError
+
+
+class CounterConfig(ObserverConfig):
+    type: Literal["counter"] = "counter"
+    every: int = Field(default=1, ge=1)
+
+
+class Counter(Observer[CounterConfig]):
+    Config = CounterConfig
+
+
+def registry(*laws: type[WearLaw[WearLawConfig]]) -> Registry:
+    """The registry of these dummies, with other wear laws if any are given."""
+    module = ModuleType("dummies")
+    module.__version__ = "1.0"  # type: ignore[attr-defined]
+    offers = {
+        "tribo_wear_laws": laws or (Linear, NoWear, Blend),
+        "tribo_surfaces": (Plane,),
+        "tribo_observers": (Counter,),
+    }
+    for hook, classes in offers.items():
+        setattr(module, hook, hookimpl(specname=hook)(lambda classes=classes: classes))
+    return Registry([given(module)])
+
+
+class Frozen(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class Body(Frozen):
+    material: Material
+    surface: Annotated[SurfaceConfig, Slot("surface")] = PlaneConfig()
+    wear: Annotated[WearLawConfig, Slot("wear_law")] | None = None
+
+
+class Slow(Frozen):
+    type: Literal["slow"] = "slow"
+    step: Annotated[float, Quantity("s", above=0)]
+
+
+class Fast(Frozen):
+    type: Literal["fast"] = "fast"
+    limit: int = 3
+
+
+class Rig(Frozen):
+    bodies: dict[str, Body]
+    cells: tuple[int, int] = (8, 8)
+    verbose: bool = False
+    stepping: Annotated[Slow | Fast, Field(discriminator="type")] = Fast()
+    observers: tuple[Annotated[ObserverConfig, Slot("observer")], ...] = ()

@@ -1,0 +1,267 @@
+"""A slot takes any registered component's configuration, and gives it back whole."""
+
+from __future__ import annotations
+
+import json
+import os
+import pickle
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import pytest
+from pydantic import ValidationError
+
+from tribo.config import schema as schema_module
+from tribo.config import slot
+from tribo.config.schema import json_schema
+from tribo.registry.registry import Registry
+
+MATERIAL = {"young": "207 GPa", "poisson": 0.3}
+DATA = {
+    "bodies": {
+        "ball": {"material": MATERIAL, "wear": {"type": "linear", "k": "1e-15 1/Pa"}},
+        "disk": {
+            "material": MATERIAL,
+            "wear": {"type": "blend", "parts": ["none", {"type": "linear", "k": 1e-15}]},
+        },
+    },
+    "observers": ["counter", {"type": "counter", "every": 2}],
+}
+
+
+@pytest.fixture
+def validate(dummies: Any) -> Callable[..., Any]:
+    context = {"registry": dummies.registry()}
+    return lambda data, model=dummies.Rig: model.model_validate(data, context=context)
+
+
+@pytest.fixture
+def error(validate: Callable[..., Any]) -> Callable[..., Any]:
+    def the_error(wear: object) -> tuple[tuple[Any, ...], str]:
+        with pytest.raises(ValidationError) as caught:
+            validate({"bodies": {"ball": {"material": MATERIAL, "wear": wear}}})
+        (found,) = caught.value.errors()
+        return found["loc"][3:], found["msg"]
+
+    return the_error
+
+
+def test_a_table_becomes_the_configuration_its_type_names(dummies: Any, validate: Any) -> None:
+    rig = validate(DATA)
+    assert rig.bodies["ball"].wear == dummies.LinearConfig(k=1e-15)
+    assert rig.bodies["disk"].wear.parts == (dummies.NoneConfig(), dummies.LinearConfig(k=1e-15))
+    assert rig.bodies["ball"].surface == dummies.PlaneConfig()
+    assert rig.observers == (dummies.CounterConfig(), dummies.CounterConfig(every=2))
+
+
+def test_an_instance_passes_through(dummies: Any) -> None:
+    wear = dummies.LinearConfig(k=1e-15)
+    assert dummies.Body(material=MATERIAL, wear=wear).wear is wear
+
+
+def test_the_input_is_left_unchanged(validate: Any) -> None:
+    before = json.dumps(DATA)
+    validate(DATA)
+    assert json.dumps(DATA) == before
+
+
+INSTALLED = "blend, linear, none (dummies 1.0)"
+
+
+@pytest.mark.parametrize(
+    ("wear", "where", "message"),
+    [
+        ({"k": 1}, ("type",), f"type is missing; installed: {INSTALLED}"),
+        (
+            {"type": "liner"},
+            ("type",),
+            f"unknown wear law 'liner'; did you mean 'linear'? Installed: {INSTALLED}",
+        ),
+        ("zzz", ("type",), f"unknown wear law 'zzz'; Installed: {INSTALLED}"),
+        ({"type": "{x}"}, ("type",), f"unknown wear law '{{x}}'; Installed: {INSTALLED}"),
+        ({"type": ["linear"]}, ("type",), f"type must be text; installed: {INSTALLED}"),
+        ({"type": None}, ("type",), f"type must be text; installed: {INSTALLED}"),
+        (3, (), f"a wear law is needed, as a table with its type; installed: {INSTALLED}"),
+        ({"type": "linear", "k": -1}, ("k",), "-1 1/Pa: must be greater than 0"),
+        ({"type": "linear", "k": 1, "z": 1}, ("z",), "Extra inputs are not permitted"),
+        (
+            {"type": "blend", "parts": ["none", {"type": "linear", "k": "1 mm"}]},
+            ("parts", 1, "k"),
+            "'1 mm' is a length [m]; an inverse pressure [1/Pa] is needed, as in '1e-6 mm^3/(N m)'",
+        ),
+        (
+            {"type": "blend", "parts": [{}]},
+            ("parts", 0, "type"),
+            f"type is missing; installed: {INSTALLED}",
+        ),
+    ],
+)
+def test_a_mistake_is_reported_at_its_exact_place(
+    error: Any, wear: object, where: tuple[Any, ...], message: str
+) -> None:
+    assert error(wear) == (where, message)
+
+
+def test_several_mistakes_arrive_together(validate: Any) -> None:
+    with pytest.raises(ValidationError) as caught:
+        validate(
+            {
+                "bodies": {
+                    "ball": {"material": MATERIAL, "wear": {"type": "linear", "k": 0, "z": 0}}
+                },
+                "observers": [
+                    {"type": "counter"},
+                    {"type": "conter"},
+                    {"type": "counter", "every": 0},
+                ],
+            }
+        )
+    assert [e["loc"] for e in caught.value.errors()] == [
+        ("bodies", "ball", "wear", "k"),
+        ("bodies", "ball", "wear", "z"),
+        ("observers", 1, "type"),
+        ("observers", 2, "every"),
+    ]
+
+
+@pytest.mark.parametrize(
+    "options", [{}, {"exclude_defaults": True}, {"exclude_unset": True}, {"mode": "json"}]
+)
+def test_what_is_written_can_be_read_back(validate: Any, options: dict[str, Any]) -> None:
+    rig = validate(DATA)
+    dumped = rig.model_dump(**options)
+    assert dumped["bodies"]["disk"]["wear"]["parts"][1]["type"] == "linear"
+    assert validate(dumped) == rig
+
+
+def test_json_can_be_read_back(dummies: Any, validate: Any) -> None:
+    rig = validate(DATA)
+    for options in ({}, {"exclude_defaults": True}, {"exclude_unset": True}):
+        text = rig.model_dump_json(**options)
+        context = {"registry": dummies.registry()}
+        assert dummies.Rig.model_validate_json(text, context=context) == rig
+
+
+def test_options_of_dumping_reach_into_a_slot(validate: Any) -> None:
+    rig = validate(DATA)
+    assert rig.model_dump(exclude_defaults=True)["observers"] == (
+        {"type": "counter"},
+        {"type": "counter", "every": 2},
+    )
+    assert rig.model_dump(exclude={"bodies": {"ball": {"wear": {"k"}}}})["bodies"]["ball"][
+        "wear"
+    ] == {
+        "type": "linear",
+        "passes": 3,
+    }
+
+
+def test_without_a_context_the_default_registry_is_asked(
+    dummies: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(slot, "default_registry", dummies.registry)
+    monkeypatch.setattr(schema_module, "default_registry", dummies.registry)
+    assert dummies.Rig.model_validate(DATA).bodies["ball"].wear == dummies.LinearConfig(k=1e-15)
+    assert "LinearConfig" in str(dummies.Rig.model_json_schema())
+
+
+def test_a_worker_process_unpickles_without_any_registry(validate: Any) -> None:
+    rig = validate(DATA)
+    code = (
+        "import pickle, sys\n"
+        "rig = pickle.load(sys.stdin.buffer)\n"
+        "from tribo.registry.registry import default_registry\n"
+        "assert default_registry.cache_info().currsize == 0\n"
+        "sys.stdout.write(rig.model_dump_json())"
+    )
+    path = os.pathsep.join([str(Path(__file__).parent), *filter(None, sys.path)])
+    worker = subprocess.run(
+        [sys.executable, "-c", code],
+        input=pickle.dumps(rig),
+        env={**os.environ, "PYTHONPATH": path},
+        capture_output=True,
+        check=True,
+    )
+    assert worker.stdout.decode() == rig.model_dump_json()
+
+
+@pytest.fixture
+def schema(dummies: Any) -> dict[str, Any]:
+    return json_schema(dummies.Rig, dummies.registry())
+
+
+def test_the_json_schema_is_one_and_accepts_what_validates(schema: dict[str, Any]) -> None:
+    jsonschema.Draft202012Validator.check_schema(schema)
+    jsonschema.validate(DATA, schema)
+
+
+@pytest.mark.parametrize(
+    "wear",
+    [
+        {"k": 1},
+        {"type": "liner", "k": 1},
+        {"type": "linear"},
+        {"type": "linear", "k": 0},
+        {"type": "linear", "k": 1, "z": 1},
+        "linear",
+        {"type": "blend", "parts": [{}]},
+        3,
+    ],
+)
+def test_the_json_schema_refuses_what_does_not_validate(
+    schema: dict[str, Any], validate: Any, wear: object
+) -> None:
+    data = {"bodies": {"ball": {"material": MATERIAL, "wear": wear}}}
+    with pytest.raises(ValidationError):
+        validate(data)
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate(data, schema)
+
+
+def test_the_json_schema_discriminates_by_a_required_type(schema: dict[str, Any]) -> None:
+    wear = schema["$defs"]["Body"]["properties"]["wear"]
+    choice, names, nothing = wear["anyOf"]
+    assert choice["discriminator"] == {
+        "propertyName": "type",
+        "mapping": {
+            "blend": "#/$defs/BlendConfig",
+            "linear": "#/$defs/LinearConfig",
+            "none": "#/$defs/NoneConfig",
+        },
+    }
+    assert choice["oneOf"] == [{"$ref": ref} for ref in choice["discriminator"]["mapping"].values()]
+    assert names == {"type": "string", "enum": ["none"]}
+    assert nothing == {"type": "null"}
+    assert schema["$defs"]["LinearConfig"]["required"] == ["type", "k"]
+    assert schema["$defs"]["LinearConfig"]["properties"]["k"]["description"] == "Coefficient."
+    assert schema["$defs"]["LinearConfig"]["properties"]["k"]["x-unit"] == "1/Pa"
+
+
+def test_the_json_schema_follows_the_registry(dummies: Any) -> None:
+    one = json_schema(dummies.Rig, dummies.registry(dummies.NoWear))
+    assert "LinearConfig" not in one["$defs"]
+    jsonschema.validate({"bodies": {"a": {"material": MATERIAL, "wear": "none"}}}, one)
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate({"bodies": {"a": {"material": MATERIAL, "wear": DATA}}}, one)
+
+
+def test_the_json_schema_of_output_has_no_short_forms(dummies: Any) -> None:
+    written = json_schema(dummies.Rig, dummies.registry(), mode="serialization")
+    jsonschema.Draft202012Validator.check_schema(written)
+    context = {"registry": dummies.registry()}
+    jsonschema.validate(
+        dummies.Rig.model_validate(DATA, context=context).model_dump(mode="json"), written
+    )
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate(DATA, written)
+
+
+def test_a_slot_nothing_is_installed_for_takes_nothing(dummies: Any) -> None:
+    schema = json_schema(dummies.Rig, Registry([]))
+    jsonschema.validate({"bodies": {"a": {"material": MATERIAL}}, "observers": []}, schema)
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate({"bodies": {}, "observers": ["counter"]}, schema)

@@ -1,0 +1,96 @@
+"""From a file to a validated case."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from tribo.config.case import Case
+from tribo.config.explain import case_error
+from tribo.config.overrides import apply_overrides
+from tribo.core.errors import CaseError
+from tribo.registry.registry import Registry, default_registry
+
+_LARGEST = 10_000_000
+
+
+def load_case(
+    path: str | Path, *, overrides: Sequence[str] = (), registry: Registry | None = None
+) -> Case:
+    """Read a case from a TOML file.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file.
+    overrides : sequence of str
+        Changes to it, as ``"load.normal=50"``; see `apply_overrides`.
+    registry : Registry, optional
+        Where to look components up; the installed plugins if left out.
+
+    Raises
+    ------
+    CaseError
+        If the file cannot be read, or what it says is wrong; one line an error.
+    """
+    return validate_case(apply_overrides(read_toml(path), overrides), registry=registry)
+
+
+def validate_case(data: Mapping[str, Any], *, registry: Registry | None = None) -> Case:
+    """Turn tables into a case.
+
+    Parameters
+    ----------
+    data : Mapping
+        The tables of a case, as a TOML file has them.
+    registry : Registry, optional
+        Where to look components up; the installed plugins if left out.
+
+    Raises
+    ------
+    CaseError
+        If anything in `data` is wrong; one line an error.
+    """
+    known = registry or default_registry()
+    try:
+        return Case.model_validate(data, context={"registry": known})
+    except ValidationError as error:
+        raise case_error(error, Case, data, known) from None
+
+
+def read_toml(path: str | Path) -> dict[str, Any]:
+    """Read a TOML file.
+
+    Raises
+    ------
+    CaseError
+        If there is no such file, or it is not TOML in UTF-8; with line and
+        column.
+    """
+    path = Path(path)
+    if path.is_dir():
+        raise CaseError(f"{path} is a directory; give the case file in it")
+    try:
+        with path.open("rb") as file:
+            content = file.read(_LARGEST + 1)
+    except FileNotFoundError:
+        raise CaseError(f"{path}: there is no such file") from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise CaseError(f"{path} cannot be read: {reason}") from None
+    if len(content) > _LARGEST:
+        raise CaseError(f"{path} is larger than {_LARGEST // 10**6} MB: no case file")
+    try:
+        # Editors on Windows put a mark at the start, which TOML does not know.
+        return tomllib.loads(content.decode("utf-8-sig"))
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        raise CaseError(f"{path}, line {line}: not UTF-8 text; save the file as UTF-8") from None
+    except ValueError as error:
+        raise CaseError(f"{path} is not TOML: {error}") from None
+    except RecursionError:
+        raise CaseError(f"{path} is not a case: nested too deeply") from None

@@ -1,0 +1,102 @@
+"""Changes to a case from the command line."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping, Sequence
+from copy import deepcopy
+from typing import Any
+
+from tribo.core.errors import CaseError
+
+_Override = tuple[list[str], Any]
+
+
+def apply_overrides(data: Mapping[str, Any], overrides: Sequence[str]) -> dict[str, Any]:
+    """Return `data` with values replaced.
+
+    Setting the ``type`` of a table to another one drops the table's other
+    keys, which belong to the former type. Such changes are made first,
+    whatever the order in `overrides`; of the others, the last one counts.
+
+    Parameters
+    ----------
+    data : Mapping
+        Tables as read from TOML; left unchanged.
+    overrides : sequence of str
+        ``"path=value"``, as ``"bodies.ball.wear.k=1e-15"`` or
+        ``"effects.0.rate=2"``. The value is read as TOML, or else as text.
+        Missing tables are added; what no such case has is left for validation
+        to find.
+
+    Raises
+    ------
+    CaseError
+        If an override is not of that form, or its path leads through a value
+        that is no table.
+    """
+    changed = deepcopy(dict(data))
+    parsed = [_parse(text) for text in overrides]
+    types = sorted((o for o in parsed if o[0][-1] == "type"), key=lambda o: len(o[0]))
+    for keys, value in types + [o for o in parsed if o[0][-1] != "type"]:
+        _set(changed, keys, value)
+    return changed
+
+
+def _parse(text: str) -> _Override:
+    path, equals, value = text.partition("=")
+    keys = _keys(path.strip())
+    if not (equals and keys):
+        raise CaseError(f"{text!r} is not of the form path=value, as in load.normal=50")
+    return keys, _value(value.strip())
+
+
+def _keys(path: str) -> list[str]:
+    """Split a path, in which a key may be quoted as in TOML."""
+    try:
+        table: Any = tomllib.loads(f"{path} = 0") if "\n" not in path else {}
+    except ValueError:
+        return []
+    keys = []
+    while isinstance(table, dict) and len(table) == 1:
+        ((key, table),) = table.items()
+        keys.append(key)
+    return keys
+
+
+def _value(text: str) -> Any:
+    try:
+        read = tomllib.loads(f"value = {text}")
+    except (ValueError, RecursionError):
+        return text
+    return read["value"] if len(read) == 1 else text
+
+
+def _set(data: dict[str, Any], keys: list[str], value: Any) -> None:
+    holder: Any = {"": data}
+    place: Any = ""
+    for depth, key in enumerate(keys):
+        inside = holder[place]
+        if isinstance(inside, str) and depth:
+            # The name of a component alone stands for a table with its type.
+            inside = holder[place] = {"type": inside}
+        if keys[depth:] == ["type"] and depth and isinstance(inside, dict):
+            holder[place] = inside if inside.get("type") == value else {"type": value}
+            return
+        if isinstance(inside, dict):
+            if depth < len(keys) - 1:
+                inside.setdefault(key, {})
+            holder, place = inside, key
+        elif isinstance(inside, list):
+            holder, place = inside, _index(inside, keys[: depth + 1])
+        else:
+            raise CaseError("is no table, so that nothing in it can be set", ".".join(keys[:depth]))
+    holder[place] = value
+
+
+def _index(items: list[Any], keys: list[str]) -> int:
+    key = keys[-1]
+    if not (key.isascii() and key.isdigit() and int(key) < len(items)):
+        count = f"0 to {len(items) - 1}" if items else "none: the list is empty"
+        raise CaseError(f"{key!r} is no index; allowed: {count}", ".".join(keys[:-1]))
+    return int(key)
