@@ -21,14 +21,14 @@ def test_archard_is_depth_k_p_s():
     np.testing.assert_allclose(rate.depth, 3.11e-16 * PRESSURE)
 
 
-def test_archard_takes_k_as_K_over_H():
+def test_archard_takes_k_as_coefficient_over_hardness():
     from_material = Archard(ArchardConfig(K=1.244e-6)).rate(at(PRESSURE))
     np.testing.assert_allclose(from_material.depth, 3.11e-16 * PRESSURE)
     own = Archard(ArchardConfig(K=1.244e-6, hardness="2 GPa")).rate(at(PRESSURE))
     np.testing.assert_allclose(own.depth, 2 * from_material.depth)
 
 
-def test_archard_needs_a_hardness_for_K():
+def test_archard_needs_a_hardness_for_the_coefficient():
     soft = Material(young="207 GPa", poisson=0.3)
     with pytest.raises(CaseError, match="K needs a hardness"):
         Archard(ArchardConfig(K=1e-6)).check(soft)

@@ -14,9 +14,9 @@ class ImplicitConfig(Table):
     """Backward Euler, with increments chosen by error; stable at any length."""
 
     type: Literal["implicit"] = "implicit"
-    depth_tolerance: Annotated[float, Quantity("1", above=0, at_most=0.1)] = 2e-3
+    depth_tolerance: Annotated[float, Quantity("1", above=0, at_most=0.1)] = 1e-3
     """Largest local error of the wear depth in one step, relative to the depth worn so far."""
-    pressure_tolerance: Annotated[float, Quantity("1", above=0, at_most=1)] = 0.1
+    pressure_tolerance: Annotated[float, Quantity("1", above=0, at_most=1)] = 0.05
     """Largest load-weighted relative change of pressure in one step."""
     settle: Annotated[float, Quantity("1", above=0, at_most=1)] = 0.01
     """Length of the last step before a save, relative to the distance slid by then."""

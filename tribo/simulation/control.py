@@ -69,4 +69,7 @@ def fitted(natural: float, remaining: float, target: float, settle: float) -> fl
     """
     shortest = settle * target
     increment = min(natural, max(0.5 * remaining, shortest))
-    return remaining if remaining - increment < 0.5 * min(shortest, increment) else increment
+    if remaining <= increment * (1 + 1e-9):
+        return remaining
+    # Two equal steps rather than a full one and a sliver.
+    return 0.5 * remaining if remaining < 2 * increment else increment

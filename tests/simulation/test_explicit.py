@@ -1,0 +1,54 @@
+import numpy as np
+import pytest
+from paper_models import K, archard, flat, half_space, last, motion, small, sphere, steel
+
+from tribo.config.stepping import ExplicitConfig
+from tribo.core.errors import CaseError
+from tribo.simulation.model import Body
+
+
+def ball_only():
+    return [Body("ball", sphere(), steel(), archard()), Body("disk", flat(), steel())]
+
+
+def test_explicit_agrees_with_implicit(paper_small):
+    explicit = last(small(stepping=ExplicitConfig(time_step="0.5 s")))
+    for name in ("ball", "disk"):
+        assert explicit.bodies[name].wear.max() == pytest.approx(
+            paper_small[-1].bodies[name].wear.max(), rel=5e-3
+        )
+
+
+def test_a_step_beyond_the_stability_limit_is_refused_with_the_largest():
+    model = small(bodies=ball_only(), stepping=ExplicitConfig(time_step="60 s"))
+    # Δs < 2 · 0.58069 Δ/(k E*)
+    spacing = model.grid.spacing[0]
+    limit = 2 * 0.58069 * spacing / (K * model.system.modulus) / 0.1
+    with pytest.raises(CaseError, match=r"stepping\.time_step: .*largest stable step") as caught:
+        last(model)
+    stated = float(str(caught.value).split("stable step is ")[1].split(" s")[0])
+    assert stated == pytest.approx(limit, rel=1e-3)
+
+
+@pytest.mark.parametrize(("factor", "stable"), [(0.9, True), (1.1, False)])
+def test_the_limit_is_where_the_pressure_begins_to_chatter(factor, stable):
+    model = small(bodies=ball_only(), kinematics=motion(duration=400))
+    step = factor * 2 * 0.58069 * model.grid.spacing[0] / (K * model.system.modulus) / 0.1
+    run = last(
+        small(
+            bodies=ball_only(),
+            kinematics=motion(duration=400),
+            stepping=ExplicitConfig(time_step=step, allow_unstable=True),
+        )
+    )
+    pressure = run.contact.pressure[18:30, 18:30]
+    # Chattering is at the scale of the grid: neighbours differ by much.
+    roughness = np.abs(np.diff(pressure, axis=0)).max() / pressure.mean()
+    assert (roughness < 0.1) == stable
+
+
+def test_unknown_compliance_is_said_so():
+    contact = half_space()
+    contact.smallest_compliance = lambda system: None
+    with pytest.raises(CaseError, match="does not state its smallest compliance"):
+        last(small(contact=contact, stepping=ExplicitConfig(time_step=1)))

@@ -1,0 +1,171 @@
+"""Implicit steps are backward Euler, whatever the law."""
+
+from typing import Literal
+
+import numpy as np
+import pytest
+from paper_models import (
+    K,
+    archard,
+    flat,
+    foundation,
+    half_space,
+    last,
+    small,
+    sphere,
+    states,
+    steel,
+)
+
+from tribo.config.stepping import ImplicitConfig
+from tribo.core.contact import ContactProblem
+from tribo.core.fields import ContactConditions, Field, WearRate
+from tribo.interfaces.effect import Effect, EffectConfig
+from tribo.interfaces.wear import WearLaw, WearLawConfig
+from tribo.simulation.model import Body
+from tribo.simulation.step import first_contact, geometry, implicit_step
+from tribo.wear.power import Power, PowerConfig
+
+
+def power(exponent):
+    return Power(PowerConfig(k=K, p_exponent=exponent, reference_pressure="1 GPa"))
+
+
+def bodies(ball, disk):
+    return [Body("ball", sphere(), steel(), ball), Body("disk", flat(), steel(), disk)]
+
+
+def one_step(model, increment=1.0):
+    state = first_contact(model)
+    return implicit_step(model, state, increment, increment / 0.1, config=ImplicitConfig())
+
+
+LAWS = [(archard(), archard()), (power(1.5), power(1.5)), (power(2), archard()), (power(3), None)]
+
+
+@pytest.mark.parametrize("laws", LAWS, ids=["archard", "p^1.5", "p^2, archard", "p^3, none"])
+@pytest.mark.parametrize("contact", [half_space(tolerance=1e-11), foundation()])
+def test_a_step_is_exact_backward_euler(laws, contact):
+    model = small(bodies=bodies(*laws), contact=contact)
+    state = one_step(model)
+    pressure = state.contact.pressure
+    # The wear is the law's at the new pressure ...
+    for body in model.bodies:
+        if body.wear is None:
+            continue
+        local = type("Local", (), {"pressure": pressure, "material": body.material})
+        rate = body.wear.rate(local).depth
+        np.testing.assert_allclose(
+            state.bodies[body.name].wear,
+            1.0 * model.exposures[body.name].average(rate),
+            rtol=1e-6,
+            atol=1e-7 * state.bodies[body.name].wear.max(),
+        )
+    # ... and the pressure is that of the worn geometry.
+    again = contact.solve(ContactProblem(model.system, geometry(model, state.bodies), model.load))
+    np.testing.assert_allclose(again.pressure, pressure, atol=2e-5 * pressure.max())
+
+
+def test_wear_is_never_negative_however_long_the_step():
+    state = one_step(small(), increment=1000.0)
+    assert all(np.all(body.wear >= 0) for body in state.bodies.values())
+
+
+def test_volumes_are_k_f_s(paper_small):
+    state = paper_small[-1]
+    model = small()
+    for name, body in state.bodies.items():
+        volume = model.exposures[name].volume(body.wear)
+        assert volume == pytest.approx(K * 100 * state.distance, rel=1e-10)
+
+
+def test_halving_tolerances_changes_the_answer_within_them(paper_small):
+    # The default tolerances claim 0.5 % in depth and 2 % in centre pressure.
+    fine = last(
+        small(stepping=ImplicitConfig(depth_tolerance=1e-4, pressure_tolerance=0.02, settle=0.002))
+    )
+    coarse = paper_small[-1]
+    for name in ("ball", "disk"):
+        assert coarse.bodies[name].wear.max() == pytest.approx(
+            fine.bodies[name].wear.max(), rel=5e-3
+        )
+    middle = slice(23, 25)
+    assert coarse.contact.pressure[middle, middle].mean() == pytest.approx(
+        fine.contact.pressure[middle, middle].mean(), rel=0.02
+    )
+
+
+def test_a_body_without_a_law_does_not_wear():
+    state = last(small(bodies=bodies(archard(), None)))
+    assert state.bodies["disk"].wear.max() == 0
+    assert state.bodies["ball"].wear.max() > 0
+
+
+class RunningInConfig(WearLawConfig):
+    type: Literal["test.running-in"] = "test.running-in"
+    s0: float = 2.0
+
+
+class RunningIn(WearLaw[RunningInConfig]):
+    """k = k0 exp(−s/s0), with s the distance each point has slid under pressure."""
+
+    Config = RunningInConfig
+    state_fields = (Field("slid", "m", "Distance slid under pressure."),)
+
+    def rate(self, local):
+        k = K * np.exp(-local.state["slid"] / self.config.s0)
+        touching = (local.pressure > 0).astype(float)
+        return WearRate(k * local.pressure, k, {"slid": touching})
+
+
+def test_a_law_with_state_follows_its_integral():
+    # Where a point is in contact from the start, its state is the distance;
+    # V = F k0 s0 (1 − exp(−s/s0)) would hold for a uniform state.
+    model = small(
+        bodies=bodies(RunningIn(RunningInConfig()), None),
+        stepping=ImplicitConfig(depth_tolerance=2e-4, pressure_tolerance=0.02),
+    )
+    run = states(model)
+    state = run[-1]
+    assert state.bodies["ball"].law["slid"][24, 24] == pytest.approx(state.distance, rel=1e-12)
+    centre = [s.contact.pressure[24, 24] for s in run]
+    slid = np.array([s.distance for s in run])
+    depth = np.trapezoid(K * np.exp(-slid / 2.0) * centre, slid)
+    assert state.bodies["ball"].wear[24, 24] == pytest.approx(depth, rel=0.02)
+
+
+class WarmthConfig(EffectConfig):
+    type: Literal["test.warmth"] = "test.warmth"
+
+
+class Warmth(Effect[WarmthConfig]):
+    Config = WarmthConfig
+    provides = (Field("warmth", "1", "Twice as much on the ball as on the disk."),)
+
+    def fields(self, contact: ContactConditions):
+        rise = contact.pressure / contact.pressure.max()
+        return {"warmth": {"ball": 2 * rise, "disk": rise}}
+
+
+class WarmConfig(WearLawConfig):
+    type: Literal["test.warm"] = "test.warm"
+
+
+class Warm(WearLaw[WarmConfig]):
+    Config = WarmConfig
+    requires = ("warmth",)
+
+    def rate(self, local):
+        k = K * (1 + local.fields["warmth"])
+        return WearRate(k * local.pressure, k)
+
+
+def test_a_law_gets_the_fields_it_requires_for_its_own_body():
+    law = Warm(WarmConfig())
+    model = small(bodies=bodies(law, law), effects=[Warmth(WarmthConfig())])
+    state = one_step(model)
+    p = state.contact.pressure
+    rise = p / p.max()
+    np.testing.assert_allclose(
+        state.bodies["ball"].wear, K * (1 + 2 * rise) * p, atol=1e-6 * K * p.max()
+    )
