@@ -1,0 +1,256 @@
+"""The pressure within bounds that carries a load: a public solver for any operator."""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.fft
+
+from tribo.contact.operator import Operator, WornOperator
+from tribo.contact.projection import balance, project
+from tribo.core.arrays import Array, Mask
+from tribo.core.contact import ContactSolution, Residuals, WearCompliance
+from tribo.core.errors import CaseError, NumericalError
+
+# A method that does not halve the residual within so many iterations hands over.
+_PATIENCE = 12
+
+
+def solve_bounded(
+    operator: Operator,
+    gap: Array,
+    load: float,
+    cap: float | None = None,
+    compliance: WearCompliance | None = None,
+    *,
+    start: Array | None = None,
+    tolerance: float = 1e-8,
+    max_iterations: int = 500,
+) -> ContactSolution:
+    """Minimise ½ pᵀA p + gapᵀp over 0 <= p <= cap with sum(p) * cell area = load.
+
+    Preconditioned conjugate gradients on the cells strictly within the bounds,
+    which are left and entered as the iteration goes; where that stalls, as it
+    does when nearly all cells are at a bound, projected Barzilai-Borwein steps
+    take over until they stall in turn.
+
+    Parameters
+    ----------
+    operator : Operator
+        K, from pressure to displacement; its cells give the area and Δx.
+    gap : ndarray, shape (nx, ny)
+        Undeformed gap, up to a constant, in m.
+    load : float
+        Normal load, in N; positive.
+    cap : float, optional
+        Largest pressure, in Pa; unlimited when None.
+    compliance : WearCompliance, optional
+        Added to K, on the same box.
+    start : ndarray, shape (nx, ny), optional
+        A pressure to start from, in Pa; brought to the load and the bounds.
+    tolerance : float, default 1e-8
+        What each of the `Residuals` must fall to. Their ``scale`` is the largest
+        displacement A p under pressure, or the range of the gap there if that
+        is more. Cells at the cap whose gap is open count as violations of
+        complementarity too.
+    max_iterations : int, default 500
+        Each costs one call of the operator, or two when a bound was met.
+
+    Returns
+    -------
+    ContactSolution
+        On the box of the operator.
+
+    Raises
+    ------
+    CaseError
+        If the load is not positive, or more than the box bears at the cap.
+    NumericalError
+        If the gap is not finite, or the residuals did not fall to the
+        tolerance; the message says how far they came.
+
+    References
+    ----------
+    I. A. Polonsky, L. M. Keer, Wear 231 (1999) 206-219; E. A. H. Vollebregt,
+    J. Optim. Theory Appl. 162 (2014) 931-953; V. Rey, G. Anciaux,
+    J.-F. Molinari, Comput. Mech. 60 (2017) 69-81; J. Barzilai, J. M. Borwein,
+    IMA J. Numer. Anal. 8 (1988) 141-148.
+    """
+    if compliance is not None:
+        operator = WornOperator(operator, compliance)
+    limit = np.inf if cap is None else cap
+    total = load / (operator.spacing[0] * operator.spacing[1])
+    _check(gap, load, total, limit)
+
+    iterate = _Iterate(operator, gap, total, limit, start)
+    best, waited = np.inf, 0
+    for iteration in range(max_iterations + 1):
+        residuals = iterate.residuals()
+        if residuals.worst <= tolerance:
+            return iterate.solution(iteration, residuals)
+        if iteration == max_iterations:
+            break
+        waited += 1
+        if residuals.worst < 0.5 * best:
+            best, waited = residuals.worst, 0
+        if waited > _PATIENCE:
+            best, waited = residuals.worst, 0
+            iterate.switch()
+        if not (iterate.conjugate and iterate.conjugate_step()):
+            iterate.spectral_step()
+    raise NumericalError(
+        f"the contact did not converge in {max_iterations} iterations: the residual is "
+        f"{residuals.worst:.1e}, the tolerance {tolerance:.1e}. Raise max_iterations or "
+        "tolerance of the contact solver, or shorten the step"
+    )
+
+
+class _Iterate:
+    """A feasible pressure, its displacement, and the memory of the iteration."""
+
+    def __init__(
+        self, operator: Operator, gap: Array, total: float, limit: float, start: Array | None
+    ) -> None:
+        self.operator = operator
+        self.symbol = operator.symbol()
+        self.gap = gap
+        self.total = total
+        self.limit = limit
+        self.pressure = _feasible(start, gap.shape, total, limit)
+        self.displacement = operator.apply(self.pressure)
+        self.conjugate = True
+        self.direction: Array | None = None
+        self.gradient = np.zeros(0)
+        self.decrease = 0.0
+        self.rate = 1.0 / float(np.max(self.symbol))
+        self.lengthen = False
+
+    def residuals(self) -> Residuals:
+        """Find the approach and the deformed gap, and judge them."""
+        p, g = self.pressure, self.displacement + self.gap
+        self.zero, self.full = p <= 0, p >= self.limit
+        self.free = ~(self.zero | self.full)
+        self.approach = _approach(g, self.free, self.zero, self.full)
+        g -= self.approach
+        self.deformed = g
+        touching = ~self.zero
+        scale = max(
+            float(np.max(self.displacement, where=touching, initial=0.0)),
+            float(np.ptp(self.gap[touching])),
+        )
+        violation = np.where(self.full, np.maximum(g, 0.0), np.abs(g))
+        overlap = -float(np.min(g, where=self.zero, initial=0.0))
+        return Residuals(
+            force=abs(float(np.sum(p)) / self.total - 1.0),
+            complementarity=_dot(p, violation) / (self.total * scale),
+            penetration=overlap / scale,
+        )
+
+    def conjugate_step(self) -> bool:
+        """Move along a conjugate direction on the face; False if there is none."""
+        g = self.deformed
+        face = self.free | (self.zero & (g < 0)) | (self.full & (g > 0))
+        residual = _centred(g, face)
+        modes = scipy.fft.rfft2(residual)
+        modes /= self.symbol
+        shape = (residual.shape[0], residual.shape[1])
+        z = _centred(scipy.fft.irfft2(modes, s=shape, overwrite_x=True), face)
+        decrease = _dot(residual, z)
+        direction = -z
+        if self.direction is not None:
+            # Polak and Ribière's formula forgets by itself when the face changes.
+            beta = (decrease - _dot(z, self.gradient)) / self.decrease
+            if beta > 0:
+                direction += beta * _centred(self.direction, face)
+        slope = _dot(residual, direction)
+        if slope >= 0:
+            direction, slope = -z, -decrease
+        response = self.operator.apply(direction)
+        curvature = _dot(direction, response)
+        if not (slope < 0 < curvature):
+            return False
+        length = -slope / curvature
+        self.direction, self.gradient, self.decrease = direction, residual, decrease
+        moved = self.pressure + length * direction
+        if float(np.min(moved)) < 0 or float(np.max(moved)) > self.limit:
+            self._move(project(moved, self.total, self.limit, face))
+        else:
+            self.pressure = balance(moved, self.total, self.limit)
+            self.displacement += length * response
+        return True
+
+    def spectral_step(self) -> None:
+        """Move along the gradient by an inverse Rayleigh quotient and project."""
+        before, displaced = self.pressure, self.displacement
+        everywhere = np.ones(before.shape, dtype=bool)
+        moved = before - self.rate * self.deformed
+        self._move(project(moved, self.total, self.limit, everywhere))
+        change, response = self.pressure - before, self.displacement - displaced
+        curvature = _dot(change, response)
+        if curvature > 0:
+            long = _dot(change, change) / curvature
+            short = curvature / _dot(response, response)
+            # Alternating the two keeps the steps from settling into a cycle.
+            self.rate = long if self.lengthen else short
+            self.lengthen = not self.lengthen
+
+    def switch(self) -> None:
+        """Hand over to the other method."""
+        self.conjugate = not self.conjugate
+        self.direction = None
+        self.rate = 1.0 / float(np.max(self.symbol))
+
+    def _move(self, pressure: Array) -> None:
+        self.pressure = pressure
+        self.displacement = self.operator.apply(pressure)
+
+    def solution(self, iterations: int, residuals: Residuals) -> ContactSolution:
+        return ContactSolution(
+            pressure=self.pressure,
+            approach=self.approach,
+            overlap=np.where(self.full, np.maximum(-self.deformed, 0.0), 0.0),
+            iterations=iterations,
+            residuals=residuals,
+        )
+
+
+def _approach(gap: Array, free: Mask, zero: Mask, full: Mask) -> float:
+    if free.any():
+        return float(np.mean(gap[free]))
+    # Without a cell between the bounds any value between the two will do.
+    highest = float(np.max(gap[full]))
+    return 0.5 * (highest + float(np.min(gap[zero]))) if zero.any() else highest
+
+
+def _centred(values: Array, face: Mask) -> Array:
+    count = int(np.count_nonzero(face))
+    kept = np.where(face, values, 0.0)
+    return np.where(face, kept - float(np.sum(kept)) / max(count, 1), 0.0)
+
+
+def _feasible(start: Array | None, shape: tuple[int, ...], total: float, limit: float) -> Array:
+    loaded = np.ones(shape, dtype=bool)
+    guess = np.full(shape, total / loaded.size)
+    if start is not None and float(np.sum(start)) > 0:
+        guess = np.clip(start * (total / float(np.sum(start))), 0.0, limit)
+        support = guess > 0
+        if int(np.count_nonzero(support)) * limit > total:
+            loaded = support
+    return project(guess, total, limit, loaded)
+
+
+def _dot(a: Array, b: Array) -> float:
+    # Not np.vdot: BLAS sums in an order that depends on the number of threads.
+    return float(np.einsum("ij,ij->", a, b))
+
+
+def _check(gap: Array, load: float, total: float, limit: float) -> None:
+    if not load > 0:
+        raise CaseError(f"the load is {load:g} N; a contact needs a positive load")
+    if total > limit * gap.size:
+        bearable = load * limit * gap.size / total
+        raise CaseError(
+            f"the load is {load:g} N, but at the pressure cap of {limit:g} Pa the window bears "
+            f"no more than {bearable:g} N. Enlarge the window, or lower the load"
+        )
+    if not np.isfinite(gap).all():
+        raise NumericalError("the gap has values that are not finite")

@@ -1,0 +1,175 @@
+"""From pressure to displacement: the operator protocol and its free-space form."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+import scipy.fft
+
+from tribo.contact.love import wrapped_kernel
+from tribo.core.arrays import Array, readonly
+from tribo.core.contact import WearCompliance
+
+
+class Operator(Protocol):
+    """A symmetric positive definite map from pressure to displacement on a box of cells.
+
+    Anything with these members can be given to `tribo.contact.bounded.solve_bounded`.
+    """
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Cells (nx, ny) of the box."""
+        ...
+
+    @property
+    def spacing(self) -> tuple[float, float]:
+        """Edge lengths of a cell along x and y, in m."""
+        ...
+
+    def apply(self, pressure: Array) -> Array:
+        """Return the displacement under `pressure`.
+
+        Parameters
+        ----------
+        pressure : ndarray, shape (nx, ny)
+            In Pa.
+
+        Returns
+        -------
+        ndarray, shape (nx, ny)
+            In m; a new array.
+        """
+        ...
+
+    def symbol(self) -> Array:
+        """Return positive estimates of the eigenvalues, to precondition with.
+
+        Returns
+        -------
+        ndarray, shape (nx, ny // 2 + 1)
+            For the modes of ``rfft2`` on the box, in m/Pa.
+        """
+        ...
+
+    def diag(self) -> Array:
+        """Return displacement of each cell per pressure on itself.
+
+        Returns
+        -------
+        ndarray, shape (nx, ny)
+            In m/Pa.
+        """
+        ...
+
+
+class HalfSpace:
+    """Elastic half-space under pressure that is constant in each cell.
+
+    The discrete convolution is evaluated with zero padding (DC-FFT), which
+    makes it the exact sum of Love's displacements: no periodic images.
+
+    Parameters
+    ----------
+    shape : tuple of int
+        Cells (nx, ny) of the box.
+    spacing : tuple of float
+        Edge lengths of a cell along x and y, in m.
+    modulus : float
+        Contact modulus E*, in Pa.
+
+    References
+    ----------
+    S. Liu, Q. Wang, G. Liu, "A versatile method of discrete convolution and FFT
+    (DC-FFT) for contact analyses", Wear 243 (2000) 101-111.
+    """
+
+    def __init__(
+        self, shape: tuple[int, int], spacing: tuple[float, float], modulus: float
+    ) -> None:
+        self.shape = shape
+        self.spacing = spacing
+        self.modulus = modulus
+        self._padded = tuple(scipy.fft.next_fast_len(2 * n - 1, real=True) for n in shape)
+        kernel = wrapped_kernel((self._padded[0], self._padded[1]), spacing)
+        self._self_compliance = float(kernel[0, 0]) / modulus
+        # An even kernel has a real spectrum.
+        self._spectrum = scipy.fft.rfft2(kernel).real / modulus
+        self._symbol = readonly(_positive(scipy.fft.rfft2(wrapped_kernel(shape, spacing)).real))
+
+    def apply(self, pressure: Array) -> Array:
+        """Return the displacement under `pressure`; see `Operator.apply`."""
+        nx, ny = self.shape
+        # Axis by axis, so that rows of padding are neither transformed nor kept.
+        modes = scipy.fft.rfft(pressure, self._padded[1], axis=1)
+        modes = scipy.fft.fft(modes, self._padded[0], axis=0)
+        modes *= self._spectrum
+        modes = scipy.fft.ifft(modes, axis=0, overwrite_x=True)[:nx]
+        displacement: Array = scipy.fft.irfft(modes, self._padded[1], axis=1)[:, :ny]
+        return displacement
+
+    def symbol(self) -> Array:
+        """Return the eigenvalues of the periodic operator with the same near field."""
+        return self._symbol / self.modulus
+
+    def diag(self) -> Array:
+        """Return displacement of each cell per pressure on itself; see `Operator.diag`."""
+        return np.full(self.shape, self._self_compliance)
+
+
+@dataclass(frozen=True)
+class WornOperator:
+    """An operator with the wear of an implicit step as additional compliance.
+
+    Parameters
+    ----------
+    base : Operator
+        The elastic operator K.
+    wear : WearCompliance
+        On the same box as `base`.
+    """
+
+    base: Operator
+    wear: WearCompliance
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Cells (nx, ny) of the box."""
+        return self.base.shape
+
+    @property
+    def spacing(self) -> tuple[float, float]:
+        """Edge lengths of a cell along x and y, in m."""
+        return self.base.spacing
+
+    def apply(self, pressure: Array) -> Array:
+        """Return K p + local * p + swept * dx * sum_x(p)."""
+        lines = np.sum(pressure, axis=0) * self.spacing[0]
+        return self.base.apply(pressure) + self.wear.local * pressure + self.wear.swept * lines
+
+    def symbol(self) -> Array:
+        """Return the estimates of `base` plus the mean compliance of the wear."""
+        symbol = self.base.symbol() + _mean_where_positive(self.wear.local)
+        symbol[0] += _mean_where_positive(self.wear.swept) * self.spacing[0] * self.shape[0]
+        return symbol
+
+    def diag(self) -> Array:
+        """Return displacement of each cell per pressure on itself; see `Operator.diag`."""
+        return self.base.diag() + self.wear.local + self.wear.swept * self.spacing[0]
+
+
+def _positive(symbol: Array) -> Array:
+    # Truncating 1/r makes the spectrum oscillate about that of the infinite
+    # kernel; where it would dip too far the preconditioner must stay definite.
+    floor = 1e-3 * float(np.max(symbol))
+    positive: Array = np.maximum(symbol, min(floor, float(np.median(symbol))))
+    return positive
+
+
+def _mean_where_positive(values: Array) -> float:
+    # Laws that do not wear without pressure have no compliance outside the
+    # contact, where no pressure will need preconditioning either.
+    count = int(np.count_nonzero(values > 0))
+    return float(np.sum(values)) / count if count else 0.0

@@ -1,0 +1,78 @@
+"""The nearest pressure that carries a load within bounds."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tribo.core.arrays import Array, Mask
+
+
+def project(pressure: Array, total: float, limit: float, cells: Mask) -> Array:
+    """Return the nearest pressure within [0, limit] whose sum is `total`.
+
+    That is clip(p + μ, 0, limit) with the μ that carries the load.
+
+    Parameters
+    ----------
+    pressure : ndarray, shape (nx, ny)
+        Any values, in Pa.
+    total : float
+        Wanted sum over the box, in Pa.
+    limit : float
+        Largest pressure, in Pa; may be infinite.
+    cells : ndarray of bool, shape (nx, ny)
+        Cells that may change; the others must lie within the bounds already
+        and must leave a load that `cells` can carry.
+
+    Returns
+    -------
+    ndarray, shape (nx, ny)
+        A new array; its sum equals `total` to round-off.
+    """
+    fixed = np.where(cells, 0.0, pressure)
+    values = pressure[cells]
+    target = total - float(np.sum(fixed))
+    moved = np.clip(values + _shift(values, target, limit), 0.0, limit)
+    result = fixed
+    result[cells] = moved
+    return balance(result, total, limit)
+
+
+def balance(pressure: Array, total: float, limit: float) -> Array:
+    """Remove the round-off in the sum of `pressure`, in place, and return it.
+
+    Only cells strictly within the bounds change, all by the same amount.
+    """
+    for _ in range(2):
+        inner = (pressure > 0) & (pressure < limit)
+        count = int(np.count_nonzero(inner))
+        missing = total - float(np.sum(pressure))
+        if not count or missing == 0.0:
+            break
+        np.clip(pressure + missing / count, 0.0, limit, out=pressure, where=inner)
+    return pressure
+
+
+def _shift(values: Array, target: float, limit: float) -> float:
+    # Σ clip(v + μ) grows piecewise linearly in μ: Newton's method, kept inside
+    # a bracket, ends at the root after finitely many steps.
+    low = -float(np.max(values))
+    high = (limit if np.isfinite(limit) else target) - float(np.min(values))
+    shift = 0.0 if low < 0.0 < high else 0.5 * (low + high)
+    for _ in range(200):
+        moved = values + shift
+        inner = int(np.count_nonzero((moved > 0) & (moved < limit)))
+        excess = float(np.sum(np.clip(moved, 0.0, limit))) - target
+        if abs(excess) <= 1e-15 * target:
+            break
+        if excess > 0:
+            high = shift
+        else:
+            low = shift
+        step = shift - excess / inner if inner else low
+        if not low < step < high:
+            step = 0.5 * (low + high)
+        if step == shift or not low < step < high:
+            break
+        shift = step
+    return shift
