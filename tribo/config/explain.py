@@ -13,7 +13,7 @@ from tribo.config.place import Place
 from tribo.config.slot import Slot
 from tribo.core.errors import CaseError
 from tribo.core.units import Quantity
-from tribo.core.words import did_you_mean, shown
+from tribo.core.words import did_you_mean, shown, suggestion
 from tribo.registry.registry import Registry, default_registry
 
 _NEEDED = {
@@ -121,9 +121,7 @@ def _unknown_key(place: Place) -> tuple[str, str | None]:
         return f"unknown key {key!r}", None
     allowed = [name for name in place.fields() if name not in place.siblings or name == key]
     meant = did_you_mean(key, allowed)
-    text = f"unknown key {key!r}"
-    text += f"; did you mean {meant!r}? " if meant else ". "
-    text += f"Allowed: {', '.join(place.fields())}"
+    text = f"unknown key {key!r}{suggestion(meant)} Allowed: {', '.join(place.fields())}"
     return text, place.beside(meant) if meant else None
 
 
@@ -140,9 +138,9 @@ def _message(details: ErrorDetails, place: Place, registry: Registry) -> str:
     if kind == "too_long":
         return f"at most {context['max_length']} values are allowed, {_count(context)} given"
     if kind == "literal_error":
-        return _choice(details["input"], re.findall(r"'([^']*)'", context["expected"]))
+        return _choice(details["input"], context["expected"])
     if kind == "union_tag_invalid":
-        return _choice(context["tag"], place.tags())
+        return _choice(context["tag"], " or ".join(map(repr, place.tags())))
     if kind == "union_tag_not_found":
         return f"type is missing; allowed: {', '.join(place.tags())}"
     if kind == "value_error":
@@ -158,10 +156,9 @@ def _hints(metadata: Sequence[Any], registry: Registry) -> Iterator[str]:
             yield f"installed: {registry.choices(mark.kind)}"
 
 
-def _choice(given: object, allowed: Sequence[str]) -> str:
-    meant = did_you_mean(given, allowed) if isinstance(given, str) else None
-    text = f"{shown(given)} was given; "
-    return text + (f"did you mean {meant!r}? " if meant else "") + f"Allowed: {', '.join(allowed)}"
+def _choice(given: object, expected: str) -> str:
+    meant = did_you_mean(given, re.findall(r"'([^']*)'", expected))
+    return f"{expected} is needed, {shown(given)} was given" + (suggestion(meant) if meant else "")
 
 
 def _count(context: dict[str, Any]) -> str:

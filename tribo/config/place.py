@@ -58,11 +58,14 @@ class Place:
         for index, key in enumerate(error["loc"]):
             table = _table(here.annotation, here.metadata, value, registry)
             found, inner = _get(value, key)
-            declared = table is not None and key in _fields(table)
-            # The name alone, in place of a table with its type.
-            shorthand = key == "type" and isinstance(value, str)
-            absent = error["type"] == "missing" and index == last
-            if not (found or absent or (declared and not shorthand)):
+            if index == last and error["type"] == "slot":
+                # Not where a name alone stands for a table with its type.
+                belongs = found or isinstance(value, Mapping)
+            elif index == last and error["type"] == "missing":
+                belongs = True
+            else:
+                belongs = found or (table is not None and key in _fields(table))
+            if not belongs:
                 continue
             annotation, metadata = _inside(here.annotation, table, key)
             given = frozenset(map(str, value)) if isinstance(value, Mapping) else frozenset()

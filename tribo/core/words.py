@@ -22,7 +22,12 @@ def shown(value: object) -> str:
     return text if len(text) <= _LONGEST else text[: _LONGEST - 1] + "…"
 
 
-def did_you_mean(name: str, known: Iterable[str]) -> str | None:
+def did_you_mean(name: object, known: Iterable[str]) -> str | None:
     """Return the one of `known` that `name` was probably meant to be, if any."""
-    close = get_close_matches(name, list(known), n=1)
+    close = get_close_matches(name, list(known), n=1) if isinstance(name, str) else []
     return close[0] if close else None
+
+
+def suggestion(meant: str | None) -> str:
+    """Return the end of a sentence that suggests what was meant, if that is known."""
+    return f"; did you mean {meant!r}?" if meant else "."

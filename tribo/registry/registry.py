@@ -8,7 +8,7 @@ from functools import cache
 from typing import Any
 
 from tribo.core.errors import CaseError
-from tribo.core.words import did_you_mean
+from tribo.core.words import did_you_mean, suggestion
 from tribo.interfaces.component import Component
 from tribo.registry.kinds import KINDS
 from tribo.registry.loader import Source, builtin, given, installed, load
@@ -93,7 +93,7 @@ class Registry:
                 f"{words} {name!r} is offered by {owners}, so that it is not clear which is"
                 " meant; uninstall or disable one of them"
             )
-        raise CaseError(f"unknown {words} {name!r}; {self._instead(kind, name)}")
+        raise CaseError(f"unknown {words} {name!r}{self._instead(kind, name)}")
 
     def choices(self, kind: str) -> str:
         """Return the usable names of one kind as text, with who provides them."""
@@ -104,9 +104,8 @@ class Registry:
         return "; ".join(listed) or "none"
 
     def _instead(self, kind: str, name: str) -> str:
-        close = did_you_mean(name, self.names(kind))
-        text = f"did you mean {close!r}? " if close else ""
-        text += f"Installed: {self.choices(kind)}"
+        text = suggestion(did_you_mean(name, self.names(kind)))
+        text += f" Installed: {self.choices(kind)}"
         for plugin in self.plugins:
             if plugin.status in ("broken", "incompatible", "disabled"):
                 text += f". {plugin} is {plugin.status}: {plugin.reason}"

@@ -1,0 +1,220 @@
+"""Each mistake in a case is one line with its path and a remedy, in the words of the case."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from pydantic import BaseModel, ValidationError
+
+from tribo.config.explain import case_error, explain
+
+STEEL = {"young": "207 GPa", "poisson": 0.3}
+LINEAR = {"type": "linear", "k": 1e-15}
+LAWS = "blend, linear, none (dummies 1.0)"
+PRESSURE = "a pressure [Pa] is needed, as in '4 GPa'"
+MATERIAL_KEYS = "young, poisson, hardness, density, conductivity, heat_capacity"
+
+
+def ball(**changes: object) -> dict[str, Any]:
+    return {"bodies": {"ball": {"material": STEEL, **changes}}}
+
+
+@pytest.fixture
+def lines(dummies: Any) -> Callable[..., list[str]]:
+    registry = dummies.registry()
+
+    def explained(data: object, model: type[BaseModel] = dummies.Rig) -> list[str]:
+        with pytest.raises(ValidationError) as caught:
+            model.model_validate(data, context={"registry": registry})
+        return explain(caught.value, model, data, registry)
+
+    return explained
+
+
+@pytest.mark.parametrize(
+    ("data", "path", "message"),
+    [
+        # Unknown keys, at each depth.
+        (
+            {"bodies": {}, "obsrevers": []},
+            "obsrevers",
+            "unknown key 'obsrevers'; did you mean 'observers'?"
+            " Allowed: bodies, cells, verbose, stepping, observers",
+        ),
+        (
+            ball(material={**STEEL, "hardnes": 1}),
+            "bodies.ball.material.hardnes",
+            f"unknown key 'hardnes'; did you mean 'hardness'? Allowed: {MATERIAL_KEYS}",
+        ),
+        (
+            ball(wear={**LINEAR, "pases": 1}),
+            "bodies.ball.wear.pases",
+            "unknown key 'pases'; did you mean 'passes'? Allowed: type, k, passes",
+        ),
+        (
+            ball(wear={"type": "blend", "parts": ["none", {**LINEAR, "zzz": 1}]}),
+            "bodies.ball.wear.parts[1].zzz",
+            "unknown key 'zzz'. Allowed: type, k, passes",
+        ),
+        (
+            {"bodies": {}, "observers": [{"type": "counter"}, {"type": "counter", "evry": 2}]},
+            "observers[1].evry",
+            "unknown key 'evry'; did you mean 'every'? Allowed: type, every",
+        ),
+        (
+            {"bodies": {}, "stepping": {"type": "fast", "limt": 2}},
+            "stepping.limt",
+            "unknown key 'limt'; did you mean 'limit'? Allowed: type, limit",
+        ),
+        # Missing ones.
+        ({}, "bodies", "missing"),
+        (
+            ball(material={"poisson": 0.3}),
+            "bodies.ball.material.young",
+            f"missing; {PRESSURE}",
+        ),
+        (
+            ball(wear="linear"),
+            "bodies.ball.wear.k",
+            "missing; an inverse pressure [1/Pa] is needed, as in '1e-6 mm^3/(N m)'",
+        ),
+        (
+            {"bodies": {}, "stepping": {"type": "slow"}},
+            "stepping.step",
+            "missing; a time [s] is needed, as in '1 h'",
+        ),
+        ({"bodies": {}, "cells": [8]}, "cells[1]", "missing"),
+        # A misspelt key is one mistake, not an unknown key and a missing one.
+        (
+            ball(material={"yuong": 1e9, "poisson": 0.3}),
+            "bodies.ball.material.yuong",
+            f"unknown key 'yuong'; did you mean 'young'? Allowed: {MATERIAL_KEYS}",
+        ),
+        # Types.
+        (
+            ball(wear={"k": 1}),
+            "bodies.ball.wear.type",
+            f"type is missing; installed: {LAWS}",
+        ),
+        (
+            ball(wear={"type": "liner"}),
+            "bodies.ball.wear.type",
+            f"unknown wear law 'liner'; did you mean 'linear'? Installed: {LAWS}",
+        ),
+        (
+            ball(wear="liner"),
+            "bodies.ball.wear",
+            f"unknown wear law 'liner'; did you mean 'linear'? Installed: {LAWS}",
+        ),
+        (
+            {"bodies": {}, "observers": ["counter", {"type": 3}]},
+            "observers[1].type",
+            "type must be text; installed: counter (dummies 1.0)",
+        ),
+        (
+            {"bodies": {}, "stepping": {"type": "slwo"}},
+            "stepping.type",
+            "'slow' or 'fast' is needed, 'slwo' was given; did you mean 'slow'?",
+        ),
+        (
+            {"bodies": {}, "stepping": {"limit": 3}},
+            "stepping.type",
+            "type is missing; allowed: slow, fast",
+        ),
+        # Wrong kinds of value.
+        (
+            ball(material={**STEEL, "young": "stiff"}),
+            "bodies.ball.material.young",
+            f"'stiff' is not a quantity; {PRESSURE}",
+        ),
+        (
+            ball(material={**STEEL, "young": -1}),
+            "bodies.ball.material.young",
+            "-1 Pa: must be greater than 0",
+        ),
+        (
+            ball(material={**STEEL, "hardness": "4 mm"}),
+            "bodies.ball.material.hardness",
+            f"'4 mm' is a length [m]; {PRESSURE}",
+        ),
+        (ball(material=3), "bodies.ball.material", "a table is needed, 3 was given"),
+        (
+            ball(wear={**LINEAR, "passes": "many"}),
+            "bodies.ball.wear.passes",
+            "a whole number is needed, 'many' was given",
+        ),
+        (
+            ball(wear={**LINEAR, "passes": 2.5}),
+            "bodies.ball.wear.passes",
+            "a whole number is needed, 2.5 was given",
+        ),
+        (
+            ball(wear=4),
+            "bodies.ball.wear",
+            f"a wear law is needed, as a table with its type; installed: {LAWS}",
+        ),
+        ({"bodies": 3}, "bodies", "a table is needed, 3 was given"),
+        ({"bodies": {}, "cells": 3}, "cells", "a list is needed, 3 was given"),
+        ({"bodies": {}, "cells": [8, "x"]}, "cells[1]", "a whole number is needed, 'x' was given"),
+        ({"bodies": {}, "cells": [8, 8, 8]}, "cells", "at most 2 values are allowed, 3 were given"),
+        (
+            {"bodies": {}, "verbose": "maybe"},
+            "verbose",
+            "true or false is needed, 'maybe' was given",
+        ),
+        (
+            {"bodies": {}, "observers": [{"type": "counter", "every": 0}]},
+            "observers[0].every",
+            "0: must be at least 1",
+        ),
+        (3, "", "a table is needed, 3 was given"),
+        # Rules of a model.
+        (ball(wear={"type": "blend", "parts": []}), "bodies.ball.wear", "give at least one part"),
+        # The marks of a union's members are not part of the path.
+        (
+            ball(wear={"type": "blend", "parts": ["none"], "weight": "much"}),
+            "bodies.ball.wear.weight",
+            "a number is needed, 'much' was given; or 'auto' is needed, 'much' was given",
+        ),
+        # Names that TOML would quote.
+        ({"bodies": {"my ball": {}}}, 'bodies."my ball".material', "missing"),
+    ],
+)
+def test_a_mistake_is_one_line(lines: Any, data: object, path: str, message: str) -> None:
+    assert lines(data) == [f"{path}: {message}" if path else message]
+
+
+def test_unknown_keys_come_first(lines: Any) -> None:
+    found = lines({"cells": 3, "bodies": {"ball": {"wear": {**LINEAR, "zzz": 1}}}})
+    assert [line.partition(": ")[0] for line in found] == [
+        "bodies.ball.wear.zzz",
+        "bodies.ball.material",
+        "cells",
+    ]
+
+
+def test_no_word_of_the_library_appears(lines: Any) -> None:
+    wrong = {
+        "bodies": {
+            "a": {"material": {"young": [], "poisson": {}}, "wear": {"type": "linear", "k": None}}
+        },
+        "cells": {"x": 1},
+        "verbose": [],
+        "stepping": 3,
+        "observers": {"type": "counter"},
+    }
+    text = "\n".join(lines(wrong))
+    assert len(text.splitlines()) == 7
+    for word in ("pydantic", "Input", "input", "validation", "dict", "instance", "tuple", "str"):
+        assert word not in text
+
+
+def test_the_error_has_the_first_line_and_its_path(dummies: Any) -> None:
+    data = {"bodies": {"ball": {"material": {**STEEL, "zzz": 1}}}, "cells": 3}
+    with pytest.raises(ValidationError) as caught:
+        dummies.Rig.model_validate(data)
+    error = case_error(caught.value, dummies.Rig, data)
+    assert error.path == "bodies.ball.material.zzz"
+    assert str(error).splitlines() == explain(caught.value, dummies.Rig, data)

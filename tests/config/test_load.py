@@ -1,0 +1,102 @@
+"""A file that cannot be a case is refused in one line."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tribo.config import load
+from tribo.config.load import load_case, read_toml, validate_case
+from tribo.core.errors import CaseError
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (b"[grid]\nsize =\n", "is not TOML: Invalid value (at line 2, column 7)"),
+        ("x = 1\ny = 'ä'".encode("latin-1"), "line 2: not UTF-8 text; save the file as UTF-8"),
+        ("x = 1".encode("utf-16"), "line 1: not UTF-8 text"),
+        (b"x = 1\x00", "is not TOML"),
+        (b"x = " + b"[" * 100_000, "nested too deeply"),
+        (b"x = " + b"9" * 10_000, "is not TOML"),
+    ],
+)
+def test_content_that_is_not_toml(tmp_path: Path, content: bytes, message: str) -> None:
+    path = tmp_path / "case.toml"
+    path.write_bytes(content)
+    with pytest.raises(CaseError) as caught:
+        read_toml(path)
+    assert message in str(caught.value)
+    assert str(path) in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_file_that_cannot_be_opened(tmp_path: Path) -> None:
+    with pytest.raises(CaseError, match="there is no such file"):
+        read_toml(tmp_path / "case.toml")
+    with pytest.raises(CaseError, match="is a directory"):
+        read_toml(tmp_path)
+    (tmp_path / "file").touch()
+    with pytest.raises(CaseError, match="cannot be read: Not a directory"):
+        read_toml(tmp_path / "file" / "case.toml")
+    with pytest.raises(CaseError, match="cannot be read"):
+        read_toml("case\0.toml")
+
+
+def test_a_file_that_is_too_large(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(load, "_LARGEST", 10)
+    path = tmp_path / "case.toml"
+    path.write_text("x = 1 # " + "long" * 10)
+    with pytest.raises(CaseError, match="larger than"):
+        read_toml(path)
+
+
+def test_the_mark_that_some_editors_add_is_no_fault(tmp_path: Path) -> None:
+    path = tmp_path / "case.toml"
+    path.write_bytes("x = 1".encode("utf-8-sig"))
+    assert read_toml(path) == {"x": 1}
+
+
+CASE = """
+grid = {size = "2 mm", cells = 64}
+load.normal = "100 N"
+contact.type = "dcfft"
+kinematics = {type = "reciprocating", stroke = "2 mm", frequency = "25 Hz", duration = "1 h"}
+[bodies.ball]
+surface = {type = "sphere", radius = "5 mm"}
+material = {young = "207 GPa", poisson = 0.3}
+wear = {type = "archard", k = 3.11e-16}
+[bodies.disk]
+surface = "flat"
+material = {young = "207 GPa", poisson = 0.3}
+"""
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    path = tmp_path / "case.toml"
+    path.write_text(CASE)
+    return path
+
+
+def test_a_case_is_read_from_a_file_with_changes(path: Path) -> None:
+    case = load_case(path, overrides=["load.normal=50 N", "bodies.ball.wear.k=1e-15"])
+    assert case.load.normal == 50
+    assert case.bodies["ball"].wear.k == 1e-15
+    assert case.bodies["disk"].surface.type == "flat"
+
+
+def test_a_case_survives_being_written_and_read(path: Path) -> None:
+    case = load_case(path)
+    for options in ({}, {"exclude_defaults": True}, {"exclude_unset": True}, {"mode": "json"}):
+        assert validate_case(case.model_dump(**options)) == case
+
+
+def test_each_mistake_is_a_line(path: Path) -> None:
+    with pytest.raises(CaseError) as caught:
+        load_case(path, overrides=["bodies.ball.material.young=-1", "contact.tolerence=1"])
+    lines = str(caught.value).splitlines()
+    assert caught.value.path == "contact.tolerence"
+    assert lines[0].startswith("contact.tolerence: unknown key 'tolerence'; did you mean")
+    assert lines[1:] == ["bodies.ball.material.young: -1 Pa: must be greater than 0"]

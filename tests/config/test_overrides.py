@@ -1,0 +1,105 @@
+"""Changes from the command line reach any value, and never get lost silently."""
+
+from __future__ import annotations
+
+import copy
+from typing import Any
+
+import pytest
+
+from tribo.config.overrides import apply_overrides
+from tribo.core.errors import CaseError
+
+DATA: dict[str, Any] = {
+    "load": {"normal": 100.0},
+    "contact": {"type": "dcfft", "tolerance": 1e-8},
+    "bodies": {"ball": {"wear": {"type": "archard", "k": 1e-16}, "surface": "flat"}},
+    "effects": [{"type": "heat", "rate": 1}, "glow"],
+}
+
+
+def changed(*overrides: str) -> dict[str, Any]:
+    before = copy.deepcopy(DATA)
+    result = apply_overrides(DATA, overrides)
+    assert before == DATA
+    return result
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("1e-15", 1e-15),
+        ("3", 3),
+        ("true", True),
+        ("[1, 2]", [1, 2]),
+        ('"5 mm"', "5 mm"),
+        ("5 mm", "5 mm"),
+        ("winkler", "winkler"),
+        ("a=b", "a=b"),
+        ("", ""),
+        ("1\nx = 2", "1\nx = 2"),
+    ],
+)
+def test_a_value_is_toml_or_else_text(text: str, value: object) -> None:
+    assert changed(f"load.normal={text}")["load"]["normal"] == value
+
+
+def test_missing_tables_are_added() -> None:
+    assert changed("friction.coefficient = 0.1")["friction"] == {"coefficient": 0.1}
+    assert changed("bodies.disk.wear.k=1")["bodies"]["disk"] == {"wear": {"k": 1}}
+
+
+def test_lists_are_reached_by_index() -> None:
+    assert changed("effects.0.rate=2")["effects"][0] == {"type": "heat", "rate": 2}
+    assert changed("effects.1=heat")["effects"] == [DATA["effects"][0], "heat"]
+
+
+def test_keys_may_be_quoted() -> None:
+    assert changed('bodies."a.b".x=1')["bodies"]["a.b"] == {"x": 1}
+
+
+def test_another_type_drops_the_keys_of_the_former() -> None:
+    assert changed("contact.type=winkler")["contact"] == {"type": "winkler"}
+    assert changed("effects.0.type=glow")["effects"][0] == {"type": "glow"}
+
+
+def test_the_same_type_keeps_them() -> None:
+    assert changed("contact.type=dcfft") == DATA
+
+
+@pytest.mark.parametrize("reverse", [False, True])
+def test_keys_of_the_new_type_survive_in_any_order(reverse: bool) -> None:
+    overrides = ["contact.type=winkler", "contact.modulus=1"]
+    result = changed(*(reversed(overrides) if reverse else overrides))
+    assert result["contact"] == {"type": "winkler", "modulus": 1}
+
+
+def test_a_name_alone_is_a_table_with_its_type() -> None:
+    ball = changed("bodies.ball.surface.tilt=1")["bodies"]["ball"]
+    assert ball["surface"] == {"type": "flat", "tilt": 1}
+    assert changed("bodies.ball.surface.type=sphere")["bodies"]["ball"]["surface"] == {
+        "type": "sphere"
+    }
+
+
+def test_the_last_of_two_counts() -> None:
+    assert changed("load.normal=1", "load.normal=2")["load"] == {"normal": 2}
+
+
+@pytest.mark.parametrize(
+    ("override", "message"),
+    [
+        ("load.normal", "'load.normal' is not of the form path=value, as in load.normal=50"),
+        ("=3", "'=3' is not of the form path=value"),
+        ("a..b=3", "'a..b=3' is not of the form"),
+        ("a b=3", "'a b=3' is not of the form"),
+        ("a\nb=3", "is not of the form"),
+        ("effects.2.rate=1", "effects: '2' is no index; allowed: 0 to 1"),
+        ("effects.x=1", "effects: 'x' is no index"),
+        ("load.normal.x=1", "load.normal: is no table"),
+    ],
+)
+def test_a_malformed_override_is_refused(override: str, message: str) -> None:
+    with pytest.raises(CaseError) as caught:
+        changed(override)
+    assert message in str(caught.value)
