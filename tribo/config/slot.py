@@ -6,15 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
-from pydantic import ValidationError as Invalid
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationError
 from pydantic.json_schema import JsonSchemaValue
-from pydantic_core import (
-    CoreSchema,
-    InitErrorDetails,
-    PydanticCustomError,
-    core_schema,
-)
+from pydantic_core import CoreSchema, InitErrorDetails, PydanticCustomError, core_schema
 from pydantic_core.core_schema import SerializationInfo, ValidationInfo
 
 from tribo.config.schema import slot_schema
@@ -93,9 +87,9 @@ def _error(text: str) -> PydanticCustomError:
     return PydanticCustomError("slot", "{message}", {"message": text})
 
 
-def _at_type(text: str, value: object) -> Invalid:
+def _at_type(text: str, value: object) -> ValidationError:
     details = InitErrorDetails(type=_error(text), loc=("type",), input=value)
-    return Invalid.from_exception_data("Slot", [details])
+    return ValidationError.from_exception_data("Slot", [details])
 
 
 def _dump(value: ComponentConfig, info: SerializationInfo) -> dict[str, Any]:

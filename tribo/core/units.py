@@ -7,7 +7,7 @@ import re
 from dataclasses import dataclass
 from fractions import Fraction
 from numbers import Real
-from typing import Annotated, Any
+from typing import Any
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
@@ -176,21 +176,6 @@ class Quantity:
             return self.read(value)
         except CaseError as error:
             raise PydanticCustomError("quantity", "{message}", {"message": str(error)}) from None
-
-
-Length = Annotated[float, Quantity("m")]
-PositiveLength = Annotated[float, Quantity("m", above=0)]
-PositivePressure = Annotated[float, Quantity("Pa", above=0)]
-PositiveForce = Annotated[float, Quantity("N", above=0)]
-Time = Annotated[float, Quantity("s", at_least=0)]
-PositiveTime = Annotated[float, Quantity("s", above=0)]
-PositiveSpeed = Annotated[float, Quantity("m/s", above=0)]
-PositiveFrequency = Annotated[float, Quantity("Hz", above=0)]
-PositiveDensity = Annotated[float, Quantity("kg/m^3", above=0)]
-PositiveConductivity = Annotated[float, Quantity("W/(m K)", above=0)]
-PositiveHeatCapacity = Annotated[float, Quantity("J/(kg K)", above=0)]
-InversePressure = Annotated[float, Quantity("1/Pa", at_least=0)]
-Temperature = Annotated[float, Quantity("K", at_least=0)]
 
 
 def _called(dimension: Dimension) -> str:
