@@ -47,7 +47,9 @@ def _lines(model: Model, prediction: Prediction) -> list[tuple[str, str]]:
     else:
         a, b = hertz.half_width_x, hertz.half_width_y
         lines.append(("Hertz half-widths", f"{1e6 * a:.4g} × {1e6 * b:.4g} µm along × across"))
-        lines.append(("Hertz peak pressure p0", f"{1e-6 * hertz.peak_pressure:.1f} MPa"))
+        p0 = f"{1e-6 * hertz.peak_pressure:.1f} MPa"
+        found = f"computed {1e-6 * prediction.first.max_pressure:.1f} MPa"
+        lines.append(("Hertz peak pressure p0", f"{p0}, {found}"))
         if model.system.cap is not None:
             ratio = hertz.peak_pressure / model.system.cap
             verdict = "yields from the start" if ratio > 1 else "elastic at first"

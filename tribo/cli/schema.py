@@ -17,5 +17,6 @@ def schema() -> None:
     Then begin a case with '#:schema tribo.schema.json' for help in an editor.
     """
     from tribo.config.case import Case
+    from tribo.config.schema import json_schema
 
-    click.echo(json.dumps(Case.model_json_schema(), indent=2))
+    click.echo(json.dumps(json_schema(Case), indent=2))

@@ -24,12 +24,18 @@ Length = Annotated[float, Quantity("m", above=0)]
 Cells = Annotated[int, Field(ge=4, le=16384)]
 
 
+def _or_one(schema: dict[str, Any]) -> None:
+    """Let a schema for a pair also take one value for both."""
+    pair = {key: schema.pop(key) for key in list(schema) if key != "description"}
+    schema["anyOf"] = [pair["prefixItems"][0], pair]
+
+
 class GridConfig(Table):
     """The window on the contact; one number stands for both axes."""
 
-    size: tuple[Length, Length]
+    size: tuple[Length, Length] = Field(json_schema_extra=_or_one)
     """Edge lengths along x, the sliding direction, and y."""
-    cells: tuple[Cells, Cells]
+    cells: tuple[Cells, Cells] = Field(json_schema_extra=_or_one)
     """Number of cells along x and y."""
     ends_at_window: bool = False
     """Whether a body ends at the window's edge, as a flat pin does: contact may then reach it."""

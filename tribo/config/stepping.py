@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import ConfigDict, Field
 
 from tribo.config.table import Table
 from tribo.core.units import Quantity
 
 
+def _type_required(schema: dict[str, Any]) -> None:
+    # It has a default for those who make objects; in a case it tells the two apart.
+    schema.setdefault("required", []).append("type")
+
+
 class ImplicitConfig(Table):
     """Backward Euler, with increments chosen by error; stable at any length."""
+
+    model_config = ConfigDict(json_schema_extra=_type_required)
 
     type: Literal["implicit"] = "implicit"
     depth_tolerance: Annotated[float, Quantity("1", above=0, at_most=0.1)] = 1e-3
@@ -28,6 +35,8 @@ class ImplicitConfig(Table):
 
 class ExplicitConfig(Table):
     """Forward Euler with a fixed time step, as in the paper; limited by stability."""
+
+    model_config = ConfigDict(json_schema_extra=_type_required)
 
     type: Literal["explicit"] = "explicit"
     time_step: Annotated[float, Quantity("s", above=0)]

@@ -53,9 +53,8 @@ def tribo_surfaces() -> Iterable[type[Surface[Any]]]:
 
 @hookimpl
 def tribo_observers() -> Iterable[type[Observer[Any]]]:
-    """Offer recorder, checkpointer and progress display."""
-    from tribo.observers.checkpoint import Checkpointer
+    """Offer the recorder and the progress display."""
     from tribo.observers.progress import Progress
     from tribo.observers.recorder import Recorder
 
-    return Recorder, Checkpointer, Progress
+    return Recorder, Progress

@@ -26,8 +26,10 @@ class Prediction:
 
     Parameters
     ----------
+    first : Measures
+        The first contact, on the case's own grid.
     hertz : HertzContact or None
-        The first contact by Hertz's theory.
+        The same by Hertz's theory.
     cells_across : tuple of float or None
         Cells across Hertz's contact along x and y.
     last : Measures or None
@@ -41,6 +43,7 @@ class Prediction:
         In bytes; upper estimates.
     """
 
+    first: Measures
     hertz: HertzContact | None
     cells_across: tuple[float, float] | None
     last: Measures | None
@@ -51,7 +54,16 @@ class Prediction:
 
 
 def predict(model: Model) -> Prediction:
-    """Estimate what `model` will do, in about a second."""
+    """Estimate what `model` will do, in about a second.
+
+    Raises
+    ------
+    CaseError
+        If the first contact does not fit the window.
+    NumericalError
+        If it cannot be solved.
+    """
+    first = measure(model, begin(model))
     hertz = hertz_contact(model.system)
     dx, dy = model.grid.spacing
     last = _coarse_run(model)
@@ -66,6 +78,7 @@ def predict(model: Model) -> Prediction:
     fields += sum(1 for body in model.bodies if model.is_swept(body.name))
     saves = len({0.0, model.end_time, *model.save_times})
     return Prediction(
+        first=first,
         hertz=hertz,
         cells_across=None
         if hertz is None

@@ -1,0 +1,220 @@
+"""The commands, as a user meets them."""
+
+import csv
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tribo.templates import TEMPLATES, template
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+QUICK = ["--set", "grid.cells=32", "--set", "grid.size=0.7 mm", "--set", "kinematics.duration=60"]
+QUICK += ["--set", "output.save_times=[0, 20]"]
+
+
+def tribo(*args, cwd):
+    return subprocess.run(
+        [sys.executable, "-m", "tribo", *map(str, args)],
+        cwd=cwd,
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
+
+
+@pytest.fixture(scope="module")
+def ran(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("run")
+    assert tribo("new", "ball_on_disk", "my.toml", cwd=folder).returncode == 0
+    done = tribo("run", "my.toml", *QUICK, cwd=folder)
+    assert done.returncode == 0, done.stderr
+    return folder, done
+
+
+def test_a_run_ends_with_a_lab_table(ran):
+    folder, done = ran
+    assert (folder / "my.h5").is_file()
+    for words in ("volume, mm³", "mass, mg", "mm³/(N·m)", "scar across, mm", "Hertz", "yield"):
+        assert words in done.stdout
+    assert done.stderr == ""
+
+
+def test_show_json_has_the_documented_shape(ran):
+    folder, _ = ran
+    shown = tribo("show", "my.h5", "--json", cwd=folder)
+    data = json.loads(shown.stdout)
+    assert {"case", "provenance", "totals", "saves"} <= data.keys()
+    assert {"contact_solves", "solver_iterations", "wall_time_s"} <= data["totals"].keys()
+    assert [save["time_s"] for save in data["saves"]] == [0, 20, 60]
+    last = data["saves"][-1]
+    assert {
+        "distance_m",
+        "max_pressure_Pa",
+        "centre_pressure_Pa",
+        "contact_half_width_x_m",
+        "contact_half_width_y_m",
+        "contact_area_m2",
+        "approach_m",
+        "force_error",
+    } <= last.keys()
+    assert last["bodies"].keys() == {"ball", "disk"}
+    assert {
+        "max_wear_depth_m",
+        "centre_wear_depth_m",
+        "wear_volume_m3",
+        "max_plastic_depth_m",
+    } <= last["bodies"]["ball"].keys()
+    assert last["bodies"]["ball"]["wear_volume_m3"] == pytest.approx(3.11e-16 * 100 * 6)
+
+
+def test_show_prints_the_table_again(ran):
+    folder, done = ran
+    shown = tribo("show", "my.h5", cwd=folder)
+    assert shown.returncode == 0
+    assert shown.stdout in done.stdout
+
+
+def test_export_writes_csv_with_units_in_the_column_names(ran):
+    folder, _ = ran
+    assert tribo("export", "my.h5", "-d", "csv", cwd=folder).returncode == 0
+    with (folder / "csv" / "history.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert float(rows[-1]["time_s"]) == 60
+    assert "bodies.ball.wear_volume_m3" in rows[0]
+    with (folder / "csv" / "profiles_x.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == 3 * 32
+    assert {"time_s", "x_m", "pressure_Pa", "bodies.ball.wear_depth_m"} <= rows[0].keys()
+
+
+def test_plot_writes_pictures(ran):
+    folder, _ = ran
+    done = tribo("plot", "my.h5", "-d", "pictures", cwd=folder)
+    assert done.returncode == 0, done.stderr
+    assert len(list((folder / "pictures").glob("*.png"))) >= 6
+
+
+def test_schema_is_json(tmp_path):
+    data = json.loads(tribo("schema", cwd=tmp_path).stdout)
+    assert "bodies" in data["properties"]
+
+
+@pytest.mark.parametrize("name", list(TEMPLATES))
+def test_every_template_is_valid_and_predicted(tmp_path, name):
+    assert tribo("new", name, "case.toml", cwd=tmp_path).returncode == 0
+    done = tribo("check", "case.toml", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    for words in ("Hertz half-widths", "p0/H", "cells across", "window", "memory", "result file"):
+        assert words in done.stdout
+    assert "holds it" in done.stdout
+    assert ("stroke averaging" in done.stdout) == (name == "weighed_split")
+
+
+@pytest.mark.parametrize("name", list(TEMPLATES))
+def test_examples_are_the_templates(name):
+    assert (EXAMPLES / f"{name}.toml").read_text() == template(name)
+
+
+@pytest.mark.parametrize(
+    "command", ["", *["demo", "new", "check", "run", "resume", "show", "plot", "export", "schema"]]
+)
+def test_every_command_has_help_with_an_example(tmp_path, command):
+    done = tribo(*command.split(), "--help", cwd=tmp_path)
+    assert done.returncode == 0
+    assert "Example" in done.stdout
+
+
+CASE = template("ball_on_disk")
+BAD = {
+    "unknown key": ("young = ", "yuong = ", "bodies.ball.material.yuong", "young"),
+    "unknown table": ("[load]", "[laod]", "laod", "load"),
+    "unknown type": ('"archard"', '"archrad"', "bodies.ball.wear.type", "archard"),
+    "unknown contact": ('"dcfft"', '"dcftt"', "contact.type", "dcfft"),
+    "wrong dimension": ('"100 N"', '"100 mm"', "load.normal", "force"),
+    "negative modulus": ('"207 GPa"', '"-207 GPa"', "bodies.ball.material.young", "greater"),
+    "zero modulus": ('"207 GPa"', "0", "bodies.ball.material.young", "greater"),
+    "NaN modulus": ('"207 GPa"', "nan", "bodies.ball.material.young", "finite"),
+    "negative radius": ('"5 mm"', '"-5 mm"', "bodies.ball.surface.radius", "greater"),
+    "zero load": ('"100 N"', "0", "load.normal", "greater"),
+    "negative load": ('"100 N"', '"-1 N"', "load.normal", "greater"),
+    "negative stroke": ('stroke = "2 mm"', "stroke = -1", "kinematics.stroke", "greater"),
+    "zero stroke": ('stroke = "2 mm"', "stroke = 0", "kinematics.stroke", "greater"),
+    "Poisson's ratio of 0.5": (
+        "poisson = 0.3",
+        "poisson = 0.5",
+        "bodies.ball.material.poisson",
+        "0.5",
+    ),
+    "Poisson's ratio of -1": (
+        "poisson = 0.3",
+        "poisson = -1",
+        "bodies.ball.material.poisson",
+        "-1",
+    ),
+    "window too small": ('["2 mm", "2 mm"]', '"0.2 mm"', "grid.size", "larger"),
+    "swept ball": ('swept = "disk"', 'swept = "ball"', "bodies.ball.surface", "kinematics.swept"),
+    "unknown body": ('swept = "disk"', 'swept = "dsik"', "kinematics.swept", "disk"),
+    "save times out of order": ("500, 1500", "1500, 500", "output.save_times", "increase"),
+    "save times beyond the end": ("1500, 3600", "1500, 3601", "output.save_times", "end"),
+    "not TOML": ("[grid]", "[grid", "line", "TOML"),
+}
+
+
+@pytest.mark.parametrize("mistake", list(BAD))
+@pytest.mark.parametrize("command", ["check", "run"])
+def test_bad_input_is_one_line_with_path_and_remedy(tmp_path, command, mistake):
+    old, new, where, remedy = BAD[mistake]
+    assert old in CASE
+    (tmp_path / "case.toml").write_text(CASE.replace(old, new, 1))
+    done = tribo(command, "case.toml", cwd=tmp_path)
+    assert done.returncode == 2
+    assert done.stdout == ""
+    first = done.stderr.splitlines()[0]
+    assert first.startswith("error: ")
+    assert where in first
+    assert remedy in first
+    assert "Traceback" not in done.stderr
+    assert [p.name for p in tmp_path.iterdir()] == ["case.toml"]
+
+
+def test_a_missing_file_is_named(tmp_path):
+    done = tribo("run", "none.toml", cwd=tmp_path)
+    assert done.returncode == 2
+    assert "none.toml" in done.stderr
+
+
+def test_a_wrong_encoding_is_named(tmp_path):
+    (tmp_path / "case.toml").write_bytes(CASE.replace("Ball", "Bäll").encode("utf-16"))
+    done = tribo("run", "case.toml", cwd=tmp_path)
+    assert done.returncode == 2
+    assert "UTF-8" in done.stderr
+
+
+def test_existing_output_needs_force(ran):
+    folder, _ = ran
+    done = tribo("run", "my.toml", *QUICK, cwd=folder)
+    assert done.returncode == 2
+    assert "--force" in done.stderr
+    assert tribo("run", "my.toml", *QUICK, "--force", cwd=folder).returncode == 0
+
+
+def test_a_contact_that_outgrows_the_window_exits_with_3(tmp_path):
+    (tmp_path / "case.toml").write_text(CASE)
+    settings = [*QUICK, "--set", "grid.size=0.36 mm"]
+    done = tribo("run", "case.toml", *settings, cwd=tmp_path)
+    assert done.returncode == 3
+    assert "grid.size" in done.stderr
+    assert tribo("show", "case.h5", cwd=tmp_path).returncode == 0
+
+
+def test_a_solve_that_does_not_converge_exits_with_3(tmp_path):
+    (tmp_path / "case.toml").write_text(CASE)
+    settings = [*QUICK, "--set", "contact.max_iterations=2"]
+    done = tribo("run", "case.toml", *settings, cwd=tmp_path)
+    assert done.returncode == 3
+    assert "max_iterations" in done.stderr
+    assert "residual" in done.stderr

@@ -1,0 +1,104 @@
+"""Sliding while yielding: the cap holds, the groove is the envelope, nothing yields twice."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from paper_models import archard, flat, motion, small, sphere, states, steel
+
+from tribo import Body, Grid
+from tribo.core.contact import ContactProblem
+from tribo.simulation.step import first_contact, geometry, start_sliding
+
+HARDNESS = 4e9
+
+
+def yielding(load=1000.0, hardness=("4 GPa", "4 GPa"), **changes):
+    parts = {
+        "grid": Grid((1.2e-3, 1.2e-3), (60, 60)),
+        "load": load,
+        "bodies": [
+            Body("ball", sphere(), steel(hardness[0]), archard()),
+            Body("disk", flat(), steel(hardness[1]), archard()),
+        ],
+        "kinematics": motion(duration=50),
+    }
+    return small(**{**parts, **changes})
+
+
+@pytest.fixture(scope="module")
+def run():
+    model = yielding()
+    return model, states(model)
+
+
+def test_the_cap_holds_in_every_state(run):
+    for state in run[1]:
+        assert state.contact.pressure.max() <= HARDNESS * (1 + 1e-12)
+        assert state.contact.residuals.force < 1e-12
+
+
+def test_the_first_indentation_is_local_and_shared_by_equal_bodies(run):
+    first = run[1][0]
+    disk, ball = first.bodies["disk"].plastic, first.bodies["ball"].plastic
+    assert disk.max() > 1e-7
+    assert np.ptp(disk, axis=0).max() > 1e-7
+    np.testing.assert_array_equal(disk, ball)
+
+
+def test_the_groove_is_the_envelope_of_what_was_pressed_in(run):
+    for state in run[1][1:]:
+        disk = state.bodies["disk"].plastic
+        np.testing.assert_array_equal(disk, np.broadcast_to(disk[:1], disk.shape))
+    first, second = run[1][0].bodies["disk"].plastic, run[1][1].bodies["disk"].plastic
+    # Drawing the indentation out along the track leaves less in contact: it sinks deeper.
+    assert np.all(second[0] >= first.max(axis=0))
+
+
+def test_nothing_yields_twice_at_the_same_load(run):
+    model, all_states = run
+    settled = start_sliding(model, all_states[0])
+    again = model.contact.solve(
+        ContactProblem(model.system, geometry(model, settled.bodies), model.load)
+    )
+    deepest = settled.bodies["disk"].plastic.max()
+    assert again.overlap.max() < 1e-5 * deepest
+
+
+@pytest.mark.parametrize("part", [0.25, 0.5])
+def test_a_lighter_contact_on_the_groove_is_elastic(run, part):
+    model, all_states = run
+    settled = start_sliding(model, all_states[0])
+    lighter = model.contact.solve(
+        ContactProblem(model.system, geometry(model, settled.bodies), part * model.load)
+    )
+    assert lighter.pressure.max() < HARDNESS
+    assert lighter.overlap.max() == 0
+
+
+def test_wear_takes_the_pressure_below_the_cap_for_good(run):
+    pressures = [state.contact.pressure.max() for state in run[1]]
+    assert pressures[0] == pytest.approx(HARDNESS)
+    assert pressures[-1] < 0.9 * HARDNESS
+    depths = [state.bodies["disk"].plastic.max() for state in run[1]]
+    assert depths[-1] == depths[1]
+
+
+def test_the_softer_body_takes_all_of_it():
+    first = first_contact(yielding(hardness=("6 GPa", "4 GPa")))
+    assert first.bodies["ball"].plastic.max() == 0
+    assert first.bodies["disk"].plastic.max() > 0
+
+
+def test_without_plasticity_the_pressure_is_hertzs():
+    from paper_models import half_space
+
+    first = first_contact(yielding(contact=half_space(plasticity=False)))
+    assert first.contact.pressure.max() == pytest.approx(4.643e9, rel=5e-3)
+    assert first.contact.overlap.max() == 0
+
+
+def test_the_papers_load_does_not_yield():
+    model = yielding(load=100.0, grid=Grid((0.7e-3, 0.7e-3), (48, 48)))
+    assert all(body.plastic.max() == 0 for state in states(model) for body in state.bodies.values())
+    assert replace(model.system).cap == HARDNESS

@@ -1,0 +1,199 @@
+"""Runs end to end: saves, stops, interruption and resumption."""
+
+import os
+import signal
+
+import h5py
+import numpy as np
+import pytest
+from paper_models import K, archard, flat, motion, small, sphere, states, steel
+
+from tribo import Body, CaseError, Grid, Interrupted, NumericalError, Result, Simulation
+from tribo.config.stepping import ExplicitConfig
+from tribo.config.stop import StopConfig
+from tribo.core.errors import TriboWarning
+from tribo.interfaces.observer import Observer, ObserverConfig
+from tribo.simulation.describe import describe
+
+
+class Stopper(Observer[ObserverConfig]):
+    """Sends this process a signal after some steps, as Ctrl-C does."""
+
+    def __init__(self, after, number=signal.SIGINT):
+        super().__init__(ObserverConfig(type="test.stopper"))
+        self.after, self.number = after, number
+
+    def on_step(self, snapshot):
+        if snapshot.state.steps == self.after:
+            os.kill(os.getpid(), self.number)
+
+
+def contents(path):
+    """Every dataset of a file."""
+    found = {}
+    with h5py.File(path) as file:
+        file.visititems(
+            lambda name, item: (
+                found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None
+            )
+        )
+    found.pop("provenance")
+    return found
+
+
+def test_saves_are_at_the_times_asked_for_the_start_and_the_end():
+    result = Simulation(small(save_times=(20, 100.5))).run()
+    np.testing.assert_array_equal(result.times, [0, 20, 100.5, 200])
+    np.testing.assert_allclose(result.distances, [0, 2, 10.05, 20], rtol=1e-14)
+
+
+def test_every_save_carries_the_load_without_overlap():
+    for save in Simulation(small(save_times=(50,))).run().saves():
+        assert save["force_error"] < 1e-12
+        assert save["complementarity_error"] < 1e-7
+        assert save["penetration_error"] < 1e-7
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("after", [0, 1, 7])
+def test_a_stopped_run_resumes_to_the_same_bits(tmp_path, number, after):
+    whole, parts = tmp_path / "whole.h5", tmp_path / "parts.h5"
+    model = small(save_times=(20, 100))
+    Simulation(model).run(whole).close()
+    with pytest.raises(Interrupted, match="tribo resume"):
+        Simulation(model).run(parts, observers=[Stopper(after, number)])
+    with Result.open(parts) as result:
+        assert result.status == "interrupted"
+        assert result.times[-1] < 200
+    with Simulation(model).resume(parts) as result:
+        assert result.status == "done"
+    first, second = contents(whole), contents(parts)
+    assert first.keys() == second.keys()
+    for name in first:
+        np.testing.assert_array_equal(first[name], second[name], err_msg=name)
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["parts.h5", "whole.h5"]
+
+
+def test_a_run_stopped_twice_resumes_to_the_same_bits(tmp_path):
+    whole, parts = tmp_path / "whole.h5", tmp_path / "parts.h5"
+    model = small(save_times=(20, 100))
+    Simulation(model).run(whole).close()
+    with pytest.raises(Interrupted):
+        Simulation(model).run(parts, observers=[Stopper(5)])
+    with pytest.raises(Interrupted):
+        Simulation(model).resume(parts, observers=[Stopper(11)])
+    Simulation(model).resume(parts).close()
+    first, second = contents(whole), contents(parts)
+    for name in first:
+        np.testing.assert_array_equal(first[name], second[name], err_msg=name)
+
+
+def test_a_torn_checkpoint_falls_back_on_the_one_before(tmp_path):
+    whole, parts = tmp_path / "whole.h5", tmp_path / "parts.h5"
+    model = small(save_times=(20, 100))
+    Simulation(model).run(whole).close()
+    with pytest.raises(Interrupted):
+        Simulation(model).run(parts, observers=[Stopper(30)])
+    checkpoint = tmp_path / "parts.h5.ckpt"
+    checkpoint.write_bytes(checkpoint.read_bytes()[:2000])
+    Simulation(model).resume(parts).close()
+    first, second = contents(whole), contents(parts)
+    for name in first:
+        np.testing.assert_array_equal(first[name], second[name], err_msg=name)
+
+
+def test_only_a_stopped_run_of_the_same_case_is_resumed(tmp_path):
+    path = tmp_path / "run.h5"
+    with pytest.raises(Interrupted):
+        Simulation(small()).run(path, observers=[Stopper(3)])
+    with pytest.raises(CaseError, match="another case"):
+        Simulation(small(load=50.0)).resume(path)
+    Simulation(small()).resume(path).close()
+    with pytest.raises(CaseError, match="nothing to resume"):
+        Simulation(small()).resume(path)
+
+
+def test_an_existing_result_is_replaced_only_when_told(tmp_path):
+    path = tmp_path / "run.h5"
+    path.write_text("mine")
+    with pytest.raises(CaseError, match=r"exists; .*--force"):
+        Simulation(small()).run(path)
+    assert path.read_text() == "mine"
+    Simulation(small(kinematics=motion(duration=1))).run(path, overwrite=True).close()
+    assert Result.open(path).status == "done"
+
+
+def test_watching_does_not_change_a_bit():
+    plain, watched = (
+        Simulation(small()).run(observers=observers) for observers in ([], [Stopper(10**9)])
+    )
+    np.testing.assert_array_equal(plain.pressure(-1), watched.pressure(-1))
+
+
+def test_a_run_may_end_at_a_distance():
+    result = Simulation(small(stop=StopConfig(distance="7 m"))).run()
+    assert result.distances[-1] == pytest.approx(7, rel=1e-12)
+    assert result.times[-1] == pytest.approx(70, rel=1e-12)
+
+
+@pytest.mark.parametrize("stepping", [{}, {"stepping": ExplicitConfig(time_step=2)}])
+@pytest.mark.parametrize("body", ["ball", "disk"])
+def test_a_run_may_end_at_a_depth(stepping, body):
+    result = Simulation(small(stop=StopConfig(depth="0.4 um", body=body), **stepping)).run()
+    depth = result.saves()[-1]["bodies"][body]["max_wear_depth_m"]
+    assert depth == pytest.approx(0.4e-6, rel=2e-6)
+    assert result.status == "done"
+
+
+def test_a_contact_that_reaches_the_edge_stops_the_run_with_what_was_saved(tmp_path):
+    path = tmp_path / "run.h5"
+    model = small(grid=Grid((0.4e-3, 0.4e-3), (32, 32)), save_times=(5,))
+    with pytest.raises(NumericalError, match=r"reached the edge .*grid\.size"):
+        Simulation(model).run(path)
+    with Result.open(path) as result:
+        assert result.status == "failed"
+        assert list(result.times[:2]) == [0, 5]
+        assert np.all(np.isfinite(result.pressure(-1)))
+
+
+def test_a_window_too_small_for_the_first_contact_is_refused(tmp_path):
+    path = tmp_path / "run.h5"
+    with pytest.raises(CaseError, match=r"^grid\.size: the first contact reaches the edge"):
+        Simulation(small(grid=Grid((0.25e-3, 0.25e-3), (32, 32)))).run(path)
+    assert not path.exists()
+
+
+def test_a_body_that_ends_at_the_window_wears_evenly():
+    # A flat pin: h = k p s everywhere.
+    model = small(
+        grid=Grid((1e-3, 1e-3), (8, 8)),
+        bodies=[Body("pin", flat(), steel(), archard()), Body("disk", flat(), steel())],
+        contact=__import__("paper_models").foundation(),
+        ends_at_window=True,
+    )
+    state = states(model)[-1]
+    np.testing.assert_allclose(state.bodies["pin"].wear, K * 100 / 1e-6 * 20, rtol=1e-9)
+
+
+def test_few_cells_and_a_short_stroke_are_warned_of_once():
+    model = small(
+        grid=Grid((0.7e-3, 0.7e-3), (14, 14)), kinematics=motion(stroke="0.6 mm", frequency=50)
+    )
+    with pytest.warns(TriboWarning) as caught:
+        result = Simulation(model).run()
+    texts = [str(w.message) for w in caught if issubclass(w.category, TriboWarning)]
+    assert len(texts) == 2
+    assert "cells wide" in texts[0]
+    assert "stroke" in texts[1]
+    assert result.notices == tuple(texts)
+
+
+def test_a_model_made_of_objects_describes_the_case_that_makes_it():
+    model = small(save_times=(20.0,))
+    again = Simulation(describe(model)).model
+    assert describe(again) == describe(model)
+
+
+def test_a_swept_body_must_not_vary_along_the_track():
+    with pytest.raises(CaseError, match=r"bodies\.disk\.surface: .*kinematics\.swept"):
+        small(bodies=[Body("ball", flat(), steel()), Body("disk", sphere(), steel())])
