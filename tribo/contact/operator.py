@@ -8,8 +8,8 @@ from typing import Protocol
 import numpy as np
 import scipy.fft
 
-from tribo.contact.love import wrapped_kernel
-from tribo.core.arrays import Array, readonly
+from tribo.contact.love import nyquist_compliance, wrapped_kernel
+from tribo.core.arrays import Array
 from tribo.core.contact import WearCompliance
 
 
@@ -97,7 +97,10 @@ class HalfSpace:
         self._self_compliance = float(kernel[0, 0]) / modulus
         # An even kernel has a real spectrum.
         self._spectrum = scipy.fft.rfft2(kernel).real / modulus
-        self._symbol = readonly(_positive(scipy.fft.rfft2(wrapped_kernel(shape, spacing)).real))
+        periodic = scipy.fft.rfft2(wrapped_kernel(shape, spacing)).real
+        # Cutting 1/r off at the box makes its spectrum oscillate, least of all near
+        # its minimum; the bound keeps the preconditioner definite on any box.
+        self._symbol = np.maximum(periodic, 0.5 * nyquist_compliance(spacing)) / modulus
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement under `pressure`; see `Operator.apply`."""
@@ -112,7 +115,8 @@ class HalfSpace:
 
     def symbol(self) -> Array:
         """Return the eigenvalues of the periodic operator with the same near field."""
-        return self._symbol / self.modulus
+        symbol: Array = self._symbol.copy()
+        return symbol
 
     def diag(self) -> Array:
         """Return displacement of each cell per pressure on itself; see `Operator.diag`."""
@@ -147,7 +151,8 @@ class WornOperator:
     def apply(self, pressure: Array) -> Array:
         """Return K p + local * p + swept * dx * sum_x(p)."""
         lines = np.sum(pressure, axis=0) * self.spacing[0]
-        return self.base.apply(pressure) + self.wear.local * pressure + self.wear.swept * lines
+        worn: Array = self.wear.local * pressure + self.wear.swept * lines
+        return self.base.apply(pressure) + worn
 
     def symbol(self) -> Array:
         """Return the estimates of `base` plus the mean compliance of the wear."""
@@ -158,14 +163,6 @@ class WornOperator:
     def diag(self) -> Array:
         """Return displacement of each cell per pressure on itself; see `Operator.diag`."""
         return self.base.diag() + self.wear.local + self.wear.swept * self.spacing[0]
-
-
-def _positive(symbol: Array) -> Array:
-    # Truncating 1/r makes the spectrum oscillate about that of the infinite
-    # kernel; where it would dip too far the preconditioner must stay definite.
-    floor = 1e-3 * float(np.max(symbol))
-    positive: Array = np.maximum(symbol, min(floor, float(np.median(symbol))))
-    return positive
 
 
 def _mean_where_positive(values: Array) -> float:

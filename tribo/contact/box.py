@@ -1,0 +1,105 @@
+"""The part of the window that a contact occupies."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tribo.core.arrays import Array, Mask
+
+_SMALLEST = 8
+
+
+@dataclass(frozen=True)
+class Box:
+    """A rectangle of cells within a window.
+
+    Parameters
+    ----------
+    first : tuple of int
+        Its first cell along x and y.
+    shape : tuple of int
+        Its cells along x and y.
+    window : tuple of int
+        Cells of the window along x and y.
+    """
+
+    first: tuple[int, int]
+    shape: tuple[int, int]
+    window: tuple[int, int]
+
+    @property
+    def slices(self) -> tuple[slice, slice]:
+        """Where the box lies in an array on the window."""
+        (i, j), (nx, ny) = self.first, self.shape
+        return slice(i, i + nx), slice(j, j + ny)
+
+    @property
+    def is_window(self) -> bool:
+        """Whether the box leaves no cell of the window out."""
+        return self.shape == self.window
+
+    def embed(self, values: Array) -> Array:
+        """Return `values`, on the box, in a window of zeros."""
+        full = np.zeros(self.window)
+        full[self.slices] = values
+        return full
+
+    def edge_is_touched(self, pressure: Array) -> bool:
+        """Whether `pressure`, on the box, reaches an edge that is not the window's."""
+        touching = pressure > 0
+        for axis in (0, 1):
+            lines: Mask = np.any(touching, axis=1 - axis)
+            inside = self.first[axis] > 0
+            beyond = self.first[axis] + self.shape[axis] < self.window[axis]
+            if (inside and lines[0]) or (beyond and lines[-1]):
+                return True
+        return False
+
+
+def whole(window: tuple[int, int]) -> Box:
+    """Return the box that is the whole window of `window` cells."""
+    return Box((0, 0), window, window)
+
+
+def around(cells: Mask, margin: int) -> Box:
+    """Return a box of few distinct sizes around the set cells of a window.
+
+    Parameters
+    ----------
+    cells : ndarray of bool, shape of the window
+        Cells to enclose; the whole window is returned when there are none.
+    margin : int
+        Cells to add on each side, at least.
+
+    Returns
+    -------
+    Box
+        Its edge lengths are {4, 5, 6, 7}·2^k, so that transforms are fast and
+        kernels are used again, or the window's.
+    """
+    window = (cells.shape[0], cells.shape[1])
+    if not cells.any():
+        return whole(window)
+    i, nx = _span(np.any(cells, axis=1), margin)
+    j, ny = _span(np.any(cells, axis=0), margin)
+    return Box((i, j), (nx, ny), window)
+
+
+def _span(lines: Mask, margin: int) -> tuple[int, int]:
+    count = lines.size
+    index = np.flatnonzero(lines)
+    low, high = int(index[0]) - margin, int(index[-1]) + 1 + margin
+    length = _rounded(high - low)
+    if length >= count:
+        return 0, count
+    first = low - (length - (high - low)) // 2
+    return min(max(first, 0), count - length), length
+
+
+def _rounded(length: int) -> int:
+    unit = _SMALLEST // 4
+    while 7 * unit < length:
+        unit *= 2
+    return max(_SMALLEST, unit * -(-length // unit))

@@ -1,0 +1,191 @@
+"""Two elastic half-spaces, or elastic-perfectly-plastic ones: the `dcfft` contact solver."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import lru_cache
+from typing import ClassVar, Literal
+
+import numpy as np
+from pydantic import Field
+
+from tribo.contact.bounded import solve_bounded
+from tribo.contact.box import Box, around, whole
+from tribo.contact.love import nyquist_compliance
+from tribo.contact.nested import coarsen, prolong
+from tribo.contact.operator import HalfSpace, Operator, WornOperator
+from tribo.core.arrays import Array, Mask
+from tribo.core.contact import ContactProblem, ContactSolution, ContactSystem, WearCompliance
+from tribo.core.errors import CaseError, NumericalError
+from tribo.interfaces.contact import ContactSolver, ContactSolverConfig
+
+_MARGIN = 4
+_COARSEST = 64
+_COARSE_TOLERANCE = 1e-4
+
+
+class DcFftConfig(ContactSolverConfig):
+    """Elastic half-spaces with Love's kernel, solved by conjugate gradients."""
+
+    type: Literal["dcfft"] = "dcfft"
+
+    tolerance: float = Field(default=1e-8, gt=1e-14, lt=1e-2)
+    """Largest residual of the contact conditions, relative to load and approach."""
+
+    max_iterations: int = Field(default=500, gt=0)
+    """Iterations after which a solve is given up."""
+
+
+class DcFft(ContactSolver[DcFftConfig]):
+    """Contact of two half-spaces, each cell under uniform pressure.
+
+    The solve runs on a box around the contact. In free space that is exact
+    as long as no cell outside the box overlaps, which is checked.
+    """
+
+    Config: ClassVar[type[DcFftConfig]] = DcFftConfig
+    accepts_wear_compliance: ClassVar[bool] = True
+    honours_cap: ClassVar[bool] = True
+
+    def check(self, system: ContactSystem) -> None:
+        """Raise `CaseError` if the window cannot bear the load at the pressure cap."""
+        cap = self._cap(system)
+        area = system.grid.size[0] * system.grid.size[1]
+        if cap is not None and cap * area < system.load:
+            raise CaseError(
+                f"the load is {system.load:g} N, but at the hardness of {cap:g} Pa the window "
+                f"bears no more than {cap * area:g} N. Enlarge the window, or lower the load"
+            )
+
+    def solve(
+        self, problem: ContactProblem, start: ContactSolution | None = None
+    ) -> ContactSolution:
+        """Solve one contact problem; see `ContactSolver.solve`.
+
+        Without `start`, grids of half the cells are solved first.
+        """
+        guess = None if start is None else start.pressure
+        return self._solve(problem, guess, self.config.tolerance)
+
+    def smallest_compliance(self, system: ContactSystem) -> float:
+        """Return the compliance of the chequerboard mode, in m/Pa."""
+        return nyquist_compliance(system.grid.spacing) / system.modulus
+
+    def _cap(self, system: ContactSystem) -> float | None:
+        return system.cap if self.config.plasticity else None
+
+    def _solve(
+        self, problem: ContactProblem, guess: Array | None, tolerance: float
+    ) -> ContactSolution:
+        if guess is None:
+            guess = self._nested_guess(problem)
+        cap = self._cap(problem.system)
+        window = problem.system.grid.cells
+        box = whole(window)
+        if guess is not None:
+            needed = 0.0 if cap is None else problem.load / cap / problem.system.grid.cell_area
+            box = _wide_enough(around(guess > 0, _MARGIN), needed)
+        iterations = 0
+        while True:
+            solution = solve_bounded(
+                _half_space(box.shape, problem.system.grid.spacing, problem.system.modulus),
+                problem.gap[box.slices],
+                problem.load,
+                cap,
+                _wear_on(box, problem.wear),
+                start=None if guess is None else guess[box.slices],
+                tolerance=tolerance,
+                max_iterations=self.config.max_iterations,
+            )
+            iterations += solution.iterations
+            if not box.is_window:
+                solution = replace(
+                    solution,
+                    pressure=box.embed(solution.pressure),
+                    overlap=box.embed(solution.overlap),
+                )
+            missed = _overlapping_outside(problem, box, solution)
+            touched = box.edge_is_touched(solution.pressure[box.slices])
+            if not missed.any() and not touched:
+                return replace(solution, iterations=iterations)
+            guess = solution.pressure
+            box = _grown(box, around(missed | (guess > 0), _MARGIN))
+
+    def _nested_guess(self, problem: ContactProblem) -> Array | None:
+        cells = problem.system.grid.cells
+        if min(cells) < _COARSEST:
+            return None
+        try:
+            coarse = self._solve(
+                coarsen(problem), None, max(_COARSE_TOLERANCE, self.config.tolerance)
+            )
+        except NumericalError:
+            # A start is worth having, not worth failing for.
+            return None
+        return prolong(coarse.pressure, cells)
+
+
+@lru_cache(maxsize=8)
+def _half_space(shape: tuple[int, int], spacing: tuple[float, float], modulus: float) -> HalfSpace:
+    return HalfSpace(shape, spacing, modulus)
+
+
+def _wear_on(box: Box, wear: WearCompliance | None) -> WearCompliance | None:
+    if wear is None:
+        return None
+    return WearCompliance(local=wear.local[box.slices], swept=wear.swept[box.slices[1]])
+
+
+def _wide_enough(box: Box, cells: float) -> Box:
+    # Not only to bear the load at the cap, but with room to distribute it.
+    while not box.is_window and box.shape[0] * box.shape[1] < 1.25 * cells:
+        box = _grown(box, box)
+    return box
+
+
+def _grown(box: Box, wanted: Box) -> Box:
+    lines = np.zeros(box.window, dtype=bool)
+    lines[box.slices] = True
+    lines[wanted.slices] = True
+    larger = around(lines, 0)
+    return larger if larger.shape != box.shape else around(lines, 1)
+
+
+def _overlapping_outside(problem: ContactProblem, box: Box, solution: ContactSolution) -> Mask:
+    """Find cells outside `box` at which the bodies overlap, shape of the window."""
+    approach = solution.approach
+    # All displacements are positive: an undeformed gap above the approach stays open.
+    doubtful: Mask = problem.gap < approach
+    doubtful[box.slices] = False
+    if not doubtful.any():
+        return doubtful
+    doubtful &= problem.gap + _displacement_bound(problem, solution.pressure) < approach
+    if not doubtful.any():
+        return doubtful
+    enclosed = doubtful.copy()
+    enclosed[box.slices] = True
+    near = around(enclosed, 0)
+    operator: Operator = _half_space(
+        near.shape, problem.system.grid.spacing, problem.system.modulus
+    )
+    wear = _wear_on(near, problem.wear)
+    if wear is not None:
+        operator = WornOperator(operator, wear)
+    gap = problem.gap[near.slices] + operator.apply(solution.pressure[near.slices]) - approach
+    doubtful[near.slices] &= gap < 0
+    return doubtful
+
+
+def _displacement_bound(problem: ContactProblem, pressure: Array) -> Array:
+    # Concentrating the load at the farthest point of the contact's bounding box
+    # can only lessen the displacement: 1/r is subharmonic in the plane, so a
+    # uniformly loaded cell displaces more than a point force at its centre.
+    x, y = problem.system.grid.mesh
+    touching = pressure > 0
+    reach = []
+    for axis, line in ((0, x), (1, y)):
+        loaded = line.ravel()[touching.any(axis=1 - axis)]
+        reach.append(np.maximum(np.abs(line - loaded[0]), np.abs(line - loaded[-1])))
+    distance = np.hypot(reach[0], reach[1])
+    bound: Array = problem.load / (np.pi * problem.system.modulus * distance)
+    return bound

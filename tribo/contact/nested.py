@@ -1,0 +1,52 @@
+"""Contact problems on half the grid, to start from."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from tribo.core.arrays import Array
+from tribo.core.contact import ContactProblem, WearCompliance
+from tribo.core.grid import Grid
+
+
+def coarsen(problem: ContactProblem) -> ContactProblem:
+    """Return `problem` on cells of twice the edge length.
+
+    Along an axis with an even count, cells are averaged in pairs; with an odd
+    count every other cell is kept, from the first to the last, which keeps a
+    symmetric problem symmetric.
+    """
+    grid = problem.system.grid
+    cells = (grid.cells[0] + 1) // 2, (grid.cells[1] + 1) // 2
+    size = 2 * grid.spacing[0] * cells[0], 2 * grid.spacing[1] * cells[1]
+    wear = problem.wear
+    if wear is not None:
+        local = _halve(_halve(wear.local, 0), 1)
+        wear = WearCompliance(local=local, swept=_halve(wear.swept, 0))
+    return replace(
+        problem,
+        system=replace(problem.system, grid=Grid(size=size, cells=cells)),
+        gap=_halve(_halve(problem.gap, 0), 1),
+        wear=wear,
+    )
+
+
+def prolong(pressure: Array, cells: tuple[int, int]) -> Array:
+    """Return `pressure` of a coarsened problem on the finer grid of `cells`."""
+    for axis in (0, 1):
+        if cells[axis] % 2 == 0:
+            pressure = np.repeat(pressure, 2, axis=axis)
+        else:
+            coarse = np.moveaxis(pressure, axis, 0)
+            fine = np.repeat(coarse, 2, axis=0)[:-1]
+            fine[1::2] = 0.5 * (coarse[:-1] + coarse[1:])
+            pressure = np.moveaxis(fine, 0, axis)
+    return pressure
+
+
+def _halve(values: Array, axis: int) -> Array:
+    lines = np.moveaxis(values, axis, 0)
+    even = lines.shape[0] % 2 == 0
+    return np.moveaxis(0.5 * (lines[::2] + lines[1::2]) if even else lines[::2], 0, axis)
