@@ -5,11 +5,12 @@ from __future__ import annotations
 import numpy as np
 import scipy.fft
 
+from tribo.contact.conditions import check_bearable, check_finite, residuals
 from tribo.contact.operator import Operator, WornOperator
 from tribo.contact.projection import balance, project
 from tribo.core.arrays import Array, Mask
 from tribo.core.contact import ContactSolution, Residuals, WearCompliance
-from tribo.core.errors import CaseError, NumericalError
+from tribo.core.errors import NumericalError
 
 # A method that does not halve the residual within so many iterations hands over.
 _PATIENCE = 12
@@ -79,27 +80,28 @@ def solve_bounded(
         operator = WornOperator(operator, compliance)
     limit = np.inf if cap is None else cap
     total = load / (operator.spacing[0] * operator.spacing[1])
-    _check(gap, load, total, limit)
+    check_bearable(load, load / total * gap.size, limit)
+    check_finite(gap)
 
     iterate = _Iterate(operator, gap, total, limit, start)
     best, waited = np.inf, 0
     for iteration in range(max_iterations + 1):
-        residuals = iterate.residuals()
-        if residuals.worst <= tolerance:
-            return iterate.solution(iteration, residuals)
+        reached = iterate.judge()
+        if reached.worst <= tolerance:
+            return iterate.solution(iteration, reached)
         if iteration == max_iterations:
             break
         waited += 1
-        if residuals.worst < 0.5 * best:
-            best, waited = residuals.worst, 0
+        if reached.worst < 0.5 * best:
+            best, waited = reached.worst, 0
         if waited > _PATIENCE:
-            best, waited = residuals.worst, 0
+            best, waited = reached.worst, 0
             iterate.switch()
         if not (iterate.conjugate and iterate.conjugate_step()):
             iterate.spectral_step()
     raise NumericalError(
         f"the contact did not converge in {max_iterations} iterations: the residual is "
-        f"{residuals.worst:.1e}, the tolerance {tolerance:.1e}. Raise max_iterations or "
+        f"{reached.worst:.1e}, the tolerance {tolerance:.1e}. Raise max_iterations or "
         "tolerance of the contact solver, or shorten the step"
     )
 
@@ -124,26 +126,15 @@ class _Iterate:
         self.rate = 1.0 / float(np.max(self.symbol))
         self.lengthen = False
 
-    def residuals(self) -> Residuals:
-        """Find the approach and the deformed gap, and judge them."""
-        p, g = self.pressure, self.displacement + self.gap
+    def judge(self) -> Residuals:
+        """Sort the cells, find the approach and the deformed gap, and judge them."""
+        p = self.pressure
+        gap = self.displacement + self.gap
         self.zero, self.full = p <= 0, p >= self.limit
         self.free = ~(self.zero | self.full)
-        self.approach = _approach(g, self.free, self.zero, self.full)
-        g -= self.approach
-        self.deformed = g
-        touching = ~self.zero
-        scale = max(
-            float(np.max(self.displacement, where=touching, initial=0.0)),
-            float(np.ptp(self.gap[touching])),
-        )
-        violation = np.where(self.full, np.maximum(g, 0.0), np.abs(g))
-        overlap = -float(np.min(g, where=self.zero, initial=0.0))
-        return Residuals(
-            force=abs(float(np.sum(p)) / self.total - 1.0),
-            complementarity=_dot(p, violation) / (self.total * scale),
-            penetration=overlap / scale,
-        )
+        self.approach = _approach(gap, self.free, self.zero, self.full)
+        self.deformed = gap - self.approach
+        return residuals(p, self.gap, self.displacement, self.approach, self.total, self.limit)
 
     def conjugate_step(self) -> bool:
         """Move along a conjugate direction on the face; False if there is none."""
@@ -203,13 +194,13 @@ class _Iterate:
         self.pressure = pressure
         self.displacement = self.operator.apply(pressure)
 
-    def solution(self, iterations: int, residuals: Residuals) -> ContactSolution:
+    def solution(self, iterations: int, reached: Residuals) -> ContactSolution:
         return ContactSolution(
             pressure=self.pressure,
             approach=self.approach,
             overlap=np.where(self.full, np.maximum(-self.deformed, 0.0), 0.0),
             iterations=iterations,
-            residuals=residuals,
+            residuals=reached,
         )
 
 
@@ -241,16 +232,3 @@ def _feasible(start: Array | None, shape: tuple[int, ...], total: float, limit: 
 def _dot(a: Array, b: Array) -> float:
     # Not np.vdot: BLAS sums in an order that depends on the number of threads.
     return float(np.einsum("ij,ij->", a, b))
-
-
-def _check(gap: Array, load: float, total: float, limit: float) -> None:
-    if not load > 0:
-        raise CaseError(f"the load is {load:g} N; a contact needs a positive load")
-    if total > limit * gap.size:
-        bearable = load * limit * gap.size / total
-        raise CaseError(
-            f"the load is {load:g} N, but at the pressure cap of {limit:g} Pa the window bears "
-            f"no more than {bearable:g} N. Enlarge the window, or lower the load"
-        )
-    if not np.isfinite(gap).all():
-        raise NumericalError("the gap has values that are not finite")

@@ -11,12 +11,13 @@ from pydantic import Field
 
 from tribo.contact.bounded import solve_bounded
 from tribo.contact.box import Box, around, whole
+from tribo.contact.conditions import check_bearable
 from tribo.contact.love import nyquist_compliance
 from tribo.contact.nested import coarsen, prolong
 from tribo.contact.operator import HalfSpace, Operator, WornOperator
 from tribo.core.arrays import Array, Mask
 from tribo.core.contact import ContactProblem, ContactSolution, ContactSystem, WearCompliance
-from tribo.core.errors import CaseError, NumericalError
+from tribo.core.errors import NumericalError
 from tribo.interfaces.contact import ContactSolver, ContactSolverConfig
 
 _MARGIN = 4
@@ -51,11 +52,7 @@ class DcFft(ContactSolver[DcFftConfig]):
         """Raise `CaseError` if the window cannot bear the load at the pressure cap."""
         cap = self._cap(system)
         area = system.grid.size[0] * system.grid.size[1]
-        if cap is not None and cap * area < system.load:
-            raise CaseError(
-                f"the load is {system.load:g} N, but at the hardness of {cap:g} Pa the window "
-                f"bears no more than {cap * area:g} N. Enlarge the window, or lower the load"
-            )
+        check_bearable(system.load, area, np.inf if cap is None else cap)
 
     def solve(
         self, problem: ContactProblem, start: ContactSolution | None = None
@@ -65,6 +62,9 @@ class DcFft(ContactSolver[DcFftConfig]):
         Without `start`, grids of half the cells are solved first.
         """
         guess = None if start is None else start.pressure
+        grid, cap = problem.system.grid, self._cap(problem.system)
+        # Before the window is cut down to a box, about which no message should speak.
+        check_bearable(problem.load, grid.size[0] * grid.size[1], np.inf if cap is None else cap)
         return self._solve(problem, guess, self.config.tolerance)
 
     def smallest_compliance(self, system: ContactSystem) -> float:

@@ -1,0 +1,77 @@
+"""The conditions of contact: whether they can be met, and how well they are."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tribo.core.arrays import Array
+from tribo.core.contact import Residuals
+from tribo.core.errors import CaseError, NumericalError
+
+
+def check_bearable(load: float, area: float, limit: float) -> None:
+    """Raise `CaseError` unless `load` is positive and `area` can bear it.
+
+    Parameters
+    ----------
+    load : float
+        In N.
+    area : float
+        Of the window, in m².
+    limit : float
+        Largest pressure, in Pa; may be infinite.
+    """
+    if not load > 0:
+        raise CaseError(f"the load is {load:g} N; a contact needs a positive load")
+    if load > limit * area:
+        raise CaseError(
+            f"the load is {load:g} N, but with pressure limited to {limit:g} Pa the window bears "
+            f"no more than {limit * area:g} N. Enlarge the window, or lower the load"
+        )
+
+
+def check_finite(gap: Array) -> None:
+    """Raise `NumericalError` if `gap` has values that are not finite."""
+    if not np.isfinite(gap).all():
+        raise NumericalError("the gap has values that are not finite; check the surfaces and wear")
+
+
+def residuals(
+    pressure: Array, gap: Array, displacement: Array, approach: float, total: float, limit: float
+) -> Residuals:
+    """Judge a pressure against the conditions of contact.
+
+    Parameters
+    ----------
+    pressure : ndarray, shape (nx, ny)
+        Within [0, limit], in Pa.
+    gap : ndarray, shape (nx, ny)
+        Undeformed gap, in m.
+    displacement : ndarray, shape (nx, ny)
+        A p, in m.
+    approach : float
+        In m.
+    total : float
+        Wanted sum of the pressure, in Pa.
+    limit : float
+        Largest pressure, in Pa; may be infinite.
+
+    Returns
+    -------
+    Residuals
+        Their scale is the largest displacement under pressure, or the range of
+        the gap there if that is more; so it is positive for two flats as well.
+        An open gap under pressure at the limit counts against complementarity.
+    """
+    deformed = gap + displacement - approach
+    zero = pressure <= 0
+    scale = max(
+        float(np.max(displacement, where=~zero, initial=0.0)),
+        float(np.ptp(gap[~zero])),
+    )
+    opening = np.where(pressure >= limit, np.maximum(deformed, 0.0), np.abs(deformed))
+    return Residuals(
+        force=abs(float(np.sum(pressure)) / total - 1.0),
+        complementarity=float(np.sum(pressure * opening)) / (total * scale),
+        penetration=0.0 - float(np.min(deformed, where=zero, initial=0.0)) / scale,
+    )

@@ -1,0 +1,166 @@
+"""An elastic foundation of independent springs: the `winkler` contact solver."""
+
+from __future__ import annotations
+
+from math import pi, sqrt
+from typing import ClassVar, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+
+from tribo.contact import hertz
+from tribo.contact.foundation import solve_foundation
+from tribo.core.contact import ContactProblem, ContactSolution, ContactSystem
+from tribo.core.errors import CaseError
+from tribo.interfaces.contact import ContactSolver, ContactSolverConfig
+
+Match = Literal["contact_radius", "peak_pressure", "approach"]
+
+
+class Layer(BaseModel):
+    """A thin elastic layer bonded to a rigid body."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
+
+    thickness: float = Field(gt=0)
+    """Thickness of the layer, in m."""
+
+    young: float = Field(gt=0)
+    """Young's modulus of the layer, in Pa."""
+
+    poisson: float = Field(gt=-1, lt=0.5)
+    """Poisson's ratio of the layer."""
+
+    @property
+    def foundation_modulus(self) -> float:
+        """Pressure per depth of a layer that cannot spread sideways, in Pa/m."""
+        nu = self.poisson
+        return self.young * (1 - nu) / ((1 + nu) * (1 - 2 * nu) * self.thickness)
+
+
+class WinklerConfig(ContactSolverConfig):
+    """Independent springs; give one of `modulus`, `layer` and `match`, or none."""
+
+    type: Literal["winkler"] = "winkler"
+
+    modulus: float | None = Field(default=None, gt=0)
+    """Foundation modulus K_w, pressure per depth, in Pa/m."""
+
+    layer: Layer | None = None
+    """A bonded layer from which the foundation modulus follows."""
+
+    match: Match | None = None
+    """What of Hertz's contact at the case's load to reproduce: the size of the contact (the
+    default when neither `modulus` nor `layer` is given), the peak pressure or the approach."""
+
+    @model_validator(mode="after")
+    def _one_source(self) -> WinklerConfig:
+        given = [name for name in ("modulus", "layer", "match") if getattr(self, name) is not None]
+        if len(given) > 1:
+            raise ValueError(
+                f"{' and '.join(given)} are given, but each alone sets the foundation modulus. "
+                "Keep one of modulus, layer and match"
+            )
+        return self
+
+
+class Winkler(ContactSolver[WinklerConfig]):
+    """Contact on a foundation whose pressure is K_w times the local depth."""
+
+    Config: ClassVar[type[WinklerConfig]] = WinklerConfig
+    accepts_wear_compliance: ClassVar[bool] = True
+    honours_cap: ClassVar[bool] = True
+
+    def check(self, system: ContactSystem) -> None:
+        """Raise `CaseError` if the foundation modulus cannot be found from `system`."""
+        self.foundation_modulus(system)
+
+    def foundation_modulus(self, system: ContactSystem) -> float:
+        """Return K_w, in Pa/m.
+
+        Raises
+        ------
+        CaseError
+            If it is to match Hertz's contact and `system` has no such contact.
+        """
+        if self.config.modulus is not None:
+            return self.config.modulus
+        if self.config.layer is not None:
+            return self.config.layer.foundation_modulus
+        return matched_modulus(system, self.config.match or "contact_radius")
+
+    def solve(
+        self, problem: ContactProblem, start: ContactSolution | None = None
+    ) -> ContactSolution:
+        """Solve one contact problem to round-off; see `ContactSolver.solve`."""
+        return solve_foundation(
+            problem,
+            self.foundation_modulus(problem.system),
+            problem.system.cap if self.config.plasticity else None,
+            None if start is None else start.approach,
+        )
+
+    def smallest_compliance(self, system: ContactSystem) -> float:
+        """Return 1/K_w, in m/Pa."""
+        return 1.0 / self.foundation_modulus(system)
+
+
+def matched_modulus(system: ContactSystem, match: Match) -> float:
+    """Return the foundation modulus that shares one feature with Hertz's contact.
+
+    On a paraboloid of curvatures cx, cy a foundation carries F = π K_w δ²/√(cx cy)
+    on an ellipse of area 2πδ/√(cx cy) with the peak K_w δ; on a cylinder of
+    curvature c, F' = (4/3) K_w δ b with b = √(2δ/c).
+
+    Parameters
+    ----------
+    system : ContactSystem
+        Gives the curvatures, the load and the contact modulus; for a line
+        contact also the window, whose length along the line bears the load.
+    match : {"contact_radius", "peak_pressure", "approach"}
+        The feature; for an ellipse "contact_radius" keeps its area, for a
+        line its half-width.
+
+    Returns
+    -------
+    float
+        K_w, in Pa/m.
+
+    Raises
+    ------
+    CaseError
+        If the surfaces state no convex curvature, or for the approach of a
+        line contact, which half-spaces do not have.
+    """
+    curvature = system.curvature
+    if curvature is None or min(curvature) < 0 or max(curvature) == 0:
+        what = "state no curvature" if curvature is None else f"have the curvatures {curvature} 1/m"
+        raise CaseError(
+            f"the foundation modulus is to match Hertz's {match.replace('_', ' ')}, but the "
+            f"surfaces {what}. Give modulus (in Pa/m) or layer instead"
+        )
+    if min(curvature) == 0:
+        return _matched_line(system, curvature, match)
+    root = sqrt(curvature[0] * curvature[1])
+    contact = hertz.point(system.modulus, system.load, *curvature)
+    if match == "peak_pressure":
+        return pi * contact.peak_pressure**2 / (system.load * root)
+    depth = contact.approach
+    if match == "contact_radius":
+        depth = 0.5 * contact.semi_axes[0] * contact.semi_axes[1] * root
+    return system.load * root / (pi * depth**2)
+
+
+def _matched_line(system: ContactSystem, curvature: tuple[float, float], match: Match) -> float:
+    along = 1 if curvature[1] == 0 else 0
+    line_load = system.load / system.grid.size[along]
+    curved = max(curvature)
+    contact = hertz.line(system.modulus, line_load, curved)
+    if match == "approach":
+        raise CaseError(
+            "the approach of a line contact between half-spaces has no finite value to match. "
+            "Use match = 'contact_radius' or 'peak_pressure', or give modulus or layer"
+        )
+    if match == "contact_radius":
+        return 1.5 * line_load / (curved * contact.half_width**3)
+    depth = 0.5 * curved * (0.75 * line_load / contact.peak_pressure) ** 2
+    return contact.peak_pressure / depth
