@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
+from itertools import count
 from pathlib import Path
 
 import h5py
@@ -21,6 +22,8 @@ from tribo.results.columns import BODY_COLUMNS, COLUMNS
 
 FORMAT = 1
 ROWS = 256
+# HDF5 wants a name of its own for every file that is open, also for those in memory.
+_NUMBERS = count()
 
 
 class ResultWriter:
@@ -46,7 +49,11 @@ class ResultWriter:
         """Begin a new file, replacing what is there."""
         if self._path is None:
             self._file = h5py.File(
-                "tribo-result", "w", driver="core", backing_store=False, libver="earliest"
+                f"tribo-result-{next(_NUMBERS)}",
+                "w",
+                driver="core",
+                backing_store=False,
+                libver="earliest",
             )
         else:
             self._file = h5py.File(self._path, "w", libver="earliest")

@@ -24,7 +24,7 @@ from tribo.simulation.step import (
     start_sliding,
 )
 
-FEW_CELLS = 6
+FEW_CELLS = 8
 MAX_REJECTIONS = 40
 DEPTH_ACCURACY = 1e-6
 

@@ -135,10 +135,12 @@ class Simulation:
         snapshot = self._snapshot(state)
         info = self._info(snapshot if resumed else None, wall_time)
         reason = "failed"
+        started: list[Observer[ObserverConfig]] = []
         try:
             with InterruptGuard() as guard:
                 for observer in observers:
                     observer.on_start(info)
+                    started.append(observer)
                 if not resumed:
                     _announce((), state.notices)
                     _tell(observers, snapshot, save=True)
@@ -159,7 +161,7 @@ class Simulation:
         finally:
             # The recorder comes last, so that nothing another one raises costs a result.
             with ExitStack() as finishing:
-                for observer in observers:
+                for observer in started:
                     finishing.callback(observer.on_finish, snapshot, reason)
         return recorder.result()
 

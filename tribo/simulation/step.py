@@ -275,15 +275,16 @@ def _settle(model: Model, state: State) -> State:
             for name, body in state.bodies.items()
         }
         solution = _solve(model, geometry(model, drawn), None, state.contact)
+        deepest = max(float(np.max(body.plastic)) for body in drawn.values())
+        settled = float(np.max(solution.overlap)) <= SETTLED * deepest
         state = replace(
             state,
-            bodies=_yielded(model, drawn, solution.overlap),
+            bodies=drawn if settled else _yielded(model, drawn, solution.overlap),
             contact=solution,
             contact_solves=state.contact_solves + 1,
             solver_iterations=state.solver_iterations + solution.iterations,
         )
-        deepest = max(float(np.max(body.plastic)) for body in state.bodies.values())
-        if float(np.max(solution.overlap)) <= SETTLED * deepest:
+        if settled:
             return state
     raise NumericalError(
         f"the groove still yields after {SETTLE_PASSES} passes of the contact at "
