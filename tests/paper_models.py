@@ -1,9 +1,8 @@
 """Small models of the paper's test, made from objects."""
 
+from tribo.config.stepping import ImplicitConfig
 from tribo.contact.dcfft import DcFft, DcFftConfig
 from tribo.contact.winkler import Winkler, WinklerConfig
-
-from tribo.config.stepping import ImplicitConfig
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.kinematics.reciprocating import Reciprocating, ReciprocatingConfig

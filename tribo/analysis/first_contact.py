@@ -7,11 +7,6 @@ from dataclasses import dataclass
 from tribo.contact import hertz
 from tribo.core.contact import ContactSystem
 
-FIRST_YIELD = 1.60
-"""Hertz peak pressure over yield strength at first yield, for ν = 0.3."""
-CONSTRAINT = 2.8
-"""Hardness over yield strength."""
-
 
 @dataclass(frozen=True)
 class HertzContact:
@@ -26,9 +21,8 @@ class HertzContact:
     approach : float or None
         In m; None for a line contact, where it is not defined.
     yield_ratio : float or None
-        Peak pressure over that at which yield begins beneath the surface,
-        1.6 Y with Y = H/2.8 (Johnson 1985, sections 6.1 and 6.3); None
-        without a hardness.
+        Peak pressure over that at which yield begins beneath the surface;
+        None without a hardness.
     """
 
     half_width_x: float
@@ -57,6 +51,6 @@ def hertz_contact(system: ContactSystem) -> HertzContact | None:
         p0, approach = line.peak_pressure, None
     else:
         point = hertz.point(system.modulus, system.load, cx, cy)
-        a, b, p0, approach = point.a, point.b, point.peak_pressure, point.approach
-    onset = None if system.cap is None else FIRST_YIELD / CONSTRAINT * system.cap
-    return HertzContact(a, b, p0, approach, None if onset is None else p0 / onset)
+        (a, b), p0, approach = point.semi_axes, point.peak_pressure, point.approach
+    ratio = None if system.cap is None else p0 / hertz.first_yield_pressure(system.cap)
+    return HertzContact(a, b, p0, approach, ratio)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import math
+from typing import Any
 
+from rich import box
 from rich.console import Console
 from rich.table import Table
 
@@ -35,28 +36,31 @@ def print_report(result: Result, console: Console | None = None) -> None:
         console.print(f"[yellow]Note:[/] {notice}")
 
 
+def _table(title: str) -> Table:
+    return Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD)
+
+
 def _saves(result: Result) -> Table:
-    table = Table(title="Contact", title_justify="left", title_style="bold")
+    table = _table("Contact")
     for heading in (
         "time\ns",
         "path\nm",
         "p max\nMPa",
         "p centre\nMPa",
-        "half-width\nalong, µm",
-        "half-width\nacross, µm",
+        "along\nµm",
+        "across\nµm",
         "area\nmm²",
+        *(f"{body}\nµm deep" for body in result.body_names),
     ):
-        table.add_column(heading, justify="right")
-    for body in result.body_names:
-        table.add_column(f"{body}\ndepth, µm", justify="right")
+        table.add_column(heading, justify="right", no_wrap=True)
     for save in result.saves():
         table.add_row(
             f"{save['time_s']:g}",
             f"{save['distance_m']:.4g}",
             f"{1e-6 * save['max_pressure_Pa']:.0f}",
             f"{1e-6 * save['centre_pressure_Pa']:.0f}",
-            f"{1e6 * save['contact_half_width_x_m']:.0f}",
-            f"{1e6 * save['contact_half_width_y_m']:.0f}",
+            f"{2e6 * save['contact_half_width_x_m']:.0f}",
+            f"{2e6 * save['contact_half_width_y_m']:.0f}",
             f"{1e6 * save['contact_area_m2']:.3f}",
             *(
                 f"{1e6 * save['bodies'][body]['max_wear_depth_m']:.2f}"
@@ -90,47 +94,35 @@ def _first_contact(result: Result) -> str:
 
 def _bodies(result: Result) -> Table:
     last = result.saves()[-1]
-    table = Table(title="Wear", title_justify="left", title_style="bold")
+    table = _table(f"Wear after {last['distance_m']:.4g} m")
     table.add_column("")
-    rows: dict[str, list[str]] = {
-        name: []
-        for name in (
-            "volume, mm³",
-            "mass, mg",
-            "specific wear rate, mm³/(N·m)",
-            "scar along sliding, mm",
-            "scar across, mm",
-            "largest depth, µm",
-            "largest plastic depth, µm",
-        )
-    }
-    distance = last["distance_m"]
+    bodies = [_worn(result, name, last) for name in result.body_names]
     for name in result.body_names:
-        body = result.body(name)
-        table.add_column(f"{name} (track)" if body.swept else name, justify="right")
-        worn = last["bodies"][name]
-        volume = worn["wear_volume_m3"]
-        rate = (
-            specific_wear_rate(volume, result.system.load, distance) if distance > 0 else math.nan
-        )
-        marks = scar(body.wear_depth[-1], result.grid)
-        for row, cell in zip(
-            rows.values(),
-            (
-                f"{1e9 * volume:.3g}",
-                "-"
-                if body.density is None
-                else f"{1e6 * mass_from_volume(volume, body.density):.3g}",
-                f"{in_mm3_per_newton_metre(rate):.3g}" if distance > 0 else "-",
-                "whole track" if body.swept else f"{1e3 * marks.along:.3f}",
-                f"{1e3 * marks.across:.3f}",
-                f"{1e6 * worn['max_wear_depth_m']:.3g}",
-                f"{1e6 * worn['max_plastic_depth_m']:.3g}",
-            ),
-            strict=True,
-        ):
-            row.append(cell)
-    for name, cells in rows.items():
+        table.add_column(f"{name} (track)" if result.body(name).swept else name, justify="right")
+    for row in bodies[0]:
+        cells = [body[row] for body in bodies]
         if any(cell != "-" for cell in cells):
-            table.add_row(name, *cells)
+            table.add_row(row, *cells)
     return table
+
+
+def _worn(result: Result, name: str, save: dict[str, Any]) -> dict[str, str]:
+    """Return what a lab would report of one body at the last save."""
+    body, worn = result.body(name), save["bodies"][name]
+    volume, distance = worn["wear_volume_m3"], save["distance_m"]
+    marks = scar(body.wear_depth[-1], result.grid)
+    mass = rate = "-"
+    if body.density is not None:
+        mass = f"{1e6 * mass_from_volume(volume, body.density):.3g}"
+    if distance > 0:
+        k = specific_wear_rate(volume, result.system.load, distance)
+        rate = f"{in_mm3_per_newton_metre(k):.3g}"
+    return {
+        "volume, mm³": f"{1e9 * volume:.3g}",
+        "mass, mg": mass,
+        "specific wear rate, mm³/(N·m)": rate,
+        "scar along sliding, mm": "whole track" if body.swept else f"{1e3 * marks.along:.3f}",
+        "scar across, mm": f"{1e3 * marks.across:.3f}",
+        "largest depth, µm": f"{1e6 * worn['max_wear_depth_m']:.3g}",
+        "largest plastic depth, µm": f"{1e6 * worn['max_plastic_depth_m']:.3g}",
+    }

@@ -14,7 +14,7 @@ from rich.table import Table as Columns
 from tribo.core.state import RunInfo, Snapshot
 from tribo.interfaces.observer import Observer, ObserverConfig
 
-QUIET = 1.0
+QUIET = 2.0
 
 
 class ProgressConfig(ObserverConfig):
@@ -26,7 +26,7 @@ class ProgressConfig(ObserverConfig):
 class Progress(Observer[ProgressConfig]):
     """A live line on stderr: time, step, pressure, worn depth, time to go.
 
-    Runs shorter than a second stay silent. Where stderr is no terminal, a
+    Runs shorter than two seconds stay silent. Where stderr is no terminal, a
     plain line is printed at each save.
     """
 

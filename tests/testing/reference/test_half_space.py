@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from tribo.testing.reference import cone, disc, plastic, punch, sinusoid
+from tribo.testing.reference import cone, disc, punch, sinusoid
 
 MODULUS = 113.736e9
 
@@ -102,11 +102,3 @@ def test_westergaard_pressure_carries_the_load(ratio):
     carried, _ = quad(pressure, -half, half, epsabs=0, epsrel=1e-10)
     assert carried / 1e-4 == pytest.approx(ratio * complete, rel=1e-7)
     assert pressure(0.0) == pytest.approx(contact.peak_pressure, rel=1e-12)
-
-
-def test_loads_of_first_yield_and_of_the_cap():
-    onset = plastic.cap_onset_load(4e9, 5e-3, MODULUS)
-    assert onset == pytest.approx(639.18, abs=0.01)
-    # Hertz: p0 = (6FE*²/π³R²)^⅓, 2.15536 GPa at 100 N.
-    assert plastic.load_at_peak_pressure(2.15536e9, 5e-3, MODULUS) == pytest.approx(100, rel=2e-5)
-    assert plastic.first_yield_load(4e9, 5e-3, MODULUS) == pytest.approx(0.18659 * onset, rel=1e-4)
