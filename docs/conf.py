@@ -1,0 +1,71 @@
+"""How Sphinx builds these pages; every page that shows output is executed."""
+
+from __future__ import annotations
+
+import os
+import sys
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from tempfile import gettempdir
+
+from sphinx.application import Sphinx
+
+DOCS = Path(__file__).parent
+sys.path.insert(0, str(DOCS / "support"))
+sys.path.insert(0, str(DOCS.parent))
+
+import reference  # noqa: E402
+
+# The kernels that execute the pages see what this process sees.
+os.environ["PYTHONPATH"] = os.pathsep.join(
+    [str(DOCS / "support"), str(DOCS.parent / "examples"), str(DOCS.parent)]
+)
+os.environ["TRIBO_REPOSITORY"] = str(DOCS.parent)
+os.environ.setdefault("MPLCONFIGDIR", str(Path(gettempdir()) / "tribo-docs-matplotlib"))
+
+project = "tribo"
+author = "The tribo developers"
+project_copyright = "The tribo developers"
+try:
+    release = version("tribo")
+except PackageNotFoundError:
+    release = ""
+
+extensions = [
+    "myst_nb",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.doctest",
+    "sphinx.ext.mathjax",
+    "sphinx.ext.napoleon",
+    "sphinx.ext.viewcode",
+]
+exclude_patterns = ["_build", "_generated", "**/.ipynb_checkpoints"]
+default_role = "code"
+
+html_theme = "furo"
+html_title = "tribo"
+html_static_path = ["static"]
+html_css_files = ["tribo.css"]
+html_copy_source = False
+html_show_sourcelink = False
+
+myst_enable_extensions = ["dollarmath", "amsmath", "deflist", "colon_fence"]
+myst_heading_anchors = 3
+
+# The doctest builder needs no executed pages.
+nb_execution_mode = "off" if "doctest" in sys.argv else "force"
+nb_execution_in_temp = True
+nb_execution_raise_on_error = True
+nb_execution_timeout = 240
+nb_merge_streams = True
+
+autodoc_member_order = "bysource"
+autodoc_typehints = "none"
+autodoc_class_signature = "separated"
+napoleon_google_docstring = False
+napoleon_use_rtype = False
+
+
+def setup(app: Sphinx) -> None:
+    """Write the reference pages anew from the code, before anything is read."""
+    app.connect("builder-inited", lambda _: reference.write(DOCS / "_generated"))

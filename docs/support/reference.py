@@ -1,0 +1,300 @@
+"""Write reference pages from the models, the registry and the commands themselves."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Iterator
+from importlib import import_module
+from pathlib import Path
+from types import NoneType, UnionType
+from typing import Annotated, Any, Literal, Union, get_args, get_origin
+
+import click
+from annotated_types import Ge, Gt, Le, Lt
+from click.testing import CliRunner
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+from pydantic_core import PydanticUndefined
+
+from tribo.cli.main import COMMANDS, tribo
+from tribo.config.case import BodyConfig, Case
+from tribo.config.slot import Slot
+from tribo.config.stepping import ExplicitConfig, ImplicitConfig
+from tribo.core.dimensions import _PREFIXES, _SYMBOLS, _UNPREFIXED
+from tribo.core.errors import TriboError
+from tribo.core.units import _KINDS, Quantity
+from tribo.interfaces.component import Component, ComponentConfig
+from tribo.registry.hookspecs import hookspec
+from tribo.registry.kinds import KINDS
+from tribo.registry.registry import Registry
+from tribo.results.columns import BODY_COLUMNS, COLUMNS
+
+SLOTS = {
+    "surface": "surface",
+    "wear_law": "wear law",
+    "contact_solver": "contact",
+    "kinematics": "kinematics",
+    "effect": "effects",
+    "observer": "observers",
+}
+"""Where the reference of a kind stands: a heading on the page."""
+
+
+def write(folder: Path) -> None:
+    """Write every generated page to `folder`."""
+    folder.mkdir(exist_ok=True)
+    pages = {
+        "case": "\n".join(case_page(Registry.with_plugins())),
+        "units": "\n".join(units_table()),
+        "commands": "\n".join(commands_page()),
+        "exit_codes": "\n".join(exit_codes()),
+        "columns": "\n".join(columns_table()),
+        "hooks": "\n".join(hooks_table()),
+    }
+    for name, text in pages.items():
+        (folder / f"{name}.md").write_text(text + "\n", encoding="utf-8")
+
+
+def case_page(registry: Registry) -> Iterator[str]:
+    """Yield the reference of a case: each table, then each component that may stand in it."""
+    for name, field in Case.model_fields.items():
+        path = "bodies.NAME" if name == "bodies" else name
+        kind = next((slot.kind for slot in _slots(field.annotation, field.metadata)), None)
+        many = "[[{}]]" if get_origin(field.annotation) is tuple else "[{}]"
+        yield f"## `{many.format(path)}`\n"
+        yield from _about(field)
+        if name == "bodies":
+            yield from _table(BodyConfig)
+            yield f"### `[{path}.material]`\n"
+            material = BodyConfig.model_fields["material"].annotation
+            yield f"{_summary(material)}\n"
+            yield from _table(material)
+            for slot in ("surface", "wear"):
+                yield f"### `[{path}.{slot}]`\n"
+                yield f"{BodyConfig.model_fields[slot].description}\n"
+                (found,) = _slots(*_typed(BodyConfig.model_fields[slot]))
+                yield from _components(registry, found.kind, "####")
+        elif name == "stepping":
+            for config in (ImplicitConfig, ExplicitConfig):
+                yield f"### `type = \"{config.model_fields['type'].default}\"`\n"
+                yield f"{_summary(config)}\n"
+                yield from _table(config)
+        elif kind:
+            yield from _components(registry, kind, "###")
+        else:
+            model = _model(field.annotation)
+            yield f"{_summary(model)}\n"
+            yield from _table(model)
+
+
+def units_table() -> Iterator[str]:
+    """Yield the kinds of quantity with an example of each, and the known symbols."""
+    yield "| Quantity | SI unit | Example |\n| --- | --- | --- |"
+    for unit, (name, example) in _KINDS.items():
+        yield f"| {name.removeprefix('an ').removeprefix('a ')} | {unit} | `\"{example}\"` |"
+    symbols = ", ".join(f"`{symbol}`" for symbol in _SYMBOLS)
+    plain = ", ".join(f"`{symbol}`" for symbol in _UNPREFIXED if symbol != "1")
+    prefixes = ", ".join(f"`{p}` (10{_superscript(e)})" for p, e in _PREFIXES.items())
+    yield f"\nSymbols that take a prefix: {symbols}. Without a prefix: {plain}; and `degC`, alone."
+    yield f"Prefixes: {prefixes}; `µ` stands for `u`."
+
+
+def commands_page() -> Iterator[str]:
+    """Yield the help of every command."""
+    for name in COMMANDS:
+        command = getattr(import_module(f"tribo.cli.{name}"), name)
+        assert isinstance(command, click.Command)
+        yield f"## `tribo {name}`\n"
+        yield f"```text\n$ tribo {name} --help\n{_help([name])}```\n"
+
+
+def exit_codes() -> Iterator[str]:
+    """Yield the exit codes, from the errors that have them."""
+    yield "| Code | Raised as | Meaning |\n| --- | --- | --- |"
+    yield "| 0 | | Done. |"
+    yield "| 1 | any other exception | A fault in tribo or in a plugin. |"
+    for error in TriboError.__subclasses__():
+        yield f"| {error.exit_code} | `{error.__name__}` | {_summary(error)} |"
+
+
+def columns_table() -> Iterator[str]:
+    """Yield the scalars of `saves` and `history`."""
+    yield "| Dataset | Unit | Meaning |\n| --- | --- | --- |"
+    for column in COLUMNS:
+        yield f"| `{column.name}` | {column.unit} | {column.description}. |"
+    for part in BODY_COLUMNS:
+        yield f"| `bodies/NAME/{part.name}` | {part.unit} | {part.description}. |"
+
+
+def hooks_table() -> Iterator[str]:
+    """Yield the hooks with the classes they return."""
+    assert hookspec is not None
+    yield "| Hook | Returns subclasses of | The question they answer |\n| --- | --- | --- |"
+    for kind in KINDS.values():
+        module = inspect.getmodule(kind.interface)
+        question = (inspect.getdoc(module) or "").splitlines()[0]
+        yield f"| `{kind.hook}` | `{kind.interface.__name__}` | {question} |"
+
+
+def _help(words: list[str]) -> str:
+    result = CliRunner().invoke(tribo, [*words, "--help"], prog_name="tribo", terminal_width=88)
+    assert result.exit_code == 0, result.output
+    return result.output
+
+
+def _components(registry: Registry, kind: str, heading: str) -> Iterator[str]:
+    names = registry.names(kind)
+    if not names:
+        yield f"No {KINDS[kind].words} comes with tribo; a [plugin](plugins.md) may offer one.\n"
+    for name in names:
+        cls = registry.lookup(kind, name)
+        yield f'{heading} `type = "{name}"`\n'
+        yield f"{_prose(cls)}\n"
+        note = _summary(cls.Config)
+        if not note.startswith("Configuration of"):
+            yield f"{note}\n"
+        yield from _table(cls.Config)
+
+
+def _about(field: FieldInfo) -> Iterator[str]:
+    if field.description:
+        yield f"{field.description}\n"
+    if not field.is_required():
+        default = field.default
+        if isinstance(default, ComponentConfig | ImplicitConfig):
+            yield f'Optional; `type = "{default.type}"` if left out.\n'
+        elif isinstance(default, str):
+            yield f'Optional; `type = "{default}"` if left out.\n'
+        else:
+            yield "Optional.\n"
+
+
+def _table(model: Any) -> Iterator[str]:
+    rows = [
+        f"| `{name}` | {_kind(*_typed(field))} | {_default(field)} | {_text(field)} |"
+        for name, field in model.model_fields.items()
+        if name != "type"
+    ]
+    if not rows:
+        yield "It has no keys of its own.\n"
+        return
+    yield "| Key | Value | Default | Meaning |\n| --- | --- | --- | --- |"
+    yield from rows
+    yield ""
+    for field in model.model_fields.values():
+        inner = _model(field.annotation)
+        if inner is not None and not issubclass(inner, ComponentConfig) and inner is not model:
+            if inner.__name__ == "Material":
+                continue
+            name = next(n for n, f in model.model_fields.items() if f is field)
+            yield f"`{name}`: {_summary(inner)}\n"
+            yield from _table(inner)
+
+
+def _kind(annotation: Any, metadata: tuple[Any, ...]) -> str:
+    """Return what a value must be, in words."""
+    for mark in metadata:
+        if isinstance(mark, Quantity):
+            return _quantity(mark)
+        if isinstance(mark, Slot):
+            return f"a {KINDS[mark.kind].words}, by its `type`"
+    origin = get_origin(annotation)
+    if origin is Annotated:
+        inner, *marks = get_args(annotation)
+        return _kind(inner, tuple(marks))
+    if origin in (Union, UnionType):
+        kinds = [_kind(part, metadata) for part in get_args(annotation) if part is not NoneType]
+        return " or ".join(kinds)
+    if origin is Literal:
+        return " or ".join(f'`"{value}"`' for value in get_args(annotation))
+    if origin is tuple:
+        parts = get_args(annotation)
+        one = _kind(parts[0], ())
+        return f"list: each {one}" if parts[-1] is Ellipsis else f"one or a pair: {one}"
+    if inspect.isclass(annotation) and issubclass(annotation, BaseModel):
+        return "table"
+    names = {bool: "`true` or `false`", int: "whole number", float: "number", str: "text"}
+    return names.get(annotation, "path" if annotation is Path else str(annotation)) + _bounds(
+        metadata
+    )
+
+
+def _quantity(mark: Quantity) -> str:
+    unit = "number" if mark.unit == "1" else mark.unit
+    bounds = [
+        f"{sign} {bound:g}"
+        for sign, bound in (
+            (">", mark.above),
+            ("≥", mark.at_least),
+            ("<", mark.below),
+            ("≤", mark.at_most),
+        )
+        if bound is not None
+    ]
+    return ", ".join([unit, *bounds])
+
+
+def _bounds(metadata: tuple[Any, ...]) -> str:
+    signs = {Gt: (">", "gt"), Ge: ("≥", "ge"), Lt: ("<", "lt"), Le: ("≤", "le")}
+    text = ""
+    for mark in metadata:
+        for inner in (mark, *getattr(mark, "metadata", ())):
+            if type(inner) in signs:
+                sign, attribute = signs[type(inner)]
+                text += f", {sign} {getattr(inner, attribute):g}"
+    return text
+
+
+def _default(field: FieldInfo) -> str:
+    if field.is_required():
+        return "required"
+    if field.default is None or field.default is PydanticUndefined:
+        return "–"
+    if isinstance(field.default, bool):
+        return f"`{str(field.default).lower()}`"
+    if isinstance(field.default, tuple) and not field.default:
+        return "`[]`"
+    if isinstance(field.default, float):
+        return f"`{field.default:g}`"
+    return f"`{field.default}`" if isinstance(field.default, int) else f'`"{field.default}"`'
+
+
+def _text(field: FieldInfo) -> str:
+    return " ".join((field.description or "").replace("|", "\\|").split())
+
+
+def _summary(thing: Any) -> str:
+    return " ".join((inspect.getdoc(thing) or "").split("\n\n")[0].split())
+
+
+def _prose(cls: type[Component[Any]]) -> str:
+    """Return a docstring up to its first numpydoc section."""
+    lines = (inspect.getdoc(cls) or "").splitlines()
+    end = next((i - 1 for i, line in enumerate(lines) if line and set(line) == {"-"}), len(lines))
+    return "\n".join(lines[:end]).strip().replace("::\n", ":\n")
+
+
+def _typed(field: FieldInfo) -> tuple[Any, tuple[Any, ...]]:
+    return field.annotation, tuple(field.metadata)
+
+
+def _slots(annotation: Any, metadata: Any) -> list[Slot]:
+    found = [mark for mark in metadata if isinstance(mark, Slot)]
+    for part in get_args(annotation):
+        if part is not Ellipsis:
+            found += _slots(part, getattr(part, "__metadata__", ()))
+    return found
+
+
+def _model(annotation: Any) -> Any:
+    if inspect.isclass(annotation) and issubclass(annotation, BaseModel):
+        return annotation
+    for part in get_args(annotation):
+        model = _model(part)
+        if model is not None:
+            return model
+    return None
+
+
+def _superscript(exponent: int) -> str:
+    return str(exponent).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))

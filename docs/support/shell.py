@@ -1,0 +1,34 @@
+"""Run a command in an executed page and show it with what it prints."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import subprocess
+import sys
+
+COLUMNS = "88"
+
+
+def sh(command: str, code: int = 0, lines: int | None = None) -> None:
+    """Run ``tribo …``, show the command and its output; fail on another exit code than `code`.
+
+    With `lines`, only so many lines of the output are shown.
+    """
+    program, *arguments = shlex.split(command)
+    assert program == "tribo"
+    done = subprocess.run(
+        [sys.executable, "-m", "tribo", *arguments],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        env={**os.environ, "COLUMNS": COLUMNS},
+        text=True,
+        check=False,
+    )
+    output = done.stdout.splitlines()
+    if done.returncode != code:
+        raise RuntimeError(f"{command} exited with {done.returncode}:\n{done.stdout}")
+    if lines is not None and len(output) > lines:
+        output = [*output[:lines], "…"]
+    print(f"$ {command}")
+    print("\n".join(line.rstrip() for line in output))
