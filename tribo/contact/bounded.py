@@ -79,9 +79,10 @@ def solve_bounded(
     if compliance is not None:
         operator = WornOperator(operator, compliance)
     limit = np.inf if cap is None else cap
-    total = load / (operator.spacing[0] * operator.spacing[1])
-    check_bearable(load, load / total * gap.size, limit)
+    cell_area = operator.spacing[0] * operator.spacing[1]
+    check_bearable(load, cell_area * gap.size, limit)
     check_finite(gap)
+    total = load / cell_area
 
     iterate = _Iterate(operator, gap, total, limit, start)
     best, waited = np.inf, 0

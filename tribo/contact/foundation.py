@@ -57,7 +57,9 @@ def solve_foundation(
     low = float(np.min(gap))
     # Where the lowest cell alone would carry the load, or all cells reach the limit.
     alone, full = low + total * springs.softest, float(np.max(gap)) + limit * springs.softest
-    high = alone if total < limit else full
+    bound = alone if total < limit else full
+    # Somewhat beyond, for Newton's method may land on the bound itself.
+    high = low + 1.01 * (bound - low)
     approach = guess if guess is not None and low < guess < high else 0.5 * (low + high)
     for passes in range(1, _MOST_PASSES + 1):
         line_loads, slopes = springs.line_loads(approach)
@@ -69,12 +71,12 @@ def solve_foundation(
         else:
             low = approach
         slope = float(np.sum(slopes)) * grid.spacing[1] / problem.load
-        following = approach - excess / slope if slope > 0 else high
-        if not low < following < high:
-            following = 0.5 * (low + high)
+        following = approach - excess / slope if slope > 0 else np.inf
         # The approach itself has a last bit; `balance` spreads what is left over.
         if abs(following - approach) <= 2 * np.spacing(abs(approach)):
             return springs.solution(approach, line_loads, total, passes)
+        if not low < following < high:
+            following = 0.5 * (low + high)
         approach = following
     raise NumericalError(
         f"the load of the foundation is still off by {excess:.1e} after {_MOST_PASSES} passes; "

@@ -1,0 +1,139 @@
+"""The bound-constrained solver: conditions, iterations, failure."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from contact_problems import HARDNESS, MODULUS, ONSET, ball, dense
+
+from tribo.contact.bounded import solve_bounded
+from tribo.contact.operator import HalfSpace
+from tribo.contact.projection import project
+from tribo.core.arrays import Array
+from tribo.core.contact import ContactProblem, ContactSolution, WearCompliance
+from tribo.core.errors import CaseError, NumericalError
+
+SHAPE, SPACING = (14, 11), (2e-6, 3e-6)
+
+
+def _on_window(case: ContactProblem, start: Array | None = None) -> ContactSolution:
+    grid = case.system.grid
+    operator = HalfSpace(grid.cells, grid.spacing, MODULUS)
+    return solve_bounded(operator, case.gap, case.load, case.system.cap, start=start)
+
+
+def _rough(seed: int, shape: tuple[int, int]) -> Array:
+    return 1e-7 * np.random.default_rng(seed).standard_normal(shape)
+
+
+@pytest.mark.parametrize("cap", [None, 2.0, 1.05])
+@pytest.mark.parametrize("worn", [False, True])
+def test_conditions_hold_with_the_dense_matrix(cap: float | None, worn: bool) -> None:
+    gap, load = _rough(3, SHAPE), 0.3
+    area = SPACING[0] * SPACING[1]
+    limit = None if cap is None else cap * load / (area * gap.size)
+    matrix = dense(SHAPE, SPACING)
+    wear = None
+    if worn:
+        rng = np.random.default_rng(5)
+        wear = WearCompliance(matrix[0, 0] * rng.random(SHAPE), matrix[0, 0] * 1e5 * np.ones(11))
+        j = np.indices(SHAPE)[1].ravel()
+        same_row = j[:, None] == j
+        matrix = matrix + np.diag(wear.local.ravel()) + wear.swept[j] * SPACING[0] * same_row
+    solution = solve_bounded(
+        HalfSpace(SHAPE, SPACING, MODULUS), gap, load, limit, wear, tolerance=1e-12
+    )
+    p = solution.pressure.ravel()
+    g = gap.ravel() + matrix @ p - solution.approach
+    deep = 1e-11 * np.max(matrix @ p)
+    full = np.zeros(p.shape, dtype=bool) if limit is None else p == limit
+    assert p.sum() * area == pytest.approx(load, rel=1e-14)
+    assert p.min() >= 0
+    assert (g[p == 0] > -deep).all()
+    assert (np.abs(g[(p > 0) & ~full]) < 1e3 * deep).all()
+    assert (g[full] < deep).all()
+    assert solution.overlap.ravel()[full] == pytest.approx(-g[full], abs=deep)
+    assert not solution.overlap.ravel()[~full].any()
+
+
+@pytest.mark.parametrize(("load", "cap"), [(100.0, None), (2 * ONSET, HARDNESS)])
+def test_iterations_hardly_grow_with_the_grid(load: float, cap: float | None) -> None:
+    iterations = {}
+    for cells in (128, 256, 512):
+        case = ball(cells, load, cap, width=2e-3)
+        iterations[cells] = _on_window(case).iterations
+    # Cold and on the whole window: without preconditioner, fourfold cells cost 1.7 times.
+    assert iterations[256] <= 20
+    assert iterations[512] <= 1.5 * iterations[128]
+
+
+def test_a_similar_problem_starts_warm() -> None:
+    case = ball(256)
+    first = _on_window(case)
+    worn = case.gap + 1e-9 * first.pressure / first.pressure.max()
+    operator = HalfSpace((256, 256), case.system.grid.spacing, MODULUS)
+    warm = solve_bounded(operator, worn, case.load, start=first.pressure)
+    cold = solve_bounded(operator, worn, case.load)
+    assert warm.iterations <= 6 < cold.iterations
+    assert warm.pressure == pytest.approx(cold.pressure, abs=1e-5 * cold.pressure.max())
+    assert warm.approach == pytest.approx(cold.approach, rel=1e-8)
+
+
+@pytest.mark.parametrize("cap", [1.02, 1.3, 3.0])
+@pytest.mark.parametrize("load", [1e-6, 1e-2, 10.0])
+def test_rough_surfaces_near_full_plasticity_converge(load: float, cap: float) -> None:
+    shape = (48, 48)
+    operator = HalfSpace(shape, (1e-6, 1e-6), MODULUS)
+    for seed in range(3):
+        solution = solve_bounded(operator, _rough(seed, shape), load, cap * load / 48**2 / 1e-12)
+        assert solution.residuals.worst <= 1e-8
+        assert solution.residuals.force <= 1e-14
+        assert solution.iterations < 150
+
+
+def test_one_spike_carries_a_small_load_alone() -> None:
+    gap = np.full((9, 9), 1e-3)
+    gap[4, 6] = 0.0
+    operator = HalfSpace((9, 9), (1e-6, 1e-6), MODULUS)
+    solution = solve_bounded(operator, gap, 1e-3)
+    assert np.count_nonzero(solution.pressure) == 1
+    assert solution.pressure[4, 6] == pytest.approx(1e9, rel=1e-14)
+    assert solution.approach == pytest.approx(1e9 * operator.diag()[4, 6], rel=1e-12)
+
+
+def test_two_flats_touch_everywhere() -> None:
+    operator = HalfSpace((32, 24), (1e-6, 1e-6), MODULUS)
+    solution = solve_bounded(operator, np.full((32, 24), 3.0), 1.0)
+    displacement = operator.apply(solution.pressure)
+    assert (solution.pressure > 0).all()
+    assert displacement == pytest.approx(np.full((32, 24), displacement[0, 0]), rel=1e-6)
+    assert solution.approach - 3.0 == pytest.approx(displacement[0, 0], rel=1e-6)
+
+
+def test_not_converging_says_how_far_it_came_and_what_to_do() -> None:
+    case = ball(64)
+    operator = HalfSpace((64, 64), case.system.grid.spacing, MODULUS)
+    with pytest.raises(NumericalError, match=r"3 iterations.*residual is .*Raise max_iterations"):
+        solve_bounded(operator, case.gap, case.load, max_iterations=3)
+
+
+def test_gap_and_load_are_checked() -> None:
+    operator = HalfSpace((4, 4), (1e-6, 1e-6), MODULUS)
+    with pytest.raises(CaseError, match="positive load"):
+        solve_bounded(operator, np.zeros((4, 4)), 0.0)
+    with pytest.raises(NumericalError, match="not finite"):
+        solve_bounded(operator, np.full((4, 4), np.nan), 1.0)
+
+
+@pytest.mark.parametrize("limit", [2.0, np.inf])
+def test_projection_is_the_nearest_point_that_carries_the_load(limit: float) -> None:
+    rng = np.random.default_rng(0)
+    values, total = 3 * rng.standard_normal((6, 7)), 30.0
+    cells = np.ones((6, 7), dtype=bool)
+    nearest = project(values, total, limit, cells)
+    assert nearest.sum() == pytest.approx(total, rel=1e-15)
+    assert nearest.min() >= 0
+    assert nearest.max() <= limit
+    for _ in range(50):
+        other = project(nearest + 0.1 * rng.standard_normal((6, 7)), total, limit, cells)
+        assert ((nearest - values) * (other - nearest)).sum() >= -1e-12

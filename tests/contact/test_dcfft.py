@@ -1,0 +1,145 @@
+"""The `dcfft` solver: active window, nested start, symmetry."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from contact_problems import HARDNESS, MODULUS, ONSET, RADIUS, ball, problem, solver
+from pydantic import ValidationError
+
+from tribo.contact.bounded import solve_bounded
+from tribo.contact.box import around
+from tribo.contact.dcfft import DcFftConfig
+from tribo.contact.operator import HalfSpace
+from tribo.core.contact import ContactProblem, ContactSolution, WearCompliance
+from tribo.core.grid import Grid
+
+
+def _on_window(case: ContactProblem, tolerance: float) -> ContactSolution:
+    grid = case.system.grid
+    operator = HalfSpace(grid.cells, grid.spacing, case.system.modulus)
+    return solve_bounded(
+        operator, case.gap, case.load, case.system.cap, case.wear, tolerance=tolerance
+    )
+
+
+def _worn(case: ContactProblem) -> ContactProblem:
+    unit = case.system.grid.spacing[0] / MODULUS
+    nx, ny = case.system.grid.cells
+    wear = WearCompliance(np.full((nx, ny), 5 * unit), np.full(ny, unit / 1e-4))
+    return replace(case, wear=wear)
+
+
+@pytest.mark.parametrize(
+    "case",
+    [
+        ball(128, width=2e-3),
+        ball(97, width=2e-3),
+        ball(128, 1.5 * ONSET, HARDNESS, width=2e-3),
+        _worn(ball(128, width=2e-3)),
+    ],
+    ids=["elastic", "odd", "capped", "worn"],
+)
+def test_active_window_gives_the_pressure_of_the_whole_window(case: ContactProblem) -> None:
+    boxed, whole = solver(1e-11).solve(case), _on_window(case, 1e-11)
+    assert boxed.pressure == pytest.approx(whole.pressure, abs=1e-7 * whole.pressure.max())
+    assert boxed.overlap == pytest.approx(whole.overlap, abs=1e-7 * whole.approach)
+    assert boxed.approach == pytest.approx(whole.approach, rel=1e-10)
+
+
+def test_contact_far_from_the_start_is_found() -> None:
+    size, cells = (2e-3, 1e-3), (128, 64)
+    x, y = Grid(size, cells).mesh
+    left = ((x + 0.6e-3) ** 2 + y**2) / (2 * RADIUS)
+    right = ((x - 0.6e-3) ** 2 + y**2) / (2 * RADIUS) + 0.5e-6
+    gap = np.minimum(left, right)
+    alone = solver().solve(problem(gap, size, 1.0))
+    assert not alone.pressure[64:].any()
+    both = problem(gap, size, 60.0)
+    found = solver(1e-11).solve(both, alone)
+    assert found.pressure[64:].any()
+    whole = _on_window(both, 1e-11)
+    assert found.pressure == pytest.approx(whole.pressure, abs=1e-7 * whole.pressure.max())
+
+
+def test_contact_that_outgrows_its_box_is_followed() -> None:
+    small = solver().solve(ball(128, 1.0, width=2e-3))
+    grown = solver(1e-11).solve(ball(128, 500.0, width=2e-3), small)
+    cold = solver(1e-11).solve(ball(128, 500.0, width=2e-3))
+    assert grown.pressure == pytest.approx(cold.pressure, abs=1e-7 * cold.pressure.max())
+
+
+def test_contact_larger_than_the_window_fills_it() -> None:
+    solution = solver().solve(ball(80, 100.0, width=0.2e-3))
+    assert (solution.pressure > 0).all()
+    assert solution.residuals.worst <= 1e-8
+
+
+@pytest.mark.parametrize("cells", [128, 129])
+@pytest.mark.parametrize("load", [100.0, 2 * ONSET])
+def test_symmetric_gap_gives_symmetric_pressure(cells: int, load: float) -> None:
+    p = solver().solve(ball(cells, load, HARDNESS, width=2e-3)).pressure
+    for image in (p[::-1], p[:, ::-1], p.T):
+        assert np.abs(p - image).max() <= 1e-10 * p.max()
+
+
+def test_same_problem_and_start_give_the_same_bits_whatever_came_between() -> None:
+    case = ball(96, width=1.2e-3)
+    one = solver()
+    first = one.solve(case)
+    again = one.solve(case, first)
+    for cells in range(20, 60, 4):
+        one.solve(ball(cells))
+    assert np.array_equal(solver().solve(case).pressure, first.pressure)
+    assert np.array_equal(one.solve(case, first).pressure, again.pressure)
+
+
+def test_start_is_left_alone_and_solutions_own_their_arrays() -> None:
+    case = ball(64)
+    start = solver().solve(case)
+    start.pressure.flags.writeable = False
+    case.gap.flags.writeable = False
+    before = start.pressure.copy()
+    solution = solver().solve(case, start)
+    assert np.array_equal(start.pressure, before)
+    assert not np.shares_memory(solution.pressure, start.pressure)
+    assert solution.pressure.flags.writeable
+
+
+@pytest.mark.parametrize("shift", [-1e-3, 1.0])
+def test_gap_may_be_given_up_to_a_constant(shift: float) -> None:
+    case = ball(64)
+    plain = solver().solve(case)
+    moved = solver().solve(replace(case, gap=case.gap + shift))
+    assert moved.approach - shift == pytest.approx(plain.approach, rel=1e-8)
+    assert moved.pressure == pytest.approx(plain.pressure, abs=1e-6 * plain.pressure.max())
+
+
+def test_smallest_compliance_scales_with_the_cell() -> None:
+    system = ball(100, width=1e-3).system
+    assert solver().smallest_compliance(system) == pytest.approx(0.58069 * 1e-5 / MODULUS, rel=1e-5)
+
+
+@pytest.mark.parametrize("tolerance", [0.0, 1e-15, 0.1])
+def test_tolerance_is_within_reason(tolerance: float) -> None:
+    with pytest.raises(ValidationError):
+        DcFftConfig(tolerance=tolerance)
+
+
+def test_box_encloses_its_cells_with_the_margin_and_few_sizes() -> None:
+    rng = np.random.default_rng(0)
+    sizes = set()
+    for _ in range(300):
+        cells = np.zeros((200, 150), dtype=bool)
+        i, j = rng.integers(0, 200, 2), rng.integers(0, 150, 2)
+        cells[i.min() : i.max() + 1, j.min() : j.max() + 1] = True
+        box = around(cells, 4)
+        sizes.update(box.shape)
+        inner = np.zeros_like(cells)
+        inner[box.slices] = True
+        padded = np.zeros_like(cells)
+        padded[max(i.min() - 4, 0) : i.max() + 5, max(j.min() - 4, 0) : j.max() + 5] = True
+        assert inner[padded].all()
+    assert len(sizes) < 25

@@ -1,0 +1,72 @@
+"""Love's kernel and the operator made from it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from contact_problems import MODULUS, dense
+
+from tribo.contact.love import displacement, nyquist_compliance, wrapped_kernel
+from tribo.contact.operator import HalfSpace, WornOperator
+from tribo.core.contact import WearCompliance
+
+SHAPE, SPACING = (7, 10), (2e-6, 3e-6)
+
+
+def test_square_cell_under_itself_sinks_by_4_ln_1_plus_root_2_over_pi() -> None:
+    kernel = wrapped_kernel((8, 8), (1.0, 1.0))
+    assert kernel[0, 0] == pytest.approx(4 * np.log(1 + np.sqrt(2)) / np.pi, rel=1e-14)
+    assert kernel[0, 1] == pytest.approx(0.330421, abs=1e-6)
+    assert kernel[1, 1] == pytest.approx(0.230678, abs=1e-6)
+
+
+def test_far_away_a_cell_is_a_point_force() -> None:
+    kernel = wrapped_kernel((32, 32), (1.0, 1.0))
+    assert kernel[10, 0] * 10 * np.pi == pytest.approx(1.000416, abs=1e-6)
+
+
+def test_displacement_on_the_edges_of_the_cell_is_the_limit_beside_them() -> None:
+    on = np.array([[0.5, 0.0], [0.0, -1.5], [0.5, 1.5], [-0.5, -1.5]])
+    beside = displacement(on[:, 0] * (1 + 1e-12), on[:, 1] * (1 + 1e-12), (1.0, 3.0))
+    assert displacement(on[:, 0], on[:, 1], (1.0, 3.0)) == pytest.approx(beside, rel=1e-9)
+
+
+@pytest.mark.parametrize(("spacing", "expected"), [((1.0, 1.0), 0.58069), ((2.0, 2.0), 1.16139)])
+def test_smallest_compliance_of_square_cells(spacing: tuple[float, float], expected: float) -> None:
+    assert nyquist_compliance(spacing) == pytest.approx(expected, abs=1e-5)
+
+
+@pytest.mark.parametrize("spacing", [(1.0, 1.0), (1.0, 2.5), (3.0, 1.0)])
+def test_no_pressure_is_stiffer_than_the_chequerboard(spacing: tuple[float, float]) -> None:
+    smallest = np.linalg.eigvalsh(dense((16, 16), spacing)).min() * MODULUS
+    # A finite grid approaches its limit from above.
+    assert 1.0 < smallest / nyquist_compliance(spacing) < 1.05
+
+
+@pytest.mark.parametrize("shape", [SHAPE, (1, 1), (1, 6), (8, 8)])
+def test_half_space_is_the_direct_sum_over_cells(shape: tuple[int, int]) -> None:
+    p = np.random.default_rng(0).random(shape)
+    direct = (dense(shape, SPACING) @ p.ravel()).reshape(shape)
+    operator = HalfSpace(shape, SPACING, MODULUS)
+    assert operator.apply(p) == pytest.approx(direct, rel=1e-13)
+    assert operator.diag().ravel() == pytest.approx(np.diag(dense(shape, SPACING)), rel=1e-13)
+
+
+def test_wear_adds_its_compliance() -> None:
+    rng = np.random.default_rng(0)
+    p, local, swept = rng.random(SHAPE), rng.random(SHAPE), rng.random(SHAPE[1])
+    elastic = HalfSpace(SHAPE, SPACING, MODULUS)
+    operator = WornOperator(elastic, WearCompliance(local, swept))
+    expected = elastic.apply(p) + local * p + swept * SPACING[0] * p.sum(axis=0)
+    assert operator.apply(p) == pytest.approx(expected, rel=1e-14)
+    unit = np.zeros(SHAPE)
+    unit[3, 4] = 1.0
+    assert operator.diag()[3, 4] == pytest.approx(operator.apply(unit)[3, 4], rel=1e-12)
+    assert (operator.symbol() > elastic.symbol()).all()
+
+
+@pytest.mark.parametrize("shape", [(8, 8), (1, 40), (3, 200), (96, 20), (64, 64)])
+def test_symbol_is_positive_on_any_box(shape: tuple[int, int]) -> None:
+    symbol = HalfSpace(shape, (1e-6, 4e-6), MODULUS).symbol()
+    assert symbol.shape == (shape[0], shape[1] // 2 + 1)
+    assert symbol.min() > 0

@@ -1,0 +1,82 @@
+"""Elastic-perfectly-plastic contact: pressure capped at the hardness."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from contact_problems import HARDNESS, MODULUS, ONSET, RADIUS, ball, solver
+
+from tribo.contact import hertz
+from tribo.core.contact import ContactProblem, ContactSolution
+from tribo.core.errors import CaseError
+
+
+def _solved(factor: float) -> tuple[ContactProblem, ContactSolution]:
+    load = factor * ONSET
+    radius = hertz.point(MODULUS, load, 1 / RADIUS, 1 / RADIUS).semi_axes[0]
+    # An odd count, so that a cell lies on the axis, where the indent is deepest.
+    case = ball(129, load, HARDNESS, width=4 * radius)
+    return case, solver().solve(case)
+
+
+@pytest.mark.parametrize(
+    ("factor", "area", "approach", "depth"),
+    [(1.5, 1.329, 1.003, 0.843e-6), (2, 1.225, 1.011, 2.164e-6), (5, 1.051, 1.076, 12.548e-6)],
+)
+def test_capped_ball_has_the_area_approach_and_depth_of_an_independent_solver(
+    factor: float, area: float, approach: float, depth: float
+) -> None:
+    case, solution = _solved(factor)
+    elastic = hertz.point(MODULUS, case.load, 1 / RADIUS, 1 / RADIUS).approach
+    cells = np.count_nonzero(solution.pressure) * case.system.grid.cell_area
+    # The reference is one grid of 128 cells: its counted area depends on where the rim
+    # falls between cells, and its deepest cell lies half a cell off the axis.
+    assert cells * HARDNESS / case.load == pytest.approx(area, rel=5e-3)
+    assert solution.approach / elastic == pytest.approx(approach, abs=6e-4)
+    assert solution.overlap.max() == pytest.approx(depth, rel=1.5e-3)
+    assert solution.pressure.max() == HARDNESS
+
+
+def test_below_the_onset_the_cap_changes_nothing() -> None:
+    capped = solver().solve(ball(96, 0.9 * ONSET, HARDNESS))
+    elastic = solver().solve(ball(96, 0.9 * ONSET))
+    assert capped.pressure == pytest.approx(elastic.pressure, rel=1e-12)
+    assert not capped.overlap.any()
+
+
+def test_plasticity_can_be_switched_off() -> None:
+    solution = solver(plasticity=False).solve(ball(96, 2 * ONSET, HARDNESS))
+    assert solution.pressure.max() == pytest.approx(2 ** (1 / 3) * HARDNESS, rel=2e-3)
+    assert not solution.overlap.any()
+
+
+def test_indented_ball_stays_elastic_at_the_same_load_and_below() -> None:
+    case, first = _solved(2)
+    indented = replace(case, gap=case.gap + first.overlap)
+    again = solver().solve(indented, first)
+    assert again.pressure.max() == pytest.approx(HARDNESS, rel=1e-6)
+    assert again.overlap.max() < 1e-6 * first.overlap.max()
+    assert again.approach == pytest.approx(first.approach, rel=1e-7)
+    half = solver().solve(replace(indented, load=0.5 * case.load), first)
+    assert half.pressure.max() == pytest.approx(0.75 * HARDNESS, rel=0.01)
+
+
+@pytest.mark.parametrize("room", [1.0, 1.0001, 1.02])
+def test_window_that_just_bears_the_load_is_nearly_all_at_the_cap(room: float) -> None:
+    width = np.sqrt(room * ONSET / HARDNESS)
+    case = ball(48, ONSET, HARDNESS, width=float(width) * (1 + 1e-12))
+    solution = solver().solve(case)
+    full = np.count_nonzero(solution.pressure == HARDNESS) / case.gap.size
+    # With a fiftieth to spare, the corners may bear a little less than the cap.
+    assert full > (0.99 if room < 1.01 else 0.8)
+    assert solution.residuals.worst <= 1e-8
+
+
+def test_window_too_small_for_the_load_is_an_error_that_says_so() -> None:
+    case = ball(48, ONSET, HARDNESS, width=0.9 * float(np.sqrt(ONSET / HARDNESS)))
+    with pytest.raises(CaseError, match=r"bears no more than .* Enlarge the window"):
+        solver().solve(case)
+    with pytest.raises(CaseError, match="Enlarge the window"):
+        solver().check(case.system)

@@ -1,0 +1,159 @@
+"""The `winkler` solver against closed forms and the conditions of contact."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from contact_problems import HARDNESS, MODULUS, RADIUS, ball, problem
+from pydantic import ValidationError
+
+from tribo.contact import hertz
+from tribo.contact.winkler import Layer, Winkler, WinklerConfig
+from tribo.core.contact import ContactProblem, ContactSystem, WearCompliance
+from tribo.core.errors import CaseError
+from tribo.core.grid import Grid
+from tribo.core.measures import contact_area, half_widths
+
+FOUNDATION = 1.2973e15
+SYSTEM = ContactSystem(Grid((1e-3, 2e-3), (8, 8)), MODULUS, 100.0, None, (200.0, 200.0))
+
+
+def _fixed(modulus: float = FOUNDATION, *, plasticity: bool = True) -> Winkler:
+    return Winkler(WinklerConfig(modulus=modulus, plasticity=plasticity))
+
+
+def _modulus(match: str, system: ContactSystem = SYSTEM) -> float:
+    return Winkler(WinklerConfig.model_validate({"match": match})).foundation_modulus(system)
+
+
+def test_ball_on_a_foundation_converges_to_the_closed_form() -> None:
+    radius = (4 * 100.0 * RADIUS / (np.pi * FOUNDATION)) ** 0.25
+    errors = []
+    for cells in (50, 200):
+        solution = _fixed().solve(ball(cells))
+        errors.append(abs(solution.approach / (radius**2 / (2 * RADIUS)) - 1))
+    assert errors[0] < 5e-3
+    assert errors[1] < 2e-4
+    assert solution.pressure.max() == pytest.approx(2 * 100 / (np.pi * radius**2), rel=1e-3)
+    assert half_widths(solution.pressure, ball(200).system.grid)[0] == pytest.approx(
+        radius, abs=0.8e-3 / 200
+    )
+
+
+def test_matches_of_the_ball_are_the_textbook_ones() -> None:
+    a = hertz.point(MODULUS, 100.0, 200.0, 200.0).semi_axes[0]
+    unit = MODULUS / (np.pi * a)
+    assert _modulus("contact_radius") == pytest.approx(16 / 3 * unit, rel=1e-12)
+    assert _modulus("peak_pressure") == pytest.approx(3 * unit, rel=1e-12)
+    assert _modulus("approach") == pytest.approx(4 / 3 * unit, rel=1e-12)
+    assert Winkler(WinklerConfig()).foundation_modulus(SYSTEM) == _modulus("contact_radius")
+
+
+@pytest.mark.parametrize("match", ["contact_radius", "peak_pressure", "approach"])
+def test_matched_foundation_reproduces_that_feature_of_an_ellipse(match: str) -> None:
+    case = ball(256, radii=(10e-3, 5e-3), width=1.2e-3)
+    case = replace(case, system=replace(case.system, curvature=(100.0, 200.0)))
+    config = WinklerConfig.model_validate({"match": match})
+    solution = Winkler(config).solve(case)
+    exact = hertz.point(MODULUS, 100.0, 100.0, 200.0)
+    found, wanted = {
+        "contact_radius": (
+            contact_area(solution.pressure, case.system.grid),
+            np.pi * exact.semi_axes[0] * exact.semi_axes[1],
+        ),
+        "peak_pressure": (solution.pressure.max(), exact.peak_pressure),
+        "approach": (solution.approach, exact.approach),
+    }[match]
+    assert found == pytest.approx(wanted, rel=3e-3)
+
+
+@pytest.mark.parametrize("match", ["contact_radius", "peak_pressure"])
+def test_matched_foundation_reproduces_that_feature_of_a_line(match: str) -> None:
+    size, cells = (0.4e-3, 1e-3), (400, 5)
+    x, y = Grid(size, cells).mesh
+    case = problem(x**2 / (2 * RADIUS) + 0 * y, size, 100.0)
+    case = replace(case, system=replace(case.system, curvature=(200.0, 0.0)))
+    config = WinklerConfig.model_validate({"match": match})
+    solution = Winkler(config).solve(case)
+    exact = hertz.line(MODULUS, 1e5, 200.0)
+    if match == "peak_pressure":
+        assert solution.pressure.max() == pytest.approx(exact.peak_pressure, rel=1e-3)
+    else:
+        found = half_widths(solution.pressure, case.system.grid)[0]
+        assert found == pytest.approx(exact.half_width, abs=1e-6)
+        line = 3 * np.pi * MODULUS / (8 * exact.half_width)
+        assert _modulus(match, case.system) == pytest.approx(line, rel=1e-12)
+
+
+def test_bonded_layer() -> None:
+    layer = Layer(thickness=1.0, young=207e9, poisson=0.3)
+    assert layer.foundation_modulus == pytest.approx(278.65e9, rel=1e-4)
+    solver = Winkler(WinklerConfig(layer=layer))
+    assert solver.smallest_compliance(SYSTEM) == pytest.approx(1 / 278.65e9, rel=1e-4)
+
+
+@pytest.mark.parametrize("curvature", [None, (0.0, 0.0), (-1.0, 200.0)])
+def test_without_curvature_there_is_nothing_to_match(
+    curvature: tuple[float, float] | None,
+) -> None:
+    with pytest.raises(CaseError, match=r"Give modulus .* or layer"):
+        Winkler(WinklerConfig()).check(replace(SYSTEM, curvature=curvature))
+    _fixed().check(replace(SYSTEM, curvature=curvature))
+
+
+def test_approach_of_a_line_contact_cannot_be_matched() -> None:
+    with pytest.raises(CaseError, match="no finite value"):
+        _modulus("approach", replace(SYSTEM, curvature=(0.0, 200.0)))
+
+
+def test_two_sources_of_the_modulus_are_refused_by_name() -> None:
+    with pytest.raises(ValidationError, match="modulus and match are given"):
+        WinklerConfig(modulus=1e15, match="approach")
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_conditions_hold_to_round_off(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    shape, size = (13, 9), (1e-3, 8e-4)
+    load = 10 ** rng.uniform(-2, 3)
+    cap = None if seed % 3 == 0 else load / (size[0] * size[1]) * (1.02, 3.0)[seed % 3 - 1]
+    wear = None
+    if seed % 2:
+        local, swept = 10 ** rng.uniform(-2, 2, 2) / FOUNDATION
+        wear = WearCompliance(local * rng.random(shape), swept / 1e-3 * rng.random(9))
+    case = problem(rng.random(shape) * 10 ** rng.uniform(-7, -5), size, load, cap, wear)
+    solution = _fixed().solve(case)
+    p, grid = solution.pressure, case.system.grid
+    displacement = p / FOUNDATION
+    if wear is not None:
+        displacement += wear.local * p + wear.swept * grid.spacing[0] * p.sum(axis=0)
+    g = case.gap + displacement - solution.approach
+    tiny = 1e-13 * (np.abs(solution.approach) + displacement.max())
+    full = p == cap if cap is not None else np.zeros(shape, dtype=bool)
+    assert p.sum() * grid.cell_area == pytest.approx(load, rel=1e-14)
+    assert (g[p <= 0] > -tiny).all()
+    assert np.abs(g[(p > 0) & ~full]).max(initial=0) < tiny
+    assert (g[full] < tiny).all()
+    assert solution.overlap == pytest.approx(np.where(full, -g, 0), abs=tiny)
+
+
+def test_cap_can_be_ignored() -> None:
+    case = ball(64, 1000.0, HARDNESS / 4, width=2e-3)
+    assert _fixed().solve(case).pressure.max() == HARDNESS / 4
+    assert _fixed(plasticity=False).solve(case).pressure.max() > HARDNESS / 4
+
+
+def test_window_too_small_for_the_load_is_an_error() -> None:
+    case: ContactProblem = ball(16, 1e6, HARDNESS)
+    with pytest.raises(CaseError, match="Enlarge the window"):
+        _fixed().solve(case)
+
+
+def test_start_changes_nothing_but_the_work() -> None:
+    case = ball(64)
+    cold = _fixed().solve(case)
+    warm = _fixed().solve(case, cold)
+    assert warm.iterations < cold.iterations
+    assert warm.pressure == pytest.approx(cold.pressure, rel=1e-12)
