@@ -1,0 +1,100 @@
+"""Write all pictures of a result."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.backend_bases import FigureCanvasBase
+from matplotlib.figure import Figure
+
+from tribo.core.errors import CaseError, OutputError
+from tribo.plotting.history import contact_history, wear_history
+from tribo.plotting.pressure import pressure_map, pressure_sections
+from tribo.plotting.profiles import body_profiles, groove
+from tribo.plotting.section import worn_section
+from tribo.plotting.style import house_style
+from tribo.plotting.window import number_of_saves, removed
+from tribo.results.read import Result
+
+# No dates, so that the same result gives the same file.
+_METADATA: dict[str, dict[str, Any]] = {"pdf": {"CreationDate": None}, "svg": {"Date": None}}
+
+
+def save_figures(result: Result, folder: Path, suffix: str = "png") -> list[Path]:
+    """Write every picture that makes sense for a result.
+
+    Those of worn surfaces are left out where nothing is worn, those over time
+    where there is one moment only.
+
+    Parameters
+    ----------
+    result : Result
+        What to draw.
+    folder : Path
+        Where to; it is made if need be.
+    suffix : str, optional
+        The format: png, pdf, svg or another that matplotlib writes.
+
+    Returns
+    -------
+    list of Path
+        The files: ``pressure_map`` of the last save, ``pressure_map_early`` of
+        the first after the beginning, ``pressure_sections``, ``NAME_along``
+        and ``NAME_across`` of each worn body NAME, or ``NAME_groove`` of a
+        swept one, ``worn_section``, ``wear_history`` and ``contact_history``.
+
+    Raises
+    ------
+    CaseError
+        If the format is not known or the result holds no save.
+    OutputError
+        If they cannot be written.
+    """
+    suffix = suffix.removeprefix(".")
+    known = FigureCanvasBase.get_supported_filetypes()
+    if suffix not in known:
+        raise CaseError(f"pictures cannot be written as {suffix!r}; use one of {', '.join(known)}")
+    paths = []
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, draw in _pictures(result).items():
+            path = folder / f"{name}.{suffix}"
+            figure = draw()
+            with house_style():
+                figure.savefig(path, metadata=_METADATA.get(suffix))
+            paths.append(path)
+    except OSError as error:
+        raise OutputError(f"cannot write to {folder}: {error.strerror}") from error
+    return paths
+
+
+def _pictures(result: Result) -> dict[str, Callable[[], Figure]]:
+    """Return how to draw each picture, by file name."""
+    count = number_of_saves(result)
+    pictures: dict[str, Callable[[], Figure]] = {"pressure_map": lambda: pressure_map(result)}
+    if count > 2:
+        pictures["pressure_map_early"] = lambda: pressure_map(result, 1)
+    pictures["pressure_sections"] = lambda: pressure_sections(result)
+    worn = [name for name in result.body_names if np.any(removed(result, name) > 0)]
+    for name in worn:
+        pictures |= _profiles(result, name)
+    if worn:
+        pictures["worn_section"] = lambda: worn_section(result)
+    history = result.table("history")
+    if any(np.any(history[f"bodies.{name}.wear_volume_m3"] > 0) for name in result.body_names):
+        pictures["wear_history"] = lambda: wear_history(result)
+    if len(history["time_s"]) > 1:
+        pictures["contact_history"] = lambda: contact_history(result)
+    return pictures
+
+
+def _profiles(result: Result, name: str) -> dict[str, Callable[[], Figure]]:
+    if result.body(name).swept:
+        return {f"{name}_groove": lambda: groove(result, name)}
+    return {
+        f"{name}_along": lambda: body_profiles(result, name, 0),
+        f"{name}_across": lambda: body_profiles(result, name, 1),
+    }

@@ -1,0 +1,190 @@
+"""Pictures of what changes with time: wear, pressure and the size of the contact."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter
+
+from tribo.core.arrays import Array
+from tribo.plotting.style import (
+    BODY_STROKES,
+    Stroke,
+    house_style,
+    legend_below,
+    new_figure,
+)
+from tribo.plotting.units import MG, MM3, length_unit, pressure_unit, time_unit
+from tribo.plotting.window import number_of_saves
+from tribo.results.read import Result
+
+ALONG = Stroke("black", width=1.2)
+ACROSS = Stroke("#0072b2", dashes=(0.0, (4.0, 1.6)), width=1.2)
+LARGEST = Stroke("black", width=1.2)
+CENTRE = Stroke("#d55e00", dashes=(0.0, (4.0, 1.6)), width=1.2)
+_DECADE = 10.0
+"""Pressures that fall by more than this factor are drawn on a logarithmic scale."""
+
+
+def wear_history(result: Result) -> Figure:
+    """Draw the volume and the mass that each body has lost against time.
+
+    Markers are the saves. Mass is on the right where all densities are equal,
+    else in a panel of its own; it is left out without densities.
+
+    Parameters
+    ----------
+    result : Result
+        What to draw.
+
+    Returns
+    -------
+    Figure
+        The picture.
+
+    Raises
+    ------
+    CaseError
+        If there is no save.
+    """
+    number_of_saves(result)
+    bodies = [result.body(name) for name in result.body_names]
+    history, saves = result.table("history"), result.table("saves")
+    worn = [b for b in bodies if np.any(history[_volume(b.name)] > 0)] or bodies
+    densities = {body.density for body in worn}
+    weighed = [body for body in worn if body.density is not None]
+    common = densities.pop() if len(densities) == 1 else None
+    rows = 2 if weighed and common is None else 1
+    unit = time_unit(result.times)
+    with house_style():
+        figure = new_figure(50.0 * rows + 12.0)
+        panels = figure.subplots(rows, 1, sharex=True, squeeze=False)[:, 0]
+        strokes = dict(zip((body.name for body in bodies), BODY_STROKES, strict=True))
+        factors: list[Mapping[str, float]] = [{body.name: MM3 for body in worn}]
+        if rows == 2:
+            factors.append({b.name: MG * b.density for b in weighed if b.density is not None})
+        curves: list[Line2D] = []
+        for axes, factor in zip(panels, factors, strict=True):
+            drawn = [
+                _draw_body(axes, history, saves, unit.factor, name, scale, strokes[name])
+                for name, scale in factor.items()
+            ]
+            curves = curves or drawn
+            _from_zero(axes)
+        panels[0].set_ylabel("Volume worn (mm³)")
+        if rows == 2:
+            panels[1].set_ylabel("Mass worn (mg)")
+        elif common is not None:
+            to_mass = common * MG / MM3
+            right = panels[0].secondary_yaxis(
+                "right", functions=(lambda v: v * to_mass, lambda m: m / to_mass)
+            )
+            right.set_ylabel("Mass worn (mg)")
+        panels[-1].set_xlabel(f"Time ({unit.name})")
+        legend_below(figure, curves)
+    return figure
+
+
+def contact_history(result: Result) -> Figure:
+    """Draw the largest and central pressure and both half-widths against time.
+
+    Parameters
+    ----------
+    result : Result
+        What to draw.
+
+    Returns
+    -------
+    Figure
+        The picture.
+
+    Raises
+    ------
+    CaseError
+        If there is no save.
+    """
+    number_of_saves(result)
+    history, unit = result.table("history"), time_unit(result.times)
+    time = unit.of(history["time_s"])
+    largest, centre = history["max_pressure_Pa"], history["centre_pressure_Pa"]
+    along, across = history["contact_half_width_x_m"], history["contact_half_width_y_m"]
+    stress = pressure_unit(float(np.max(largest)))
+    length = length_unit(float(max(np.max(along), np.max(across))))
+    marker = "o" if len(time) == 1 else ""
+    with house_style():
+        figure = new_figure(88.0)
+        upper, lower = figure.subplots(2, 1, sharex=True)
+        _draw_pair(
+            upper,
+            time,
+            ((LARGEST, stress.of(largest), "largest"), (CENTRE, stress.of(centre), "centre")),
+            marker,
+        )
+        upper.set_ylabel(f"Pressure ({stress.name})")
+        if np.min(centre) > 0 and np.max(largest) > _DECADE * np.min(centre):
+            _logarithmic(upper)
+        else:
+            _from_zero(upper)
+        _draw_pair(
+            lower,
+            time,
+            (
+                (ALONG, length.of(along), "along sliding"),
+                (ACROSS, length.of(across), "across sliding"),
+            ),
+            marker,
+        )
+        lower.set_ylabel(f"Contact half-width ({length.name})")
+        _from_zero(lower)
+        lower.set_xlabel(f"Time ({unit.name})")
+    return figure
+
+
+def _volume(body: str) -> str:
+    return f"bodies.{body}.wear_volume_m3"
+
+
+def _draw_body(
+    axes: Axes,
+    history: Mapping[str, Array],
+    saves: Mapping[str, Array],
+    per_second: float,
+    name: str,
+    scale: float,
+    stroke: Stroke,
+) -> Line2D:
+    """Draw every step as a line with its saves marked."""
+    time = history["time_s"]
+    return stroke.draw(
+        axes,
+        per_second * time,
+        scale * history[_volume(name)],
+        name,
+        markevery=list(np.flatnonzero(np.isin(time, saves["time_s"]))),
+        markerfacecolor="white",
+    )
+
+
+def _draw_pair(
+    axes: Axes, time: Array, curves: Sequence[tuple[Stroke, Array, str]], marker: str
+) -> None:
+    for stroke, values, label in curves:
+        stroke.draw(axes, time, values, label, **({"marker": marker} if marker else {}))
+    axes.legend(loc="best")
+
+
+def _from_zero(axes: Axes) -> None:
+    axes.set_ylim(bottom=0.0)
+    if axes.get_xlim()[1] > 0:
+        axes.set_xlim(left=0.0)
+
+
+def _logarithmic(axes: Axes) -> None:
+    axes.set_yscale("log")
+    axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axes.yaxis.set_major_formatter(ScalarFormatter())
+    axes.yaxis.set_minor_formatter(NullFormatter())

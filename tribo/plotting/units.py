@@ -1,0 +1,81 @@
+"""Numbers on axes and in legends in units that a person would choose."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tribo.core.arrays import Array
+from tribo.results.read import Result
+
+MM3 = 1e9
+"""mm³ in a m³."""
+MG = 1e6
+"""mg in a kg."""
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A unit to show values in.
+
+    Parameters
+    ----------
+    name : str
+        As printed.
+    factor : float
+        Multiplies a value in SI units.
+    """
+
+    name: str
+    factor: float
+
+    def of(self, values: Array) -> Array:
+        """Convert values from SI units."""
+        return np.asarray(self.factor * values)
+
+
+_LENGTHS = (Unit("mm", 1e3), Unit("µm", 1e6), Unit("nm", 1e9))
+_PRESSURES = (Unit("MPa", 1e-6), Unit("kPa", 1e-3), Unit("Pa", 1.0))
+_SECONDS = Unit("s", 1.0)
+_TIMES = (Unit("h", 1 / 3600.0), Unit("min", 1 / 60.0), _SECONDS, Unit("ms", 1e3))
+
+
+def length_unit(largest: float) -> Unit:
+    """Return the unit for lengths up to `largest`, in m: mm, µm or nm."""
+    return _fitting(_LENGTHS, largest)
+
+
+def pressure_unit(largest: float) -> Unit:
+    """Return the unit for pressures up to `largest`, in Pa: MPa, kPa or Pa."""
+    return _fitting(_PRESSURES, largest)
+
+
+def time_unit(times: Array) -> Unit:
+    """Return the largest unit in which every one of `times`, in s, is a short number.
+
+    If none is, as after an interruption, the one that suits the longest.
+    """
+    longest = float(np.max(times, initial=0.0))
+    if longest == 0:
+        return _SECONDS
+    for unit in _TIMES:
+        shown = unit.of(times)
+        short = np.allclose(shown, np.round(shown, 1), rtol=1e-9, atol=1e-9)
+        if short and longest * unit.factor >= 1:
+            return unit
+    return next((unit for unit in _TIMES if longest * unit.factor >= 10), _TIMES[-1])
+
+
+def time_labels(result: Result) -> list[str]:
+    """Return the time of each save, all in one unit: ``"200 s"``."""
+    times = result.times
+    unit = time_unit(times)
+    return [f"{unit.factor * float(time):.4g} {unit.name}" for time in times]
+
+
+def _fitting(units: tuple[Unit, ...], largest: float) -> Unit:
+    for unit in units:
+        if largest * unit.factor >= 0.1:
+            return unit
+    return units[0] if largest == 0 else units[-1]
