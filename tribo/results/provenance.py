@@ -35,12 +35,13 @@ def _origin(
 ) -> dict[str, str]:
     cls = type(component)
     package = cls.__module__.split(".")[0]
-    distribution = owners.get(package, [""])[0]
+    # An editable installation lists no packages; its own name is the best guess.
+    distribution = owners.get(package, [package])[0]
     return {
         "type": cls.type_name(),
         "class": f"{cls.__module__}.{cls.__qualname__}",
-        "distribution": distribution,
-        "version": _version(distribution) if distribution else "",
+        "distribution": distribution if _version(distribution) else "",
+        "version": _version(distribution),
     }
 
 

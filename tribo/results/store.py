@@ -161,7 +161,13 @@ class ResultWriter:
 def write_text(group: h5py.Group, name: str, text: str) -> None:
     """Store text as UTF-8 bytes, which unlike HDF5 strings can carry a checksum."""
     data = np.frombuffer(text.encode(), dtype=np.uint8)
-    group.create_dataset(name, data=data, chunks=data.shape, fletcher32=True)
+    dataset = group.create_dataset(name, data=data, chunks=data.shape, fletcher32=True)
+    # NetCDF's way to name a dimension that has no coordinates.
+    length = group.create_dataset(
+        f"{name}_bytes", data.shape, dtype="u1", chunks=data.shape, fletcher32=True
+    )
+    length.make_scale(f"This is a netCDF dimension but not a netCDF variable. {data.size:10d}")
+    dataset.dims[0].attach_scale(length)
 
 
 def read_text(group: h5py.Group, name: str) -> str:

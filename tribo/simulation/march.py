@@ -194,13 +194,20 @@ def _check_window(model: Model, state: State) -> None:
     )
 
 
+def _track_changes(model: Model) -> bool:
+    return any(
+        model.is_swept(body.name) and (body.wear or model.plastic_share[body.name] > 0)
+        for body in model.bodies
+    )
+
+
 def _noticed(model: Model, state: State) -> State:
     """Add to the state the warnings that are due and were not given before."""
     pressure = state.contact.pressure
     width, breadth = half_widths(pressure, model.grid)
     due = []
     limitation = model.kinematics.limitation(model.grid, width)
-    if limitation is not None:
+    if limitation is not None and _track_changes(model):
         due.append(("averaging", f"at {state.time:.6g} s ({state.distance:.6g} m) {limitation}"))
     dx, dy = model.grid.spacing
     cells = min(2 * width / dx, 2 * breadth / dy)
