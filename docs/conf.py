@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from importlib.metadata import PackageNotFoundError, version
+from importlib import metadata
 from pathlib import Path
 from tempfile import gettempdir
 
@@ -27,8 +27,8 @@ project = "tribo"
 author = "The tribo developers"
 project_copyright = "The tribo developers"
 try:
-    release = version("tribo")
-except PackageNotFoundError:
+    release = metadata.version("tribo")
+except metadata.PackageNotFoundError:
     release = ""
 
 extensions = [

@@ -76,7 +76,7 @@ def case_page(registry: Registry) -> Iterator[str]:
                 yield from _components(registry, found.kind, "####")
         elif name == "stepping":
             for config in (ImplicitConfig, ExplicitConfig):
-                yield f"### `type = \"{config.model_fields['type'].default}\"`\n"
+                yield f'### `type = "{config.model_fields["type"].default}"`\n'
                 yield f"{_summary(config)}\n"
                 yield from _table(config)
         elif kind:
@@ -91,7 +91,7 @@ def units_table() -> Iterator[str]:
     """Yield the kinds of quantity with an example of each, and the known symbols."""
     yield "| Quantity | SI unit | Example |\n| --- | --- | --- |"
     for unit, (name, example) in _KINDS.items():
-        yield f"| {name.removeprefix('an ').removeprefix('a ')} | {unit} | `\"{example}\"` |"
+        yield f'| {name.removeprefix("an ").removeprefix("a ")} | {unit} | `"{example}"` |'
     symbols = ", ".join(f"`{symbol}`" for symbol in _SYMBOLS)
     plain = ", ".join(f"`{symbol}`" for symbol in _UNPREFIXED if symbol != "1")
     prefixes = ", ".join(f"`{p}` (10{_superscript(e)})" for p, e in _PREFIXES.items())

