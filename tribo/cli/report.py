@@ -41,7 +41,7 @@ def _table(title: str) -> Table:
 
 
 def _saves(result: Result) -> Table:
-    table = _table("Contact")
+    table = _table("Contact, along and across the sliding direction; wear depth of each body")
     for heading in (
         "time\ns",
         "path\nm",
@@ -50,7 +50,7 @@ def _saves(result: Result) -> Table:
         "along\nµm",
         "across\nµm",
         "area\nmm²",
-        *(f"{body}\nµm deep" for body in result.body_names),
+        *(f"{body}\nµm" for body in result.body_names),
     ):
         table.add_column(heading, justify="right", no_wrap=True)
     for save in result.saves():

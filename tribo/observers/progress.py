@@ -9,7 +9,7 @@ from typing import Literal
 
 from rich.console import Console
 from rich.live import Live
-from rich.table import Table as Columns
+from rich.text import Text
 
 from tribo.core.state import RunInfo, Snapshot
 from tribo.interfaces.observer import Observer, ObserverConfig
@@ -94,26 +94,23 @@ class Progress(Observer[ProgressConfig]):
         left = (end - s) / increment if explicit else math.log(end / s) / math.log1p(increment / s)
         return self._steps / (self._steps + left)
 
-    def _line(self, snapshot: Snapshot, part: float, elapsed: float) -> Columns:
+    def _line(self, snapshot: Snapshot, part: float, elapsed: float) -> Text:
         assert self._run is not None
         m = snapshot.measures
-        width = 24
+        width = 16
         filled = round(part * width)
         bar = "[green]" + "━" * filled + "[/][dim]" + "━" * (width - filled) + "[/]"
         eta = elapsed * (1 - part) / part if part > 0 else math.inf
-        worn = "  ".join(
+        worn = ", ".join(
             f"{name} {1e6 * body.max_wear_depth:.3g} µm" for name, body in m.bodies.items()
         )
-        line = Columns.grid(padding=(0, 2))
-        line.add_row(
-            bar,
-            f"{m.time:.4g} of {self._run.end_time:.4g} s",
-            f"step {snapshot.state.steps}",
-            f"p max {1e-6 * m.max_pressure:.0f} MPa",
-            worn,
-            f"left {_clock(eta)}",
+        text = Text.from_markup(
+            f"{bar} {_clock(eta)} left · {m.time:.4g} of {self._run.end_time:.4g} s · "
+            f"step {snapshot.state.steps} · p max {1e-6 * m.max_pressure:.0f} MPa · {worn}",
+            overflow="ellipsis",
         )
-        return line
+        text.no_wrap = True
+        return text
 
 
 def _clock(seconds: float) -> str:
