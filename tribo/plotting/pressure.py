@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Ellipse
+from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator
 
 from tribo.analysis.first_contact import HertzContact, hertz_contact
@@ -32,7 +33,11 @@ from tribo.results.read import Result
 
 HERTZ = Stroke("#909090", width=0.7)
 AXIS_LABELS = ("Along sliding, x", "Across sliding, y")
-_COLUMNS = 5
+_PLATEAU = 0.5
+"""Where nearly all pressures exceed this part of the largest, the scale leaves out the rest."""
+_NARROWEST = 0.8
+"""The scale begins no higher than this part of the largest pressure, lest it show noise."""
+_COLUMNS = 6
 _FADED = 3.0
 """A first pressure so many times the later ones gets the later ones a panel of their own."""
 
@@ -40,8 +45,8 @@ _FADED = 3.0
 def pressure_map(result: Result, save: int = -1) -> Figure:
     """Draw the pressure at a save from above.
 
-    Lines of equal pressure are marked on the scale; the full line is the edge
-    of the contact, the dashed one Hertz's first contact where the surfaces
+    Thin lines are those of equal pressure, at the ticks of the scale; the thick
+    one is the edge of the contact, the dashed one Hertz's first contact where the surfaces
     state their curvature.
 
     Parameters
@@ -81,7 +86,7 @@ def pressure_map(result: Result, save: int = -1) -> Figure:
         note = "" if true_to_scale else ", not to scale"
         axes.set_xlabel(f"{AXIS_LABELS[0]} ({length.name}{note})")
         axes.set_ylabel(f"{AXIS_LABELS[1]} ({length.name}{note})")
-        axes.set_title(f"After {time_labels(result)[save]}", loc="left")
+        axes.set_title(f"t = {time_labels(result)[save]}", loc="left")
         if hertz is not None:
             _draw_first_contact(axes, hertz, length)
             axes.set_title("dashed: Hertz, 0 s", loc="right", fontsize=7.0)
@@ -135,6 +140,7 @@ def pressure_sections(result: Result) -> Figure:
                     curves.append(_draw_hertz(axes, hertz, window, axis, length, unit))
             axes.set_xlim(*(length.factor * end for end in window))
             axes.set_xlabel(f"{AXIS_LABELS[axis]} ({length.name})")
+            axes.xaxis.set_major_locator(MaxNLocator(6))
         for axes in panels[:, 0]:
             axes.set_ylabel(f"Pressure ({unit.name})")
         panels[-1, 0].set_ylim(0.0, 1.05 * unit.factor * (later if rows == 2 else first))
@@ -159,24 +165,34 @@ def _mark_hardness(row: Iterable[Axes], cap: float | None, highest: float, unit:
 def _draw_field(axes: Axes, grid: Grid, pressure: Array, length: Unit, unit: Unit) -> None:
     """Draw the field with its scale, and lines of equal pressure on both."""
     half_x, half_y = (0.5 * length.factor * size for size in grid.size)
-    shown = unit.of(pressure).T
+    shown = np.ma.masked_less_equal(unit.of(pressure).T, 0.0)
+    highest = float(np.max(shown))
+    # Where most of the contact bears nearly the same, a scale from zero would hide the rest.
+    low = min(float(np.percentile(shown.compressed(), 5.0)), _NARROWEST * highest)
+    cut = low > _PLATEAU * highest
+    levels = np.asarray(MaxNLocator(6).tick_values(low if cut else 0.0, highest))
+    levels = levels[levels <= highest]
     image = axes.imshow(
-        np.ma.masked_less_equal(shown, 0.0),
+        shown,
         cmap=pressure_colours(),
-        vmin=0.0,
+        vmin=float(levels[0]),
+        vmax=highest,
         origin="lower",
         extent=(-half_x, half_x, -half_y, half_y),
         interpolation="nearest",
     )
-    bar = axes.figure.colorbar(image, ax=axes, label=f"Pressure ({unit.name})", pad=0.02)
-    highest = float(np.max(shown))
-    levels = [
-        level for level in MaxNLocator(5).tick_values(0.0, highest) if 0.0 < level < 0.97 * highest
-    ]
-    if levels:
+    axes.figure.colorbar(
+        image,
+        ax=axes,
+        label=f"Pressure ({unit.name})",
+        pad=0.02,
+        extend="min" if cut else "neither",
+        ticks=levels,
+    )
+    inner = [level for level in levels if low < level < highest]
+    if inner:
         x, y = length.of(grid.x), length.of(grid.y)
-        lines = axes.contour(x, y, shown, levels=levels, colors="black", linewidths=0.4)
-        bar.add_lines(lines)
+        axes.contour(x, y, shown, levels=inner, colors="black", linewidths=0.5)
 
 
 def _draw_edge(axes: Axes, grid: Grid, pressure: Array, length: Unit) -> None:
@@ -189,7 +205,12 @@ def _draw_edge(axes: Axes, grid: Grid, pressure: Array, length: Unit) -> None:
 def _draw_first_contact(axes: Axes, hertz: HertzContact, length: Unit) -> None:
     """Draw the ellipse, or the two lines, inside which Hertz's contact lies."""
     a, b = length.factor * hertz.half_width_x, length.factor * hertz.half_width_y
-    look: dict[str, Any] = {"color": "black", "linewidth": 0.8, "linestyle": (0.0, (4.0, 2.5))}
+    look: dict[str, Any] = {
+        "color": "black",
+        "linewidth": 0.8,
+        "linestyle": (0.0, (4.0, 2.5)),
+        "path_effects": [withStroke(linewidth=1.8, foreground="white")],
+    }
     if np.isfinite(a) and np.isfinite(b):
         axes.add_patch(Ellipse((0.0, 0.0), 2 * a, 2 * b, fill=False, **look))
         return

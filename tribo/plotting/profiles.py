@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
 from matplotlib.figure import Figure
 
 from tribo.core.arrays import Array
@@ -15,7 +14,7 @@ from tribo.plotting.style import (
     new_figure,
     save_strokes,
 )
-from tribo.plotting.units import length_unit, time_labels
+from tribo.plotting.units import height_unit, length_unit, time_labels
 from tribo.plotting.window import Limits, limits, number_of_saves, removed, scar_mask, spread
 from tribo.results.export import profile
 from tribo.results.read import Result
@@ -53,8 +52,7 @@ def body_profiles(result: Result, name: str, axis: int) -> Figure:
     """
     if axis not in (0, 1):
         raise CaseError(f"a profile runs along axis 0 or across, axis 1; not {axis!r}")
-    label = f"{name}: height ({{}})"
-    return _profiles(result, name, axis, label, AXIS_LABELS[axis])
+    return _profiles(result, name, axis, AXIS_LABELS[axis])
 
 
 def groove(result: Result, name: str) -> Figure:
@@ -81,10 +79,10 @@ def groove(result: Result, name: str) -> Figure:
         raise CaseError(
             f"{name} is not swept in {result.name}, so that it has no groove; draw body_profiles"
         )
-    return _profiles(result, name, 1, f"{name}: height ({{}})", "Across the track, y")
+    return _profiles(result, name, 1, "Across the track, y")
 
 
-def _profiles(result: Result, name: str, axis: int, height: str, position: str) -> Figure:
+def _profiles(result: Result, name: str, axis: int, position: str) -> Figure:
     count = number_of_saves(result)
     grid, body = result.grid, result.body(name)
     x = (grid.x, grid.y)[axis]
@@ -92,7 +90,7 @@ def _profiles(result: Result, name: str, axis: int, height: str, position: str) 
     lines = [profile(body.surface(i), axis) for i in range(count)]
     low, high = spread([visible(line, x, window) for line in lines])
     length = length_unit(max(abs(window[0]), abs(window[1])))
-    unit = length_unit(max(abs(low), abs(high)))
+    unit = height_unit(max(abs(low), abs(high)))
     with house_style():
         figure = new_figure(62.0 + legend_height(count, _COLUMNS))
         axes = figure.add_subplot()
@@ -106,7 +104,8 @@ def _profiles(result: Result, name: str, axis: int, height: str, position: str) 
         axes.set_ylim(unit.factor * low, unit.factor * high)
         axes.set_box_aspect(SHAPE)
         axes.set_xlabel(f"{position} ({length.name})")
-        axes.set_ylabel(height.format(unit.name))
+        axes.set_ylabel(f"Height ({unit.name})")
+        axes.set_title(name, loc="left")
         axes.set_title(enlargement(window, (low, high), SHAPE), loc="right", fontsize=7.0)
         legend_below(figure, curves, columns=_COLUMNS)
     return figure
@@ -129,6 +128,4 @@ def enlargement(across: Limits, up: Limits, shape: float) -> str:
         Height of the axes over their width, on paper.
     """
     factor = shape * (across[1] - across[0]) / (up[1] - up[0])
-    digits = 1 if factor >= 10 else 2
-    rounded = float(f"{factor:.{digits}e}")
-    return f"height × {np.format_float_positional(rounded, trim='-')}"
+    return f"height × {float(f'{factor:.1e}'):.7g}"

@@ -8,12 +8,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.ticker import MaxNLocator
 
 from tribo.core.arrays import Array
 from tribo.plotting.pressure import AXIS_LABELS
 from tribo.plotting.profiles import enlargement, visible
 from tribo.plotting.style import WIDE, Stroke, house_style, legend_below, new_figure
-from tribo.plotting.units import Unit, length_unit, time_labels
+from tribo.plotting.units import Unit, height_unit, length_unit, time_labels
 from tribo.plotting.window import Limits, limits, number_of_saves, removed, scar_mask, spread
 from tribo.results.export import profile
 from tribo.results.read import BodyResult, Result
@@ -69,19 +70,20 @@ def worn_section(result: Result) -> Figure:
     # Room for the names inside the bodies.
     room = 0.12 * (height[1] - height[0])
     height = (height[0] - room, height[1] + room)
-    length, unit = length_unit(window[1] - window[0]), length_unit(height[1] - height[0])
+    length, unit = length_unit(window[1] - window[0]), height_unit(height[1] - height[0])
     with house_style():
-        figure = new_figure(62.0, WIDE)
+        figure = new_figure(56.0, WIDE)
         panels = figure.subplots(1, 2, sharey=True)
         for axis, axes in enumerate(panels):
             curves = _draw(axes, length.of(xs[axis]), sections[axis], height, unit)
             axes.set_xlim(*(length.factor * end for end in window))
             axes.set_box_aspect(_SHAPE)
+            axes.xaxis.set_major_locator(MaxNLocator(6))
             axes.set_xlabel(f"{AXIS_LABELS[axis]} ({length.name})")
             axes.text(0.5, 0.97, upper.name, transform=axes.transAxes, ha="center", va="top")
-            axes.text(0.5, 0.03, lower.name, transform=axes.transAxes, ha="center", va="bottom")
+            axes.text(0.03, 0.05, lower.name, transform=axes.transAxes, va="bottom")
         panels[0].set_ylabel(f"Height ({unit.name})")
-        panels[0].set_title(f"After {time_labels(result)[last]}, unloaded", loc="left")
+        panels[0].set_title(f"t = {time_labels(result)[last]}, unloaded", loc="left")
         panels[1].set_title(enlargement(window, height, _SHAPE), loc="right", fontsize=7.0)
         legend_below(figure, curves)
     return figure

@@ -12,7 +12,7 @@ import matplotlib
 import numpy as np
 from matplotlib import style
 from matplotlib.axes import Axes
-from matplotlib.colors import Colormap
+from matplotlib.colors import Colormap, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
@@ -43,7 +43,6 @@ _STYLE: dict[str, Any] = {
     "xtick.direction": "in",
     "ytick.direction": "in",
     "lines.linewidth": 1.2,
-    "lines.markersize": 4.0,
     "lines.scale_dashes": False,
     "legend.fontsize": 7.0,
     "legend.title_fontsize": 7.0,
@@ -79,6 +78,7 @@ class Stroke:
     dashes: Dashes = (0.0, ())
     marker: str = ""
     width: float = 1.2
+    size: float = 4.0
 
     def draw(self, axes: Axes, x: Array, y: Array, label: str = "", **more: Any) -> Line2D:
         """Draw `y` over `x`, and return the line; `more` goes to `Axes.plot`."""
@@ -89,6 +89,7 @@ class Stroke:
             linestyle=self.dashes,
             marker=self.marker,
             linewidth=self.width,
+            markersize=self.size,
             label=label.lstrip("_") or None,
             **more,
         )
@@ -96,8 +97,8 @@ class Stroke:
 
 
 BODY_STROKES = (
-    Stroke("#56b4e9", marker="o", width=2.4),
-    Stroke("#202020", dashes=(0.0, (3.0, 1.6)), marker="s", width=1.1),
+    Stroke("#56b4e9", marker="o", width=2.4, size=7.0),
+    Stroke("#202020", dashes=(0.0, (3.0, 1.6)), marker="s", width=1.1, size=3.0),
 )
 """A wide light line and a narrow dark one: both show where they coincide."""
 
@@ -125,7 +126,8 @@ def new_figure(height: float, width: float = SINGLE_COLUMN) -> Figure:
 
 def pressure_colours() -> Colormap:
     """Return the map of pressures: darker is higher, and white is no contact."""
-    colours = matplotlib.colormaps["viridis_r"].copy()
+    # The darkest part of the map would swallow black lines.
+    colours = ListedColormap(matplotlib.colormaps["viridis_r"](np.linspace(0.0, 0.8, 256)))
     colours.set_bad("white")
     return colours
 
@@ -154,16 +156,19 @@ def legend_below(
     title : str, optional
         Its title.
     columns : int, optional
-        Number of columns.
+        Most columns.
     """
     most = LEGEND_ROWS * columns
     if len(lines) > most:
         chosen = np.unique(np.linspace(0, len(lines) - 1, most).round().astype(int))
         lines = [lines[i] for i in chosen]
+    rows = -(-len(lines) // columns)
+    columns = -(-len(lines) // rows)
+    # Matplotlib fills column by column; a reader goes row by row.
     figure.legend(
-        handles=list(lines),
+        handles=[line for start in range(columns) for line in lines[start::columns]],
         loc="outside lower center",
-        ncols=min(columns, len(lines)),
+        ncols=columns,
         title=title or None,
     )
 

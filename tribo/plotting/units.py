@@ -46,6 +46,11 @@ def length_unit(largest: float) -> Unit:
     return _fitting(_LENGTHS, largest)
 
 
+def height_unit(largest: float) -> Unit:
+    """Return the unit for heights and depths up to `largest`, in m: µm from 1 µm to 1 mm."""
+    return next((unit for unit in _LENGTHS if largest * unit.factor >= 1), _LENGTHS[-1])
+
+
 def pressure_unit(largest: float) -> Unit:
     """Return the unit for pressures up to `largest`, in Pa: MPa, kPa or Pa."""
     return _fitting(_PRESSURES, largest)
@@ -71,7 +76,12 @@ def time_labels(result: Result) -> list[str]:
     """Return the time of each save, all in one unit: ``"200 s"``."""
     times = result.times
     unit = time_unit(times)
-    return [f"{unit.factor * float(time):.4g} {unit.name}" for time in times]
+    return [f"{_short(unit.factor * float(time))} {unit.name}" for time in times]
+
+
+def _short(value: float) -> str:
+    """Return four digits of a number, and all of its whole part."""
+    return f"{value:.0f}" if abs(value) >= 1e3 else f"{value:.4g}"
 
 
 def _fitting(units: tuple[Unit, ...], largest: float) -> Unit:
