@@ -46,17 +46,6 @@ class Box:
         full[self.slices] = values
         return full
 
-    def edge_is_touched(self, pressure: Array) -> bool:
-        """Whether `pressure`, on the box, reaches an edge that is not the window's."""
-        touching = pressure > 0
-        for axis in (0, 1):
-            lines: Mask = np.any(touching, axis=1 - axis)
-            inside = self.first[axis] > 0
-            beyond = self.first[axis] + self.shape[axis] < self.window[axis]
-            if (inside and lines[0]) or (beyond and lines[-1]):
-                return True
-        return False
-
 
 def whole(window: tuple[int, int]) -> Box:
     """Return the box that is the whole window of `window` cells."""

@@ -105,8 +105,7 @@ class DcFft(ContactSolver[DcFftConfig]):
                     overlap=box.embed(solution.overlap),
                 )
             missed = _overlapping_outside(problem, box, solution)
-            touched = box.edge_is_touched(solution.pressure[box.slices])
-            if not missed.any() and not touched:
+            if not missed.any():
                 return replace(solution, iterations=iterations)
             guess = solution.pressure
             box = _grown(box, around(missed | (guess > 0), _MARGIN))
