@@ -54,6 +54,7 @@ myst_heading_anchors = 3
 
 # The doctest builder needs no executed pages.
 nb_execution_mode = "off" if "doctest" in sys.argv else "force"
+suppress_warnings = ["myst-nb.lexer"] if nb_execution_mode == "off" else []
 nb_execution_in_temp = True
 nb_execution_raise_on_error = True
 nb_execution_timeout = 240
