@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
-from importlib import metadata
-from types import ModuleType, SimpleNamespace
+from pathlib import Path
+from types import ModuleType
 from typing import Any, Literal
 
 import pytest
+from fake_distributions import distribute, observer
 
 from tribo.core.errors import CaseError
 from tribo.interfaces.observer import Observer, ObserverConfig
@@ -18,6 +19,7 @@ from tribo.registry.builtin import __name__ as builtin_module
 from tribo.registry.hookspecs import hookimpl
 from tribo.registry.loader import given
 from tribo.registry.registry import Registry, default_registry
+from tribo.registry.selection import selected
 
 
 class QuietConfig(ObserverConfig):
@@ -141,38 +143,128 @@ def test_a_name_claimed_twice_is_unusable_and_both_are_named() -> None:
     ]
 
 
-def entry_point(distribution: str, version: str, name: str, value: str) -> Any:
-    dist = SimpleNamespace(name=distribution, version=version)
-    point = metadata.EntryPoint(name, value, loader.GROUP)
-    vars(point)["dist"] = dist
-    return point
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder of distributions that are found as if installed."""
+    monkeypatch.syspath_prepend(str(tmp_path))
+    return tmp_path
 
 
-def test_entry_points_are_loaded_whatever_they_raise(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "acme_observers", GOOD)
-    points = [
-        # The same entry-point name in two distributions is no conflict.
-        entry_point("acme-tribo", "1.2", "plugin", "acme_observers"),
-        entry_point("gone-tribo", "0.1", "plugin", "no_such_module_anywhere"),
-        entry_point("odd-tribo", "0.1", "plugin", "acme_observers:no_such_attribute"),
-    ]
-    monkeypatch.setattr(metadata, "entry_points", lambda group: points)
-    registry = Registry(loader.installed())
-    assert [(str(p), p.status, p.origin) for p in registry.plugins] == [
-        ("acme-tribo 1.2", "loaded", "installed"),
-        ("gone-tribo 0.1", "broken", "installed"),
-        ("odd-tribo 0.1", "broken", "installed"),
-    ]
-    assert "no_such_module_anywhere" in registry.plugins[1].reason
-    assert registry.record("observer", "quiet").plugin.entry_point == "plugin = acme_observers"
+def found(*distributions: str) -> Registry:
+    sources = [s for s in loader.installed() if s.record.distribution in distributions]
+    return Registry(selected(sources))
 
 
-def test_finding_plugins_imports_none_of_them(monkeypatch: pytest.MonkeyPatch) -> None:
-    point = entry_point("gone-tribo", "0.1", "plugin", "no_such_module_anywhere")
-    monkeypatch.setattr(metadata, "entry_points", lambda group: [point])
-    (source,) = loader.installed()
-    with pytest.raises(ModuleNotFoundError):
-        source.load()
+def test_names_are_known_without_importing_and_looked_up_by_importing(folder: Path) -> None:
+    distribute(
+        folder,
+        "one-tribo",
+        "1.2",
+        {"tribo.v1.observer": {"one.calm": "one_calm"}},
+        one_calm=observer("one.calm"),
+    )
+    registry = found("one-tribo")
+    assert registry.names("observer") == ["one.calm"]
+    assert "one_calm" not in sys.modules
+    assert [(str(p), p.status) for p in registry.plugins] == [("one-tribo 1.2", "available")]
+    assert registry.lookup("observer", "one.calm").__module__ == "one_calm"
+    assert [p.status for p in registry.plugins] == ["loaded"]
+
+
+BROKEN = {
+    "import error": ("import no_such_module_anywhere", "ModuleNotFoundError"),
+    "exit": ("raise SystemExit(3)", "SystemExit: 3"),
+    "odd exception": (
+        "class Odd(BaseException):\n    def __str__(self): raise ValueError\nraise Odd",
+        "Odd",
+    ),
+    "hook typo": (
+        observer("two.calm").replace("tribo_observers", "tribo_observer"),
+        "tribo_observer",
+    ),
+    "no hook": ("", "does not return it"),
+    "another name": (observer("two.clam"), "does not return it"),
+    "wrong class": (
+        observer("two.calm").replace("return [Calm]", "return [dict]"),
+        "not a subclass of",
+    ),
+}
+
+
+@pytest.mark.parametrize("fault", list(BROKEN))
+def test_a_broken_plugin_is_fatal_only_where_it_is_named(folder: Path, fault: str) -> None:
+    code, reason = BROKEN[fault]
+    module = "two_" + fault.replace(" ", "_")
+    points = {"tribo.v1.observer": {"two.calm": module}}
+    distribute(folder, "two-tribo", "0.1", points, **{module: code})
+    registry = Registry([loader.builtin(), *found_sources("two-tribo")])
+    assert registry.lookup("wear_law", "archard").type_name() == "archard"
+    with pytest.raises(
+        CaseError, match=r"'two\.calm' is in two-tribo 0\.1, which is broken"
+    ) as caught:
+        registry.lookup("observer", "two.calm")
+    assert reason in str(caught.value)
+    assert "reinstall two-tribo" in str(caught.value)
+    assert registry.plugins[1].status == "broken"
+
+
+def found_sources(*distributions: str) -> list[loader.Source]:
+    return [s for s in loader.installed() if s.record.distribution in distributions]
+
+
+@pytest.mark.parametrize(
+    ("group", "name", "status", "reason"),
+    [
+        ("tribo.v2.observer", "three.calm", "incompatible", "interface version 2"),
+        (
+            "tribo.v1.observre",
+            "three.calm",
+            "broken",
+            "use one of tribo.v1.contact_solver",
+        ),
+        ("tribo.v1", "three.calm", "broken", "is unknown"),
+        ("tribo.v1.observer", "calm", "broken", "needs a prefix"),
+    ],
+)
+def test_what_is_wrong_at_first_sight_is_not_imported(
+    folder: Path, group: str, name: str, status: str, reason: str
+) -> None:
+    distribute(folder, "three-tribo", "1.0", {group: {name: "three_calm"}}, three_calm="1/0")
+    (record,) = found("three-tribo").plugins
+    assert record.status == status
+    assert reason in record.reason
+
+
+def test_two_distributions_that_claim_a_name_lose_it(folder: Path) -> None:
+    for name in ("four-a", "four-b"):
+        module = name.replace("-", "_")
+        points = {"tribo.v1.observer": {"four.calm": module}}
+        distribute(folder, name, "1.0", points, **{module: observer("four.calm")})
+    registry = found("four-a", "four-b")
+    assert [p.status for p in registry.plugins] == ["conflict", "conflict"]
+    assert registry.names("observer") == []
+    with pytest.raises(CaseError, match=r"offered by four-a 1\.0 and four-b 1\.0"):
+        registry.lookup("observer", "four.calm")
+
+
+@pytest.mark.parametrize("off", ["five-tribo", "Five_Tribo", "five", "five.calm", "*"])
+def test_plugins_can_be_turned_off(folder: Path, monkeypatch: pytest.MonkeyPatch, off: str) -> None:
+    points = {"tribo.v1.observer": {"five.calm": "five_calm"}}
+    distribute(folder, "five-tribo", "1.0", points, five_calm=observer("five.calm"))
+    monkeypatch.setenv("TRIBO_DISABLE_PLUGINS", f"other, {off}")
+    registry = found("five-tribo")
+    assert [p.status for p in registry.plugins] == ["disabled"]
+    with pytest.raises(CaseError, match=r"five-tribo 1\.0 is disabled: turned off"):
+        registry.lookup("observer", "five.calm")
+
+
+def test_only_some_plugins_can_be_kept(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("six-a", "six-b"):
+        module = name.replace("-", "_")
+        points = {"tribo.v1.observer": {f"{name}.calm": module}}
+        distribute(folder, name, "1.0", points, **{module: observer(f"{name}.calm")})
+    monkeypatch.setenv("TRIBO_PLUGINS", "six-b")
+    assert [p.status for p in found("six-a", "six-b").plugins] == ["disabled", "available"]
 
 
 def test_the_built_in_components_come_through_the_same_hooks() -> None:

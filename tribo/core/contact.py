@@ -106,9 +106,9 @@ class Residuals:
     force : float
         \\|sum(p) * cell_area − load\\| / load.
     complementarity : float
-        sum(p * \\|g\\|) / (sum(p) * scale) over cells below the cap, where
-        ``scale`` is the depth by which the bodies approach (at least the
-        range of the gap under pressure).
+        sum(p * \\|g\\|) / (sum(p) * scale), where at the cap only an open gap
+        counts, and ``scale`` is the largest displacement under pressure, or
+        the range of the gap there if that is more.
     penetration : float
         Largest overlap where there is no pressure, over ``scale``.
     """

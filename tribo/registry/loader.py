@@ -1,8 +1,9 @@
-"""Finding plugins and loading them, without letting one of them stop the program."""
+"""Finding plugins without importing them, and importing one without trusting it."""
 
 from __future__ import annotations
 
 import inspect
+import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from importlib import import_module, metadata
@@ -15,10 +16,18 @@ from tribo.registry import hookspecs
 from tribo.registry.kinds import KINDS, Kind
 from tribo.registry.records import ComponentRecord, PluginRecord
 
-GROUP = "tribo.v1"
-"""Entry-point group of plugins; it carries the version of the interfaces."""
+API = 1
+"""Version of the interfaces, which entry-point groups carry."""
 
-Outcome = tuple[PluginRecord, tuple[ComponentRecord, ...]]
+_GROUP = re.compile(r"tribo\.v(?P<api>\d+)(?:\.(?P<kind>.*))?")
+
+Name = tuple[str, str]
+"""Kind and name of a component."""
+
+
+def group(kind: str) -> str:
+    """Return the entry-point group of a kind, as ``tribo.v1.wear_law``."""
+    return f"tribo.v{API}.{kind}"
 
 
 @dataclass(frozen=True)
@@ -28,12 +37,16 @@ class Source:
     Parameters
     ----------
     record : PluginRecord
-        What is known about it, as if it could be loaded.
+        What is known about it so far.
+    declared : tuple of (str, str) or None
+        Kind and name of what it offers, as its entry points say; None where
+        only its hooks can tell.
     load : callable
         Imports it and returns the object that carries the hooks.
     """
 
     record: PluginRecord
+    declared: tuple[Name, ...] | None
     load: Callable[[], object]
 
 
@@ -45,74 +58,120 @@ def builtin() -> Source:
     except metadata.PackageNotFoundError:
         version = ""
     record = PluginRecord("tribo", version, module, "built-in")
-    return Source(record, lambda: import_module(module))
+    return Source(record, None, lambda: import_module(module))
 
 
 def installed() -> list[Source]:
-    """Return the plugins that installed distributions declare, sorted by name."""
-    sources = []
-    for point in metadata.entry_points(group=GROUP):
-        distribution, version = (point.dist.name, point.dist.version) if point.dist else ("", "")
-        where = f"{point.name} = {point.value}"
-        sources.append(Source(PluginRecord(distribution, version, where, "installed"), point.load))
-    return sorted(sources, key=lambda s: (s.record.distribution, s.record.entry_point))
+    """Return the plugins that installed distributions declare, sorted by distribution.
+
+    An entry point ``acme.fretting = "acme_tribo"`` in the group
+    ``tribo.v1.wear_law`` says that the module ``acme_tribo`` offers a wear law
+    of that name. The entry points of one module are one plugin.
+    """
+    points: dict[tuple[str, str, str], list[metadata.EntryPoint]] = {}
+    everything = metadata.entry_points()
+    for name in filter(_GROUP.fullmatch, everything.groups):
+        for point in everything.select(group=name):
+            who = (point.dist.name, point.dist.version) if point.dist else ("", "")
+            points.setdefault((*who, point.value), []).append(point)
+    return [_source(*key, points[key]) for key in sorted(points)]
 
 
 def given(plugin: object) -> Source:
     """Return a plugin that is at hand: a module, or any object that carries hooks."""
     name = str(getattr(plugin, "__name__", type(plugin).__name__))
     version = str(getattr(plugin, "__version__", ""))
-    return Source(PluginRecord(name, version, name, "given"), lambda: plugin)
+    return Source(PluginRecord(name, version, name, "given"), None, lambda: plugin)
 
 
-def load(sources: Iterable[Source]) -> list[Outcome]:
-    """Load plugins and collect what each offers.
+def _source(
+    distribution: str, version: str, module: str, points: list[metadata.EntryPoint]
+) -> Source:
+    record = PluginRecord(distribution, version, module, "installed", status="available")
+    declared: list[Name] = []
+    for point in points:
+        match = _GROUP.fullmatch(point.group)
+        assert match is not None
+        kind, api = match["kind"], int(match["api"])
+        if api != API:
+            newer = "a newer tribo" if api > API else "a newer version of it"
+            reason = f"made for interface version {api}, this tribo has {API}; install {newer}"
+            record = replace(record, status="incompatible", reason=reason)
+        elif kind not in KINDS:
+            reason = f"entry-point group {point.group!r} is unknown; use one of {_groups()}"
+            record = replace(record, status="broken", reason=reason)
+        elif "." not in point.name:
+            reason = (
+                f"{point.name!r} needs a prefix, as in 'acme.{point.name}': names without one are "
+                "tribo's own"
+            )
+            record = replace(record, status="broken", reason=reason)
+        else:
+            declared.append((kind, point.name))
+    return Source(record, tuple(declared), lambda: points[0].load())
 
-    Whatever a plugin raises, `SystemExit` included, marks that plugin as
-    broken and leaves the others alone.
 
-    Returns
-    -------
-    list of (PluginRecord, tuple of ComponentRecord)
-        One entry a source, in order; a broken plugin offers nothing.
+def _groups() -> str:
+    return ", ".join(group(kind) for kind in KINDS)
+
+
+def load(source: Source) -> tuple[PluginRecord, tuple[ComponentRecord, ...]]:
+    """Import a plugin and collect what it offers.
+
+    Whatever it raises, `SystemExit` included, marks it as broken; a broken
+    plugin offers nothing. So does a hook that tribo does not know, and a
+    difference between what the entry points declare and the hooks offer.
     """
+    record = replace(source.record, status="loaded")
     manager = pluggy.PluginManager(hookspecs.PROJECT)
     manager.add_hookspecs(hookspecs)
-    return [_load(manager, source) for source in sources]
-
-
-def _load(manager: pluggy.PluginManager, source: Source) -> Outcome:
-    record = source.record
-    # Not the entry point's name alone: two distributions may use the same one.
-    name = f"{record.distribution}:{record.entry_point}"
-    plugin = None
     try:
         plugin = source.load()
-        if manager.register(plugin, name) is None:
-            return replace(record, status="disabled", reason="blocked"), ()
+        manager.register(plugin, record.entry_point)
         manager.check_pending()
-        return record, tuple(_offered(manager, plugin, record))
-    except (Exception, SystemExit) as error:
-        if manager.get_plugin(name) is not None:
-            manager.unregister(name=name)
-        reason = " ".join(f"{type(error).__name__}: {error}".split())
-        return replace(record, status="broken", reason=reason), ()
+        offers = tuple(_offered(manager, record))
+        if source.declared is not None:
+            _check_declared(source.declared, offers)
+        return record, offers
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:
+        return replace(record, status="broken", reason=_said(error)), ()
 
 
-def _offered(
-    manager: pluggy.PluginManager, plugin: object, record: PluginRecord
-) -> Iterable[ComponentRecord]:
-    seen: set[tuple[str, str]] = set()
+def _said(error: BaseException) -> str:
+    try:
+        text = " ".join(str(error).split())
+    except Exception:
+        text = "(its message cannot be shown)"
+    return f"{type(error).__name__}: {text}" if text else type(error).__name__
+
+
+def _check_declared(declared: tuple[Name, ...], offers: tuple[ComponentRecord, ...]) -> None:
+    offered = {(offer.kind, offer.name) for offer in offers}
+    for kind, name in sorted(set(declared) - offered):
+        hook = KINDS[kind].hook
+        raise ValueError(
+            f"its entry points declare the {KINDS[kind].words} {name!r}, but its hook {hook} does "
+            "not return it"
+        )
+    for kind, name in sorted(offered - set(declared)):
+        raise ValueError(
+            f"its hooks return the {KINDS[kind].words} {name!r}, which no entry point in "
+            f"{group(kind)!r} declares"
+        )
+
+
+def _offered(manager: pluggy.PluginManager, record: PluginRecord) -> Iterable[ComponentRecord]:
+    seen: set[Name] = set()
     for kind in KINDS.values():
-        # Not through the hook caller: there, one plugin that raises ends the call for all.
         for implementation in getattr(manager.hook, kind.hook).get_hookimpls():
-            if implementation.plugin is plugin:
-                for cls in implementation.function():
-                    offer = ComponentRecord(kind.name, _name(cls, kind), cls, record)
-                    if (offer.kind, offer.name) in seen:
-                        raise ValueError(f"{kind.hook} returns {offer.name!r} twice")
-                    seen.add((offer.kind, offer.name))
-                    yield offer
+            for cls in implementation.function():
+                offer = ComponentRecord(kind.name, _name(cls, kind), cls, record)
+                if (offer.kind, offer.name) in seen:
+                    raise ValueError(f"{kind.hook} returns {offer.name!r} twice")
+                seen.add((offer.kind, offer.name))
+                yield offer
 
 
 def _name(cls: Any, kind: Kind) -> str:

@@ -7,7 +7,7 @@ from typing import Any, Literal
 
 from tribo.interfaces.component import Component
 
-Status = Literal["loaded", "disabled", "broken", "incompatible", "conflict"]
+Status = Literal["available", "loaded", "disabled", "broken", "incompatible", "conflict"]
 
 
 @dataclass(frozen=True)
@@ -21,15 +21,16 @@ class PluginRecord:
     version : str
         Version of the distribution; empty if it states none.
     entry_point : str
-        Where it lies, as ``"acme = acme_tribo.plugin"``.
+        The module it lies in, as ``"acme_tribo.plugin"``.
     origin : str
         How it was found: ``"built-in"``, ``"installed"`` or ``"given"``.
     status : str
-        ``loaded``, ``disabled``, ``broken`` (it raised), ``incompatible`` (it
-        is made for another version of the interfaces) or ``conflict`` (it
-        claims a name that another plugin claims too).
+        ``available`` (not imported yet), ``loaded``, ``disabled`` by the user,
+        ``broken`` (it raised, or does not hold to the contract),
+        ``incompatible`` (made for another version of the interfaces) or
+        ``conflict`` (it claims a name that another plugin claims too).
     reason : str
-        Why it is not ``loaded``; empty if it is.
+        Why it cannot be used; empty if it can.
     """
 
     distribution: str

@@ -2,43 +2,50 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterable
 from dataclasses import replace
 from functools import cache
 from typing import Any
 
-from tribo.core.errors import CaseError
+from tribo.core.errors import CaseError, TriboWarning
 from tribo.core.words import did_you_mean, suggestion
 from tribo.interfaces.component import Component
 from tribo.registry.kinds import KINDS
-from tribo.registry.loader import Source, builtin, given, installed, load
+from tribo.registry.loader import Name, Source, builtin, given, installed, load
 from tribo.registry.records import ComponentRecord, PluginRecord
+from tribo.registry.selection import selected
+
+_UNUSABLE = ("disabled", "broken", "incompatible")
 
 
 class Registry:
     """The components that a set of plugins offers, by kind and name.
 
-    A name that two plugins claim belongs to neither.
+    A plugin whose entry points declare its names is imported only when one of
+    them is looked up. A name that two plugins claim belongs to neither.
 
     Parameters
     ----------
     sources : iterable of Source
-        The plugins; they are loaded now.
-
-    Attributes
-    ----------
-    plugins : tuple of PluginRecord
-        Every plugin, also those that could not be loaded.
+        The plugins.
     """
 
     def __init__(self, sources: Iterable[Source]) -> None:
-        plugins: list[PluginRecord] = []
-        self._claims: dict[tuple[str, str], list[ComponentRecord]] = {}
-        for plugin, offers in load(sources):
-            plugins.append(plugin)
-            for offer in offers:
-                self._claims.setdefault((offer.kind, offer.name), []).append(offer)
-        self.plugins = tuple(self._with_conflicts(plugin) for plugin in plugins)
+        self._sources = list(sources)
+        self._records = [source.record for source in self._sources]
+        self._offers: dict[int, tuple[ComponentRecord, ...]] = {}
+        self._claims: dict[Name, list[int]] = {}
+        for number, source in enumerate(self._sources):
+            if source.record.status in _UNUSABLE:
+                continue
+            declared = source.declared
+            if declared is None:
+                declared = tuple((o.kind, o.name) for o in self._load(number))
+            for name in declared:
+                self._claims.setdefault(name, []).append(number)
+        for number in range(len(self._sources)):
+            self._records[number] = self._with_conflicts(number)
 
     @classmethod
     def with_plugins(cls, *plugins: object) -> Registry:
@@ -53,14 +60,25 @@ class Registry:
         """
         return cls([builtin(), *map(given, plugins)])
 
+    @property
+    def plugins(self) -> tuple[PluginRecord, ...]:
+        """Every plugin that was found, with what is known of it by now."""
+        return tuple(self._records)
+
     def names(self, kind: str) -> list[str]:
-        """Return the usable names of one kind, sorted."""
+        """Return the usable names of one kind, sorted; imports nothing."""
         return sorted(
-            n for (k, n), claims in self._claims.items() if k == kind and len(claims) == 1
+            name
+            for (k, name), claims in self._claims.items()
+            if k == kind and len(claims) == 1 and self._records[claims[0]].status != "broken"
         )
 
+    def owner(self, kind: str, name: str) -> PluginRecord:
+        """Return the plugin that offers a usable name; imports nothing."""
+        return self._records[self._claims[kind, name][0]]
+
     def classes(self, kind: str) -> list[type[Component[Any]]]:
-        """Return the usable classes of one kind, sorted by name."""
+        """Return the usable classes of one kind, sorted by name; imports their plugins."""
         return [self.lookup(kind, name) for name in self.names(kind)]
 
     def lookup(self, kind: str, name: str) -> type[Component[Any]]:
@@ -68,7 +86,7 @@ class Registry:
         return self.record(kind, name).cls
 
     def record(self, kind: str, name: str) -> ComponentRecord:
-        """Return what is known about a component.
+        """Return what is known about a component, importing its plugin if need be.
 
         Parameters
         ----------
@@ -81,49 +99,69 @@ class Registry:
         Raises
         ------
         CaseError
-            If no plugin, or more than one, offers `name`.
+            If no plugin, or more than one, offers `name`, or the one that
+            does cannot be imported.
         """
-        claims = self._claims.get((kind, name), [])
-        if len(claims) == 1:
-            return claims[0]
         words = KINDS[kind].words
-        if claims:
-            owners = " and ".join(str(claim.plugin) for claim in claims)
+        claims = self._claims.get((kind, name), [])
+        if len(claims) > 1:
+            owners = " and ".join(str(self._records[number]) for number in claims)
             raise CaseError(
                 f"{words} {name!r} is offered by {owners}, so that it is not clear which is"
                 " meant; uninstall or disable one of them"
             )
-        raise CaseError(f"unknown {words} {name!r}{self._instead(kind, name)}")
+        if not claims:
+            raise CaseError(f"unknown {words} {name!r}{self._instead(kind, name)}")
+        for offer in self._load(claims[0]):
+            if (offer.kind, offer.name) == (kind, name):
+                return offer
+        plugin = self._records[claims[0]]
+        raise CaseError(
+            f"{words} {name!r} is in {plugin}, which is broken: {plugin.reason}; mend, update or "
+            f"reinstall {plugin.distribution}"
+        )
 
     def choices(self, kind: str) -> str:
         """Return the usable names of one kind as text, with who provides them."""
         by_plugin: dict[str, list[str]] = {}
         for name in self.names(kind):
-            by_plugin.setdefault(str(self.record(kind, name).plugin), []).append(name)
+            by_plugin.setdefault(str(self.owner(kind, name)), []).append(name)
         listed = (f"{', '.join(names)} ({plugin})" for plugin, names in by_plugin.items())
         return "; ".join(listed) or "none"
+
+    def _load(self, number: int) -> tuple[ComponentRecord, ...]:
+        if number not in self._offers:
+            self._records[number], self._offers[number] = load(self._sources[number])
+        return self._offers[number]
 
     def _instead(self, kind: str, name: str) -> str:
         text = suggestion(did_you_mean(name, self.names(kind)))
         text += f" Installed: {self.choices(kind)}"
-        for plugin in self.plugins:
-            if plugin.status in ("broken", "incompatible", "disabled"):
+        for source, plugin in zip(self._sources, self._records, strict=True):
+            declared = source.declared or ()
+            if plugin.status in _UNUSABLE and (not declared or (kind, name) in declared):
                 text += f". {plugin} is {plugin.status}: {plugin.reason}"
         return text
 
-    def _with_conflicts(self, plugin: PluginRecord) -> PluginRecord:
+    def _with_conflicts(self, number: int) -> PluginRecord:
         reasons = []
         for (kind, name), claims in self._claims.items():
-            others = [str(c.plugin) for c in claims if c.plugin != plugin]
-            if others and len(others) < len(claims):
+            others = [str(self._records[other]) for other in claims if other != number]
+            if others and number in claims:
                 reasons.append(f"{KINDS[kind].words} {name!r} also from {', '.join(others)}")
-        return replace(plugin, status="conflict", reason="; ".join(reasons)) if reasons else plugin
+        record = self._records[number]
+        return replace(record, status="conflict", reason="; ".join(reasons)) if reasons else record
 
 
 @cache
 def default_registry() -> Registry:
     """Return the registry of the built-in and the installed plugins.
 
-    They are loaded when it is asked for the first time.
+    A plugin that is seen at once to be unusable is warned of, once.
     """
-    return Registry([builtin(), *installed()])
+    registry = Registry([builtin(), *selected(installed())])
+    for plugin in registry.plugins:
+        if plugin.status in ("broken", "incompatible", "conflict"):
+            message = f"plugin {plugin} is left out, {plugin.status}: {plugin.reason}"
+            warnings.warn(message, TriboWarning, stacklevel=2)
+    return registry
