@@ -45,7 +45,6 @@ _STYLE: dict[str, Any] = {
     "lines.linewidth": 1.2,
     "lines.scale_dashes": False,
     "legend.fontsize": 7.0,
-    "legend.title_fontsize": 7.0,
     "legend.frameon": False,
     "legend.handlelength": 2.8,
     "legend.columnspacing": 1.4,
@@ -128,8 +127,7 @@ def pressure_colours() -> Colormap:
     """Return the map of pressures: darker is higher, and white is no contact."""
     # The darkest part of the map would swallow black lines.
     colours = ListedColormap(matplotlib.colormaps["viridis_r"](np.linspace(0.0, 0.8, 256)))
-    colours.set_bad("white")
-    return colours
+    return colours.with_extremes(bad="white")
 
 
 def save_strokes(count: int) -> list[Stroke]:
@@ -142,9 +140,7 @@ def save_strokes(count: int) -> list[Stroke]:
     return strokes[:count]
 
 
-def legend_below(
-    figure: Figure, lines: Sequence[Line2D], title: str = "", columns: int = 3
-) -> None:
+def legend_below(figure: Figure, lines: Sequence[Line2D], columns: int = 3) -> None:
     """Put a legend under the axes, where it hides nothing.
 
     Parameters
@@ -153,8 +149,6 @@ def legend_below(
         The figure.
     lines : sequence of Line2D
         What it explains; if too many, some are left out evenly.
-    title : str, optional
-        Its title.
     columns : int, optional
         Most columns.
     """
@@ -169,11 +163,10 @@ def legend_below(
         handles=[line for start in range(columns) for line in lines[start::columns]],
         loc="outside lower center",
         ncols=columns,
-        title=title or None,
     )
 
 
 def legend_height(count: int, columns: int = 3) -> float:
-    """Return how high a legend with a title is, in mm."""
+    """Return how high a legend is with its surroundings, in mm."""
     rows = min(-(-count // columns), LEGEND_ROWS)
     return 3.6 * (rows + 1)

@@ -37,8 +37,8 @@ class Unit:
 
 _LENGTHS = (Unit("mm", 1e3), Unit("µm", 1e6), Unit("nm", 1e9))
 _PRESSURES = (Unit("MPa", 1e-6), Unit("kPa", 1e-3), Unit("Pa", 1.0))
-_SECONDS = Unit("s", 1.0)
-_TIMES = (Unit("h", 1 / 3600.0), Unit("min", 1 / 60.0), _SECONDS, Unit("ms", 1e3))
+_SECONDS, _MILLISECONDS = Unit("s", 1.0), Unit("ms", 1e3)
+_TIMES = (Unit("h", 1 / 3600.0), Unit("min", 1 / 60.0), _SECONDS)
 
 
 def length_unit(largest: float) -> Unit:
@@ -59,17 +59,20 @@ def pressure_unit(largest: float) -> Unit:
 def time_unit(times: Array) -> Unit:
     """Return the largest unit in which every one of `times`, in s, is a short number.
 
-    If none is, as after an interruption, the one that suits the longest.
+    The last may be longer, as after an interruption. If none serves, the one
+    that suits the longest.
     """
     longest = float(np.max(times, initial=0.0))
     if longest == 0:
         return _SECONDS
-    for unit in _TIMES:
-        shown = unit.of(times)
-        short = np.allclose(shown, np.round(shown, 1), rtol=1e-9, atol=1e-9)
-        if short and longest * unit.factor >= 1:
-            return unit
-    return next((unit for unit in _TIMES if longest * unit.factor >= 10), _TIMES[-1])
+    units = [unit for unit in _TIMES if longest * unit.factor >= 1] or [_MILLISECONDS]
+    for part in (times, times[:-1]):
+        for unit in units:
+            shown = unit.of(part)
+            short = np.allclose(shown, np.round(shown, 1), rtol=0.0, atol=1e-9)
+            if short and np.any(part > 0):
+                return unit
+    return next((unit for unit in units if longest * unit.factor >= 10), units[-1])
 
 
 def time_labels(result: Result) -> list[str]:

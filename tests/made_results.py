@@ -1,0 +1,107 @@
+"""Results made up in memory: Hertz's pressure spreading out, parabolic scars."""
+
+import numpy as np
+
+from tribo.core.contact import ContactSolution, ContactSystem, Residuals
+from tribo.core.grid import Grid
+from tribo.core.measures import BodyMeasures, Measures, centre, contact_area, half_widths
+from tribo.core.state import BodyInfo, BodyState, RunInfo, Snapshot, State
+from tribo.results.read import Result
+from tribo.results.store import ResultWriter
+
+GRID = Grid((2e-3, 1.6e-3), (50, 40))
+RADIUS = 5e-3
+TIMES = (0.0, 200.0, 500.0, 1500.0, 3600.0)
+SETTLED = Residuals(0.0, 0.0, 0.0)
+
+
+def made(
+    times=TIMES,
+    *,
+    names=("ball", "disk"),
+    swept=(False, True),
+    worn=(True, True),
+    densities=(7850.0, 7850.0),
+    curvature=(1 / RADIUS, 1 / RADIUS),
+    cap=None,
+    plastic=0.0,
+    status="done",
+):
+    """Return a result in which the contact grows as that of a ball worn flat."""
+    bodies = tuple(zip(names, swept, worn, densities, strict=True))
+    writer = ResultWriter(None)
+    writer.create(
+        RunInfo(
+            system=ContactSystem(GRID, 1.137e11, 100.0, cap, curvature),
+            bodies=tuple(
+                BodyInfo(name, is_swept, density, _height(i))
+                for i, (name, is_swept, _, density) in enumerate(bodies)
+            ),
+            end_time=3600.0,
+            end_distance=360.0,
+            case={"bodies": {name: {} for name in names}},
+            provenance={},
+        )
+    )
+    for time in times:
+        snapshot = _snapshot(time, bodies, plastic)
+        # Two steps to each save.
+        if time > 0:
+            writer.append_step(_snapshot(0.9 * time, bodies, plastic).measures)
+        writer.append_step(snapshot.measures)
+        writer.append_save(snapshot)
+    writer.finish(status, 1.0)
+    return Result(writer.file, "made")
+
+
+def half_width(time):
+    """Half-width of the contact along x; it is a tenth wider along y."""
+    return 1.5e-4 * (1 + time / 20) ** 0.25
+
+
+def _height(body):
+    x, y = GRID.mesh
+    return -(x**2 + y**2) / (2 * RADIUS) if body == 0 else np.zeros(GRID.cells)
+
+
+def _snapshot(time, bodies, plastic):
+    x, y = GRID.mesh
+    a = half_width(time)
+    inside = np.maximum(1 - (x**2 + (y / 1.1) ** 2) / a**2, 0.0)
+    pressure = np.sqrt(inside)
+    pressure *= 100.0 / (pressure.sum() * GRID.cell_area)
+    # What levels a ball, and a tenth of it for a groove.
+    depth = (a**2 - half_width(0.0) ** 2) / (2 * RADIUS) * inside
+    states, measures = {}, {}
+    for name, swept, wears, _ in bodies:
+        field = depth if wears else 0 * depth
+        wear = 0.1 * field.mean(axis=0, keepdims=True) if swept else field
+        states[name] = BodyState(wear, plastic * inside, {})
+        volume = 3.11e-14 * 0.1 * time if wears else 0.0
+        measures[name] = BodyMeasures(wear.max(), centre(wear), volume, plastic * inside.max())
+    state = State(
+        time=time,
+        distance=0.1 * time,
+        bodies=states,
+        contact=ContactSolution(pressure, 1e-6, 0 * pressure, 1, SETTLED),
+        increment=1.0,
+        reference_depth=1e-6,
+    )
+    width, breadth = half_widths(pressure, GRID)
+    return Snapshot(
+        state,
+        Measures(
+            time=time,
+            distance=0.1 * time,
+            max_pressure=pressure.max(),
+            centre_pressure=centre(pressure),
+            half_width_x=width,
+            half_width_y=breadth,
+            area=contact_area(pressure, GRID),
+            approach=1e-6,
+            residuals=SETTLED,
+            contact_solves=1,
+            solver_iterations=1,
+            bodies=measures,
+        ),
+    )

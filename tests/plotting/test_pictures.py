@@ -1,0 +1,219 @@
+"""What the pictures show is what the result holds."""
+
+import numpy as np
+import pytest
+from made_results import GRID, TIMES, half_width, made
+
+from tribo.analysis.first_contact import hertz_contact
+from tribo.core.errors import CaseError
+from tribo.plotting import (
+    body_profiles,
+    contact_history,
+    groove,
+    pressure_map,
+    pressure_sections,
+    wear_history,
+    worn_section,
+)
+from tribo.results.export import profile
+
+DRAWINGS = {
+    "pressure_map": pressure_map,
+    "pressure_sections": pressure_sections,
+    "ball_along": lambda result: body_profiles(result, "ball", 0),
+    "ball_across": lambda result: body_profiles(result, "ball", 1),
+    "disk_groove": lambda result: groove(result, "disk"),
+    "worn_section": worn_section,
+    "wear_history": wear_history,
+    "contact_history": contact_history,
+}
+UNITS = ("(mm)", "(µm)", "(MPa)", "(s)", "(mm³)", "(mg)")
+
+
+@pytest.fixture(scope="module")
+def result():
+    return made()
+
+
+def curves(axes):
+    """Curves by label, x and y."""
+    return {line.get_label(): line.get_xydata().T for line in axes.lines}
+
+
+def names(legend):
+    return {text.get_text() for text in legend.get_texts()}
+
+
+@pytest.mark.parametrize("draw", DRAWINGS.values(), ids=DRAWINGS)
+def test_every_axis_with_numbers_says_what_and_in_which_unit(draw, result):
+    figure = draw(result)
+    figure.draw_without_rendering()
+    labelled = 0
+    for axes in figure.axes:
+        for axis in (axes.xaxis, axes.yaxis):
+            numbers = [label for label in axis.get_ticklabels() if label.get_visible()]
+            if any(label.get_text() for label in numbers):
+                assert axis.get_label_text().endswith(UNITS)
+                labelled += 1
+    assert labelled >= 2
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+def test_profiles_are_those_of_the_result_at_every_save(axis, result):
+    (axes,) = body_profiles(result, "ball", axis).axes
+    shown = curves(axes)
+    assert list(shown) == ["0 s", "200 s", "500 s", "1500 s", "3600 s"]
+    ball = result.body("ball")
+    for save, (x, y) in enumerate(shown.values()):
+        np.testing.assert_allclose(x, 1e3 * (GRID.x, GRID.y)[axis])
+        np.testing.assert_allclose(y, 1e6 * profile(ball.surface(save), axis), atol=1e-12)
+    assert np.all(shown["0 s"][1] >= shown["3600 s"][1])
+
+
+def test_a_profile_shows_the_scar_and_little_else(result):
+    (axes,) = body_profiles(result, "ball", 0).axes
+    reach = 1e3 * half_width(3600.0)
+    low, high = axes.get_xlim()
+    assert -low == pytest.approx(high)
+    assert 1.1 * reach < high < 1.35 * reach
+    bottom, top = axes.get_ylim()
+    shown = 1e6 * -((1e-3 * high) ** 2) / (2 * 5e-3)
+    assert top < 0.1 * (top - bottom)
+    assert bottom == pytest.approx(shown, rel=0.15)
+
+
+def test_the_stated_enlargement_is_that_on_paper(result):
+    figure = body_profiles(result, "ball", 1)
+    figure.draw_without_rendering()
+    (axes,) = figure.axes
+    box = axes.get_window_extent()
+    (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
+    per_mm, per_um = box.width / (right - left), box.height / (high - low)
+    stated = float(axes.get_title(loc="right").removeprefix("height × "))
+    assert stated == pytest.approx(1e3 * per_um / per_mm, rel=0.05)
+
+
+def test_a_groove_is_the_swept_bodys_section(result):
+    (axes,) = groove(result, "disk").axes
+    worn = result.body("disk").wear_depth
+    for save, (_, y) in enumerate(curves(axes).values()):
+        factor = 1e6 if worn.max() >= 1e-6 else 1e9
+        np.testing.assert_allclose(y, -factor * worn[save, 0], atol=1e-12)
+    with pytest.raises(CaseError, match="ball is not swept"):
+        groove(result, "ball")
+
+
+def test_sections_hold_every_save_and_hertz(result):
+    figure = pressure_sections(result)
+    assert len(figure.axes) == 4
+    for i, axes in enumerate(figure.axes):
+        shown = curves(axes)
+        assert len(shown) == len(TIMES) + 1
+        for save, label in enumerate(list(shown)[:-1]):
+            expected = 1e-6 * profile(result.pressure(save), i % 2)
+            np.testing.assert_allclose(shown[label][1], expected)
+        x, y = shown["Hertz, 0 s"]
+        hertz = hertz_contact(result.system)
+        assert y.max() == pytest.approx(1e-6 * hertz.peak_pressure, rel=1e-3)
+        assert x[y > 0].max() == pytest.approx(1e3 * hertz.half_width_x, rel=0.02)
+    assert names(figure.legends[0]) == set(curves(figure.axes[0]))
+
+
+def test_the_second_row_of_sections_is_filled_by_what_comes_later(result):
+    upper, lower = pressure_sections(result).axes[::2]
+    assert upper.get_ylim()[1] >= 1e-6 * result.pressure(0).max()
+    later = 1e-6 * profile(result.pressure(1), 0).max()
+    assert later < lower.get_ylim()[1] < 1.2 * later
+
+
+def test_the_map_is_the_pressure_at_true_scale(result):
+    axes, bar = pressure_map(result, 1).axes
+    (image,) = axes.images
+    shown = np.ma.filled(image.get_array(), 0.0)
+    np.testing.assert_allclose(shown, 1e-6 * result.pressure(1).T)
+    np.testing.assert_allclose(image.get_extent(), [-1.0, 1.0, -0.8, 0.8])
+    assert axes.get_aspect() == 1.0
+    assert axes.get_title(loc="left") == "t = 200 s"
+    assert bar.get_ylabel() == "Pressure (MPa)"
+    reach = 1e3 * half_width(200.0)
+    assert reach < axes.get_xlim()[1] < 1.5 * reach
+
+
+def test_the_map_marks_the_ellipse_of_hertz(result):
+    axes = pressure_map(result).axes[0]
+    (ellipse,) = axes.patches
+    hertz = hertz_contact(result.system)
+    assert ellipse.width == pytest.approx(2e3 * hertz.half_width_x)
+    assert ellipse.height == pytest.approx(2e3 * hertz.half_width_y)
+
+
+def test_the_map_knows_only_saves_that_exist(result):
+    with pytest.raises(CaseError, match="no save 5; it has 5"):
+        pressure_map(result, 5)
+
+
+def test_worn_bodies_touch_but_do_not_overlap(result):
+    along, across = (
+        np.subtract(*[line.get_ydata() for line in axes.lines if line.get_label() == "worn"])
+        for axes in worn_section(result).axes
+    )
+    assert min(along.min(), across.min()) > -1e-9
+    # They come together within the scar, to less than the ball's sag over a cell.
+    sag = 1e6 * half_width(3600.0) * GRID.spacing[1] / 5e-3
+    assert across.min() < sag
+
+
+def test_the_swept_body_lies_below_whatever_its_place():
+    figure = worn_section(made(swept=(True, False), worn=(True, False)))
+    assert [text.get_text() for text in figure.axes[0].texts] == ["disk", "ball"]
+
+
+def test_volume_and_mass_are_the_histories(result):
+    figure = wear_history(result)
+    (axes,) = figure.axes
+    (right,) = axes.child_axes
+    history = result.table("history")
+    shown = curves(axes)
+    assert set(shown) == {"ball", "disk"} == names(figure.legends[0])
+    np.testing.assert_allclose(shown["ball"][0], history["time_s"])
+    np.testing.assert_allclose(shown["ball"][1], 1e9 * history["bodies.ball.wear_volume_m3"])
+    figure.draw_without_rendering()
+    # 7.85 mg to the mm³ of steel.
+    assert right.get_ylim()[1] == pytest.approx(7.85 * axes.get_ylim()[1])
+    assert right.get_ylabel().endswith("(mg)")
+
+
+def test_markers_stand_at_the_saves(result):
+    axes = wear_history(result).axes[0]
+    line = axes.lines[0]
+    np.testing.assert_allclose(line.get_xdata()[line.get_markevery()], TIMES)
+
+
+def test_different_densities_give_mass_its_own_panel():
+    volume, mass = wear_history(made(densities=(7850.0, 3200.0))).axes
+    assert not volume.child_axes
+    volumes, masses = curves(volume), curves(mass)
+    np.testing.assert_allclose(masses["ball"][1], 7.85 * volumes["ball"][1])
+    np.testing.assert_allclose(masses["disk"][1], 3.2 * volumes["disk"][1])
+    assert mass.get_ylabel() == "Mass worn (mg)"
+
+
+def test_without_densities_there_is_no_mass():
+    (axes,) = wear_history(made(densities=(None, None))).axes
+    assert not axes.child_axes
+
+
+def test_a_weighed_body_stands_alone_beside_one_without_density():
+    _, mass = wear_history(made(densities=(7850.0, None))).axes
+    assert set(curves(mass)) == {"ball"}
+
+
+def test_contact_history_is_the_history(result):
+    upper, lower = contact_history(result).axes
+    history = result.table("history")
+    pressures, widths = curves(upper), curves(lower)
+    np.testing.assert_allclose(pressures["largest"][1], 1e-6 * history["max_pressure_Pa"])
+    np.testing.assert_allclose(pressures["centre"][1], 1e-6 * history["centre_pressure_Pa"])
+    along = history["contact_half_width_x_m"]
+    np.testing.assert_allclose(widths["along sliding"][1], 1e3 * along)
+    assert all(axes.get_legend() for axes in (upper, lower))

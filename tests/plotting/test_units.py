@@ -1,0 +1,42 @@
+"""Units a person would choose."""
+
+import numpy as np
+import pytest
+from made_results import made
+
+from tribo.plotting.units import height_unit, length_unit, pressure_unit, time_labels, time_unit
+
+
+@pytest.mark.parametrize(
+    ("times", "unit"),
+    [
+        ([0], "s"),
+        ([0, 200, 500, 1500, 3600], "s"),
+        ([0, 1800, 3600], "h"),
+        ([0, 600, 1800], "min"),
+        ([0, 600, 1234.567], "min"),
+        ([0, 36000, 91234.567], "h"),
+        ([0, 0.02, 0.05], "ms"),
+    ],
+)
+def test_times_share_the_largest_unit_that_keeps_them_short(times, unit):
+    assert time_unit(np.asarray(times, dtype=float)).name == unit
+
+
+@pytest.mark.parametrize(
+    ("times", "labels"),
+    [
+        ((0.0, 200.0, 10000.0), ["0 s", "200 s", "10000 s"]),
+        ((0.0, 5400.0, 7200.0), ["0 h", "1.5 h", "2 h"]),
+        ((0.0, 123.4567), ["0 s", "123.5 s"]),
+    ],
+)
+def test_time_labels(times, labels):
+    assert time_labels(made(times)) == labels
+
+
+def test_values_and_units_go_together():
+    assert length_unit(2e-4).of(np.asarray([2e-4]))[0] == pytest.approx(0.2)
+    assert [length_unit(v).name for v in (2e-4, 9e-5, 9e-8, 0.0)] == ["mm", "µm", "nm", "mm"]
+    assert [height_unit(v).name for v in (1.4e-4, 8e-6, 8e-9)] == ["µm", "µm", "nm"]
+    assert [pressure_unit(v).name for v in (2e9, 2e5, 2e4, 2.0)] == ["MPa", "MPa", "kPa", "Pa"]
