@@ -75,6 +75,8 @@ def wear_history(result: Result) -> Figure:
             ]
             curves = curves or drawn
             _from_zero(axes)
+            # Volumes may need a power of ten; everything else has a fitting unit.
+            axes.ticklabel_format(axis="y", useMathText=True)
         panels[0].set_ylabel("Volume worn (mm³)")
         if rows == 2:
             panels[1].set_ylabel("Mass worn (mg)")
@@ -83,6 +85,7 @@ def wear_history(result: Result) -> Figure:
             right = panels[0].secondary_yaxis(
                 "right", functions=(lambda v: v * to_mass, lambda m: m / to_mass)
             )
+            right.ticklabel_format(axis="y", useMathText=True)
             right.set_ylabel("Mass worn (mg)")
         panels[-1].set_xlabel(f"Time ({unit.name})")
         legend_below(figure, curves)

@@ -34,7 +34,6 @@ _STYLE: dict[str, Any] = {
     "axes.linewidth": 0.6,
     "axes.spines.top": False,
     "axes.spines.right": False,
-    "axes.formatter.use_mathtext": True,
     "axes.formatter.limits": (-3, 5),
     "xtick.labelsize": 7.0,
     "ytick.labelsize": 7.0,
