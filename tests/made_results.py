@@ -25,9 +25,13 @@ def made(
     curvature=(1 / RADIUS, 1 / RADIUS),
     cap=None,
     plastic=0.0,
+    power=0.5,
     status="done",
 ):
-    """Return a result in which the contact grows as that of a ball worn flat."""
+    """Return a result in which the contact grows as that of a ball worn flat.
+
+    The pressure goes as ``(1 - r²/a²)**power``.
+    """
     bodies = tuple(zip(names, swept, worn, densities, strict=True))
     writer = ResultWriter(None)
     writer.create(
@@ -44,10 +48,10 @@ def made(
         )
     )
     for time in times:
-        snapshot = _snapshot(time, bodies, plastic)
+        snapshot = _snapshot(time, bodies, plastic, power)
         # Two steps to each save.
         if time > 0:
-            writer.append_step(_snapshot(0.9 * time, bodies, plastic).measures)
+            writer.append_step(_snapshot(0.9 * time, bodies, plastic, power).measures)
         writer.append_step(snapshot.measures)
         writer.append_save(snapshot)
     writer.finish(status, 1.0)
@@ -64,11 +68,11 @@ def _height(body):
     return -(x**2 + y**2) / (2 * RADIUS) if body == 0 else np.zeros(GRID.cells)
 
 
-def _snapshot(time, bodies, plastic):
+def _snapshot(time, bodies, plastic, power):
     x, y = GRID.mesh
     a = half_width(time)
     inside = np.maximum(1 - (x**2 + (y / 1.1) ** 2) / a**2, 0.0)
-    pressure = np.sqrt(inside)
+    pressure = np.where(inside > 0, inside**power, 0.0)
     pressure *= 100.0 / (pressure.sum() * GRID.cell_area)
     # What levels a ball, and a tenth of it for a groove.
     depth = (a**2 - half_width(0.0) ** 2) / (2 * RADIUS) * inside

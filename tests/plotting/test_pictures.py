@@ -139,6 +139,17 @@ def test_the_map_is_the_pressure_at_true_scale(result):
     assert reach < axes.get_xlim()[1] < 1.5 * reach
 
 
+@pytest.mark.parametrize(("power", "cut"), [(0.5, False), (0.05, True)])
+def test_the_scale_of_a_map_starts_from_zero_unless_the_pressure_is_a_plateau(power, cut):
+    axes, bar = pressure_map(made((0.0, 3600.0), power=power)).axes
+    low, high = axes.images[0].get_clim()
+    assert (low > 0.5 * high) is cut
+    assert low <= 0.8 * high
+    # An arrow below the scale tells that it leaves something out.
+    assert (axes.images[0].colorbar.extend == "min") is cut
+    assert bar.get_ylabel().endswith("(MPa)")
+
+
 def test_the_map_marks_the_ellipse_of_hertz(result):
     axes = pressure_map(result).axes[0]
     (ellipse,) = axes.patches
