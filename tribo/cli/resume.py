@@ -9,7 +9,8 @@ import click
 
 @click.command()
 @click.argument("output", type=click.Path(path_type=Path))
-def resume(output: Path) -> None:
+@click.option("--allow-changed", is_flag=True, help="Go on with other versions of components.")
+def resume(output: Path, allow_changed: bool) -> None:
     """Go on with the stopped run whose result file is OUTPUT.
 
     The result has the same bits as that of a run that was never stopped.
@@ -27,5 +28,8 @@ def resume(output: Path) -> None:
     with Result.open(output) as stopped:
         case = stopped.case
     simulation = Simulation(case)
-    with warnings_on_stderr(), simulation.resume(output, observers=[Progress()]) as result:
+    with (
+        warnings_on_stderr(),
+        simulation.resume(output, observers=[Progress()], allow_changed=allow_changed) as result,
+    ):
         print_report(result)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
+from packaging.requirements import InvalidRequirement, Requirement
 from pydantic import Field, field_validator
 
 from tribo.config.slot import Slot
@@ -85,6 +86,8 @@ class OutputConfig(Table):
 class Case(Table):
     """A case: two bodies, a load, a motion, and how to compute."""
 
+    requires: tuple[str, ...] = ()
+    """Distributions that must be installed, as ``"acme-tribo>=1.2"``."""
     grid: GridConfig
     load: LoadConfig
     bodies: dict[str, BodyConfig]
@@ -104,6 +107,18 @@ class Case(Table):
     """Who watches the run."""
     output: OutputConfig = OutputConfig()
     stop: StopConfig = StopConfig()
+
+    @field_validator("requires")
+    @classmethod
+    def _requirements(cls, requires: tuple[str, ...]) -> tuple[str, ...]:
+        for text in requires:
+            try:
+                Requirement(text)
+            except InvalidRequirement:
+                raise ValueError(
+                    f"{text!r} is not a requirement; write one as 'acme-tribo>=1.2'"
+                ) from None
+        return requires
 
     @field_validator("bodies")
     @classmethod

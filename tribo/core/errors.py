@@ -39,6 +39,10 @@ class NumericalError(TriboError):
     exit_code: ClassVar[int] = 3
 
 
+class PluginError(NumericalError):
+    """A component raised something that nobody expected."""
+
+
 class OutputError(TriboError):
     """A result could not be written."""
 

@@ -47,7 +47,7 @@ class Recorder(Observer[RecorderConfig]):
             else:
                 self._spent_before = run.wall_time
                 self._saved = run.resumed_from.state.time
-                self.writer.reopen(run.resumed_from.state)
+                self.writer.reopen(run, run.resumed_from.state)
         except OSError as error:
             raise self._failed(error) from error
 

@@ -1,10 +1,11 @@
-"""Which versions and which classes made a result."""
+"""Which versions, which classes and which plugins made a result."""
 
 from __future__ import annotations
 
+import json
 import platform
 from collections.abc import Iterable, Mapping
-from importlib.metadata import PackageNotFoundError, packages_distributions, version
+from importlib import metadata
 
 from tribo.interfaces.component import Component, ComponentConfig
 
@@ -13,6 +14,7 @@ PACKAGES = ("tribo", "numpy", "scipy", "h5py", "pydantic", "pluggy")
 
 def provenance(
     components: Iterable[tuple[str, Component[ComponentConfig]]],
+    plugins: Iterable[Mapping[str, object]] = (),
 ) -> dict[str, object]:
     """Return versions, and for each component its class, distribution and version.
 
@@ -20,33 +22,92 @@ def provenance(
     ----------
     components : iterable of (str, Component)
         Each with its place in the case.
+    plugins : iterable of Mapping
+        Every plugin that was found, loaded or not, as plain data.
+
+    Returns
+    -------
+    dict
+        Plain data, ready for JSON.
     """
-    owners = packages_distributions()
     return {
         "python": platform.python_version(),
         "platform": platform.platform(),
         "packages": {name: _version(name) for name in PACKAGES},
-        "components": {place: _origin(component, owners) for place, component in components},
+        "components": {place: _origin(component) for place, component in components},
+        "plugins": [dict(plugin) for plugin in plugins],
     }
 
 
-def _origin(
-    component: Component[ComponentConfig], owners: Mapping[str, list[str]]
-) -> dict[str, str]:
+def changed_components(
+    before: Mapping[str, object], now: Mapping[str, object]
+) -> list[tuple[str, str, str]]:
+    """Return the components whose class or version differ: place, before, now.
+
+    Parameters
+    ----------
+    before, now : Mapping
+        What `provenance` returned.
+    """
+    old, new = before["components"], now["components"]
+    assert isinstance(old, dict)
+    assert isinstance(new, dict)
+    places = [place for place in {**old, **new} if old.get(place) != new.get(place)]
+    return [(place, _words(old.get(place)), _words(new.get(place))) for place in places]
+
+
+def _words(origin: dict[str, str] | None) -> str:
+    if origin is None:
+        return "nothing"
+    commit = f" at {origin['commit'][:10]}" if origin.get("commit") else ""
+    return f"{origin['class']} of {origin['distribution']} {origin['version']}{commit}".strip()
+
+
+def _origin(component: Component[ComponentConfig]) -> dict[str, object]:
     cls = type(component)
-    package = cls.__module__.split(".")[0]
-    # An editable installation lists no packages; its own name is the best guess.
-    distribution = owners.get(package, [package])[0]
-    return {
+    distribution = _distribution(cls.__module__.split(".")[0])
+    origin: dict[str, object] = {
         "type": cls.type_name(),
         "class": f"{cls.__module__}.{cls.__qualname__}",
-        "distribution": distribution if _version(distribution) else "",
-        "version": _version(distribution),
+        "distribution": "",
+        "version": "",
+        "editable": False,
     }
+    if distribution is not None:
+        source = json.loads(distribution.read_text("direct_url.json") or "{}")
+        origin["distribution"] = distribution.name
+        origin["version"] = distribution.version
+        origin["editable"] = bool(source.get("dir_info", {}).get("editable"))
+        if "vcs_info" in source:
+            origin["commit"] = source["vcs_info"].get("commit_id", "")
+    return origin
+
+
+def _distribution(package: str) -> metadata.Distribution | None:
+    """Return the distribution that a top-level package came with."""
+    # An editable installation lists no packages, but its entry points name them.
+    names = [
+        point.dist.name
+        for group in ("tribo.v1.", "console_scripts")
+        for point in _entry_points(group)
+        if point.dist is not None and point.module.split(".")[0] == package
+    ]
+    names += metadata.packages_distributions().get(package, [])
+    return metadata.distribution(names[0]) if names else None
+
+
+def _entry_points(group: str) -> list[metadata.EntryPoint]:
+    everything = metadata.entry_points()
+    return [
+        point
+        for name in everything.groups
+        if name.startswith(group)
+        for point in everything.select(group=name)
+    ]
 
 
 def _version(distribution: str) -> str:
     try:
-        return version(distribution)
-    except PackageNotFoundError:
+        return metadata.version(distribution)
+    except metadata.PackageNotFoundError:
         return ""

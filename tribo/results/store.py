@@ -8,7 +8,7 @@ Names and units follow the CF conventions; dimensions are (time, x, y).
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import count
 from pathlib import Path
 
@@ -103,12 +103,13 @@ class ResultWriter:
                     name = f"{table}/bodies/{body.name}/{part.name}"
                     _series(f, name, (scale,), part.unit, part.description)
 
-    def reopen(self, state: State) -> None:
+    def reopen(self, run: RunInfo, state: State) -> None:
         """Go on with the file of an earlier process, dropping what came after `state`."""
         assert self._path is not None
         self._file = h5py.File(self._path, "r+", libver="earliest")
         self._file.attrs["status"] = "running"
         _truncate(self._file, state.saves, state.steps + 1)
+        _record_change(self._file, run.provenance)
 
     def append_step(self, measures: Measures) -> None:
         """Remember a row of the history; it is written at the next flush."""
@@ -228,6 +229,17 @@ def _append(dataset: h5py.Dataset, values: Sequence[float] | Sequence[Array]) ->
     first = dataset.shape[0]
     dataset.resize(first + len(values), axis=0)
     dataset[first:] = np.asarray(values, dtype=np.float64)
+
+
+def _record_change(file: h5py.File, now: Mapping[str, object]) -> None:
+    """Add to the provenance what a resumed run is continued with, if that differs."""
+    made = json.loads(read_text(file, "provenance"))
+    last = made["resumed_with"][-1] if "resumed_with" in made else made
+    if all(last.get(key) == value for key, value in now.items()):
+        return
+    made.setdefault("resumed_with", []).append(now)
+    del file["provenance"], file["provenance_bytes"]
+    write_text(file, "provenance", json.dumps(made))
 
 
 def _truncate(file: h5py.File, saves: int, steps: int) -> None:

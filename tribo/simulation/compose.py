@@ -52,4 +52,5 @@ def compose(case: Case, registry: Registry | None = None) -> Model:
         save_times=case.output.save_times,
         stop=case.stop,
         ends_at_window=case.grid.ends_at_window,
+        requires=case.requires,
     )

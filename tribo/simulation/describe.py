@@ -12,6 +12,7 @@ def describe(model: Model) -> dict[str, object]:
     filled in; one made from objects gives the case that would make it.
     """
     return {
+        "requires": list(model.requires),
         "grid": {
             "size": list(model.grid.size),
             "cells": list(model.grid.cells),

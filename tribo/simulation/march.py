@@ -82,14 +82,14 @@ def _explicit(model: Model, config: ExplicitConfig, state: State, stop: float) -
     time = state.time + config.time_step
     if stop - time < 1e-6 * config.time_step:
         time = stop
-    increment = model.kinematics.distance(time) - state.distance
+    increment = _path_until(model, state, time) - state.distance
     if not config.allow_unstable:
         _check_stability(model, state, increment, time)
     return _stop_at_depth(model, state, explicit_step, increment, time)
 
 
 def _implicit(model: Model, config: ImplicitConfig, state: State, stop: float) -> State:
-    target = model.kinematics.distance(stop)
+    target = _path_until(model, state, stop)
     remaining = target - state.distance
     natural = state.increment or first_increment(model, state, remaining)
     step = partial(implicit_step, config=config)
@@ -97,7 +97,7 @@ def _implicit(model: Model, config: ImplicitConfig, state: State, stop: float) -
     while True:
         increment = fitted(natural, remaining, target, config.settle)
         landing = increment == remaining
-        time = stop if landing else model.kinematics.time(state.distance + increment)
+        time = stop if landing else _time_at(model, state, state.distance + increment, stop)
         try:
             after = step(model, state, increment, time)
             errors = step_error(model, config, state, after)
@@ -122,6 +122,28 @@ def _implicit(model: Model, config: ImplicitConfig, state: State, stop: float) -
     if _depth(model, after) > _depth_limit(model):
         return _stop_at_depth(model, state, step, increment, time)
     return after
+
+
+def _path_until(model: Model, state: State, time: float) -> float:
+    """Return the path at a later time, which must have grown."""
+    distance = model.kinematics.distance(time)
+    if not state.distance < distance < np.inf:
+        raise NumericalError(
+            f"kinematics {model.kinematics.type_name()!r} does not slide on: {state.distance:g} m "
+            f"at {state.time:g} s, {distance:g} m at {time:g} s"
+        )
+    return distance
+
+
+def _time_at(model: Model, state: State, distance: float, stop: float) -> float:
+    """Return the time at which the path is reached, between now and the next stop."""
+    time = model.kinematics.time(distance)
+    if not state.time < time <= stop * (1 + 1e-9):
+        raise NumericalError(
+            f"kinematics {model.kinematics.type_name()!r} puts {distance:g} m at {time:g} s, which "
+            f"does not lie between {state.time:g} s and {stop:g} s"
+        )
+    return time
 
 
 def _stop_at_depth(

@@ -25,6 +25,7 @@ from tribo.interfaces.kinematics import Kinematics, KinematicsConfig
 from tribo.interfaces.observer import Observer, ObserverConfig
 from tribo.interfaces.surface import Surface, SurfaceConfig
 from tribo.interfaces.wear import WearLaw, WearLawConfig
+from tribo.simulation.requirements import check_requirements
 
 
 @dataclass(frozen=True)
@@ -69,6 +70,7 @@ class Model:
     observers: tuple[Observer[ObserverConfig], ...]
     save_times: tuple[float, ...]
     stop: StopConfig
+    requires: tuple[str, ...]
     ends_at_window: bool
     exposures: Mapping[str, Exposure]
     plastic_share: Mapping[str, float]
@@ -115,6 +117,7 @@ def assemble(
     save_times: Sequence[float] = (),
     stop: StopConfig | None = None,
     ends_at_window: bool = False,
+    requires: Sequence[str] = (),
 ) -> Model:
     """Check that the parts fit together and join them.
 
@@ -141,12 +144,15 @@ def assemble(
     ends_at_window : bool, optional
         Whether the bodies end at the window's edge, so that the contact may
         reach it.
+    requires : sequence of str, optional
+        Distributions that must be installed, as ``"acme-tribo>=1.2"``.
 
     Raises
     ------
     CaseError
         If parts do not fit; the message names the place, and the remedy.
     """
+    check_requirements(requires)
     if len(bodies) != 2 or bodies[0].name == bodies[1].name:
         raise CaseError("a contact needs two bodies with different names", "bodies")
     names = [body.name for body in bodies]
@@ -159,7 +165,7 @@ def assemble(
         gap -= height
         if body.wear is not None:
             with located(f"bodies.{body.name}.wear"):
-                body.wear.check(body.material)
+                _check_law(body.wear, body.material)
     gap -= float(np.min(gap))
     cap, share = _plastic(bodies, contact)
     system = ContactSystem(
@@ -191,6 +197,7 @@ def assemble(
         observers=tuple(observers),
         save_times=tuple(save_times),
         stop=stop or StopConfig(),
+        requires=tuple(requires),
         ends_at_window=ends_at_window,
         exposures=exposures,
         plastic_share=share,
@@ -224,6 +231,17 @@ def _check_height(body: Body, height: Array, exposure: Exposure, grid: Grid) -> 
             f"body {body.name!r} is swept along x, so its surface must not vary along x, as "
             f"{kind!r} does; let kinematics.swept name the other body, or use a 'flat' or a "
             "'cylinder' with axis = 'x'"
+        )
+
+
+def _check_law(law: WearLaw[WearLawConfig], material: Material) -> None:
+    law.check(material)
+    declared = {field.name for field in law.state_fields}
+    given = law.initial_state()
+    if set(given) != declared or not all(np.isfinite(value) for value in given.values()):
+        raise CaseError(
+            f"{law.type_name()!r} declares the state fields {sorted(declared)}, but starts with "
+            f"{given}; each needs a finite initial value"
         )
 
 

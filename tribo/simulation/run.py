@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -14,10 +15,12 @@ from tribo.core.errors import CaseError, Interrupted, TriboWarning
 from tribo.core.state import BodyInfo, RunInfo, Snapshot, State
 from tribo.interfaces.observer import Observer, ObserverConfig
 from tribo.observers.recorder import Recorder, RecorderConfig
-from tribo.registry.registry import Registry
+from tribo.registry.records import PluginRecord
+from tribo.registry.registry import Registry, default_registry
 from tribo.results.checkpoint import read_checkpoint
-from tribo.results.provenance import provenance
+from tribo.results.provenance import changed_components, provenance
 from tribo.results.read import Result
+from tribo.simulation.blame import blaming
 from tribo.simulation.compose import compose
 from tribo.simulation.describe import describe
 from tribo.simulation.interrupt import InterruptGuard
@@ -53,7 +56,8 @@ class Simulation:
         case: Case | Mapping[str, Any] | str | Path | Model,
         registry: Registry | None = None,
     ) -> None:
-        self.model = _model(case, registry)
+        with blaming():
+            self.model, self._plugins = _model(case, registry)
 
     def run(
         self,
@@ -90,11 +94,16 @@ class Simulation:
         """
         path = _checked_output(output, overwrite)
         recorder = Recorder(RecorderConfig(path=path))
-        state = begin(self.model)
+        with blaming():
+            state = begin(self.model)
         return self._follow(state, recorder, observers, resumed=False, wall_time=0.0)
 
     def resume(
-        self, output: str | Path, *, observers: Sequence[Observer[ObserverConfig]] = ()
+        self,
+        output: str | Path,
+        *,
+        observers: Sequence[Observer[ObserverConfig]] = (),
+        allow_changed: bool = False,
     ) -> Result:
         """Go on with a run that was stopped, from its checkpoint.
 
@@ -106,11 +115,15 @@ class Simulation:
             The result file of the stopped run.
         observers : sequence of Observer, optional
             Watchers besides those of the case.
+        allow_changed : bool, optional
+            Go on although a component's class or version is not that of the
+            stopped run, and say so in the result.
 
         Raises
         ------
         CaseError
-            If the file is not that of a stopped run of this case.
+            If the file is not that of a stopped run of this case, or a
+            component has changed.
         """
         path = Path(output)
         with Result.open(path) as result:
@@ -118,6 +131,13 @@ class Simulation:
                 raise CaseError(f"{path} is done; there is nothing to resume")
             if result.case != describe(self.model):
                 raise CaseError(f"{path} is the result of another case; resume that one")
+            changes = changed_components(result.provenance, self._provenance())
+        if changes and not allow_changed:
+            listed = "; ".join(f"{place} was {old}, is {new}" for place, old, new in changes)
+            raise CaseError(
+                f"{path} was begun with other components: {listed}. Install those again, or go on "
+                "with --allow-changed"
+            )
         state, wall_time = read_checkpoint(path)
         recorder = Recorder(RecorderConfig(path=path))
         return self._follow(state, recorder, observers, resumed=True, wall_time=wall_time)
@@ -137,7 +157,7 @@ class Simulation:
         reason = "failed"
         started: list[Observer[ObserverConfig]] = []
         try:
-            with InterruptGuard() as guard:
+            with blaming(), InterruptGuard() as guard:
                 for observer in observers:
                     observer.on_start(info)
                     started.append(observer)
@@ -168,6 +188,9 @@ class Simulation:
     def _snapshot(self, state: State) -> Snapshot:
         return Snapshot(state, measure(self.model, state))
 
+    def _provenance(self) -> dict[str, object]:
+        return provenance(self.model.components(), map(asdict, self._plugins))
+
     def _info(self, resumed_from: Snapshot | None, wall_time: float) -> RunInfo:
         model = self.model
         return RunInfo(
@@ -184,20 +207,24 @@ class Simulation:
             end_time=model.end_time,
             end_distance=model.kinematics.distance(model.end_time),
             case=describe(model),
-            provenance=provenance(model.components()),
+            provenance=self._provenance(),
             resumed_from=resumed_from,
             wall_time=wall_time,
         )
 
 
-def _model(case: Case | Mapping[str, Any] | str | Path | Model, registry: Registry | None) -> Model:
+def _model(
+    case: Case | Mapping[str, Any] | str | Path | Model, registry: Registry | None
+) -> tuple[Model, tuple[PluginRecord, ...]]:
+    """Return the model and the plugins that took part in finding its components."""
     if isinstance(case, Model):
-        return case
+        return case, ()
+    known = registry or default_registry()
     if isinstance(case, str | Path):
-        case = load_case(case, registry=registry)
+        case = load_case(case, registry=known)
     elif not isinstance(case, Case):
-        case = validate_case(case, registry=registry)
-    return compose(case, registry)
+        case = validate_case(case, registry=known)
+    return compose(case, known), known.plugins
 
 
 def _tell(observers: Sequence[Observer[ObserverConfig]], snapshot: Snapshot, *, save: bool) -> None:

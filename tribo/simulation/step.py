@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from tribo.config.stepping import ImplicitConfig
-from tribo.core.arrays import Array
+from tribo.core.arrays import Array, readonly
 from tribo.core.contact import ContactProblem, ContactSolution, WearCompliance
 from tribo.core.errors import CaseError, NumericalError
 from tribo.core.fields import WearRate
@@ -19,6 +19,7 @@ from tribo.simulation.rates import LawStates, Moment, law_states, wear_rates
 
 SETTLE_PASSES = 200
 SETTLED = 1e-6
+LOAD_BALANCE = 1e-6
 
 
 class StepRejected(NumericalError):
@@ -187,7 +188,27 @@ def _moment(state: State, increment: float, time: float) -> Moment:
 def _solve(
     model: Model, gap: Array, wear: WearCompliance | None, start: ContactSolution | None
 ) -> ContactSolution:
-    return model.contact.solve(ContactProblem(model.system, gap, model.load, wear), start)
+    problem = ContactProblem(model.system, readonly(gap), model.load, wear)
+    solution = model.contact.solve(problem, start)
+    _check_solution(model, solution)
+    return solution
+
+
+def _check_solution(model: Model, solution: ContactSolution) -> None:
+    """Raise `NumericalError` if a solver's answer cannot be one."""
+    who = f"contact solver {model.contact.type_name()!r}"
+    for what, field in (("pressure", solution.pressure), ("overlap", solution.overlap)):
+        if np.shape(field) != model.grid.cells:
+            raise NumericalError(
+                f"{who} gave a {what} of shape {np.shape(field)}, not {model.grid.cells}"
+            )
+        if not np.all(np.isfinite(field)) or np.any(field < 0):
+            raise NumericalError(f"{who} gave a {what} that is negative or not finite")
+    carried = float(np.sum(solution.pressure)) * model.grid.cell_area
+    if not abs(carried - model.load) <= LOAD_BALANCE * model.load:
+        raise NumericalError(
+            f"{who} gave a pressure that carries {carried:.9g} N instead of {model.load:.9g} N"
+        )
 
 
 def _worn(model: Model, rates: Mapping[str, WearRate], increment: float) -> dict[str, Array]:
