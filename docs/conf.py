@@ -32,10 +32,10 @@ except metadata.PackageNotFoundError:
     release = ""
 
 extensions = [
+    "mathml",
     "myst_nb",
     "sphinx.ext.autodoc",
     "sphinx.ext.doctest",
-    "sphinx.ext.mathjax",
     "sphinx.ext.napoleon",
     "sphinx.ext.viewcode",
 ]
@@ -43,6 +43,7 @@ exclude_patterns = ["_build", "_generated", "**/.ipynb_checkpoints"]
 default_role = "code"
 
 html_theme = "furo"
+html_math_renderer = "mathml"
 html_title = "tribo"
 html_static_path = ["static"]
 html_css_files = ["tribo.css"]
@@ -62,7 +63,6 @@ nb_merge_streams = True
 
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
-autodoc_class_signature = "separated"
 napoleon_google_docstring = False
 napoleon_use_rtype = False
 
