@@ -1,0 +1,113 @@
+"""Write the files of a new plugin."""
+
+from __future__ import annotations
+
+from datetime import date
+from importlib.resources import files
+from pathlib import Path
+from string import Template
+
+from tribo.core.errors import CaseError
+from tribo.core.words import did_you_mean, suggestion
+from tribo.registry.kinds import KINDS
+from tribo.scaffold.kinds import STARTS
+from tribo.scaffold.names import PluginName
+
+
+def write_plugin(name: str, kind: str, folder: Path) -> list[Path]:
+    """Write a distribution with one working model, its tests and an example.
+
+    It installs, and passes its tests, as it is.
+
+    Parameters
+    ----------
+    name : str
+        Name of the distribution, as ``acme-fretting``: it offers
+        ``acme.fretting`` in the package ``acme_fretting``.
+    kind : str
+        What it offers: ``wear-law``, ``contact-solver``, ``kinematics``,
+        ``surface``, ``effect`` or ``observer``.
+    folder : Path
+        The distribution's own folder, which must not exist yet; its parent
+        must.
+
+    Returns
+    -------
+    list of Path
+        The files, sorted.
+
+    Raises
+    ------
+    CaseError
+        If the name is no good, the kind unknown, or the folder cannot be made.
+    """
+    plugin = PluginName(name)
+    words = _words(plugin, _kind(kind))
+    layout = {
+        "pyproject.toml": "common/pyproject.toml",
+        "README.md": "common/README.md",
+        "LICENSE": "common/LICENSE",
+        ".gitignore": "common/gitignore",
+        ".github/workflows/ci.yml": "common/ci.yml",
+        "example.toml": f"{words['kind']}/example.toml",
+        f"src/{plugin.package}/__init__.py": "common/init.py",
+        f"src/{plugin.package}/{plugin.module}.py": f"{words['kind']}/model.py",
+        f"src/{plugin.package}/py.typed": "common/py.typed",
+        "tests/test_conformance.py": "common/test_conformance.py",
+        "tests/test_example.py": f"{words['kind']}/test_example.py",
+    }
+    texts = {path: _filled(template, words) for path, template in layout.items()}
+    _make(folder)
+    written = []
+    for path, text in texts.items():
+        file = folder / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text, encoding="utf-8")
+        written.append(file)
+    return sorted(written)
+
+
+def _kind(kind: str) -> str:
+    name = kind.replace("-", "_")
+    if name not in STARTS:
+        known = [known.replace("_", "-") for known in STARTS]
+        meant = suggestion(did_you_mean(kind, known))
+        raise CaseError(f"unknown kind {kind!r}{meant} Known: {', '.join(known)}")
+    return name
+
+
+def _words(plugin: PluginName, kind: str) -> dict[str, str]:
+    start = STARTS[kind]
+    words = {
+        "distribution": plugin.distribution,
+        "package": plugin.package,
+        "module": plugin.module,
+        "component": plugin.component,
+        "title": plugin.title,
+        "kind": kind,
+        "words": KINDS[kind].words,
+        "hook": KINDS[kind].hook,
+        "interface": KINDS[kind].interface.__name__,
+        "place": start.place,
+        "year": str(date.today().year),
+    }
+    configs = (f"        {plugin.title}Config({given})," for given in start.configs)
+    words["configs"] = "\n".join(configs)
+    words["example"] = _filled(f"{kind}/example.toml", words).strip()
+    return words
+
+
+def _filled(template: str, words: dict[str, str]) -> str:
+    source = files("tribo.scaffold") / "files" / f"{template}.tmpl"
+    return Template(source.read_text(encoding="utf-8")).substitute(words)
+
+
+def _make(folder: Path) -> None:
+    if folder.exists():
+        raise CaseError(f"{folder} exists; give another folder, or take it away first")
+    if not folder.parent.is_dir():
+        raise CaseError(f"there is no folder {folder.parent}; make it first")
+    try:
+        folder.mkdir()
+    except OSError as error:
+        raise CaseError(f"{folder} cannot be made: {error.strerror}") from error
