@@ -26,18 +26,9 @@ from tribo.core.units import _KINDS, Quantity
 from tribo.interfaces.component import Component, ComponentConfig
 from tribo.registry.hookspecs import hookspec
 from tribo.registry.kinds import KINDS
+from tribo.registry.loader import group
 from tribo.registry.registry import Registry
 from tribo.results.columns import BODY_COLUMNS, COLUMNS
-
-SLOTS = {
-    "surface": "surface",
-    "wear_law": "wear law",
-    "contact_solver": "contact",
-    "kinematics": "kinematics",
-    "effect": "effects",
-    "observer": "observers",
-}
-"""Where the reference of a kind stands: a heading on the page."""
 
 
 def write(folder: Path) -> None:
@@ -57,7 +48,13 @@ def write(folder: Path) -> None:
 
 def case_page(registry: Registry) -> Iterator[str]:
     """Yield the reference of a case: each table, then each component that may stand in it."""
+    plain = {n: f for n, f in Case.model_fields.items() if not _is_table(f)}
+    if plain:
+        yield "## Keys before any table\n"
+        yield from _rows(plain)
     for name, field in Case.model_fields.items():
+        if name in plain:
+            continue
         path = "bodies.NAME" if name == "bodies" else name
         kind = next((slot.kind for slot in _slots(field.annotation, field.metadata)), None)
         many = "[[{}]]" if get_origin(field.annotation) is tuple else "[{}]"
@@ -129,11 +126,12 @@ def columns_table() -> Iterator[str]:
 def hooks_table() -> Iterator[str]:
     """Yield the hooks with the classes they return."""
     assert hookspec is not None
-    yield "| Hook | Returns subclasses of | The question they answer |\n| --- | --- | --- |"
+    yield "| Hook | Entry-point group | Returns classes that answer |\n| --- | --- | --- |"
     for kind in KINDS.values():
         module = inspect.getmodule(kind.interface)
         question = (inspect.getdoc(module) or "").splitlines()[0]
-        yield f"| `{kind.hook}` | `{kind.interface.__name__}` | {question} |"
+        answer = f"`{kind.interface.__name__}`: {question}"
+        yield f"| `{kind.hook}` | `{group(kind.name)}` | {answer} |"
 
 
 def _help(words: list[str]) -> str:
@@ -169,18 +167,18 @@ def _about(field: FieldInfo) -> Iterator[str]:
             yield "Optional.\n"
 
 
-def _table(model: Any) -> Iterator[str]:
-    rows = [
-        f"| `{name}` | {_kind(*_typed(field))} | {_default(field)} | {_text(field)} |"
-        for name, field in model.model_fields.items()
-        if name != "type"
-    ]
-    if not rows:
+def _rows(fields: dict[str, FieldInfo]) -> Iterator[str]:
+    if not fields:
         yield "It has no keys of its own.\n"
         return
     yield "| Key | Value | Default | Meaning |\n| --- | --- | --- | --- |"
-    yield from rows
+    for name, field in fields.items():
+        yield f"| `{name}` | {_kind(*_typed(field))} | {_default(field)} | {_text(field)} |"
     yield ""
+
+
+def _table(model: Any) -> Iterator[str]:
+    yield from _rows({n: f for n, f in model.model_fields.items() if n != "type"})
     for field in model.model_fields.values():
         inner = _model(field.annotation)
         if inner is not None and not issubclass(inner, ComponentConfig) and inner is not model:
@@ -284,6 +282,10 @@ def _slots(annotation: Any, metadata: Any) -> list[Slot]:
         if part is not Ellipsis:
             found += _slots(part, getattr(part, "__metadata__", ()))
     return found
+
+
+def _is_table(field: FieldInfo) -> bool:
+    return bool(_slots(*_typed(field))) or _model(field.annotation) is not None
 
 
 def _model(annotation: Any) -> Any:
