@@ -1,0 +1,1 @@
+"""Wear by dissipated energy, and friction traction, for tribo."""

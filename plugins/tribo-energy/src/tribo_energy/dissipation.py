@@ -1,0 +1,65 @@
+"""Wear in proportion to the energy that friction dissipates."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+import numpy as np
+from tribo.plugin import Field, LocalConditions, Quantity, WearLaw, WearLawConfig, WearRate
+
+ENERGY = Field("dissipated_energy", "J/m^2", "Friction energy dissipated per area so far.")
+
+
+class DissipationConfig(WearLawConfig):
+    """The thresholds may be left out, used alone or together."""
+
+    type: Literal["energy.dissipation"] = "energy.dissipation"
+    alpha: Annotated[float, Quantity("m^3/J", at_least=0)]
+    """Energy wear coefficient: volume per dissipated energy. k/μ for Archard's k."""
+    threshold_traction: Annotated[float, Quantity("Pa", at_least=0)] = 0.0
+    """Friction traction below which nothing wears."""
+    threshold_energy: Annotated[float, Quantity("J/m^2", at_least=0)] = 0.0
+    """Energy per area that a point dissipates before it wears."""
+    threshold_spread: Annotated[float, Quantity("1", above=0, at_most=2)] = 0.05
+    """Width of the onset of wear around ``threshold_energy``, relative to it."""
+
+
+class Dissipation(WearLaw[DissipationConfig]):
+    """dh/ds = α max(τ − τ_th, 0) φ(E), with dE/ds = τ.
+
+    φ rises from 0 to 1, in proportion to the energy E that a point has
+    dissipated, over the spread w E_th centred at E_th; without a threshold
+    energy it is 1. Beyond E_th (1 + w/2) the depth is α (E − E_th), the law of
+    Fouvry: α in m³/J = 1/Pa, τ in Pa, E in J/m².
+
+    Valid for gross sliding under one wear mechanism, with α from tests of the
+    same mechanism. On a swept body E is the mean over the track.
+
+    References
+    ----------
+    Fouvry, S., Liskiewicz, T., Kapsa, Ph., Hannel, S., Sauger, E. (2003), An
+    energy description of wear mechanisms and its applications to oscillating
+    sliding contacts, Wear 255, 287-298. Reye, T. (1860), Zur Theorie der
+    Zapfenreibung, Der Civilingenieur 4, 235-255.
+    """
+
+    Config = DissipationConfig
+    requires = ("friction_traction", "friction_traction_slope")
+    state_fields = (ENERGY,)
+
+    def rate(self, local: LocalConditions) -> WearRate:
+        """Return the rate, α φ dτ/dp where it wears, and τ as the rate of E."""
+        c = self.config
+        traction = np.where(local.pressure > 0, local.fields["friction_traction"], 0.0)
+        slope = local.fields["friction_traction_slope"]
+        alpha = np.full_like(traction, c.alpha)
+        if c.threshold_energy > 0:
+            spread = c.threshold_spread * c.threshold_energy
+            onset = (local.state[ENERGY.name] - c.threshold_energy) / spread + 0.5
+            alpha *= np.clip(onset, 0.0, 1.0)
+        excess = traction - c.threshold_traction
+        return WearRate(
+            depth=alpha * np.maximum(excess, 0.0),
+            derivative=alpha * np.where(excess >= 0, slope, 0.0),
+            state={ENERGY.name: traction},
+        )

@@ -1,0 +1,40 @@
+"""Friction traction in proportion to the pressure."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Literal
+
+from tribo.plugin import Array, ContactConditions, Effect, EffectConfig, Field
+
+TRACTION = Field("friction_traction", "Pa", "Magnitude of the friction traction, for both bodies.")
+SLOPE = Field("friction_traction_slope", "1", "Derivative of the friction traction in pressure.")
+
+
+class FrictionTractionConfig(EffectConfig):
+    """The coefficient of friction is the case's, ``[friction] coefficient``."""
+
+    type: Literal["energy.friction_traction"] = "energy.friction_traction"
+
+
+class FrictionTraction(Effect[FrictionTractionConfig]):
+    """τ = μ p, in Pa, and its slope dτ/dp = μ.
+
+    Valid for gross sliding with a coefficient of friction μ that does not
+    depend on pressure, so that no part of the contact sticks. The traction
+    does not act back on the contact.
+
+    References
+    ----------
+    Johnson, K. L. (1985), Contact Mechanics, Cambridge, section 7.1.
+    """
+
+    Config = FrictionTractionConfig
+    provides = (TRACTION, SLOPE)
+    requires = ("friction_coefficient",)
+
+    def fields(self, contact: ContactConditions) -> Mapping[str, Mapping[str, Array]]:
+        """Return the traction and its slope, the same for each body."""
+        friction = contact.fields["friction_coefficient"]
+        traction = {name: friction[name] * contact.pressure for name in contact.materials}
+        return {TRACTION.name: traction, SLOPE.name: friction}
