@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -100,3 +101,13 @@ def test_each_mistake_is_a_line(path: Path) -> None:
     assert caught.value.path == "contact.tolerence"
     assert lines[0].startswith("contact.tolerence: unknown key 'tolerence'; did you mean")
     assert lines[1:] == ["bodies.ball.material.young: -1 Pa: must be greater than 0"]
+
+
+def test_a_default_type_need_not_be_named() -> None:
+    from tribo.templates import template
+
+    data = tomllib.loads(template("ball_on_disk"))
+    data["stepping"] = {"settle": 0.02}
+    data["contact"] = {"tolerance": 1e-7}
+    case = validate_case(data)
+    assert (case.stepping.type, case.contact.type) == ("implicit", "dcfft")

@@ -25,7 +25,6 @@ def demo(directory: Path, force: bool) -> None:
       tribo demo -d somewhere
     """
     from tribo.cli.report import print_report
-    from tribo.cli.running import warnings_on_stderr
     from tribo.config.load import load_case
     from tribo.core.errors import CaseError
     from tribo.observers.progress import Progress
@@ -43,10 +42,7 @@ def demo(directory: Path, force: bool) -> None:
         raise CaseError(f"cannot write to {directory}: {error.strerror}") from error
     click.echo("One hour of a steel ball rubbing on a steel disk: 100 N, 25 Hz, 360 m.")
     simulation = Simulation(load_case(case))
-    with (
-        warnings_on_stderr(),
-        simulation.run(output, observers=[Progress()], overwrite=force) as result,
-    ):
+    with simulation.run(output, observers=[Progress()], overwrite=force) as result:
         print_report(result)
         pictures = save_figures(result, directory)
     click.echo(f"Case, result and {len(pictures)} pictures are in {directory}/:")

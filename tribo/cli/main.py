@@ -8,6 +8,7 @@ from importlib import import_module
 
 import click
 
+from tribo.cli.running import warnings_on_stderr
 from tribo.core.errors import TriboError
 
 COMMANDS = {
@@ -20,6 +21,8 @@ COMMANDS = {
     "plot": "Draw the pictures of a result.",
     "export": "Write profiles and history as CSV.",
     "schema": "Print the JSON Schema of a case.",
+    "plugins": "List, show, check and begin plugins.",
+    "doctor": "Test the installation and every plugin.",
 }
 
 
@@ -60,7 +63,9 @@ class LazyGroup(click.Group):
 
 @click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(package_name="tribo")
-def tribo() -> None:
+@click.option("--no-plugin", multiple=True, metavar="NAME", help="Leave a plugin out.")
+@click.option("--plugins", "only", metavar="A,B", help="Let only these plugins take part.")
+def tribo(no_plugin: tuple[str, ...], only: str | None) -> None:
     """Simulate wear: contact mechanics, wear laws and kinematics as plugins.
 
     \b
@@ -70,27 +75,38 @@ def tribo() -> None:
       tribo check my.toml
       tribo run my.toml
 
-    Exit codes: 0 done, 2 bad input, 3 numerical failure, 130 interrupted.
+    Exit codes: 0 done, 2 bad input, 3 numerical failure or a failing plugin,
+    130 interrupted.
     """
+    if no_plugin or only is not None:
+        from tribo.registry.selection import keep_only, turn_off
+
+        turn_off(no_plugin)
+        if only is not None:
+            keep_only(only.split(","))
 
 
 def main() -> None:
     """Run the command; every expected error becomes one message and an exit code."""
+    debug = bool(os.environ.get("TRIBO_DEBUG"))
     try:
-        tribo.main(standalone_mode=False)
+        with warnings_on_stderr():
+            tribo.main(standalone_mode=False)
     except click.exceptions.Abort:
         _fail("interrupted", 130)
     except click.ClickException as error:
         error.show()
         sys.exit(error.exit_code)
     except TriboError as error:
+        if debug:
+            raise
         _fail(str(error), error.exit_code)
     except BrokenPipeError:
         # The reader of a pipe, such as `head`, has seen enough.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(1)
     except Exception as error:
-        if os.environ.get("TRIBO_DEBUG"):
+        if debug:
             raise
         _fail(
             f"internal error: {type(error).__name__}: {error}\n"

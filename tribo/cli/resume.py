@@ -20,7 +20,6 @@ def resume(output: Path, allow_changed: bool) -> None:
       tribo resume my.h5
     """
     from tribo.cli.report import print_report
-    from tribo.cli.running import warnings_on_stderr
     from tribo.observers.progress import Progress
     from tribo.results.read import Result
     from tribo.simulation.run import Simulation
@@ -28,8 +27,5 @@ def resume(output: Path, allow_changed: bool) -> None:
     with Result.open(output) as stopped:
         case = stopped.case
     simulation = Simulation(case)
-    with (
-        warnings_on_stderr(),
-        simulation.resume(output, observers=[Progress()], allow_changed=allow_changed) as result,
-    ):
+    with simulation.resume(output, observers=[Progress()], allow_changed=allow_changed) as result:
         print_report(result)

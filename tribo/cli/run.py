@@ -23,16 +23,12 @@ def run(case: Path, output: Path | None, overrides: tuple[str, ...], force: bool
     input, 3 numerical failure, 130 interrupted.
     """
     from tribo.cli.report import print_report
-    from tribo.cli.running import warnings_on_stderr
     from tribo.config.load import load_case
     from tribo.observers.progress import Progress
     from tribo.simulation.run import Simulation
 
     path = output or case.with_suffix(".h5")
     simulation = Simulation(load_case(case, overrides=overrides))
-    with (
-        warnings_on_stderr(),
-        simulation.run(path, observers=[Progress()], overwrite=force) as result,
-    ):
+    with simulation.run(path, observers=[Progress()], overwrite=force) as result:
         print_report(result)
     click.echo(f"Saved {path}; see it with: tribo plot {path}")

@@ -16,6 +16,7 @@ from tribo.core.errors import CaseError
 from tribo.registry.registry import Registry, default_registry
 
 _LARGEST = 10_000_000
+_DEFAULT_TYPES = {"contact": "dcfft", "stepping": "implicit"}
 
 
 def load_case(
@@ -56,10 +57,21 @@ def validate_case(data: Mapping[str, Any], *, registry: Registry | None = None) 
         If anything in `data` is wrong; one line an error.
     """
     known = registry or default_registry()
+    data = _with_default_types(data)
     try:
         return Case.model_validate(data, context={"registry": known})
     except ValidationError as error:
         raise case_error(error, Case, data, known) from None
+
+
+def _with_default_types(data: Mapping[str, Any]) -> dict[str, Any]:
+    """Let [contact] and [stepping] change a key of their default type without naming it."""
+    completed = dict(data)
+    for key, name in _DEFAULT_TYPES.items():
+        table = completed.get(key)
+        if isinstance(table, Mapping) and "type" not in table:
+            completed[key] = {"type": name, **table}
+    return completed
 
 
 def read_toml(path: str | Path) -> dict[str, Any]:

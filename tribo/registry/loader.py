@@ -84,6 +84,14 @@ def given(plugin: object) -> Source:
     return Source(PluginRecord(name, version, name, "given"), None, lambda: plugin)
 
 
+def distribution_summary(plugin: PluginRecord) -> str:
+    """Return what the plugin's distribution says it is about; empty if nothing."""
+    try:
+        return metadata.metadata(plugin.distribution)["Summary"] or ""
+    except (metadata.PackageNotFoundError, KeyError, ValueError):
+        return ""
+
+
 def _source(
     distribution: str, version: str, module: str, points: list[metadata.EntryPoint]
 ) -> Source:

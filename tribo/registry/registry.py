@@ -12,7 +12,16 @@ from tribo.core.errors import CaseError, TriboWarning
 from tribo.core.words import did_you_mean, suggestion
 from tribo.interfaces.component import Component
 from tribo.registry.kinds import KINDS
-from tribo.registry.loader import Name, Source, builtin, given, installed, load
+from tribo.registry.loader import (
+    Name,
+    Source,
+    builtin,
+    distribution_summary,
+    given,
+    installed,
+    load,
+)
+from tribo.registry.probe import probe
 from tribo.registry.records import ComponentRecord, PluginRecord
 from tribo.registry.selection import selected
 
@@ -77,6 +86,14 @@ class Registry:
         """Return the plugin that offers a usable name; imports nothing."""
         return self._records[self._claims[kind, name][0]]
 
+    def summary(self, kind: str, name: str) -> str:
+        """Return what a usable name is about, in a line; imports nothing."""
+        number = self._claims[kind, name][0]
+        for offer in self._offers.get(number, ()):
+            if (offer.kind, offer.name) == (kind, name):
+                return (offer.cls.__doc__ or "").strip().split("\n")[0]
+        return distribution_summary(self._records[number])
+
     def classes(self, kind: str) -> list[type[Component[Any]]]:
         """Return the usable classes of one kind, sorted by name; imports their plugins."""
         return [self.lookup(kind, name) for name in self.names(kind)]
@@ -131,7 +148,14 @@ class Registry:
 
     def _load(self, number: int) -> tuple[ComponentRecord, ...]:
         if number not in self._offers:
-            self._records[number], self._offers[number] = load(self._sources[number])
+            source = self._sources[number]
+            if source.record.status == "available":
+                # An import that never ends or crashes does so in a process of its own first.
+                source = probe(source)
+            if source.record.status == "broken":
+                self._records[number], self._offers[number] = source.record, ()
+            else:
+                self._records[number], self._offers[number] = load(source)
         return self._offers[number]
 
     def _instead(self, kind: str, name: str) -> str:

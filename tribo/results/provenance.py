@@ -31,11 +31,18 @@ def provenance(
         Plain data, ready for JSON.
     """
     return {
+        **environment(),
+        "components": {place: _origin(component) for place, component in components},
+        "plugins": [dict(plugin) for plugin in plugins],
+    }
+
+
+def environment() -> dict[str, object]:
+    """Return the versions of Python, the platform and the packages that matter."""
+    return {
         "python": platform.python_version(),
         "platform": platform.platform(),
         "packages": {name: _version(name) for name in PACKAGES},
-        "components": {place: _origin(component) for place, component in components},
-        "plugins": [dict(plugin) for plugin in plugins],
     }
 
 

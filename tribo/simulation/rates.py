@@ -94,6 +94,9 @@ def _effect_fields(model: Model, pressure: Array, moment: Moment) -> dict[str, d
                 fields=fields,
             )
         )
+        if not isinstance(answer, Mapping):
+            kind = type(answer).__name__
+            raise NumericalError(f"effect {effect.type_name()!r} gave a {kind}, not its fields")
         for field in effect.provides:
             fields[field.name] = {}
             for body in model.bodies:
@@ -109,6 +112,8 @@ def _effect_fields(model: Model, pressure: Array, moment: Moment) -> dict[str, d
 def _checked(body: Body, rate: WearRate, pressure: Array, moment: Moment) -> WearRate:
     assert body.wear is not None
     who = f"wear law {body.wear.type_name()!r} of body {body.name!r}"
+    if not isinstance(rate, WearRate):
+        raise NumericalError(f"{who} gave a {type(rate).__name__} instead of a WearRate")
     depth = _finite(who, "a depth per metre", rate.depth, pressure.shape, moment)
     slope = _finite(who, "a derivative", rate.derivative, pressure.shape, moment)
     if np.any(depth < 0):

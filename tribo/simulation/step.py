@@ -197,6 +197,9 @@ def _solve(
 def _check_solution(model: Model, solution: ContactSolution) -> None:
     """Raise `NumericalError` if a solver's answer cannot be one."""
     who = f"contact solver {model.contact.type_name()!r}"
+    if not isinstance(solution, ContactSolution):
+        kind = type(solution).__name__
+        raise NumericalError(f"{who} gave a {kind} instead of a ContactSolution")
     for what, field in (("pressure", solution.pressure), ("overlap", solution.overlap)):
         if np.shape(field) != model.grid.cells:
             raise NumericalError(

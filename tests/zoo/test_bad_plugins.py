@@ -1,0 +1,261 @@
+"""A zoo of bad plugins: harmless until named, and then one clear message."""
+
+import os
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+from fake_distributions import distribute
+
+import tribo
+from tribo import Result
+
+LAW = """
+from typing import Literal
+import numpy as np
+from tribo.plugin import Field, LocalConditions, WearLaw, WearLawConfig, WearRate, hookimpl
+
+class BadConfig(WearLawConfig):
+    type: Literal["zoo.bad"] = "zoo.bad"
+
+class Bad(WearLaw[BadConfig]):
+    Config = BadConfig
+    {extra}
+
+    def rate(self, local: LocalConditions) -> WearRate:
+        p = local.pressure
+        k = np.full_like(p, 3e-16)
+        {body}
+
+@hookimpl
+def tribo_wear_laws():
+    return [Bad]
+"""
+GOOD = "return WearRate(k * p, k)"
+
+
+def law(body, extra=""):
+    return LAW.format(body=body, extra=extra)
+
+
+# What is wrong: the module's code, the exit code, what the message says besides the name.
+ZOO = {
+    "import error": ("import no_such_module_at_all", 2, "no_such_module_at_all"),
+    "missing dependency": ("from numpy import no_such_name", 2, "no_such_name"),
+    "exit": ("raise SystemExit(0)", 2, "SystemExit"),
+    "endless import": ("while True: pass", 2, "did not end within 3 s"),
+    "native crash": (
+        "import ctypes; ctypes.string_at(0)",
+        2,
+        "crashed the process (SIGSEGV)",
+    ),
+    "hook typo": (law(GOOD).replace("tribo_wear_laws", "tribo_wear_law"), 2, "tribo_wear_law"),
+    "wrong base class": (law(GOOD).replace("return [Bad]", "return [dict]"), 2, "not a subclass"),
+    "abstract": (law(GOOD).replace("def rate", "def rates"), 2, "does not define rate"),
+    "not a number": (law("return WearRate(k * p * np.nan, k)"), 3, "not finite"),
+    "wrong shape": (law("return WearRate(k[1:] * p[1:], k)"), 3, "shape"),
+    "not an array": (law("return WearRate('deep', k)"), 3, "not an array"),
+    "negative rate": (law("return WearRate(-k * p, k)"), 3, "negative"),
+    "mutated input": (law("p *= 0.5; " + GOOD), 3, "read-only"),
+    "exception": (law("raise KeyError('oops')"), 3, "KeyError"),
+    "nothing": (law("return None"), 3, "WearRate"),
+    "state of the wrong kind": (
+        law(
+            "return WearRate(k * p, k, {'slid': 'far'})", "state_fields = (Field('slid','m','.'),)"
+        ),
+        3,
+        "slid",
+    ),
+    "state left out": (
+        law(GOOD, "state_fields = (Field('slid', 'm', 'Path.'),)"),
+        3,
+        "no rate for its state field 'slid'",
+    ),
+    "state that starts nowhere": (
+        law(GOOD, "state_fields = (Field('slid','m','.'),)\n    initial_state = lambda self: {}"),
+        2,
+        "slid",
+    ),
+}
+CASE = """
+[grid]
+size = "0.7 mm"
+cells = 32
+[load]
+normal = 100
+[bodies.ball]
+surface = {{ type = "sphere", radius = "5 mm" }}
+wear = {wear}
+[bodies.ball.material]
+young = "207 GPa"
+poisson = 0.3
+[bodies.disk]
+surface = "flat"
+[bodies.disk.material]
+young = "207 GPa"
+poisson = 0.3
+[kinematics]
+type = "reciprocating"
+stroke = "2 mm"
+frequency = 25
+distance = "2 m"
+"""
+
+
+def command(folder, *args):
+    path = os.pathsep.join([str(folder / "site"), str(Path(tribo.__file__).parents[1])])
+    return subprocess.run(
+        [sys.executable, "-m", "tribo", *args],
+        cwd=folder,
+        env={**os.environ, "PYTHONPATH": path, "TRIBO_PLUGIN_TIME_LIMIT": "3"},
+        capture_output=True,
+        text=True,
+        timeout=100,
+        check=False,
+    )
+
+
+def keep(folder, module_code, group="tribo.v1.wear_law", distribution="zoo-tribo"):
+    distribute(
+        folder / "site", distribution, "1.0", {group: {"zoo.bad": "zoo_bad"}}, zoo_bad=module_code
+    )
+    (folder / "plain.toml").write_text(CASE.format(wear='{ type = "archard", k = 3e-16 }'))
+    (folder / "named.toml").write_text(CASE.format(wear='"zoo.bad"'))
+
+
+@pytest.mark.parametrize("fault", list(ZOO))
+def test_it_is_harmless_until_it_is_named(tmp_path, fault):
+    code, exit_code, words = ZOO[fault]
+    keep(tmp_path, code)
+    plain = command(tmp_path, "run", "plain.toml")
+    assert (plain.returncode, plain.stderr) == (0, "")
+    named = command(tmp_path, "run", "named.toml")
+    assert named.returncode == exit_code, named.stderr
+    (line,) = named.stderr.strip().splitlines()
+    assert line.startswith("error: ")
+    assert "zoo.bad" in line
+    assert words in line
+    if exit_code == 2:
+        assert not (tmp_path / "named.h5").exists()
+
+
+def test_listing_imports_no_plugin(tmp_path):
+    keep(tmp_path, "while True: pass")
+    listed = command(tmp_path, "plugins", "list")
+    assert listed.returncode == 0
+    assert "zoo.bad" in listed.stdout
+    assert "available" in listed.stdout
+
+
+def test_the_doctor_finds_what_ails(tmp_path):
+    keep(tmp_path, "import ctypes; ctypes.string_at(0)")
+    seen = command(tmp_path, "doctor")
+    assert seen.returncode == 3
+    assert "SIGSEGV" in seen.stdout
+    assert "zoo-tribo 1.0" in seen.stderr
+
+
+def test_the_schema_leaves_out_what_cannot_be_imported(tmp_path):
+    keep(tmp_path, "raise RuntimeError('no')")
+    done = command(tmp_path, "schema")
+    assert done.returncode == 0
+    assert "zoo.bad" not in done.stdout
+    assert "zoo-tribo 1.0 is left out: RuntimeError: no" in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("group", "words"),
+    [("tribo.v2.wear_law", "interface version 2"), ("tribo.v1.wear_lore", "unknown")],
+)
+def test_what_is_wrong_at_first_sight_is_one_line_on_stderr(tmp_path, group, words):
+    keep(tmp_path, "1/0", group)
+    plain = command(tmp_path, "run", "plain.toml")
+    assert plain.returncode == 0
+    (line,) = plain.stderr.strip().splitlines()
+    assert line.startswith("warning: plugin zoo-tribo 1.0 is left out")
+    assert words in line
+    named = command(tmp_path, "run", "named.toml")
+    assert named.returncode == 2
+    assert words in named.stderr.splitlines()[-1]
+
+
+def test_a_name_claimed_twice_is_unusable_and_says_by_whom(tmp_path):
+    keep(tmp_path, law(GOOD))
+    keep(tmp_path, law(GOOD), distribution="other-tribo")
+    assert command(tmp_path, "run", "plain.toml").returncode == 0
+    named = command(tmp_path, "run", "named.toml")
+    assert named.returncode == 2
+    assert "other-tribo 1.0 and zoo-tribo 1.0" in named.stderr.splitlines()[-1]
+    alone = command(tmp_path, "--no-plugin", "other-tribo", "run", "named.toml")
+    assert alone.returncode == 0, alone.stderr
+
+
+@pytest.mark.parametrize(
+    "choice", [["--no-plugin", "zoo"], ["--no-plugin", "zoo-tribo"], ["--plugins", "none"]]
+)
+def test_a_plugin_turned_off_cannot_be_used(tmp_path, choice):
+    keep(tmp_path, law(GOOD))
+    assert command(tmp_path, "run", "named.toml").returncode == 0
+    off = command(tmp_path, *choice, "run", "named.toml", "--force")
+    assert off.returncode == 2
+    assert "zoo-tribo 1.0 is disabled" in off.stderr
+
+
+def test_a_case_may_require_versions(tmp_path):
+    keep(tmp_path, law(GOOD))
+    case = tmp_path / "named.toml"
+    text = case.read_text()
+    case.write_text('requires = ["zoo-tribo>=1.0"]\n' + text)
+    assert command(tmp_path, "run", "named.toml").returncode == 0
+    for wanted, words in (("zoo-tribo>=2", "version 1.0"), ("zoo-more", "not installed")):
+        case.write_text(f'requires = ["{wanted}"]\n{text}')
+        done = command(tmp_path, "run", "named.toml", "--force")
+        assert done.returncode == 2
+        assert "error: requires: " in done.stderr
+        assert words in done.stderr
+
+
+def test_a_law_that_fails_in_the_middle_leaves_the_last_good_state(tmp_path):
+    counting = "self.n = getattr(self, 'n', 0) + 1\n        "
+    keep(tmp_path, law(counting + "return WearRate(k * p * (np.nan if self.n > 80 else 1), k)"))
+    done = command(tmp_path, "run", "named.toml", "--set", "stepping.depth_tolerance=1e-5")
+    assert done.returncode == 3
+    assert "zoo.bad" in done.stderr
+    with Result.open(tmp_path / "named.h5") as result:
+        assert result.status == "failed"
+        assert result.totals()["steps"] > 20
+        last = result.saves()[-1]
+        assert 0 < last["distance_m"] < 2
+        volume = last["bodies"]["ball"]["wear_volume_m3"]
+    assert volume == pytest.approx(3e-16 * 100 * last["distance_m"], rel=1e-10)
+    assert command(tmp_path, "show", "named.h5").returncode == 0
+
+
+def test_the_result_says_who_took_part_and_a_changed_version_is_refused(tmp_path):
+    stop = "import os, signal\n        os.kill(os.getpid(), signal.SIGINT)\n        "
+    keep(tmp_path, law(stop + GOOD))
+    assert command(tmp_path, "run", "named.toml").returncode == 130
+    with Result.open(tmp_path / "named.h5") as result:
+        made = result.provenance
+    assert made["components"]["bodies.ball.wear"]["distribution"] == "zoo-tribo"
+    assert made["components"]["bodies.ball.wear"]["version"] == "1.0"
+    assert ("zoo-tribo", "loaded") in {(p["distribution"], p["status"]) for p in made["plugins"]}
+    info = tmp_path / "site" / "zoo_tribo-1.0.dist-info" / "METADATA"
+    info.write_text(info.read_text().replace("Version: 1.0", "Version: 1.1"))
+    (tmp_path / "site" / "zoo_bad.py").write_text(law(GOOD))
+    refused = command(tmp_path, "resume", "named.h5")
+    assert refused.returncode == 2
+    assert "zoo-tribo 1.0" in refused.stderr
+    assert "zoo-tribo 1.1" in refused.stderr
+    allowed = command(tmp_path, "resume", "named.h5", "--allow-changed")
+    assert allowed.returncode == 0, allowed.stderr
+    with Result.open(tmp_path / "named.h5") as result:
+        assert result.status == "done"
+        (later,) = result.provenance["resumed_with"]
+    assert later["components"]["bodies.ball.wear"]["version"] == "1.1"
+
+
+def test_the_case_is_toml():
+    assert tomllib.loads(CASE.format(wear='"x"'))["grid"]["cells"] == 32

@@ -1,0 +1,70 @@
+"""`tribo doctor`."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import click
+
+
+@click.command()
+@click.option("--json", "as_json", is_flag=True, help="One JSON object.")
+@click.option("--time-limit", default=20.0, show_default=True, help="Seconds a plugin may take.")
+def doctor(as_json: bool, time_limit: float) -> None:
+    """Test the installation, and try every plugin in a process of its own.
+
+    Exit codes: 0 all is well, 3 something is not.
+
+    \b
+    Example:
+      tribo doctor
+    """
+    from tribo.core.errors import NumericalError
+    from tribo.registry.loader import installed
+    from tribo.registry.probe import probe_all
+    from tribo.registry.registry import Registry
+    from tribo.registry.selection import selected
+    from tribo.results.provenance import environment
+    from tribo.simulation.selftest import self_test
+
+    # A registry notices names that are claimed twice.
+    sources = selected(installed())
+    conflicts = {
+        (p.distribution, p.entry_point): p
+        for p in Registry(sources).plugins
+        if p.status == "conflict"
+    }
+    records = [source.record for source in probe_all(sources, time_limit)]
+    records = [conflicts.get((r.distribution, r.entry_point), r) for r in records]
+    checks = self_test()
+    found: dict[str, Any] = {
+        **environment(),
+        "checks": [{"name": c.name, "ok": c.ok, "detail": c.detail} for c in checks],
+        "plugins": [vars(record) for record in records],
+    }
+    if as_json:
+        click.echo(json.dumps(found, indent=2))
+    else:
+        _print(found)
+    bad = [check.name for check in checks if not check.ok]
+    bad += [str(r) for r in records if r.status in ("broken", "incompatible", "conflict")]
+    if bad:
+        raise NumericalError(f"not well: {', '.join(bad)}")
+
+
+def _print(found: dict[str, Any]) -> None:
+    versions = ", ".join(f"{name} {version}" for name, version in found["packages"].items())
+    click.echo(f"Python {found['python']} on {found['platform']}")
+    click.echo(versions)
+    for check in found["checks"]:
+        _line(check["ok"], check["name"], check["detail"])
+    for plugin in found["plugins"]:
+        name = f"plugin {plugin['distribution']} {plugin['version']} ({plugin['entry_point']})"
+        well = plugin["status"] in ("loaded", "disabled")
+        _line(well, name, f"{plugin['status']} {plugin['reason']}".rstrip())
+
+
+def _line(well: bool, name: str, detail: str) -> None:
+    click.secho("ok    " if well else "FAILS ", fg="green" if well else "red", nl=False)
+    click.echo(f"{name}: {detail}")

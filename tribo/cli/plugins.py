@@ -1,0 +1,117 @@
+"""`tribo plugins`: what is installed, what it does, whether it holds, and how to begin one."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import click
+
+
+@click.group()
+def plugins() -> None:
+    """List, show, check and begin plugins.
+
+    \b
+    Example:
+      tribo plugins list
+      tribo plugins show archard
+      tribo plugins new acme-fretting --kind wear-law
+    """
+
+
+@plugins.command("list")
+@click.option("--json", "as_json", is_flag=True, help="One JSON list.")
+def list_(as_json: bool) -> None:
+    """List every component, and every plugin that cannot be used; imports no plugin.
+
+    \b
+    Example:
+      tribo plugins list --json
+    """
+    from tribo.registry.catalogue import catalogue
+    from tribo.registry.registry import default_registry
+
+    rows = catalogue(default_registry())
+    if as_json:
+        click.echo(json.dumps(rows, indent=2))
+        return
+    names = max(len(row["name"]) for row in rows)
+    owners = [f"{row['distribution']} {row['version']}" for row in rows]
+    width = max(map(len, owners))
+    for row, owner in zip(rows, owners, strict=True):
+        click.echo(
+            f"{row['name'] or '-':<{names}}  {row['kind'] or '-':<14}  {owner:<{width}}  "
+            f"{row['status']:<12}  {row['reason'] or row['summary']}"
+        )
+
+
+@plugins.command()
+@click.argument("name")
+def show(name: str) -> None:
+    """Show the component NAME: equation, parameters, what it requires and provides.
+
+    \b
+    Example:
+      tribo plugins show archard
+    """
+    from tribo.registry.catalogue import describe, find
+    from tribo.registry.registry import default_registry
+
+    registry = default_registry()
+    click.echo("\n\n".join(describe(registry.record(*key)) for key in find(registry, name)))
+
+
+@plugins.command()
+@click.argument("name")
+def check(name: str) -> None:
+    """Run the conformance checks on a component, or on all of a distribution.
+
+    They are generated from the examples in the schema of its configuration,
+    or from its defaults if it has any for every key. Exit codes: 0 all
+    passed, 2 bad input, 3 some failed.
+
+    \b
+    Example:
+      tribo plugins check acme.fretting
+      tribo plugins check acme-fretting
+    """
+    from tribo.core.errors import NumericalError
+    from tribo.registry.catalogue import find
+    from tribo.registry.registry import default_registry
+    from tribo.testing import check as conform
+    from tribo.testing import example_configs
+
+    registry = default_registry()
+    failed = []
+    for kind, component in find(registry, name):
+        cls = registry.lookup(kind, component)
+        report = conform(cls, example_configs(cls))
+        click.echo(str(report))
+        if not report.ok:
+            failed.append(component)
+    if failed:
+        raise NumericalError(f"{', '.join(failed)} does not conform; see above")
+
+
+@plugins.command()
+@click.argument("name")
+@click.option("--kind", required=True, metavar="KIND", help="wear-law, effect, surface, …")
+@click.option(
+    "-d", "--directory", type=click.Path(path_type=Path), default=Path(), help="Where to put it."
+)
+def new(name: str, kind: str, directory: Path) -> None:
+    """Write a complete plugin distribution NAME that installs and passes its tests.
+
+    \b
+    Kinds: contact-solver, wear-law, kinematics, surface, effect, observer.
+    Example:
+      tribo plugins new acme-fretting --kind wear-law
+      pip install -e "acme-fretting[dev]" && pytest acme-fretting
+    """
+    from tribo.scaffold import write_plugin
+
+    folder = directory / name
+    for path in write_plugin(name, kind, folder):
+        click.echo(f"Wrote {path}")
+    click.echo(f'Now: pip install -e "{folder}[dev]" && pytest {folder}')

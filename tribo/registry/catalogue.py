@@ -1,0 +1,137 @@
+"""What a registry holds, for people: lists and descriptions."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Iterator
+from typing import Any, get_args
+
+from pydantic.fields import FieldInfo
+
+from tribo.core.errors import CaseError
+from tribo.core.fields import Field
+from tribo.core.units import Quantity
+from tribo.core.words import did_you_mean, suggestion
+from tribo.registry.kinds import KINDS
+from tribo.registry.loader import Name, distribution_summary
+from tribo.registry.records import ComponentRecord, PluginRecord
+from tribo.registry.registry import Registry
+
+
+def catalogue(registry: Registry) -> list[dict[str, str]]:
+    """Return a row for every component, and for every plugin that cannot be used.
+
+    Nothing is imported that has not been: the summary of a plugin's component
+    is that of its distribution.
+
+    Returns
+    -------
+    list of dict
+        With ``name``, ``kind``, ``distribution``, ``version``, ``status``,
+        ``reason`` and ``summary``.
+    """
+    rows = [
+        _row(name, KINDS[kind].words, registry.owner(kind, name), registry.summary(kind, name))
+        for kind in KINDS
+        for name in registry.names(kind)
+    ]
+    rows += [
+        _row("", "", plugin, distribution_summary(plugin))
+        for plugin in registry.plugins
+        if plugin.reason
+    ]
+    return rows
+
+
+def find(registry: Registry, name: str) -> list[Name]:
+    """Return kind and name of the component, or of all of the distribution, called `name`.
+
+    Raises
+    ------
+    CaseError
+        If there is none.
+    """
+    known = [(kind, known) for kind in KINDS for known in registry.names(kind)]
+    found = [key for key in known if key[1] == name]
+    found = found or [key for key in known if registry.owner(*key).distribution == name]
+    if found:
+        return found
+    for plugin in registry.plugins:
+        if plugin.distribution == name:
+            raise CaseError(f"plugin {plugin} is {plugin.status}: {plugin.reason or 'it is empty'}")
+    names = [key[1] for key in known]
+    meant = suggestion(did_you_mean(name, names))
+    raise CaseError(
+        f"no component or distribution is called {name!r}{meant} See tribo plugins list"
+    )
+
+
+def describe(component: ComponentRecord) -> str:
+    """Return what a user should know of a component, as text."""
+    cls = component.cls
+    words = KINDS[component.kind].words
+    lines = [f"{component.name}: {words} from {component.plugin}", ""]
+    lines += [inspect.cleandoc(cls.__doc__ or "(it has no description)"), ""]
+    parameters = [
+        _parameter(name, field) for name, field in cls.Config.model_fields.items() if name != "type"
+    ]
+    if parameters:
+        lines += ["Parameters", "----------", *parameters, ""]
+    lines += _facts(cls)
+    lines.append(f"Class: {cls.__module__}.{cls.__qualname__}")
+    return "\n".join(lines)
+
+
+def _row(name: str, kind: str, plugin: PluginRecord, summary: str) -> dict[str, str]:
+    return {
+        "name": name,
+        "kind": kind,
+        "distribution": plugin.distribution,
+        "version": plugin.version,
+        "status": plugin.status,
+        "reason": plugin.reason,
+        "summary": summary,
+    }
+
+
+def _parameter(name: str, field: FieldInfo) -> str:
+    unit = next((f" [{q.unit}]" for q in _quantities(field)), "")
+    needed = "needed" if field.is_required() else f"default {field.default!r}"
+    if field.default is None:
+        needed = "optional"
+    return f"{name}{unit} ({needed}): {field.description or 'no description'}"
+
+
+def _quantities(field: FieldInfo) -> Iterator[Quantity]:
+    """Yield the quantities in a field's annotation, however deep."""
+    waiting = [*field.metadata, field.annotation]
+    while waiting:
+        part = waiting.pop(0)
+        if isinstance(part, Quantity):
+            yield part
+        waiting += [*get_args(part), *getattr(part, "__metadata__", ())]
+
+
+def _facts(cls: type[Any]) -> list[str]:
+    facts = []
+    for attribute, words in (
+        ("requires", "Requires"),
+        ("provides", "Provides"),
+        ("state_fields", "Keeps per point"),
+    ):
+        values = getattr(cls, attribute, ())
+        if values:
+            facts.append(f"{words}: " + "; ".join(map(_field, values)))
+    for attribute, words in (
+        ("accepts_wear_compliance", "Takes a wear compliance (implicit steps)"),
+        ("honours_cap", "Limits the pressure to a hardness"),
+    ):
+        if hasattr(cls, attribute):
+            facts.append(f"{words}: {'yes' if getattr(cls, attribute) else 'no'}")
+    return facts
+
+
+def _field(field: Field | str) -> str:
+    if isinstance(field, str):
+        return field
+    return f"{field.name} [{field.unit}] {field.description}"
