@@ -1,0 +1,20 @@
+"""The hooks of the strangers' laws and effect: what a scaffold writes."""
+
+from strangers.oxidation import OxideFilm
+from strangers.protected import Protected
+from strangers.running_in import RunningIn
+from strangers.transition import Transition
+
+from tribo.plugin import hookimpl
+
+__version__ = "1.0"
+
+
+@hookimpl
+def tribo_wear_laws() -> tuple[type, ...]:
+    return Protected, RunningIn, Transition
+
+
+@hookimpl
+def tribo_effects() -> tuple[type, ...]:
+    return (OxideFilm,)

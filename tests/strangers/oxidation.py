@@ -1,0 +1,34 @@
+"""A stranger's effect: an oxide film that grows with the power of friction."""
+
+from collections.abc import Mapping
+from typing import Annotated, Literal
+
+from tribo.plugin import (
+    Array,
+    ContactConditions,
+    Effect,
+    EffectConfig,
+    Field,
+    Quantity,
+)
+
+OXIDE = "stranger.oxide"
+
+
+class OxideFilmConfig(EffectConfig):
+    type: Literal["stranger.oxide_film"] = "stranger.oxide_film"
+    power: Annotated[float, Quantity("W/m^2", above=0)]
+    """Power of friction per area at which half the surface is oxidised."""
+
+
+class OxideFilm(Effect[OxideFilmConfig]):
+    """w/(w + power), with the power of friction w = μ p v."""
+
+    Config = OxideFilmConfig
+    requires = ("friction_coefficient",)
+    provides = (Field(OXIDE, "1", "Part of the surface under oxide."),)
+
+    def fields(self, contact: ContactConditions) -> Mapping[str, Mapping[str, Array]]:
+        friction = contact.fields["friction_coefficient"]
+        heat = {name: mu * contact.pressure * contact.speed for name, mu in friction.items()}
+        return {OXIDE: {name: w / (w + self.config.power) for name, w in heat.items()}}

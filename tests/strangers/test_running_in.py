@@ -1,0 +1,71 @@
+"""A state per material point, against the integral of its law."""
+
+import numpy as np
+import pytest
+from strangers.running_in import RunningIn, RunningInConfig
+
+from tribo import Body, Grid, assemble
+from tribo.config.stepping import ImplicitConfig
+from tribo.contact.winkler import Winkler, WinklerConfig
+from tribo.core.material import Material
+from tribo.kinematics.unidirectional import Unidirectional, UnidirectionalConfig
+from tribo.simulation.step import first_contact, implicit_step
+from tribo.surfaces.flat import Flat, FlatConfig
+
+SIDE, LOAD, TRACK = 2e-3, 40.0, 8e-3
+FIRST, LAST, LENGTH = 8e-15, 1e-15, 0.7
+END = 2.0
+
+
+@pytest.fixture(scope="module")
+def pin():
+    """A square pin on a turning disk: the pressure is the same everywhere, and stays so."""
+    law = RunningIn(RunningInConfig(k_first=FIRST, k_last=LAST, length=LENGTH))
+    steel = Material(young=207e9, poisson=0.3)
+    motion = {"speed": 0.1, "track_length": TRACK, "distance": END}
+    return assemble(
+        grid=Grid((SIDE, SIDE), (8, 8)),
+        load=LOAD,
+        bodies=[Body(name, Flat(FlatConfig()), steel, law) for name in ("pin", "disk")],
+        contact=Winkler(WinklerConfig(modulus=1e15)),
+        kinematics=Unidirectional(UnidirectionalConfig(**motion)),
+        ends_at_window=True,
+    )
+
+
+def slid(model, steps):
+    """The state after END metres in equal implicit steps."""
+    state = first_contact(model)
+    for i in range(1, steps + 1):
+        increment, time = END / steps, END / 0.1 * i / steps
+        state = implicit_step(model, state, increment, time, config=ImplicitConfig())
+    return state
+
+
+def integral(slip):
+    """Depth under unit pressure after `slip` metres under pressure, in closed form."""
+    return LAST * slip + (FIRST - LAST) * LENGTH * (1 - np.exp(-slip / LENGTH))
+
+
+# Each point of the disk is under the pin for SIDE of every TRACK metres.
+SLIP = {"pin": END, "disk": END * SIDE / TRACK}
+
+
+@pytest.mark.parametrize("name", SLIP)
+def test_it_converges_to_its_integral_at_first_order(pin, name):
+    exact = integral(SLIP[name]) * LOAD / SIDE**2
+    steps = (20, 40, 80, 160)
+    errors = [np.abs(slid(pin, n).bodies[name].wear / exact - 1).max() for n in steps]
+    orders = np.log2(np.divide(errors[:-1], errors[1:]))
+    assert np.all((orders > 0.95) & (orders < 1.05)), orders
+    # Backward Euler is off by half a step of what the rate changes by.
+    change = (FIRST - LAST) * (1 - np.exp(-SLIP[name] / LENGTH))
+    leading = 0.5 * SLIP[name] / steps[-1] * change / integral(SLIP[name])
+    assert errors[-1] == pytest.approx(leading, rel=0.02)
+
+
+def test_each_body_keeps_its_own_slip(pin):
+    state = slid(pin, 20)
+    np.testing.assert_allclose(state.bodies["pin"].law["slip"], END, rtol=1e-12)
+    np.testing.assert_allclose(state.bodies["disk"].law["slip"], SLIP["disk"], rtol=1e-12)
+    assert state.bodies["disk"].law["slip"].shape == (1, 8)

@@ -1,0 +1,80 @@
+"""Both bodies swept, each over its own circumference."""
+
+import numpy as np
+import pytest
+from strangers import twin_disk
+
+from tribo import CaseError, Registry, Simulation
+
+UPPER, LOWER = 0.15, 0.10
+K = {"upper": 2e-15, "lower": 1e-15}
+STEEL = {"young": "207 GPa", "poisson": 0.3}
+CASE = {
+    "grid": {"size": "1.2 mm", "cells": 48},
+    "load": {"normal": "50 N"},
+    "bodies": {
+        "upper": {
+            "surface": {"type": "paraboloid", "radius": "20 mm"},
+            "material": STEEL,
+            "wear": {"type": "archard", "k": K["upper"]},
+        },
+        "lower": {
+            "surface": {"type": "cylinder", "radius": "15 mm", "axis": "y"},
+            "material": STEEL,
+            "wear": {"type": "archard", "k": K["lower"]},
+        },
+    },
+    "kinematics": {
+        "type": "stranger.twin_disk",
+        "speed": "2 m/s",
+        "slip": 0.05,
+        "circumference": {"upper": UPPER, "lower": LOWER},
+        "duration": "10 min",
+    },
+}
+SLID = 0.05 * 2 * 600
+
+
+@pytest.fixture(scope="module")
+def registry():
+    return Registry.with_plugins(twin_disk)
+
+
+@pytest.fixture(scope="module")
+def result(registry):
+    with Simulation(CASE, registry=registry).run() as result:
+        yield result
+
+
+def test_they_slide_by_their_slip(result):
+    assert result.distances[-1] == pytest.approx(SLID, rel=1e-12)
+
+
+def test_each_disk_loses_k_f_s(result):
+    end = result.saves()[-1]["bodies"]
+    for name, k in K.items():
+        assert end[name]["wear_volume_m3"] == pytest.approx(k * 50 * SLID, rel=1e-9)
+
+
+def test_the_longer_way_round_is_worn_less_deep(result):
+    # Each row of both disks has seen the same line load: the depths are as k over circumference.
+    upper, lower = (result.body(name).wear_depth[-1] for name in K)
+    assert lower.max() > 0
+    np.testing.assert_allclose(upper * UPPER / K["upper"], lower * LOWER / K["lower"], rtol=1e-12)
+    assert np.all(upper == upper[:1])
+
+
+def test_the_groove_is_as_wide_as_the_contact_has_been(result):
+    touched = np.any(result.pressure(-1) > 0, axis=0)
+    depth = result.body("lower").wear_depth[-1][0]
+    assert np.all(depth[touched] > 0)
+    assert np.all(depth[[0, -1]] == 0)
+
+
+def test_a_disk_that_the_case_does_not_have_is_named(registry):
+    kinematics = {**CASE["kinematics"], "circumference": {"upper": UPPER, "disk": LOWER}}
+    with pytest.raises(CaseError) as caught:
+        Simulation({**CASE, "kinematics": kinematics}, registry=registry)
+    assert str(caught.value) == (
+        "kinematics.circumference: is given for upper, disk; the bodies are upper, lower"
+    )

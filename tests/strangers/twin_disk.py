@@ -1,0 +1,85 @@
+"""A stranger's motion: two disks that roll on each other with slip."""
+
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Literal
+
+import numpy as np
+
+from tribo.plugin import (
+    Array,
+    CaseError,
+    Exposure,
+    Grid,
+    Kinematics,
+    KinematicsConfig,
+    Quantity,
+    Track,
+    hookimpl,
+)
+
+Length = Annotated[float, Quantity("m", above=0)]
+
+
+class TwinDiskConfig(KinematicsConfig):
+    """Two disks, each with its own circumference."""
+
+    type: Literal["stranger.twin_disk"] = "stranger.twin_disk"
+    speed: Annotated[float, Quantity("m/s", above=0)]
+    """Mean of the two surface speeds."""
+    slip: Annotated[float, Quantity("1", above=0, at_most=2)]
+    """Difference of the surface speeds over their mean."""
+    circumference: dict[str, Length]
+    """Of each disk, by name."""
+    duration: Annotated[float, Quantity("s", above=0)]
+    """How long they run."""
+
+
+class Round(Track):
+    """A track round a disk that turns: its points pass, its shape stays where it is.
+
+    Wear is the same all the way round, so along x in the contact frame.
+    """
+
+    def __init__(self, grid: Grid, length: float) -> None:
+        super().__init__(grid, length)
+        self._cells = grid.cells
+
+    def average(self, rate: Array) -> Array:
+        """Return the average round the disk, shape (nx, ny)."""
+        return np.broadcast_to(super().average(rate), self._cells).copy()
+
+    def envelope(self, field: Array) -> Array:
+        """Return the maximum round the disk, shape (nx, ny)."""
+        return np.broadcast_to(super().envelope(field), self._cells).copy()
+
+
+class TwinDisk(Kinematics[TwinDiskConfig]):
+    """Slides |u1 − u2| t. In one pass a point slides |u1 − u2|/u_i per metre of contact, and it
+    passes u_i/l_i times a second: per metre of sliding its share is dx/l_i, whatever the slip.
+    """
+
+    Config = TwinDiskConfig
+
+    @property
+    def duration(self) -> float:
+        return self.config.duration
+
+    def distance(self, time: float) -> float:
+        return self.config.slip * self.config.speed * time
+
+    def time(self, distance: float) -> float:
+        return distance / (self.config.slip * self.config.speed)
+
+    def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
+        given = self.config.circumference
+        if set(given) != set(bodies):
+            raise CaseError(
+                f"is given for {', '.join(given)}; the bodies are {', '.join(bodies)}",
+                "kinematics.circumference",
+            )
+        return {name: Round(grid, given[name]) for name in bodies}
+
+
+@hookimpl
+def tribo_kinematics() -> list[type[TwinDisk]]:
+    return [TwinDisk]
