@@ -1,0 +1,256 @@
+"""Run the checks of an interface on a class."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any
+
+from pydantic import ValidationError
+
+from tribo.interfaces.component import Component, ComponentConfig
+from tribo.registry.kinds import KINDS, Kind
+from tribo.testing import (
+    checks_contact_solver,
+    checks_effect,
+    checks_kinematics,
+    checks_observer,
+    checks_surface,
+    checks_wear_law,
+)
+from tribo.testing.checks_config import CONFIG_CHECKS
+from tribo.testing.report import Outcome, Report
+from tribo.testing.subject import Check, CheckFailed, Revival, Subject
+
+ENOUGH = "enough_checks_apply"
+_NOTHING: Mapping[str, Any] = MappingProxyType({})
+
+
+@dataclass(frozen=True)
+class Suite:
+    """The checks of a kind, and how many of them each configuration must pass."""
+
+    checks: tuple[Check, ...]
+    minimum: int
+
+
+def _suite(checks: tuple[Check, ...], minimum: int) -> Suite:
+    return Suite((*CONFIG_CHECKS, *checks), minimum)
+
+
+# The minimum is what applies to the plainest implementation, less two.
+SUITES: Mapping[str, Suite] = MappingProxyType(
+    {
+        "contact_solver": _suite(checks_contact_solver.CHECKS, 23),
+        "wear_law": _suite(checks_wear_law.CHECKS, 20),
+        "kinematics": _suite(checks_kinematics.CHECKS, 25),
+        "surface": _suite(checks_surface.CHECKS, 16),
+        "effect": _suite(checks_effect.CHECKS, 18),
+        "observer": _suite(checks_observer.CHECKS, 16),
+    }
+)
+
+Config = ComponentConfig | Mapping[str, Any]
+
+
+def check(
+    cls: type[Component[Any]],
+    configs: Sequence[Config],
+    *,
+    expected_failures: Mapping[str, str] = _NOTHING,
+    fields: Mapping[str, float] = _NOTHING,
+) -> Report:
+    """Check that a class fulfils its interface, with each of some configurations.
+
+    The bodies of the cases it is tried in are called ``ball`` and ``disk``.
+
+    Parameters
+    ----------
+    cls : type
+        The class; which checks it gets follows from the interface it
+        subclasses.
+    configs : sequence of ComponentConfig or Mapping
+        Valid configurations, as objects or as in a case; ``type`` may be left
+        out.
+    expected_failures : Mapping[str, str], optional
+        Why a check, by name, cannot be passed. One that passes all the same
+        counts as a failure.
+    fields : Mapping[str, float], optional
+        Typical values, in SI, of the local fields that the class requires.
+
+    Returns
+    -------
+    Report
+        Of every check with every configuration.
+
+    Raises
+    ------
+    TypeError
+        If `cls` does not implement one interface.
+    ValueError
+        If a configuration is not valid, or `expected_failures` names no check.
+    """
+    kind = kind_of(cls)
+    _expect_known(kind, expected_failures)
+    outcomes: list[Outcome] = []
+    for subject in subjects(cls, configs, fields):
+        outcomes += [_outcome(one, subject, expected_failures) for one in SUITES[kind.name].checks]
+        outcomes.append(_outcome(_enough(expected_failures), subject, _NOTHING))
+    if not outcomes:
+        needed = "a configuration to check it with is needed; see example_configs"
+        outcomes.append(Outcome(ENOUGH, "", "no configuration", "failed", needed))
+    name = f"{cls.__qualname__} ({cls.type_name()})"
+    return Report(name, kind.words, tuple(outcomes))
+
+
+def parametrize_checks(
+    cls: type[Component[Any]],
+    configs: Sequence[Config],
+    *,
+    expected_failures: Mapping[str, str] = _NOTHING,
+    fields: Mapping[str, float] = _NOTHING,
+) -> Callable[..., None]:
+    """Return a test function with which pytest runs each check with each configuration.
+
+    A test file needs one line::
+
+        test_conformance = parametrize_checks(Fretting, configs=[{"k": "1e-15 1/Pa"}])
+
+    Parameters
+    ----------
+    cls, configs, expected_failures, fields
+        As in `check`.
+    """
+    import pytest
+
+    kind = kind_of(cls)
+    _expect_known(kind, expected_failures)
+    given = subjects(cls, configs, fields)
+    if not given:
+        raise ValueError(f"configs is empty: nothing would be checked of {cls.__qualname__}")
+    tests = [
+        pytest.param(one, subject, id=f"{one.name}-{subject.index}")
+        for subject in given
+        for one in (*SUITES[kind.name].checks, _enough(expected_failures))
+    ]
+
+    @pytest.mark.parametrize(("one", "subject"), tests)
+    def test_conformance(one: Check, subject: Subject) -> None:
+        __tracebackhide__ = True
+        outcome = _outcome(one, subject, expected_failures)
+        if outcome.status == "failed":
+            pytest.fail(f"{one.fact} With {subject.label}: {outcome.message}", pytrace=False)
+        if outcome.status == "expected failure":
+            pytest.xfail(outcome.message)
+        if outcome.status == "not applicable":
+            pytest.skip(outcome.message)
+
+    return test_conformance
+
+
+def example_configs(cls: type[Component[Any]]) -> list[dict[str, Any]]:
+    """Return configurations to check a class with, read off its configuration class.
+
+    Parameters
+    ----------
+    cls : type
+        A class with a ``Config``.
+
+    Returns
+    -------
+    list of dict
+        The ``examples`` in the JSON schema (``json_schema_extra`` of the
+        model's configuration); else ``{}`` alone if no key is required; else
+        nothing.
+    """
+    schema = cls.Config.model_json_schema()
+    if schema.get("examples"):
+        return [dict(example) for example in schema["examples"]]
+    return [] if schema.get("required") else [{}]
+
+
+def kind_of(cls: object) -> Kind:
+    """Return the kind of component that a class implements; TypeError if it is none."""
+    if not inspect.isclass(cls):
+        raise TypeError(f"{cls!r} is not a class; give the class, not an object of it")
+    kinds = [kind for kind in KINDS.values() if issubclass(cls, kind.interface)]
+    if len(kinds) != 1:
+        names = ", ".join(kind.interface.__name__ for kind in KINDS.values())
+        raise TypeError(f"{cls.__qualname__} must be a subclass of exactly one of {names}")
+    if inspect.isabstract(cls):
+        missing = ", ".join(sorted(getattr(cls, "__abstractmethods__", ())))
+        raise TypeError(f"{cls.__qualname__} does not define {missing}")
+    config = getattr(cls, "Config", None)
+    if not (inspect.isclass(config) and issubclass(config, ComponentConfig)):
+        raise TypeError(f"{cls.__qualname__}.Config is not a subclass of ComponentConfig")
+    if not isinstance(config.model_fields["type"].default, str):
+        raise TypeError(f'{config.__qualname__} needs a line: type: Literal["NAME"] = "NAME"')
+    return kinds[0]
+
+
+def subjects(
+    cls: type[Component[Any]], configs: Sequence[Config], fields: Mapping[str, float]
+) -> list[Subject]:
+    """Return the class with each of its configurations."""
+    valid = list(_validated(cls, configs))
+    revival = Revival(valid)
+    kind = kind_of(cls).name
+    return [Subject(cls, kind, config, fields, revival, i) for i, config in enumerate(valid)]
+
+
+def _validated(cls: type[Component[Any]], configs: Sequence[Config]) -> Iterator[ComponentConfig]:
+    for number, config in enumerate(configs):
+        if isinstance(config, cls.Config):
+            yield config
+            continue
+        try:
+            yield cls.Config.model_validate(config)
+        except ValidationError as error:
+            what = f"configs[{number}] is not valid for {cls.__qualname__}"
+            raise ValueError(f"{what}: {error}") from error
+
+
+def _expect_known(kind: Kind, expected_failures: Mapping[str, str]) -> None:
+    known = {one.name for one in SUITES[kind.name].checks}
+    for name, reason in expected_failures.items():
+        if name not in known:
+            raise ValueError(f"expected_failures: no check of a {kind.words} is called {name!r}")
+        if not reason.strip():
+            raise ValueError(f"expected_failures: say why {name!r} cannot be passed")
+
+
+def _outcome(one: Check, subject: Subject, expected: Mapping[str, str]) -> Outcome:
+    def came(status: Any, message: str = "") -> Outcome:
+        return Outcome(one.name, one.fact, subject.label or "its defaults", status, message)
+
+    reason = expected.get(one.name)
+    try:
+        inapplicable = one.unless(subject)
+        if inapplicable is not None:
+            return came("not applicable", inapplicable)
+        one.run(subject)
+    except Exception as error:
+        said = str(error) if isinstance(error, CheckFailed) else f"{type(error).__name__}: {error}"
+        return came("failed", said) if reason is None else came("expected failure", reason)
+    if reason is not None:
+        return came("failed", f"it passed, although a failure is expected ({reason})")
+    return came("passed")
+
+
+def _enough(expected: Mapping[str, str]) -> Check:
+    def run(subject: Subject) -> None:
+        suite = SUITES[subject.kind]
+        applies = [
+            one.name
+            for one in suite.checks
+            if one.name not in expected and one.unless(subject) is None
+        ]
+        if len(applies) < suite.minimum:
+            raise CheckFailed(
+                f"only {len(applies)} of {len(suite.checks)} checks apply; at least "
+                f"{suite.minimum} must, for so little says nothing about the class"
+            )
+
+    return Check(ENOUGH, "Enough checks apply to say something.", run)

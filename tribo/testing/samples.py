@@ -1,0 +1,264 @@
+"""Small inputs for the checks: a window, bodies, local fields, a case of a few steps."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, ClassVar, Literal
+
+import numpy as np
+
+from tribo.contact.winkler import Winkler, WinklerConfig
+from tribo.core.arrays import Array
+from tribo.core.fields import ContactConditions, Field, LocalConditions
+from tribo.core.grid import Grid
+from tribo.core.material import Material
+from tribo.core.state import State
+from tribo.interfaces.effect import Effect, EffectConfig
+from tribo.kinematics.reciprocating import Reciprocating, ReciprocatingConfig
+from tribo.simulation.march import begin, march
+from tribo.simulation.model import Body, Model, assemble
+from tribo.simulation.rates import Moment, law_states, wear_rates
+from tribo.surfaces.cylinder import Cylinder, CylinderConfig
+from tribo.surfaces.flat import Flat, FlatConfig
+from tribo.surfaces.sphere import Sphere, SphereConfig
+from tribo.testing.subject import Subject, require
+from tribo.wear.archard import Archard, ArchardConfig
+
+# Neither square nor of square cells, so that swapped axes are noticed.
+GRID = Grid((0.72e-3, 0.8e-3), (24, 20))
+BODIES = ("ball", "disk")
+LOAD = 100.0
+RADIUS = 5e-3
+SPEED = 0.1
+PEAK = 2e9
+STEEL = Material(
+    young=207e9,
+    poisson=0.3,
+    hardness=4e9,
+    density=7850.0,
+    conductivity=46.0,
+    heat_capacity=460.0,
+)
+
+_TYPICAL = {"friction_coefficient": 0.3, "temperature": 400.0, "traction": 1e8}
+"""A plausible value of a field whose name ends so."""
+
+MOST_STEPS = 1000
+
+
+def typical(name: str, given: Mapping[str, float]) -> float:
+    """Return a typical value of the field `name`: as given, or guessed from its name."""
+    if name in given:
+        return given[name]
+    return next((value for end, value in _TYPICAL.items() if name.endswith(end)), 1.0)
+
+
+def pattern(shape: tuple[int, ...]) -> Array:
+    """Return values between 0 and 1 without symmetry, each point its own, always the same."""
+    golden = 0.6180339887498949
+    values: Array = ((1 + np.arange(np.prod(shape, dtype=int))) * golden % 1.0).reshape(shape)
+    return values
+
+
+def sample_field(name: str, shape: tuple[int, ...], given: Mapping[str, float]) -> Array:
+    """Return a field that varies a little about its typical value."""
+    value: Array = typical(name, given) * (0.95 + 0.1 * pattern(shape))
+    return value
+
+
+def sample_pressure(shape: tuple[int, ...]) -> Array:
+    """Return pressures up to `PEAK`, and 0 in every third point."""
+    pressure: Array = PEAK * (0.02 + 0.98 * pattern(shape))
+    pressure.reshape(-1)[::3] = 0.0
+    return pressure
+
+
+def hertz_pressure(grid: Grid) -> Array:
+    """Return a half-ellipsoid of pressure in the middle of the window."""
+    x, y = grid.mesh
+    r2 = (x / (0.2 * grid.size[0])) ** 2 + (y / (0.25 * grid.size[1])) ** 2
+    pressure: Array = PEAK * np.sqrt(np.maximum(1 - r2, 0.0))
+    return pressure
+
+
+class Asked(Mapping[str, Array]):
+    """A mapping that remembers which names it was asked for in vain.
+
+    Parameters
+    ----------
+    values : Mapping[str, ndarray]
+        What it holds.
+    """
+
+    def __init__(self, values: Mapping[str, Array]) -> None:
+        self._values = dict(values)
+        self.missed: set[str] = set()
+
+    def __getitem__(self, name: str) -> Array:
+        if name not in self._values:
+            self.missed.add(name)
+        return self._values[name]
+
+    def __contains__(self, name: object) -> bool:
+        if name not in self._values:
+            self.missed.add(str(name))
+        return name in self._values
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._values)
+
+    def __len__(self) -> int:
+        return len(self._values)
+
+
+def local_conditions(
+    subject: Subject, law: Any, pressure: Array, state: Mapping[str, Array] | None = None
+) -> LocalConditions:
+    """Return what a law is told at points of the given pressure; state as at the start."""
+    shape = pressure.shape
+    if state is None:
+        state = {name: np.full(shape, value) for name, value in law.initial_state().items()}
+    return LocalConditions(
+        pressure=pressure,
+        speed=SPEED,
+        material=STEEL,
+        fields={name: sample_field(name, shape, subject.fields) for name in law.requires},
+        state=state,
+    )
+
+
+def contact_conditions(
+    subject: Subject, effect: Any, names: Sequence[str] = BODIES
+) -> ContactConditions:
+    """Return what an effect is told; the second body is swept."""
+    return ContactConditions(
+        grid=GRID,
+        pressure=hertz_pressure(GRID),
+        speed=SPEED,
+        time=10.0,
+        distance=1.0,
+        friction_coefficient=typical("friction_coefficient", subject.fields),
+        materials=dict.fromkeys(names, STEEL),
+        swept=frozenset(names[1:]),
+        fields={
+            name: {body: sample_field(name, GRID.cells, subject.fields) for body in names}
+            for name in effect.requires
+        },
+    )
+
+
+class GivenConfig(EffectConfig):
+    """Configuration of `Given`."""
+
+    type: Literal["tribo.testing.given"] = "tribo.testing.given"
+
+
+class Given(Effect[GivenConfig]):
+    """Provides fields at sample values, for laws and effects that require them.
+
+    Parameters
+    ----------
+    names : sequence of str
+        Names of the fields.
+    values : Mapping[str, float]
+        Typical values, where known.
+    """
+
+    Config: ClassVar[type[GivenConfig]] = GivenConfig
+    provides: tuple[Field, ...] = ()  # type: ignore[misc]
+
+    def __init__(self, names: Sequence[str], values: Mapping[str, float]) -> None:
+        super().__init__(GivenConfig())
+        self._values = values
+        self.provides = tuple(Field(name, "1", "A sample.") for name in names)
+
+    def fields(self, contact: ContactConditions) -> Mapping[str, Mapping[str, Array]]:
+        """Return the sample of each field for each body."""
+        shape = contact.grid.cells
+        return {
+            field.name: {
+                body: sample_field(field.name, shape, self._values) for body in contact.materials
+            }
+            for field in self.provides
+        }
+
+
+def archard() -> Archard:
+    """Return a law that wears a third of the first approach within some metres."""
+    return Archard(ArchardConfig(k=1e-16))
+
+
+def sliding(distance: float) -> Reciprocating:
+    """Return back and forth sliding of 2 mm strokes."""
+    return Reciprocating(
+        ReciprocatingConfig(stroke=2e-3, frequency=SPEED / 4e-3, distance=distance)
+    )
+
+
+def small_model(
+    subject: Subject,
+    *,
+    law: Any = None,
+    kinematics: Any = None,
+    effects: Sequence[Any] = (),
+    observers: Sequence[Any] = (),
+    **more: Any,
+) -> Model:
+    """Return a case of a few steps on elastic springs, both bodies under one law."""
+    law = law or archard()
+    kinematics = kinematics or sliding(3.0)
+    known = {"friction_coefficient"}.union(*({f.name for f in e.provides} for e in effects))
+    needed = {*law.requires}.union(*(effect.requires for effect in effects)) - known
+    extra = [Given(sorted(needed), subject.fields)] if needed else []
+    shapes = _shapes(kinematics)
+    return assemble(
+        grid=GRID,
+        load=LOAD,
+        bodies=[Body(n, s, STEEL, law) for n, s in zip(BODIES, shapes, strict=True)],
+        contact=Winkler(WinklerConfig(plasticity=False)),
+        kinematics=kinematics,
+        friction_coefficient=typical("friction_coefficient", subject.fields),
+        effects=[*extra, *effects],
+        observers=observers,
+        ends_at_window=True,
+        **more,
+    )
+
+
+def _shapes(kinematics: Any) -> list[Any]:
+    """Return a surface for each body; those of swept bodies do not vary along x."""
+    exposures = kinematics.exposures(GRID, BODIES)
+    swept = [exposures[name].average(np.zeros(GRID.cells)).shape != GRID.cells for name in BODIES]
+    flat = Flat(FlatConfig())
+    if all(swept):
+        return [Cylinder(CylinderConfig(radius=RADIUS, axis="x")), flat]
+    sphere = Sphere(SphereConfig(radius=RADIUS))
+    return [flat, sphere] if swept[0] else [sphere, flat]
+
+
+def steps(model: Model) -> Iterator[tuple[State, State]]:
+    """Yield the states before and after each step of a run."""
+    before = begin(model)
+    for number, accepted in enumerate(march(model, before)):
+        require(number < MOST_STEPS, f"a small case was not done after {MOST_STEPS} steps")
+        yield before, accepted.state
+        before = accepted.state
+
+
+def expect_volume_balance(model: Model) -> None:
+    """Fail unless each step of a run removes from each body just what its law says."""
+    for before, after in steps(model):
+        increment = after.distance - before.distance
+        moment = Moment(after.time, after.distance, increment / (after.time - before.time))
+        rates = wear_rates(model, after.contact.pressure, law_states(after), moment)
+        for name, rate in rates.items():
+            needed = increment * float(np.sum(rate.depth)) * model.grid.cell_area
+            volume = model.exposures[name].volume
+            found = volume(after.bodies[name].wear) - volume(before.bodies[name].wear)
+            # Round-off of the volume so far, and the step's nonlinear tolerance of 1e-8.
+            allowed = 1e-6 * needed + 1e-12 * volume(after.bodies[name].wear)
+            require(
+                abs(found - needed) <= allowed,
+                f"from {before.distance:.4g} to {after.distance:.4g} m body {name!r} lost "
+                f"{found:.6g} m³; its law says {needed:.6g} m³",
+            )
