@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import importlib
+import subprocess
 import sys
 import tomllib
 from pathlib import Path
@@ -89,22 +90,32 @@ def test_its_example_runs_with_it(
     assert used[plugin.component] == f"{plugin.package}.{plugin.module}.{plugin.title}"
 
 
+@pytest.mark.parametrize("kind", NAMES)
+def test_it_is_formatted_however_long_its_name(kind: str, tmp_path: Path) -> None:
+    name = "a-very-long-name-for-any-model"
+    assert len(name) == 30
+    write_plugin(name, kind, tmp_path / name)
+    for command in (("check",), ("format", "--check")):
+        ruff = (sys.executable, "-m", "ruff", *command, "--no-cache", str(tmp_path / name))
+        done = subprocess.run(ruff, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stdout
+
+
 def test_the_kind_may_be_spelt_as_in_the_registry(tmp_path: Path) -> None:
     assert write_plugin("acme-fretting", "wear_law", tmp_path / "new")
 
 
 @pytest.mark.parametrize(
-    ("kind", "message"),
-    [
-        ("wear-lwa", "unknown kind 'wear-lwa'; did you mean 'wear-law'? Known: contact-solver, "),
-        ("xyz", "unknown kind 'xyz'. Known: wear-law, contact-solver, kinematics, surface, "),
-    ],
+    ("kind", "begins"),
+    [("wear-lwa", "'wear-lwa'; did you mean 'wear-law'?"), ("xyz", "'xyz'.")],
 )
-def test_an_unknown_kind_is_refused(kind: str, message: str, tmp_path: Path) -> None:
+def test_an_unknown_kind_is_refused(kind: str, begins: str, tmp_path: Path) -> None:
     with pytest.raises(CaseError) as caught:
         write_plugin("acme-fretting", kind, tmp_path / "new")
-    assert str(caught.value).startswith(message.split(" Known")[0])
-    assert "wear-law, contact-solver, kinematics, surface, effect, observer" in str(caught.value)
+    assert str(caught.value) == (
+        f"unknown kind {begins} Known: contact-solver, wear-law, kinematics, surface, effect, "
+        "observer"
+    )
     assert not (tmp_path / "new").exists()
 
 

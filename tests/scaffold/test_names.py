@@ -44,9 +44,13 @@ def test_a_name_of_another_form_is_refused_with_a_remedy(given: str, remedy: str
 
 
 @pytest.mark.parametrize(
-    ("given", "taken"),
-    [("acme-lambda", "'lambda', which is a keyword"), ("acme-wear-law", "'WearLaw', which is tri")],
+    ("given", "why"),
+    [
+        ("acme-lambda", "'lambda', which is a keyword"),
+        ("acme-wear-law", "'WearLaw', which is tri"),
+        ("acme-" + 26 * "x", "too long for a plugin's name; 30 characters are allowed"),
+    ],
 )
-def test_a_name_that_would_clash_in_the_code_is_refused(given: str, taken: str) -> None:
-    with pytest.raises(CaseError, match=taken):
+def test_a_name_that_would_spoil_the_code_is_refused(given: str, why: str) -> None:
+    with pytest.raises(CaseError, match=why):
         PluginName(given)

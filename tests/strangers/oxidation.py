@@ -12,7 +12,7 @@ from tribo.plugin import (
     Quantity,
 )
 
-OXIDE = "stranger.oxide"
+OXIDE = "stranger_oxide"
 
 
 class OxideFilmConfig(EffectConfig):

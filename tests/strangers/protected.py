@@ -15,8 +15,8 @@ class Protected(WearLaw[ProtectedConfig]):
     """dh/ds = k (1 − c) p, with the part c of the surface that is under oxide."""
 
     Config = ProtectedConfig
-    requires = ("stranger.oxide",)
+    requires = ("stranger_oxide",)
 
     def rate(self, local: LocalConditions) -> WearRate:
-        k = self.config.k * (1 - local.fields["stranger.oxide"])
+        k = self.config.k * (1 - local.fields["stranger_oxide"])
         return WearRate(k * local.pressure, k)

@@ -10,6 +10,8 @@ import tribo.plugin
 from tribo.core.errors import CaseError
 
 _FORM = re.compile(r"[a-z][a-z0-9]*-[a-z][a-z0-9]*(-[a-z0-9]+)*")
+_LONGEST = 30
+"""What keeps the lines of the files within 100 characters."""
 
 
 @dataclass(frozen=True)
@@ -19,13 +21,13 @@ class PluginName:
     Parameters
     ----------
     distribution : str
-        Words of lower-case letters and digits joined by hyphens. The first
-        says whose plugin it is, the others what it is.
+        Words of lower-case letters and digits joined by hyphens, at most 30
+        characters. The first says whose plugin it is, the others what it is.
 
     Raises
     ------
     CaseError
-        If it is not of that form, or Python or tribo needs one of the names
+        If it is not of that form or length, or Python or tribo needs one of the names
         that follow from it.
     """
 
@@ -38,6 +40,10 @@ class PluginName:
             raise CaseError(
                 f"{given!r} is no good as a plugin's name; {self._remedy()}: whose it is and "
                 "what it is, in lower-case words joined by hyphens"
+            )
+        if len(given) > _LONGEST:
+            raise CaseError(
+                f"{given!r} is too long for a plugin's name; {_LONGEST} characters are allowed"
             )
         if keyword.iskeyword(self.module) or self.title in tribo.plugin.__all__:
             what = "a keyword of Python" if keyword.iskeyword(self.module) else "tribo's own"

@@ -10,7 +10,6 @@ from string import Template
 from tribo.core.errors import CaseError
 from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.kinds import KINDS
-from tribo.scaffold.kinds import STARTS
 from tribo.scaffold.names import PluginName
 
 
@@ -69,15 +68,14 @@ def write_plugin(name: str, kind: str, folder: Path) -> list[Path]:
 
 def _kind(kind: str) -> str:
     name = kind.replace("-", "_")
-    if name not in STARTS:
-        known = [known.replace("_", "-") for known in STARTS]
+    if name not in KINDS:
+        known = [known.replace("_", "-") for known in KINDS]
         meant = suggestion(did_you_mean(kind, known))
         raise CaseError(f"unknown kind {kind!r}{meant} Known: {', '.join(known)}")
     return name
 
 
 def _words(plugin: PluginName, kind: str) -> dict[str, str]:
-    start = STARTS[kind]
     words = {
         "distribution": plugin.distribution,
         "package": plugin.package,
@@ -87,12 +85,8 @@ def _words(plugin: PluginName, kind: str) -> dict[str, str]:
         "kind": kind,
         "words": KINDS[kind].words,
         "hook": KINDS[kind].hook,
-        "interface": KINDS[kind].interface.__name__,
-        "place": start.place,
         "year": str(date.today().year),
     }
-    configs = (f"        {plugin.title}Config({given})," for given in start.configs)
-    words["configs"] = "\n".join(configs)
     words["example"] = _filled(f"{kind}/example.toml", words).strip()
     return words
 

@@ -1,0 +1,153 @@
+"""From nothing to a result: new, wheel, fresh environment, its own tests, a case."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import sysconfig
+import venv
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+from scaffold.plugins_of_each_kind import NAMES
+
+from tribo.results.read import Result
+from tribo.scaffold import PluginName, write_plugin
+
+
+def run(*command: str | Path, folder: Path) -> str:
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+@dataclass(frozen=True)
+class Fresh:
+    """An environment with the wheels of six new plugins, and their folders."""
+
+    python: Path
+    folders: dict[str, Path]
+    scratch: Path
+
+
+@pytest.fixture(scope="module")
+def fresh(tmp_path_factory: pytest.TempPathFactory) -> Fresh:
+    scratch = tmp_path_factory.mktemp("plugins")
+    folders = {kind: scratch / name for kind, name in NAMES.items()}
+    for kind, folder in folders.items():
+        write_plugin(folder.name, kind, folder)
+    pip = (sys.executable, "-m", "pip", "--disable-pip-version-check")
+    build = ("wheel", "--no-deps", "--no-build-isolation", "--no-index", "--wheel-dir", "wheels")
+    run(*pip, *build, *(f"./{folder.name}" for folder in folders.values()), folder=scratch)
+    venv.create(scratch / "venv", with_pip=False)
+    python = scratch / "venv" / "bin" / "python"
+    # It sees what is installed here, tribo too, so that nothing is downloaded.
+    purelib = run(
+        python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))", folder=scratch
+    )
+    here = sysconfig.get_path("purelib")
+    (Path(purelib.strip()) / "here.pth").write_text(f"import site; site.addsitedir({here!r})\n")
+    wheels = [str(wheel) for wheel in sorted((scratch / "wheels").iterdir())]
+    install = ("--python", str(python), "install", "--no-deps", "--no-index")
+    run(*pip, *install, *wheels, folder=scratch)
+    return Fresh(python, folders, scratch)
+
+
+@pytest.mark.parametrize("kind", NAMES)
+def test_its_own_tests_pass_untouched(kind: str, fresh: Fresh) -> None:
+    said = run(
+        fresh.python, "-m", "pytest", "-q", "-p", "no:cacheprovider", folder=fresh.folders[kind]
+    )
+    assert " passed" in said
+    assert " failed" not in said
+
+
+@pytest.mark.parametrize("kind", NAMES)
+def test_its_code_is_clean(kind: str, fresh: Fresh) -> None:
+    folder = fresh.folders[kind]
+    run(sys.executable, "-m", "ruff", "check", "--no-cache", folder=folder)
+    run(sys.executable, "-m", "ruff", "format", "--check", "--no-cache", folder=folder)
+    cache = ("--cache-dir", str(fresh.scratch / "mypy"))
+    run(sys.executable, "-m", "mypy", "--python-executable", fresh.python, *cache, folder=folder)
+
+
+CASE = """
+[grid]
+size = "0.6 mm"
+cells = 40
+
+[load]
+normal = "20 N"
+
+[bodies.ball]
+surface = { type = "acme.dome", radius = "5 mm" }
+material = { young = "207 GPa", poisson = 0.3 }
+wear = { type = "acme.fretting", k = "1e-15 1/Pa" }
+
+[bodies.disk]
+surface = { type = "flat" }
+material = { young = "207 GPa", poisson = 0.3 }
+
+[contact]
+type = "acme.coating"
+
+[kinematics]
+type = "acme.shuttle"
+speed = "0.1 m/s"
+track = "20 mm"
+duration = "60 s"
+
+[[effects]]
+type = "acme.heat"
+friction = 0.2
+
+[[observers]]
+type = "acme.depth_watch"
+depth = "1 um"
+"""
+
+
+def test_one_case_runs_with_all_of_them(fresh: Fresh) -> None:
+    (fresh.scratch / "all.toml").write_text(CASE)
+    run(fresh.python, "-m", "tribo", "run", "all.toml", "-o", "all.h5", folder=fresh.scratch)
+    with Result.open(fresh.scratch / "all.h5") as result:
+        volume = result.saves()[-1]["bodies"]["ball"]["wear_volume_m3"]
+        components = result.provenance["components"].values()
+    assert volume == pytest.approx(1e-15 * 20 * 6, rel=1e-6)
+    used = {c["type"]: (c["distribution"], c["version"]) for c in components}
+    for name in NAMES.values():
+        assert used[PluginName(name).component] == (name, "0.1.0")
+
+
+def test_an_installed_plugin_is_known_by_name_in_schema_and_messages(fresh: Fresh) -> None:
+    code = (
+        "import json\n"
+        "from tribo.config.case import Case\n"
+        "from tribo.config.schema import json_schema\n"
+        "from tribo.registry.registry import default_registry\n"
+        "from tribo.registry.kinds import KINDS\n"
+        "names = [name for kind in KINDS for name in default_registry().names(kind)]\n"
+        "print(json.dumps([names, json_schema(Case)]))"
+    )
+    names, schema = json.loads(run(fresh.python, "-c", code, folder=fresh.scratch))
+    types = {
+        part["properties"]["type"]["const"]
+        for part in schema["$defs"].values()
+        if "type" in part.get("properties", {})
+    }
+    own = {PluginName(name).component for name in NAMES.values()}
+    assert own <= set(names)
+    assert own <= types
+    (fresh.scratch / "typo.toml").write_text(CASE.replace("acme.fretting", "acme.freting"))
+    typo = subprocess.run(
+        [fresh.python, "-m", "tribo", "check", "typo.toml"],
+        cwd=fresh.scratch,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert typo.returncode == 2
+    assert "did you mean 'acme.fretting'?" in typo.stderr
+    assert "acme.fretting (acme-fretting 0.1.0)" in typo.stderr
