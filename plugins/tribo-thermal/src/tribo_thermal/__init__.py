@@ -1,0 +1,1 @@
+"""Frictional heating, and wear laws that follow the temperature, for tribo."""

@@ -1,0 +1,73 @@
+"""Archard's law with a coefficient that follows Arrhenius' law."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import BeforeValidator, WithJsonSchema
+from tribo.plugin import LocalConditions, Quantity, WearLaw, WearLawConfig, WearRate
+
+GAS_CONSTANT = 8.314462618
+"""In J/(mol K)."""
+
+
+def _of_one_mole(value: Any) -> Any:
+    if not isinstance(value, str):
+        return value
+    head, per, rest = value.partition("/mol")
+    if not per or rest.strip():
+        raise ValueError(f"{value!r}: an energy per mole is needed, as in '50 kJ/mol'")
+    return head
+
+
+MolarEnergy = Annotated[
+    float,
+    Quantity("J", at_least=0),
+    BeforeValidator(_of_one_mole),
+    WithJsonSchema(
+        {
+            "anyOf": [
+                {"type": "number", "minimum": 0, "description": "in J/mol"},
+                {"type": "string", "description": "with a unit, as in '50 kJ/mol'"},
+            ],
+            "x-unit": "J/mol",
+        }
+    ),
+]
+
+
+class ArrheniusConfig(WearLawConfig):
+    """Configuration of `Arrhenius`."""
+
+    type: Literal["thermal.arrhenius"] = "thermal.arrhenius"
+    k: Annotated[float, Quantity("1/Pa", at_least=0)]
+    """Specific wear rate at the reference temperature."""
+    activation_energy: MolarEnergy
+    """Activation energy Q, per mole."""
+    reference_temperature: Annotated[float, Quantity("K", above=0)]
+    """Temperature at which the law equals Archard's with the same k."""
+
+
+class Arrhenius(WearLaw[ArrheniusConfig]):
+    """dh/ds = k exp(−(Q/R) (1/T − 1/T_ref)) p, in m/m.
+
+    k in 1/Pa, Q in J/mol, R the gas constant, T in K. Valid where one
+    thermally activated process, such as oxidation or the failure of a boundary
+    film, sets the wear rate, over the temperatures at which Q was fitted.
+
+    References
+    ----------
+    Quinn, T. F. J. (1983), Review of oxidational wear, Part I, Tribology
+    International 16, 257-271.
+    """
+
+    Config = ArrheniusConfig
+    requires = ("temperature",)
+
+    def rate(self, local: LocalConditions) -> WearRate:
+        """Return k(T) p and k(T)."""
+        c = self.config
+        difference = 1 / local.fields["temperature"] - 1 / c.reference_temperature
+        k = c.k * np.exp(-c.activation_energy / GAS_CONSTANT * difference)
+        return WearRate(k * local.pressure, k)

@@ -1,0 +1,69 @@
+"""Archard's law with a hardness that falls as the temperature rises."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+import numpy as np
+from tribo.plugin import (
+    CaseError,
+    LocalConditions,
+    Material,
+    Quantity,
+    WearLaw,
+    WearLawConfig,
+    WearRate,
+)
+
+
+class SofteningConfig(WearLawConfig):
+    """Configuration of `Softening`."""
+
+    type: Literal["thermal.softening"] = "thermal.softening"
+    K: Annotated[float, Quantity("1", at_least=0)]
+    """Archard's dimensionless wear coefficient."""
+    hardness: Annotated[float, Quantity("Pa", above=0)] | None = None
+    """Hardness H₀ at the reference temperature; the material's hardness if left out."""
+    softening: Annotated[float, Quantity("1/K", at_least=0)]
+    """Part β of the hardness lost per kelvin."""
+    reference_temperature: Annotated[float, Quantity("K", above=0)]
+    """Temperature at which the hardness is H₀."""
+    least_hardness: Annotated[float, Quantity("1", above=0, at_most=1)] = 0.1
+    """Part of H₀ below which the hardness does not fall."""
+
+
+class Softening(WearLaw[SofteningConfig]):
+    """dh/ds = K p/H(T), with H(T) = H₀ max(1 − β (T − T_ref), c).
+
+    In m/m; p and H in Pa, β in 1/K, T in K, c the least part of the hardness.
+    Valid for a linear fall of hardness, for steels to some 600 K, and below
+    T_ref + (1 − c)/β: beyond, the floor c only keeps the rate finite. It
+    softens wear, not the contact: the pressure stays limited by the
+    material's own hardness.
+
+    References
+    ----------
+    Archard, J. F. (1953), J. Appl. Phys. 24, 981-988. Lim, S. C., Ashby, M. F.
+    (1987), Wear-mechanism maps, Acta Metallurgica 35, 1-24.
+    """
+
+    Config = SofteningConfig
+    requires = ("temperature",)
+
+    def check(self, material: Material) -> None:
+        """Require a hardness, here or of the material."""
+        self._hardness(material)
+
+    def rate(self, local: LocalConditions) -> WearRate:
+        """Return k(T) p and k(T), with k = K/H(T)."""
+        c = self.config
+        warmer = local.fields["temperature"] - c.reference_temperature
+        part = np.maximum(1 - c.softening * warmer, c.least_hardness)
+        k = c.K / (self._hardness(local.material) * part)
+        return WearRate(k * local.pressure, k)
+
+    def _hardness(self, material: Material) -> float:
+        hardness = self.config.hardness or material.hardness
+        if hardness is None:
+            raise CaseError("a hardness is needed: add it here or to the body's material")
+        return hardness

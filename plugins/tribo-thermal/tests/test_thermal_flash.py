@@ -1,0 +1,124 @@
+"""The contact temperature of the paper's test, and what the effect refuses."""
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+from tribo.plugin import CaseError, ContactConditions, Grid, Material
+
+from tribo_thermal.flash import Flash, FlashConfig
+
+STEEL = {"young": "207 GPa", "poisson": 0.3}
+HEAT = {"conductivity": "46 W/(m K)", "density": "7850 kg/m^3", "heat_capacity": "460 J/(kg K)"}
+FRESH, WORN = 148.837e-6, 530e-6
+MOVING, RESTING = {"ball": 0.0, "disk": 1.0}, {"ball": 1.0, "disk": 0.0}
+
+
+def contact(radius, swept=("disk",), material=None, load=100.0):
+    """Hertz's pressure under 100 N over a given radius, sliding at 0.1 m/s."""
+    cells = 128
+    grid = Grid((2.4 * radius, 2.4 * radius), (cells, cells))
+    x, y = grid.mesh
+    pressure = np.sqrt(np.maximum(1 - (x**2 + y**2) / radius**2, 0.0))
+    pressure *= load / (np.sum(pressure) * grid.cell_area)
+    steel = Material(**STEEL, **(HEAT if material is None else material))
+    friction = np.full(grid.cells, 0.1)
+    return ContactConditions(
+        grid=grid,
+        pressure=pressure,
+        speed=0.1,
+        time=1.0,
+        distance=0.1,
+        friction_coefficient=0.1,
+        materials={"ball": steel, "disk": steel},
+        swept=frozenset(swept),
+        fields={"friction_coefficient": {"ball": friction, "disk": friction}},
+    )
+
+
+def rises(where, **config):
+    given = {"ambient": "90 degC", "source": "parabolic", "rise": "maximum", **config}
+    return Flash(FlashConfig(**given)).rises(where)
+
+
+@pytest.mark.parametrize(
+    ("radius", "moving", "resting", "shared"), [(FRESH, 45, 55, 25), (WORN, 9, 15, 6)]
+)
+def test_the_papers_case_warms_as_computed_by_hand(radius, moving, resting, shared):
+    # Rounded to whole kelvins.
+    where = contact(radius)
+    assert rises(where, heat_fraction=MOVING)["disk"] == pytest.approx(moving, abs=0.5)
+    assert rises(where, heat_fraction=RESTING)["ball"] == pytest.approx(resting, abs=0.5)
+    assert rises(where)["ball"] == pytest.approx(shared, abs=0.5)
+
+
+def test_partition_is_bloks_and_gives_one_temperature():
+    where = contact(FRESH)
+    one = rises(where, heat_fraction=MOVING)["disk"]
+    other = rises(where, heat_fraction=RESTING)["ball"]
+    both = rises(where)
+    assert both["ball"] == both["disk"]
+    assert 1 / both["ball"] == pytest.approx(1 / one + 1 / other, rel=1e-12)
+
+
+def test_bulk_temperature_is_that_of_a_bar():
+    # Ashby: ΔT = r μ F v l/(A K), on top of the flash.
+    path = {"length": "50 mm", "area": "78.5 mm^2"}
+    where = contact(WORN)
+    flash = rises(where, heat_fraction=RESTING)["ball"]
+    total = rises(where, heat_fraction=RESTING, heat_paths={"ball": path})["ball"]
+    assert total - flash == pytest.approx(1.0 * 0.05 / (78.5e-6 * 46), rel=1e-9)
+
+
+def test_a_poor_heat_path_sends_heat_into_the_other_body():
+    path = {"length": "1 m", "area": "1 mm^2"}
+    where = contact(WORN)
+    hot = rises(where, heat_paths={"ball": path})["disk"]
+    alone = rises(where, heat_fraction=MOVING)["disk"]
+    assert rises(where)["disk"] < hot < alone
+    assert hot == pytest.approx(alone, rel=1e-3)
+
+
+def test_fields_are_the_temperature_and_its_rise_over_ambient():
+    fields = Flash(FlashConfig(ambient="90 degC")).fields(contact(WORN))
+    for name in ("ball", "disk"):
+        difference = fields["temperature"][name] - fields["temperature_rise"][name]
+        np.testing.assert_allclose(difference, 363.15)
+        assert fields["temperature_rise"][name] > 0
+
+
+def test_nothing_is_warmed_where_nothing_touches():
+    assert rises(contact(WORN, load=0.0)) == {"ball": 0.0, "disk": 0.0}
+
+
+@pytest.mark.parametrize("missing", HEAT)
+def test_a_missing_property_is_named_with_its_place(missing):
+    material = {key: value for key, value in HEAT.items() if key != missing}
+    body = "ball" if missing == "conductivity" else "disk"
+    with pytest.raises(CaseError, match=rf"bodies\.{body}\.material\.{missing}"):
+        rises(contact(WORN, material=material))
+
+
+def test_a_resting_source_needs_no_heat_capacity():
+    assert rises(contact(WORN, swept=(), material={"conductivity": "46 W/(m K)"}))["ball"] > 0
+
+
+def test_two_swept_bodies_are_refused():
+    with pytest.raises(CaseError, match="all are swept"):
+        rises(contact(WORN, swept=("ball", "disk")))
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"heat_fraction": {"ball": 1.0}},
+        {"heat_paths": {"pin": {"length": "1 mm", "area": "1 mm^2"}}},
+    ],
+)
+def test_bodies_that_do_not_exist_are_refused(wrong):
+    with pytest.raises(CaseError, match="the bodies are ball, disk"):
+        rises(contact(WORN), **wrong)
+
+
+def test_all_the_heat_must_go_somewhere():
+    with pytest.raises(ValidationError, match="all the heat is 1"):
+        FlashConfig(ambient=363.15, heat_fraction={"ball": 0.5, "disk": 0.4})

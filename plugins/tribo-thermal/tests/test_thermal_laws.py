@@ -1,0 +1,79 @@
+"""Rates of the laws that follow the temperature, without a run."""
+
+import math
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+from tribo.plugin import CaseError, LocalConditions, Material
+
+from tribo_thermal.arrhenius import Arrhenius, ArrheniusConfig
+from tribo_thermal.softening import Softening, SofteningConfig
+
+STEEL = Material(young="207 GPa", poisson=0.3, hardness="4 GPa")
+PRESSURE = np.array([[0.0, 1e8, 2e9]])
+
+
+def coefficient(law, temperature, material=STEEL):
+    """Depth per metre and pascal, after a check that it is the derivative too."""
+    fields = {"temperature": np.full_like(PRESSURE, temperature)}
+    rate = law.rate(LocalConditions(PRESSURE, 0.1, material, fields))
+    np.testing.assert_allclose(rate.depth, rate.derivative * PRESSURE)
+    return rate.derivative[0, 0]
+
+
+def arrhenius(energy="50 kJ/mol"):
+    return Arrhenius(
+        ArrheniusConfig(k=3e-16, activation_energy=energy, reference_temperature="90 degC")
+    )
+
+
+def softening(**config):
+    given = {"K": 1.2e-6, "softening": "0.001 1/K", "reference_temperature": 300.0, **config}
+    return Softening(SofteningConfig(**given))
+
+
+def test_arrhenius_is_archard_at_the_reference_temperature():
+    assert coefficient(arrhenius(), 363.15) == pytest.approx(3e-16, rel=1e-12)
+
+
+def test_the_logarithm_of_k_falls_by_q_over_r_with_one_over_t():
+    law = arrhenius()
+    slope = math.log(coefficient(law, 400.0) / coefficient(law, 350.0)) / (1 / 400 - 1 / 350)
+    assert slope == pytest.approx(-50e3 / 8.314462618, rel=1e-9)
+
+
+def test_without_activation_energy_temperature_does_not_matter():
+    law = arrhenius("0 J/mol")
+    assert coefficient(law, 900.0) == coefficient(law, 300.0)
+
+
+@pytest.mark.parametrize("energy", ["50 kJ", "50 kPa/mol", "50 kJ/mol K", -1.0])
+def test_an_energy_is_per_mole(energy):
+    with pytest.raises(ValidationError, match=r"per mole|is a pressure|at least 0"):
+        arrhenius(energy)
+
+
+def test_the_schema_says_per_mole():
+    schema = ArrheniusConfig.model_json_schema()["properties"]["activation_energy"]
+    assert schema["x-unit"] == "J/mol"
+    assert arrhenius().config.activation_energy == 50e3
+
+
+@pytest.mark.parametrize(
+    ("temperature", "part"), [(300.0, 1.0), (800.0, 0.5), (1200.0, 0.1), (3000.0, 0.1)]
+)
+def test_hardness_falls_linearly_to_its_floor(temperature, part):
+    assert coefficient(softening(), temperature) == pytest.approx(1.2e-6 / (4e9 * part))
+
+
+def test_softening_takes_its_own_hardness_before_the_materials():
+    own = coefficient(softening(hardness="2 GPa"), 300.0)
+    assert own == pytest.approx(2 * coefficient(softening(), 300.0))
+
+
+def test_softening_needs_a_hardness():
+    soft = Material(young="207 GPa", poisson=0.3)
+    with pytest.raises(CaseError, match="hardness is needed"):
+        softening().check(soft)
+    softening(hardness="2 GPa").check(soft)

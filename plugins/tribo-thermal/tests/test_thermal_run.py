@@ -1,0 +1,118 @@
+"""Temperature and wear in runs of the whole program: implicit steps, stroke averages."""
+
+import math
+import runpy
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tribo import CaseError, Simulation
+from tribo.plugin import ContactConditions
+
+from tribo_thermal.flash import Flash, FlashConfig
+
+HERE = Path(__file__).parent
+EXAMPLE = HERE.parent / "examples" / "ball_on_disk.toml"
+
+
+def case(energy="50 kJ/mol", duration=300, **effect):
+    data = tomllib.loads(EXAMPLE.read_text())
+    data["kinematics"]["duration"] = duration
+    data["effects"][0].update(effect)
+    for body in data["bodies"].values():
+        body["wear"]["activation_energy"] = energy
+    return data
+
+
+def lost(data):
+    last = Simulation(data).run().saves()[-1]
+    return {name: body["wear_volume_m3"] for name, body in last["bodies"].items()}
+
+
+def test_bodies_that_share_a_temperature_lose_the_same_volume():
+    volumes = lost(case())
+    assert volumes["ball"] == pytest.approx(volumes["disk"], rel=1e-9)
+
+
+def test_a_warm_contact_wears_faster_than_archard():
+    # More than k F s, by what Arrhenius makes of the rise at the end, when it is least.
+    data = case()
+    result = Simulation(data).run()
+    model = Simulation(data).model
+    friction = np.full(model.grid.cells, 0.1)
+    end = ContactConditions(
+        grid=model.grid,
+        pressure=result.pressure(-1),
+        speed=0.1,
+        time=300.0,
+        distance=30.0,
+        friction_coefficient=0.1,
+        materials={body.name: body.material for body in model.bodies},
+        swept=frozenset({"disk"}),
+        fields={"friction_coefficient": {"ball": friction}},
+    )
+    paths = {"ball": {"length": "5 mm", "area": "78.5 mm^2"}}
+    rise = Flash(FlashConfig(ambient="90 degC", heat_paths=paths)).rises(end)["ball"]
+    least = math.exp(50e3 / 8.314462618 * (1 / 363.15 - 1 / (363.15 + rise)))
+    archard = 3.11e-16 * 100 * 30
+    ratio = result.saves()[-1]["bodies"]["ball"]["wear_volume_m3"] / archard
+    assert 1 < least < ratio < least**2
+
+
+def test_without_activation_energy_it_is_archard():
+    for volume in lost(case("0 J/mol")).values():
+        assert volume == pytest.approx(3.11e-16 * 100 * 30, rel=1e-8)
+
+
+def test_the_body_that_takes_the_heat_wears_more():
+    volumes = lost(case(heat_fraction={"ball": 1.0, "disk": 0.0}))
+    assert volumes["disk"] == pytest.approx(3.11e-16 * 100 * 30, rel=1e-8)
+    assert volumes["ball"] > 1.5 * volumes["disk"]
+
+
+def test_softening_runs_too():
+    data = case()
+    for body in data["bodies"].values():
+        body["material"]["hardness"] = "4 GPa"
+        body["wear"] = {
+            "type": "thermal.softening",
+            "K": 1.244e-6,
+            "softening": "0.001 1/K",
+            "reference_temperature": "90 degC",
+        }
+    # A rise of some 10 K costs some percent of the hardness.
+    for volume in lost(data).values():
+        assert 1.003 < volume / (3.11e-16 * 100 * 30) < 1.03
+
+
+def test_a_case_without_the_effect_is_refused():
+    data = case()
+    del data["effects"]
+    with pytest.raises(CaseError, match="temperature"):
+        Simulation(data)
+
+
+def test_a_case_without_conductivity_ends_with_its_place():
+    data = case()
+    del data["bodies"]["ball"]["material"]["conductivity"]
+    with pytest.raises(CaseError, match=r"bodies\.ball\.material\.conductivity"):
+        Simulation(data).run()
+
+
+@pytest.fixture(scope="module")
+def ten_to_one():
+    return runpy.run_path(str(EXAMPLE.with_name("ten_to_one.py")))
+
+
+def test_ten_to_one_needs_the_difference_that_it_says(ten_to_one):
+    hotter = 363.15 + ten_to_one["needed_difference"](50)
+    assert math.exp(50e3 / 8.314462618 * (1 / 363.15 - 1 / hotter)) == pytest.approx(10)
+
+
+def test_ten_to_one_says_what_the_readme_shows(ten_to_one, capsys):
+    ten_to_one["main"]()
+    printed = capsys.readouterr().out.rstrip()
+    shared = [line.split() for line in printed.splitlines() if line.startswith("shared")]
+    assert [row[2:] for row in shared] == [["1", "1", "1"]] * 3
+    assert printed in (HERE.parent / "README.md").read_text()

@@ -1,0 +1,96 @@
+"""Heat sources against Jaeger's integral, the elastic half-space and the paper's numbers."""
+
+import math
+
+import numpy as np
+import pytest
+from tribo.plugin import Grid, HalfSpace
+
+from tribo_thermal.sources import LIMITS, rise_per_power, source_radius
+
+PROFILES = {
+    "uniform": np.ones_like,
+    "parabolic": lambda r2: 1.5 * np.sqrt(np.maximum(1 - r2, 0.0)),
+}
+ALONG, ALONG_WEIGHT = np.polynomial.legendre.leggauss(40)
+ROUND, ROUND_WEIGHT = np.polynomial.legendre.leggauss(120)
+
+
+def jaeger(x, y, peclet, flux):
+    """ΔT K/(q a) at (x, y)/a inside a disc source that moves along +x.
+
+    Jaeger's quasi-steady point source, ΔT = Q exp(−v (r − X)/2κ)/(2πKr) with X
+    the distance ahead, integrated in polar coordinates about the point.
+    """
+    angle = math.pi * (ROUND + 1)
+    cos, sin = np.cos(angle), np.sin(angle)
+    inward = x * cos + y * sin
+    reach = np.sqrt(inward**2 + 1 - x * x - y * y) - inward
+    u = 0.5 * (ALONG + 1)
+    r = reach[:, None] * (1 - (1 - u) ** 2)
+    dr = reach[:, None] * (1 - u) * ALONG_WEIGHT
+    there = (x + r * cos[:, None]) ** 2 + (y + r * sin[:, None]) ** 2
+    decay = np.exp(-peclet * r * (1 + cos[:, None]))
+    total = np.sum(math.pi * ROUND_WEIGHT[:, None] * dr * flux(there) * decay)
+    return float(total) / (2 * math.pi)
+
+
+def exact(peclet, profile, rise):
+    flux = PROFILES[profile]
+    if rise == "maximum":
+        return max(jaeger(x, 0.0, peclet, flux) for x in np.linspace(-0.99, 0.99, 67))
+    node, weight = np.polynomial.legendre.leggauss(10)
+    radius, around = 0.5 * (node + 1), math.pi * (np.arange(16) + 0.5) / 16
+    means = [
+        np.mean([jaeger(r * math.cos(t), r * math.sin(t), peclet, flux) for t in around])
+        for r in radius
+    ]
+    return float(np.sum(weight * radius * means))
+
+
+def scaled(peclet, profile, rise):
+    """ΔT K/(q a), with q = Q/(π a²)."""
+    return math.pi * rise_per_power(1.0, 1.0, peclet, profile, rise)
+
+
+@pytest.mark.parametrize(("profile", "rise"), LIMITS)
+@pytest.mark.parametrize("peclet", [0.0, 0.3, 1.0, 3.0, 10.0])
+def test_rises_follow_jaeger(profile, rise, peclet):
+    # The documented accuracy of the joined formula; the limits are exact.
+    tolerance = 1e-4 if peclet == 0 else {"maximum": 0.023, "mean": 0.049}[rise]
+    assert scaled(peclet, profile, rise) == pytest.approx(
+        exact(peclet, profile, rise), rel=tolerance
+    )
+
+
+@pytest.mark.parametrize(("profile", "rise"), LIMITS)
+def test_a_fast_source_heats_as_jaegers_limit(profile, rise):
+    # Above Pe = 100 heat flows straight down; conduction along adds some 1/Pe.
+    assert scaled(300.0, profile, rise) == pytest.approx(exact(300.0, profile, rise), rel=0.01)
+
+
+@pytest.mark.parametrize(("peclet", "published"), [(0.0, 1.1785), (0.584, 0.9711), (50.0, 0.1829)])
+def test_the_parabolic_maximum_is_tian_and_kennedys(peclet, published):
+    assert published == pytest.approx(2.32 / math.sqrt(math.pi * (1.234 + peclet)), rel=1e-3)
+    assert scaled(peclet, "parabolic", "maximum") == pytest.approx(published, rel=1e-3)
+
+
+@pytest.mark.parametrize("profile", PROFILES)
+def test_a_resting_source_heats_as_pressure_dents(profile):
+    # ΔT = ∬ q/(2πKr) and u = ∬ p/(πE* r) are the same integral where E* = 2K.
+    cells, conductivity = 96, 46.0
+    grid = Grid((2.5, 2.5), (cells, cells))
+    x, y = grid.mesh
+    r2 = x**2 + y**2
+    inside = r2 < 1
+    flux = np.where(inside, PROFILES[profile](np.minimum(r2, 1.0)), 0.0)
+    rise = HalfSpace(grid.cells, grid.spacing, 2 * conductivity).apply(flux)
+    power = float(np.sum(flux)) * grid.cell_area
+    # A disc of 77 cells across has its area to 0.1 %, and its edge in steps.
+    assert rise[inside].mean() / power == pytest.approx(
+        rise_per_power(1.0, conductivity, 0.0, profile, "mean"), rel=5e-3
+    )
+    assert rise.max() / power == pytest.approx(
+        rise_per_power(1.0, conductivity, 0.0, profile, "maximum"), rel=5e-3
+    )
+    assert source_radius(flux, grid.cell_area, profile) == pytest.approx(1.0, rel=2e-3)
