@@ -90,7 +90,10 @@ def a_case_can_name_it(subject: Subject) -> None:
     registry = _registry(subject)
     slot: Any = Annotated[_base(subject), Slot(subject.kind)]
     adapter: TypeAdapter[Any] = TypeAdapter(slot)
-    again = adapter.validate_python(_dump(subject), context={"registry": registry})
+    try:
+        again = adapter.validate_python(_dump(subject), context={"registry": registry})
+    except ValidationError as error:
+        raise CheckFailed(f"in a case its own data are refused: {error}") from error
     _require_equal(again, subject.config, "a case")
     case: Any = create_model("Case", part=(slot, ...))
     schema = json_schema(case, registry)

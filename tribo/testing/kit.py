@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import inspect
+import traceback
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
@@ -232,11 +234,20 @@ def _outcome(one: Check, subject: Subject, expected: Mapping[str, str]) -> Outco
             return came("not applicable", inapplicable)
         one.run(subject)
     except Exception as error:
-        said = str(error) if isinstance(error, CheckFailed) else f"{type(error).__name__}: {error}"
+        said = _said(error)
         return came("failed", said) if reason is None else came("expected failure", reason)
     if reason is not None:
         return came("failed", f"it passed, although a failure is expected ({reason})")
     return came("passed")
+
+
+def _said(error: Exception) -> str:
+    text = " ".join(str(error).split())
+    if isinstance(error, CheckFailed):
+        return text
+    frame = traceback.extract_tb(error.__traceback__)[-1]
+    where = f"line {frame.lineno} of {Path(frame.filename).name}"
+    return f"it raised {type(error).__name__} in {where}: {text}".rstrip(": ")
 
 
 def _enough(expected: Mapping[str, str]) -> Check:

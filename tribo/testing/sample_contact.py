@@ -39,9 +39,11 @@ def sample_problem(
     size = (scale * samples.GRID.size[0], scale * samples.GRID.size[1])
     grid = Grid(size, samples.GRID.cells)
     curved = 1 / (scale * samples.RADIUS)
-    load *= scale**2 * stiffer
-    system = ContactSystem(grid, stiffer * MODULUS, load, cap, (curved, curved))
-    problem = ContactProblem(system, sample_gap(grid, scale) if gap is None else gap, load, wear)
+    force = scale**2 * stiffer
+    # The system states the first contact's load, whatever the problem's own is.
+    system = ContactSystem(grid, stiffer * MODULUS, force * samples.LOAD, cap, (curved, curved))
+    gap = sample_gap(grid, scale) if gap is None else gap
+    problem = ContactProblem(system, gap, force * load, wear)
     return locked(problem)  # type: ignore[no-any-return]
 
 

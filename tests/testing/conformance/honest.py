@@ -1,0 +1,168 @@
+"""One sound implementation of each interface, for mutants to spoil."""
+
+from typing import Annotated, Literal
+
+import numpy as np
+
+from tribo.plugin import (
+    ContactSolver,
+    ContactSolverConfig,
+    Effect,
+    EffectConfig,
+    Field,
+    HalfSpace,
+    Kinematics,
+    KinematicsConfig,
+    Observer,
+    ObserverConfig,
+    Quantity,
+    Stationary,
+    Surface,
+    SurfaceConfig,
+    Track,
+    WearLaw,
+    WearLawConfig,
+    WearRate,
+    solve_bounded,
+)
+
+
+class LawConfig(WearLawConfig):
+    type: Literal["honest.law"] = "honest.law"
+    k: Annotated[float, Quantity("1/Pa", above=0)] = 1e-16
+    """Specific wear rate per coefficient of friction."""
+    p_ref: Annotated[float, Quantity("Pa", above=0)] = 1e9
+    """Pressure at which the wear rate has doubled."""
+
+
+class Law(WearLaw[LawConfig]):
+    """Rubbed points wear less; friction and pressure make more of it."""
+
+    Config = LawConfig
+    requires = ("friction_coefficient",)
+    state_fields = (Field("rubbed", "m", "Distance slid under pressure."),)
+
+    def rate(self, local):
+        p, c = local.pressure, self.config
+        k = c.k * local.fields["friction_coefficient"] * (1 + np.exp(-local.state["rubbed"]))
+        rubbed = {"rubbed": (p > 0).astype(float)}
+        return WearRate(k * p * (1 + p / c.p_ref), k * (1 + 2 * p / c.p_ref), rubbed)
+
+
+class SolverConfig(ContactSolverConfig):
+    type: Literal["honest.solver"] = "honest.solver"
+
+
+class Solver(ContactSolver[SolverConfig]):
+    """Two half-spaces."""
+
+    Config = SolverConfig
+    accepts_wear_compliance = True
+    honours_cap = True
+
+    def solve(self, problem, start=None):
+        grid, system = problem.system.grid, problem.system
+        return solve_bounded(
+            HalfSpace(grid.cells, grid.spacing, system.modulus),
+            problem.gap,
+            problem.load,
+            system.cap,
+            problem.wear,
+            start=None if start is None else start.pressure,
+            tolerance=1e-9,
+        )
+
+    def smallest_compliance(self, system):
+        # The continuum's at the grid's shortest wave, 2/(E* q), is less than the cells'.
+        q = np.pi * np.hypot(*(1 / d for d in system.grid.spacing))
+        return 0.8 * 2 / (system.modulus * q)
+
+
+class MotionConfig(KinematicsConfig):
+    type: Literal["honest.motion"] = "honest.motion"
+    stroke: Annotated[float, Quantity("m", above=0)] = 3e-3
+    """Length of the stroke."""
+    frequency: Annotated[float, Quantity("Hz", above=0)] = 10.0
+    """Cycles per second."""
+    duration: Annotated[float, Quantity("s", above=0)] = 100.0
+    """How long it runs."""
+
+
+class Motion(Kinematics[MotionConfig]):
+    """The second body goes back and forth."""
+
+    Config = MotionConfig
+    track = Track
+
+    @property
+    def duration(self):
+        return self.config.duration
+
+    def distance(self, time):
+        return 2 * self.config.stroke * self.config.frequency * time
+
+    def time(self, distance):
+        return distance / (2 * self.config.stroke * self.config.frequency)
+
+    def exposures(self, grid, bodies):
+        return {bodies[0]: Stationary(grid), bodies[1]: self.track(grid, self.config.stroke)}
+
+    def limitation(self, grid, half_width_x):
+        return "the contact is too long" if 4 * half_width_x > self.config.stroke else None
+
+
+class HillConfig(SurfaceConfig):
+    type: Literal["honest.hill"] = "honest.hill"
+    radius: Annotated[float, Quantity("m", above=0)] = 8e-3
+    """Radius along x; twice that along y."""
+
+
+class Hill(Surface[HillConfig]):
+    """An elliptic paraboloid whose top lies beside the centre."""
+
+    Config = HillConfig
+
+    def height(self, grid):
+        x, y = grid.mesh
+        c = 1 / self.config.radius
+        return -0.5 * c * (x - 4e-5) ** 2 - 0.25 * c * (y + 3e-5) ** 2
+
+    @property
+    def curvature(self):
+        return 1 / self.config.radius, 0.5 / self.config.radius
+
+
+class TractionConfig(EffectConfig):
+    type: Literal["honest.traction"] = "honest.traction"
+
+
+class Traction(Effect[TractionConfig]):
+    """Friction."""
+
+    Config = TractionConfig
+    provides = (Field("traction", "Pa", "Friction force per area."),)
+    requires = ("friction_coefficient",)
+
+    def fields(self, contact):
+        mu = contact.fields["friction_coefficient"]
+        return {"traction": {name: mu[name] * contact.pressure for name in contact.materials}}
+
+
+class CountsConfig(ObserverConfig):
+    type: Literal["honest.counts"] = "honest.counts"
+
+
+class Counts(Observer[CountsConfig]):
+    """Counts the steps."""
+
+    Config = CountsConfig
+    steps = 0
+
+    def on_start(self, run):
+        self.steps = 0
+
+    def on_step(self, snapshot):
+        self.steps += 1
+
+
+HONEST = (Law, Solver, Motion, Hill, Traction, Counts)

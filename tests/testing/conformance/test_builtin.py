@@ -1,0 +1,63 @@
+"""Every built-in component conforms, under the same checks as a stranger's."""
+
+import pytest
+
+from tribo.contact.dcfft import DcFft
+from tribo.contact.winkler import Winkler
+from tribo.kinematics.reciprocating import Reciprocating
+from tribo.kinematics.unidirectional import Unidirectional
+from tribo.observers.progress import Progress
+from tribo.observers.recorder import Recorder
+from tribo.registry.kinds import KINDS
+from tribo.registry.registry import Registry
+from tribo.surfaces.cylinder import Cylinder
+from tribo.surfaces.flat import Flat
+from tribo.surfaces.paraboloid import Paraboloid
+from tribo.surfaces.sphere import Sphere
+from tribo.testing import parametrize_checks
+from tribo.wear.archard import Archard
+from tribo.wear.power import Power
+
+REFERENCE = {"k": "3e-16 1/Pa", "reference_pressure": "1 GPa"}
+BACK_AND_FORTH = {"stroke": "2 mm", "frequency": "25 Hz"}
+LAYER = {"thickness": 1e-4, "young": 1e10, "poisson": 0.3}
+NO_UNITS = {"quantities_have_units": "its numbers are plain floats, in SI"}
+
+test_archard = parametrize_checks(Archard, [{"k": "3e-16 1/Pa"}, {"K": 1e-6}])
+test_power = parametrize_checks(
+    Power, [{**REFERENCE, "p_exponent": 1.5}, {**REFERENCE, "p_exponent": 3}]
+)
+test_dcfft = parametrize_checks(
+    DcFft, [{}, {"plasticity": False, "tolerance": 1e-10}], expected_failures=NO_UNITS
+)
+test_winkler = parametrize_checks(
+    Winkler,
+    [{}, {"match": "peak_pressure"}, {"modulus": 1.3e15}, {"layer": LAYER}],
+    expected_failures=NO_UNITS,
+)
+test_reciprocating = parametrize_checks(
+    Reciprocating,
+    [
+        {**BACK_AND_FORTH, "duration": 200},
+        {**BACK_AND_FORTH, "cycles": 5000, "waveform": "sinusoidal", "swept": "ball"},
+    ],
+)
+test_unidirectional = parametrize_checks(
+    Unidirectional, [{"speed": "0.1 m/s", "track_radius": "16 mm", "distance": "10 m"}]
+)
+test_sphere = parametrize_checks(Sphere, [{"radius": "5 mm"}])
+test_paraboloid = parametrize_checks(Paraboloid, [{"radius_x": "5 mm", "radius_y": "10 mm"}])
+test_cylinder = parametrize_checks(Cylinder, [{"radius": "5 mm"}, {"radius": "5 mm", "axis": "x"}])
+test_flat = parametrize_checks(Flat, [{}])
+test_progress = parametrize_checks(Progress, [{}])
+test_recorder = parametrize_checks(
+    Recorder,
+    [{}],
+    expected_failures={"resumed_run_is_survived": "what was in memory cannot be gone on with"},
+)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_none_is_left_out(kind):
+    checked = {name for name, value in globals().items() if name.startswith("test_")}
+    assert {f"test_{name}" for name in Registry.with_plugins().names(kind)} <= checked
