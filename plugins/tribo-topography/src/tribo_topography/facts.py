@@ -1,0 +1,142 @@
+"""What a measured surface is taken to be, to be looked at and to be checked."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from tribo.plugin import CaseError
+
+from tribo_topography.config import MeasuredConfig
+from tribo_topography.form import detrended
+from tribo_topography.read import Map, read
+
+WIDEST, NARROWEST = 0.1, 1e-6
+
+
+@dataclass(frozen=True)
+class Facts:
+    """The scale of a height map; ``str`` gives it in one line.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    format, channel : str
+        What it was read as, and which map of it.
+    channels : tuple of str
+        All maps in the file.
+    pixels : tuple of int
+        Along the file's x and y.
+    size : tuple of float
+        Edge lengths along the file's x and y, in m.
+    range : float
+        Highest less lowest height that was measured, after detrending, in m.
+    sq : float
+        Root mean square of the heights about their mean, after detrending, in m.
+    missing : float
+        Part of the pixels that are missing.
+    detrend : str
+        What was taken off.
+    sha256 : str
+        Of the file.
+    """
+
+    path: Path
+    format: str
+    channel: str
+    channels: tuple[str, ...]
+    pixels: tuple[int, int]
+    size: tuple[float, float]
+    range: float
+    sq: float
+    missing: float
+    detrend: str
+    sha256: str
+
+    def __str__(self) -> str:
+        """Return the facts in one line, in the units of a lab."""
+        form = {"none": "", "mean": "", "tilt": ", tilt removed", "curvature": ", form removed"}
+        missing = f", {100 * self.missing:.2g} % missing" if self.missing else ""
+        return (
+            f"{self.path.name} ({self.format}, {self.channel!r}): {self.pixels[0]} × "
+            f"{self.pixels[1]} pixels on {1e3 * self.size[0]:.4g} × {1e3 * self.size[1]:.4g} mm, "
+            f"heights over {1e6 * self.range:.4g} µm, Sq {1e6 * self.sq:.4g} µm"
+            f"{form[self.detrend]}{missing}"
+        )
+
+
+def describe(what: MeasuredConfig | str | Path) -> Facts:
+    """Return the scale of a file as tribo takes it.
+
+    Parameters
+    ----------
+    what : MeasuredConfig or path
+        The surface of a case, or a file that states its own scale.
+
+    Raises
+    ------
+    CaseError
+        If it cannot be read.
+    """
+    config = what if isinstance(what, MeasuredConfig) else MeasuredConfig(path=Path(what))
+    found = read(config)
+    return facts(found, config)
+
+
+def facts(found: Map, config: MeasuredConfig) -> Facts:
+    """Return the scale of a map; its form is taken off here."""
+    heights = detrended(found.heights, config.detrend)
+    nx, ny = heights.shape
+    return Facts(
+        path=config.path,
+        format=found.format,
+        channel=found.channel,
+        channels=found.channels,
+        pixels=(nx, ny),
+        size=found.size,
+        range=float(np.nanmax(heights) - np.nanmin(heights)),
+        sq=float(np.nanstd(heights)),
+        missing=float(np.mean(np.isnan(heights))),
+        detrend=config.detrend,
+        sha256=found.sha256,
+    )
+
+
+def check(found: Facts, config: MeasuredConfig) -> None:
+    """Raise `CaseError` where the scale is not the expected one, or absurd.
+
+    Readers of the same file have been seen to disagree by a factor of 8 in
+    height and 10⁶ in width.
+    """
+    given = _shown(found.size)
+    if config.expect_size is not None:
+        for size, expected in zip(found.size, config.expect_size, strict=True):
+            if abs(size - expected) > config.expect_within * expected:
+                raise CaseError(
+                    f"{found.path} is {given}, but expect_size says {_shown(config.expect_size)}. "
+                    "Put right whichever is wrong: size, or expect_size"
+                )
+    elif not NARROWEST <= min(found.size) <= max(found.size) <= WIDEST:
+        raise CaseError(
+            f"{found.path} would be {given}, which is unlikely; give size if that is wrong, or "
+            "expect_size if it is right"
+        )
+    span = f"{1e6 * found.range:.4g} µm"
+    if config.expect_range is not None:
+        if abs(found.range - config.expect_range) > config.expect_within * config.expect_range:
+            raise CaseError(
+                f"the heights of {found.path} range over {span}, but expect_range says "
+                f"{1e6 * config.expect_range:.4g} µm. Put right whichever is wrong: height_scale, "
+                "detrend, or expect_range"
+            )
+    elif found.range > min(found.size):
+        raise CaseError(
+            f"the heights of {found.path} would range over {span} on {given}, which is unlikely; "
+            "give height_scale or size if that is wrong, or expect_range if it is right"
+        )
+
+
+def _shown(size: tuple[float, float]) -> str:
+    return f"{1e3 * size[0]:.4g} × {1e3 * size[1]:.4g} mm"

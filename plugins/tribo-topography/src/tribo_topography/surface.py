@@ -1,0 +1,76 @@
+"""The `topography.file` surface."""
+
+from __future__ import annotations
+
+import warnings
+from typing import ClassVar
+
+from tribo.plugin import Array, Grid, Surface, TriboWarning
+
+from tribo_topography.config import MeasuredConfig
+from tribo_topography.facts import Facts, check, facts
+from tribo_topography.form import detrended, filled, turned
+from tribo_topography.read import read
+from tribo_topography.sample import resolution, sampled
+
+_MUCH = 4.0
+
+
+class Measured(Surface[MeasuredConfig]):
+    """Heights that an instrument measured, sampled on the window's cells.
+
+    A warning tells the scale of a file whose size and range the case does not
+    state as expected.
+    """
+
+    Config: ClassVar[type[MeasuredConfig]] = MeasuredConfig
+
+    def __init__(self, config: MeasuredConfig) -> None:
+        super().__init__(config)
+        self._read: tuple[Array, tuple[float, float], Facts] | None = None
+        self._told = False
+
+    @property
+    def facts(self) -> Facts:
+        """What the file is taken to be; reads it."""
+        return self._measured()[2]
+
+    def height(self, grid: Grid) -> Array:
+        """Return the measured height; the window must lie inside the measured area."""
+        heights, size, found = self._measured()
+        values = sampled(heights, size, grid, self.config.centre)
+        if not self._told:
+            self._told = True
+            self._tell(found, *resolution(heights.shape, size, grid))
+        return values
+
+    def _measured(self) -> tuple[Array, tuple[float, float], Facts]:
+        if self._read is None:
+            found = read(self.config)
+            scale = facts(found, self.config)
+            check(scale, self.config)
+            whole = filled(detrended(found.heights, self.config.detrend), self.config)
+            self._read = (*turned(whole, found.size, self.config), scale)
+        return self._read
+
+    def _tell(self, found: Facts, fewest: float, most: float) -> None:
+        if self.config.expect_size is None or self.config.expect_range is None:
+            warnings.warn(
+                f"{found}. If that is right, say so with expect_size and expect_range",
+                TriboWarning,
+                stacklevel=3,
+            )
+        if most > _MUCH:
+            warnings.warn(
+                f"a cell averages {most:.3g} pixels of {found.path.name} in a row, and roughness "
+                "shorter than two cells is lost; raise grid.cells to keep it",
+                TriboWarning,
+                stacklevel=3,
+            )
+        if fewest < 1 / _MUCH:
+            warnings.warn(
+                f"a pixel of {found.path.name} is {1 / fewest:.3g} cells wide: nothing was "
+                "measured between, and the contact is smoother than the body",
+                TriboWarning,
+                stacklevel=3,
+            )

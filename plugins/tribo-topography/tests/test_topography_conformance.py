@@ -1,0 +1,52 @@
+"""The conformance checks of tribo, on a small measured map."""
+
+from pathlib import Path
+
+from tribo.testing import parametrize_checks
+
+from tribo_topography import Measured, describe
+
+WAVES = Path(__file__).parent / "data" / "waves.asc"  # 30 × 30 pixels on 1.5 × 1.5 mm
+KNOWN = {"path": WAVES, "expect_size": ["1.5 mm", "1.5 mm"]}
+SMALL = ["0.75 mm", "0.9 mm"]
+
+# Cells of the kit are smaller than these pixels, and are sampled at points.
+test_sampled_at_points = parametrize_checks(
+    Measured,
+    configs=[
+        {**KNOWN, "detrend": "none", "expect_range": "2.55 um"},
+        {**KNOWN, "detrend": "tilt", "expect_range": "2.57 um"},
+        {
+            **KNOWN,
+            "detrend": "mean",
+            "expect_range": "5.1 um",
+            "height_scale": -2,
+            "rotate": 90,
+            "mirror": True,
+            "centre": ["0.2 mm", "-0.1 mm"],
+        },
+    ],
+)
+
+# Here they are larger than the pixels.
+test_averaged_over_cells = parametrize_checks(
+    Measured,
+    configs=[
+        {
+            **KNOWN,
+            "size": SMALL,
+            "expect_size": SMALL,
+            "expect_range": "2.4 um",
+            "expect_within": 0.1,
+        }
+    ],
+    expected_failures={
+        "finer_cells_sample_the_same_surface": "a cell larger than the pixels holds their mean"
+    },
+)
+
+
+def test_the_map_is_what_it_says():
+    facts = describe(WAVES)
+    assert facts.size == (1.5e-3, 1.5e-3)
+    assert facts.pixels == (30, 30)

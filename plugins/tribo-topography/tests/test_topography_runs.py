@@ -1,0 +1,104 @@
+"""Measured bodies in contact, and what a case is told."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tribo import Simulation
+from tribo.plugin import CaseError, ContactProblem, TriboWarning
+
+ROOT = Path(__file__).parents[1]
+SIZE = 0.6e-3
+
+
+def namespace(name, code):
+    found = {"__name__": name}
+    exec(compile(code, name, "exec"), found)
+    return found
+
+
+EXAMPLE = namespace("rough_ball", (ROOT / "examples/rough_ball.py").read_text(encoding="utf-8"))
+
+
+@pytest.fixture
+def case(tmp_path):
+    def making(sq=0.2e-6):
+        path = tmp_path / "ball.x3p"
+        return EXAMPLE["case"](path, EXAMPLE["write_ball"](path, sq))
+
+    return making
+
+
+def test_smooth_ball_from_a_file_has_the_contact_of_a_paraboloid(case):
+    measured = case(sq=0.0)
+    exact = case(sq=0.0)
+    exact["bodies"]["ball"]["surface"] = {"type": "paraboloid", "radius": "5 mm"}
+    first, second = (Simulation(each).model for each in (measured, exact))
+    # The spline through the pixels is a parabola too, but for what x3p rounds.
+    np.testing.assert_allclose(first.gap, second.gap, rtol=0, atol=1e-14)
+
+
+def test_rough_contact_is_smaller_and_harder_and_runs_in(case):
+    model = Simulation(case()).model
+    solution = model.contact.solve(ContactProblem(model.system, model.gap, model.load))
+    assert solution.residuals.worst <= 1e-8
+    smooth, rough = Simulation(case(sq=0.0)).run().saves(), Simulation(case()).run().saves()
+    assert rough[0]["contact_area_m2"] < 0.8 * smooth[0]["contact_area_m2"]
+    assert rough[0]["max_pressure_Pa"] == solution.pressure.max()
+    assert rough[0]["max_pressure_Pa"] > 1.5 * smooth[0]["max_pressure_Pa"]
+    assert rough[-1]["distance_m"] == pytest.approx(5.0)
+    assert rough[-1]["max_pressure_Pa"] < 0.8 * rough[0]["max_pressure_Pa"]
+    # Archard: the same load and path remove the same volume, however rough.
+    volumes = [
+        sum(save["bodies"][name]["wear_volume_m3"] for name in ("ball", "disk"))
+        for save in (smooth[-1], rough[-1])
+    ]
+    assert volumes == pytest.approx(2 * [2 * 3.11e-16 * 40 * 5.0], rel=1e-6)
+
+
+def test_swept_rough_body_is_refused_with_a_remedy(case):
+    swept = case()
+    swept["kinematics"]["swept"] = "ball"
+    with pytest.raises(CaseError, match=r"'ball' is swept along x.*'topography\.file' does; let"):
+        Simulation(swept)
+
+
+def test_window_beyond_the_measurement_names_both_sizes(case):
+    wide = case()
+    wide["grid"]["size"] = ["0.7 mm", "0.7 mm"]
+    with pytest.raises(CaseError, match=r"bodies\.ball\.surface: the window of 0\.7 × 0\.7 mm"):
+        Simulation(wide)
+
+
+def test_mistake_in_the_case_is_told_at_its_place(case):
+    wrong = case()
+    wrong["bodies"]["ball"]["surface"]["expect_size"] = ["1 N", "2 mm"]
+    with pytest.raises(CaseError, match=r"expect_size.*a length \[m\] is needed"):
+        Simulation(wrong)
+    zero = case()
+    zero["bodies"]["ball"]["surface"]["height_scale"] = 0
+    with pytest.raises(CaseError, match="height_scale is 0"):
+        Simulation(zero)
+
+
+def test_scale_that_nobody_confirmed_is_told_by_the_run(case):
+    unconfirmed = case()
+    del unconfirmed["bodies"]["ball"]["surface"]["expect_range"]
+    with pytest.warns(TriboWarning, match=r"96 × 96 pixels on 0\.6 × 0\.6 mm, heights over 1"):
+        Simulation(unconfirmed)
+
+
+def test_offering_the_surface_does_not_import_surfacetopography():
+    code = "import sys, tribo_topography.plugin; sys.exit('SurfaceTopography' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_readme_and_example_run(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    namespace("readme", readme.split("```python\n")[1].split("```")[0])
+    assert "64 × 48 pixels on 1.24 × 0.94 mm" in capsys.readouterr().out
+    EXAMPLE["main"]()
+    assert capsys.readouterr().out.count("GPa") == 2
