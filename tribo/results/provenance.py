@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import platform
 from collections.abc import Iterable, Mapping
+from functools import cache
 from importlib import metadata
 
 from tribo.interfaces.component import Component, ComponentConfig
@@ -90,27 +91,18 @@ def _origin(component: Component[ComponentConfig]) -> dict[str, object]:
     return origin
 
 
+@cache
 def _distribution(package: str) -> metadata.Distribution | None:
     """Return the distribution that a top-level package came with."""
     # An editable installation lists no packages, but its entry points name them.
-    names = [
-        point.dist.name
-        for group in ("tribo.v1.", "console_scripts")
-        for point in _entry_points(group)
-        if point.dist is not None and point.module.split(".")[0] == package
-    ]
-    names += metadata.packages_distributions().get(package, [])
-    return metadata.distribution(names[0]) if names else None
-
-
-def _entry_points(group: str) -> list[metadata.EntryPoint]:
     everything = metadata.entry_points()
-    return [
-        point
-        for name in everything.groups
-        if name.startswith(group)
-        for point in everything.select(group=name)
-    ]
+    for group in everything.groups:
+        if group.startswith("tribo.v") or group == "console_scripts":
+            for point in everything.select(group=group):
+                if point.module.split(".")[0] == package and point.dist is not None:
+                    return metadata.distribution(point.dist.name)
+    names = metadata.packages_distributions().get(package, [])
+    return metadata.distribution(names[0]) if names else None
 
 
 def _version(distribution: str) -> str:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tribo.contact.box import around, whole
 from tribo.core.arrays import Array, readonly
 from tribo.core.errors import NumericalError
 from tribo.core.fields import FRICTION_COEFFICIENT, ContactConditions, LocalConditions, WearRate
@@ -22,6 +23,9 @@ class Moment:
     distance: float
     speed: float
 
+
+# Cells around the contact where laws are asked too: what a step may newly touch.
+MARGIN = 8
 
 LawStates = Mapping[str, Mapping[str, Array]]
 
@@ -55,22 +59,29 @@ def wear_rates(
     """
     pressure = readonly(pressure)
     fields = _effect_fields(model, pressure, moment)
+    everywhere = whole(model.grid.cells)
+    near = around(pressure > 0, MARGIN)
     rates = {}
     for body in model.bodies:
         if body.wear is None:
             continue
-        state = {
-            name: readonly(np.broadcast_to(values, pressure.shape))
-            for name, values in law_states[body.name].items()
-        }
+        # A law is pointwise, so it need not be asked where nothing touches; its state
+        # fields, though, may change there.
+        box = everywhere if body.wear.state_fields else near
         local = LocalConditions(
-            pressure=pressure,
+            pressure=pressure[box.slices],
             speed=moment.speed,
             material=body.material,
-            fields={name: fields[name][body.name] for name in body.wear.requires},
-            state=state,
+            fields={name: fields[name][body.name][box.slices] for name in body.wear.requires},
+            state={
+                name: readonly(np.broadcast_to(values, pressure.shape)[box.slices])
+                for name, values in law_states[body.name].items()
+            },
         )
-        rates[body.name] = _checked(body, body.wear.rate(local), pressure, moment)
+        rate = _checked(body, body.wear.rate(local), box.shape, moment)
+        if not box.is_window:
+            rate = WearRate(box.embed(rate.depth), box.embed(rate.derivative))
+        rates[body.name] = rate
     return rates
 
 
@@ -109,14 +120,14 @@ def _effect_fields(model: Model, pressure: Array, moment: Moment) -> dict[str, d
     return fields
 
 
-def _checked(body: Body, rate: WearRate, pressure: Array, moment: Moment) -> WearRate:
+def _checked(body: Body, rate: WearRate, shape: tuple[int, int], moment: Moment) -> WearRate:
     assert body.wear is not None
     who = f"wear law {body.wear.type_name()!r} of body {body.name!r}"
     if not isinstance(rate, WearRate):
         raise NumericalError(f"{who} gave a {type(rate).__name__} instead of a WearRate")
-    depth = _finite(who, "a depth per metre", rate.depth, pressure.shape, moment)
-    slope = _finite(who, "a derivative", rate.derivative, pressure.shape, moment)
-    if np.any(depth < 0):
+    depth = _finite(who, "a depth per metre", rate.depth, shape, moment)
+    slope = _finite(who, "a derivative", rate.derivative, shape, moment)
+    if np.min(depth) < 0:
         raise NumericalError(
             f"{who} gave a negative depth per metre ({np.min(depth):.3g}) at "
             f"{moment.distance:.6g} m; wear only removes"
@@ -126,8 +137,8 @@ def _checked(body: Body, rate: WearRate, pressure: Array, moment: Moment) -> Wea
         if field.name not in rate.state:
             raise NumericalError(f"{who} gave no rate for its state field {field.name!r}")
         what = f"a rate of {field.name!r}"
-        state[field.name] = _finite(who, what, rate.state[field.name], pressure.shape, moment)
-    return WearRate(depth, np.maximum(slope, 0.0), state)
+        state[field.name] = _finite(who, what, rate.state[field.name], shape, moment)
+    return WearRate(depth, np.maximum(slope, 0.0) if np.min(slope) < 0 else slope, state)
 
 
 def _finite(who: str, what: str, values: object, shape: tuple[int, ...], moment: Moment) -> Array:
@@ -137,7 +148,8 @@ def _finite(who: str, what: str, values: object, shape: tuple[int, ...], moment:
         raise NumericalError(
             f"{who} gave {what} that is not an array of shape {shape}: {error}"
         ) from error
-    if not np.all(np.isfinite(array)):
+    # Both are NaN if any value is.
+    if not (np.min(array) > -np.inf and np.max(array) < np.inf):
         raise NumericalError(
             f"{who} gave {what} that is not finite in {np.count_nonzero(~np.isfinite(array))} "
             f"cells, at {moment.distance:.6g} m ({moment.time:.6g} s)"
