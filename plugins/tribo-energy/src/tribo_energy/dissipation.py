@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 import numpy as np
+from pydantic import ConfigDict
 from tribo.plugin import Field, LocalConditions, Quantity, WearLaw, WearLawConfig, WearRate
 
 ENERGY = Field("dissipated_energy", "J/m^2", "Friction energy dissipated per area so far.")
@@ -12,6 +13,20 @@ ENERGY = Field("dissipated_energy", "J/m^2", "Friction energy dissipated per are
 
 class DissipationConfig(WearLawConfig):
     """The thresholds may be left out, used alone or together."""
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "examples": [
+                {"type": "energy.dissipation", "alpha": "3.11e-6 mm^3/J"},
+                {
+                    "type": "energy.dissipation",
+                    "alpha": "3.11e-6 mm^3/J",
+                    "threshold_traction": "50 MPa",
+                    "threshold_energy": "10 MJ/m^2",
+                },
+            ]
+        }
+    )
 
     type: Literal["energy.dissipation"] = "energy.dissipation"
     alpha: Annotated[float, Quantity("m^3/J", at_least=0)]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import BeforeValidator, WithJsonSchema
+from pydantic import BeforeValidator, ConfigDict, WithJsonSchema
 from tribo.plugin import LocalConditions, Quantity, WearLaw, WearLawConfig, WearRate
 
 GAS_CONSTANT = 8.314462618
@@ -39,6 +39,19 @@ MolarEnergy = Annotated[
 
 class ArrheniusConfig(WearLawConfig):
     """Configuration of `Arrhenius`."""
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "examples": [
+                {
+                    "type": "thermal.arrhenius",
+                    "k": "3.11e-16 1/Pa",
+                    "activation_energy": "50 kJ/mol",
+                    "reference_temperature": "90 degC",
+                }
+            ]
+        }
+    )
 
     type: Literal["thermal.arrhenius"] = "thermal.arrhenius"
     k: Annotated[float, Quantity("1/Pa", at_least=0)]

@@ -38,6 +38,20 @@ class HeatPath(BaseModel):
 class FlashConfig(EffectConfig):
     """Without ``heat_fraction`` both bodies have the same temperature in the contact."""
 
+    model_config = ConfigDict(
+        json_schema_extra={
+            "examples": [
+                {"type": "thermal.flash", "ambient": "90 degC"},
+                {
+                    "type": "thermal.flash",
+                    "ambient": "20 degC",
+                    "source": "parabolic",
+                    "rise": "maximum",
+                },
+            ]
+        }
+    )
+
     type: Literal["thermal.flash"] = "thermal.flash"
     ambient: Annotated[float, Quantity("K", above=0)]
     """Temperature of the surroundings and of every heat sink."""

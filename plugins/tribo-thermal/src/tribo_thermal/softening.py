@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 import numpy as np
+from pydantic import ConfigDict
 from tribo.plugin import (
     CaseError,
     LocalConditions,
@@ -18,6 +19,19 @@ from tribo.plugin import (
 
 class SofteningConfig(WearLawConfig):
     """Configuration of `Softening`."""
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "examples": [
+                {
+                    "type": "thermal.softening",
+                    "K": 1.24e-6,
+                    "softening": "0.001 1/K",
+                    "reference_temperature": "20 degC",
+                }
+            ]
+        }
+    )
 
     type: Literal["thermal.softening"] = "thermal.softening"
     K: Annotated[float, Quantity("1", at_least=0)]

@@ -1,0 +1,19 @@
+"""The checks of tribo that every wear law and every effect has to pass."""
+
+from tribo.testing import example_configs, parametrize_checks
+
+from tribo_thermal.arrhenius import Arrhenius
+from tribo_thermal.flash import Flash
+from tribo_thermal.softening import Softening
+
+test_flash = parametrize_checks(Flash, example_configs(Flash))
+test_flash_by_body = parametrize_checks(
+    Flash,
+    [
+        {"ambient": 363.0, "heat_paths": {"ball": {"length": "5 mm", "area": "78 mm^2"}}},
+        {"ambient": 363.0, "heat_fraction": {"ball": 0.7, "disk": 0.3}},
+    ],
+    expected_failures={"bodies_may_have_any_names": "its configuration names the bodies"},
+)
+test_arrhenius = parametrize_checks(Arrhenius, example_configs(Arrhenius))
+test_softening = parametrize_checks(Softening, example_configs(Softening))
