@@ -457,6 +457,10 @@ def crown(height: Array, depth: Array, visible: float = VISIBLE_DEPTH) -> float:
     float
         Largest height over the chord, in m; 0 for a hollow or unworn profile.
     """
+    if height.ndim != 1 or height.shape != depth.shape:
+        raise ValueError(
+            f"crown takes two profiles of one length, not shapes {height.shape} and {depth.shape}"
+        )
     index = np.flatnonzero(depth > visible)
     if index.size < 2:
         return 0.0

@@ -38,7 +38,13 @@ class DcFftConfig(ContactSolverConfig):
 
 
 class DcFft(ContactSolver[DcFftConfig]):
-    """Contact of two half-spaces, each cell under uniform pressure.
+    """Contact of two elastic half-spaces, yielding where the pressure reaches the hardness.
+
+    Each cell is under uniform pressure (Love 1929); the convolution is exact
+    in free space (DC-FFT: Liu, Wang & Liu 2000, Wear 243, 101-111). With a
+    hardness 0 <= p <= H, and what still overlaps at p = H is permanent
+    (Almqvist et al. 2007): no volume is conserved, and real onset of yield,
+    beneath the surface, comes at a lower load.
 
     The solve runs on a box around the contact. In free space that is exact
     as long as no cell outside the box overlaps, which is checked.

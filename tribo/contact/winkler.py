@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from math import pi, sqrt
-from typing import ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, model_validator
 
 from tribo.contact import hertz
 from tribo.contact.foundation import solve_foundation
 from tribo.core.contact import ContactProblem, ContactSolution, ContactSystem
 from tribo.core.errors import CaseError
+from tribo.core.units import Quantity
 from tribo.interfaces.contact import ContactSolver, ContactSolverConfig
 
 Match = Literal["contact_radius", "peak_pressure", "approach"]
@@ -21,13 +22,13 @@ class Layer(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
 
-    thickness: float = Field(gt=0)
-    """Thickness of the layer, in m."""
+    thickness: Annotated[float, Quantity("m", above=0)]
+    """Thickness of the layer."""
 
-    young: float = Field(gt=0)
-    """Young's modulus of the layer, in Pa."""
+    young: Annotated[float, Quantity("Pa", above=0)]
+    """Young's modulus of the layer."""
 
-    poisson: float = Field(gt=-1, lt=0.5)
+    poisson: Annotated[float, Quantity("1", above=-1, below=0.5)]
     """Poisson's ratio of the layer."""
 
     @property
@@ -42,8 +43,8 @@ class WinklerConfig(ContactSolverConfig):
 
     type: Literal["winkler"] = "winkler"
 
-    modulus: float | None = Field(default=None, gt=0)
-    """Foundation modulus K_w, pressure per depth, in Pa/m."""
+    modulus: Annotated[float, Quantity("Pa/m", above=0)] | None = None
+    """Foundation modulus K_w, pressure per depth."""
 
     layer: Layer | None = None
     """A bonded layer from which the foundation modulus follows."""
@@ -64,7 +65,12 @@ class WinklerConfig(ContactSolverConfig):
 
 
 class Winkler(ContactSolver[WinklerConfig]):
-    """Contact on a foundation whose pressure is K_w times the local depth."""
+    """p = K_w times the local overlap, at most the hardness: independent springs.
+
+    Valid for a thin compliant layer on a stiff base (`layer`). For a half-space
+    it is a fit: matched to one quantity of the first contact, it misses the
+    others (Põdra & Andersson 1997, Wear 207, 79-85).
+    """
 
     Config: ClassVar[type[WinklerConfig]] = WinklerConfig
     accepts_wear_compliance: ClassVar[bool] = True

@@ -21,7 +21,7 @@ from tribo.simulation.rates import Moment, law_states, wear_rates
 from tribo.surfaces.cylinder import Cylinder, CylinderConfig
 from tribo.surfaces.flat import Flat, FlatConfig
 from tribo.surfaces.sphere import Sphere, SphereConfig
-from tribo.testing.subject import Subject, require
+from tribo.testing.subject import FieldValue, Subject, require
 from tribo.wear.archard import Archard, ArchardConfig
 
 # Neither square nor of square cells, so that swapped axes are noticed.
@@ -46,11 +46,17 @@ _TYPICAL = {"friction_coefficient": 0.3, "temperature": 400.0, "traction": 1e8}
 MOST_STEPS = 1000
 
 
-def typical(name: str, given: Mapping[str, float]) -> float:
-    """Return a typical value of the field `name`: as given, or guessed from its name."""
-    if name in given:
-        return given[name]
-    return next((value for end, value in _TYPICAL.items() if name.endswith(end)), 1.0)
+def typical(name: str, given: Mapping[str, FieldValue], pressure: Array) -> Array:
+    """Return the field `name` at `pressure`: as given, or guessed from its name."""
+    guess = next((value for end, value in _TYPICAL.items() if name.endswith(end)), 1.0)
+    value = given.get(name, guess)
+    at_each: Array = np.zeros_like(pressure) + (value(pressure) if callable(value) else value)
+    return at_each
+
+
+def friction_coefficient(given: Mapping[str, FieldValue]) -> float:
+    """Return the coefficient of friction of the small cases."""
+    return float(typical("friction_coefficient", given, np.zeros(())))
 
 
 def pattern(shape: tuple[int, ...]) -> Array:
@@ -60,9 +66,9 @@ def pattern(shape: tuple[int, ...]) -> Array:
     return values
 
 
-def sample_field(name: str, shape: tuple[int, ...], given: Mapping[str, float]) -> Array:
+def sample_field(name: str, given: Mapping[str, FieldValue], pressure: Array) -> Array:
     """Return a field that varies a little about its typical value."""
-    value: Array = typical(name, given) * (0.95 + 0.1 * pattern(shape))
+    value: Array = typical(name, given, pressure) * (0.95 + 0.1 * pattern(pressure.shape))
     return value
 
 
@@ -115,14 +121,15 @@ def local_conditions(
     subject: Subject, law: Any, pressure: Array, state: Mapping[str, Array] | None = None
 ) -> LocalConditions:
     """Return what a law is told at points of the given pressure; state as at the start."""
-    shape = pressure.shape
     if state is None:
-        state = {name: np.full(shape, value) for name, value in law.initial_state().items()}
+        state = {
+            name: np.full(pressure.shape, value) for name, value in law.initial_state().items()
+        }
     return LocalConditions(
         pressure=pressure,
         speed=SPEED,
         material=STEEL,
-        fields={name: sample_field(name, shape, subject.fields) for name in law.requires},
+        fields={name: sample_field(name, subject.fields, pressure) for name in law.requires},
         state=state,
     )
 
@@ -131,17 +138,18 @@ def contact_conditions(
     subject: Subject, effect: Any, names: Sequence[str] = BODIES
 ) -> ContactConditions:
     """Return what an effect is told; the second body is swept."""
+    pressure = hertz_pressure(GRID)
     return ContactConditions(
         grid=GRID,
-        pressure=hertz_pressure(GRID),
+        pressure=pressure,
         speed=SPEED,
         time=10.0,
         distance=1.0,
-        friction_coefficient=typical("friction_coefficient", subject.fields),
+        friction_coefficient=friction_coefficient(subject.fields),
         materials=dict.fromkeys(names, STEEL),
         swept=frozenset(names[1:]),
         fields={
-            name: {body: sample_field(name, GRID.cells, subject.fields) for body in names}
+            name: {body: sample_field(name, subject.fields, pressure) for body in names}
             for name in effect.requires
         },
     )
@@ -160,27 +168,25 @@ class Given(Effect[GivenConfig]):
     ----------
     names : sequence of str
         Names of the fields.
-    values : Mapping[str, float]
+    values : Mapping[str, float or callable]
         Typical values, where known.
     """
 
     Config: ClassVar[type[GivenConfig]] = GivenConfig
     provides: tuple[Field, ...] = ()  # type: ignore[misc]
 
-    def __init__(self, names: Sequence[str], values: Mapping[str, float]) -> None:
+    def __init__(self, names: Sequence[str], values: Mapping[str, FieldValue]) -> None:
         super().__init__(GivenConfig())
         self._values = values
         self.provides = tuple(Field(name, "1", "A sample.") for name in names)
 
     def fields(self, contact: ContactConditions) -> Mapping[str, Mapping[str, Array]]:
         """Return the sample of each field for each body."""
-        shape = contact.grid.cells
-        return {
-            field.name: {
-                body: sample_field(field.name, shape, self._values) for body in contact.materials
-            }
+        samples = {
+            field.name: sample_field(field.name, self._values, contact.pressure)
             for field in self.provides
         }
+        return {name: dict.fromkeys(contact.materials, values) for name, values in samples.items()}
 
 
 def archard() -> Archard:
@@ -217,7 +223,7 @@ def small_model(
         bodies=[Body(n, s, STEEL, law) for n, s in zip(BODIES, shapes, strict=True)],
         contact=Winkler(WinklerConfig(plasticity=False)),
         kinematics=kinematics,
-        friction_coefficient=typical("friction_coefficient", subject.fields),
+        friction_coefficient=friction_coefficient(subject.fields),
         effects=[*extra, *effects],
         observers=observers,
         ends_at_window=True,

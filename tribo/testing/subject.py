@@ -9,7 +9,11 @@ from dataclasses import dataclass, field
 from functools import cached_property, partial
 from typing import Any, overload
 
+from tribo.core.arrays import Array
 from tribo.interfaces.component import Component, ComponentConfig
+
+FieldValue = float | Callable[[Array], Array]
+"""The value of a local field, or how it follows from the pressure."""
 
 
 class CheckFailed(AssertionError):
@@ -34,8 +38,8 @@ class Subject:
         Its kind, as ``"wear_law"``.
     config : ComponentConfig
         One valid configuration.
-    fields : Mapping[str, float]
-        Typical values of local fields, in SI.
+    fields : Mapping[str, float or callable]
+        Typical values of local fields, in SI, or functions of the pressure.
     revival : Revival
         Whether configurations reach a new process, asked once for all of them.
     index : int
@@ -45,7 +49,7 @@ class Subject:
     cls: type[Component[Any]]
     kind: str
     config: ComponentConfig
-    fields: Mapping[str, float]
+    fields: Mapping[str, FieldValue]
     revival: Revival
     index: int
 
