@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 import sysconfig
@@ -16,11 +17,16 @@ from scaffold.plugins_of_each_kind import NAMES
 from tribo.results.read import Result
 from tribo.scaffold import PluginName, write_plugin
 
+# Whatever else is installed where the tests run takes no part.
+ONLY = {**os.environ, "TRIBO_PLUGINS": ",".join(NAMES.values())}
 
-def run(*command: str | Path, folder: Path) -> str:
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
+
+def run(*command: str | Path, folder: Path, code: int = 0) -> str:
+    done = subprocess.run(
+        command, cwd=folder, env=ONLY, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == code, done.stdout + done.stderr
+    return done.stderr if code else done.stdout
 
 
 @dataclass(frozen=True)
@@ -141,13 +147,5 @@ def test_an_installed_plugin_is_known_by_name_in_schema_and_messages(fresh: Fres
     assert own <= set(names)
     assert own <= types
     (fresh.scratch / "typo.toml").write_text(CASE.replace("acme.fretting", "acme.freting"))
-    typo = subprocess.run(
-        [fresh.python, "-m", "tribo", "check", "typo.toml"],
-        cwd=fresh.scratch,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert typo.returncode == 2
-    assert "did you mean 'acme.fretting'?" in typo.stderr
-    assert "acme.fretting (acme-fretting 0.1.0)" in typo.stderr
+    typo = run(fresh.python, "-m", "tribo", "check", "typo.toml", folder=fresh.scratch, code=2)
+    assert "did you mean 'acme.fretting'? Installed: acme.fretting (acme-fretting 0.1.0);" in typo
