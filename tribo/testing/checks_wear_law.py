@@ -198,10 +198,7 @@ CHECKS = (
 
 def _at(subject: Subject, law: Any, pressure: Array) -> LocalConditions:
     """Return conditions with typical fields, the same at every point."""
-    fields = {
-        name: np.full(pressure.shape, samples.typical(name, subject.fields))
-        for name in law.requires
-    }
+    fields = {name: samples.typical(name, subject.fields, pressure) for name in law.requires}
     local = replace(samples.local_conditions(subject, law, pressure), fields=fields)
     return locked(local)  # type: ignore[no-any-return]
 

@@ -24,7 +24,7 @@ from tribo.testing import (
 )
 from tribo.testing.checks_config import CONFIG_CHECKS
 from tribo.testing.report import Outcome, Report
-from tribo.testing.subject import Check, CheckFailed, Revival, Subject
+from tribo.testing.subject import Check, CheckFailed, FieldValue, Revival, Subject
 
 ENOUGH = "enough_checks_apply"
 _NOTHING: Mapping[str, Any] = MappingProxyType({})
@@ -62,7 +62,7 @@ def check(
     configs: Sequence[Config],
     *,
     expected_failures: Mapping[str, str] = _NOTHING,
-    fields: Mapping[str, float] = _NOTHING,
+    fields: Mapping[str, FieldValue] = _NOTHING,
 ) -> Report:
     """Check that a class fulfils its interface, with each of some configurations.
 
@@ -79,8 +79,10 @@ def check(
     expected_failures : Mapping[str, str], optional
         Why a check, by name, cannot be passed. One that passes all the same
         counts as a failure.
-    fields : Mapping[str, float], optional
-        Typical values, in SI, of the local fields that the class requires.
+    fields : Mapping[str, float or callable], optional
+        Typical values, in SI, of the local fields that the class requires. One
+        that follows the pressure is given as a function of it, and belongs to
+        what the law's derivative is compared with.
 
     Returns
     -------
@@ -112,7 +114,7 @@ def parametrize_checks(
     configs: Sequence[Config],
     *,
     expected_failures: Mapping[str, str] = _NOTHING,
-    fields: Mapping[str, float] = _NOTHING,
+    fields: Mapping[str, FieldValue] = _NOTHING,
 ) -> Callable[..., None]:
     """Return a test function with which pytest runs each check with each configuration.
 
@@ -124,6 +126,17 @@ def parametrize_checks(
     ----------
     cls, configs, expected_failures, fields
         As in `check`.
+
+    Returns
+    -------
+    callable
+        A test, parametrized by check and configuration. A check that does not
+        apply is skipped, an expected failure is an xfail.
+
+    Raises
+    ------
+    TypeError, ValueError
+        As `check`; also if `configs` is empty.
     """
     import pytest
 
@@ -193,7 +206,7 @@ def kind_of(cls: object) -> Kind:
 
 
 def subjects(
-    cls: type[Component[Any]], configs: Sequence[Config], fields: Mapping[str, float]
+    cls: type[Component[Any]], configs: Sequence[Config], fields: Mapping[str, FieldValue]
 ) -> list[Subject]:
     """Return the class with each of its configurations."""
     valid = list(_validated(cls, configs))
@@ -225,7 +238,7 @@ def _expect_known(kind: Kind, expected_failures: Mapping[str, str]) -> None:
 
 def _outcome(one: Check, subject: Subject, expected: Mapping[str, str]) -> Outcome:
     def came(status: Any, message: str = "") -> Outcome:
-        return Outcome(one.name, one.fact, subject.label or "its defaults", status, message)
+        return Outcome(one.name, one.fact, subject.label, status, message)
 
     reason = expected.get(one.name)
     try:

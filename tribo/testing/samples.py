@@ -40,8 +40,13 @@ STEEL = Material(
     heat_capacity=460.0,
 )
 
-_TYPICAL = {"friction_coefficient": 0.3, "temperature": 400.0, "traction": 1e8}
-"""A plausible value of a field whose name ends so."""
+_TYPICAL: Mapping[str, FieldValue] = {
+    "friction_coefficient": 0.3,
+    "temperature": 400.0,
+    "traction": lambda pressure: 0.3 * pressure,
+    "traction_slope": 0.3,
+}
+"""What is plausible for a field whose name ends so."""
 
 MOST_STEPS = 1000
 

@@ -61,7 +61,7 @@ class Subject:
     def label(self) -> str:
         """The configuration as short text."""
         values = self.config.model_dump(exclude_defaults=True, exclude={"type"})
-        text = ", ".join(f"{name}={value!r}" for name, value in values.items())
+        text = ", ".join(f"{name}={value!r}" for name, value in values.items()) or "its defaults"
         return text if len(text) <= 60 else text[:59] + "…"
 
 

@@ -33,7 +33,6 @@ test_dcfft = parametrize_checks(
 test_winkler = parametrize_checks(
     Winkler,
     [{}, {"match": "peak_pressure"}, {"modulus": 1.3e15}, {"layer": LAYER}],
-    expected_failures=NO_UNITS,
 )
 test_reciprocating = parametrize_checks(
     Reciprocating,

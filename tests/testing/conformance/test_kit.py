@@ -4,15 +4,17 @@ import subprocess
 import sys
 from typing import Annotated, Literal
 
+import numpy as np
 import pytest
 from pydantic import ConfigDict
 from testing.conformance.honest import Counts, Hill, Law, LawConfig
 from testing.conformance.mutants import SecantAsDerivative
 
-from tribo.plugin import Quantity, Surface, SurfaceConfig
+from tribo.plugin import Quantity, Surface, SurfaceConfig, WearRate
 from tribo.surfaces.flat import Flat
 from tribo.testing import check, example_configs, parametrize_checks
-from tribo.testing.kit import ENOUGH, SUITES
+from tribo.testing.kit import ENOUGH, SUITES, subjects
+from tribo.testing.subject import CheckFailed
 
 
 def statuses(report):
@@ -135,6 +137,27 @@ def test_fields_take_the_values_given():
 
     check(Sees, [{}], fields={"friction_coefficient": 7.0})
     assert 6 < max(seen) < 8
+
+
+class Heated(Law):
+    """Its derivative follows a field that follows the pressure."""
+
+    requires = ("heat",)
+
+    def rate(self, local):
+        heat = local.fields["heat"]
+        touching = np.where(local.pressure > 0, heat, 0.0)
+        return WearRate(1e-16 * touching, np.full_like(heat, 2e-16), {"rubbed": 0 * heat})
+
+
+def test_a_field_may_follow_the_pressure():
+    checks = {one.name: one for one in SUITES["wear_law"].checks}
+    agrees = checks["derivative_is_that_of_the_depth"]
+    (held,) = subjects(Heated, [{}], {"heat": 1e9})
+    (followed,) = subjects(Heated, [{}], {"heat": lambda pressure: 2 * pressure})
+    with pytest.raises(CheckFailed):
+        agrees.run(held)
+    agrees.run(followed)
 
 
 PYTEST = """
