@@ -1,0 +1,27 @@
+"""What strangers wrote holds to the contract."""
+
+from strangers.layered import Layered
+from strangers.oxidation import OxideFilm
+from strangers.protected import Protected
+from strangers.running_in import RunningIn
+from strangers.transition import Transition
+from strangers.twin_disk import TwinDisk
+
+from tribo.testing import parametrize_checks
+
+LAYER = {"young": "100 GPa", "poisson": 0.3, "base_young": "1000 GPa", "base_poisson": 0.2}
+DISKS = {"ball": "150 mm", "disk": "100 mm"}
+
+test_layered = parametrize_checks(Layered, [{"thickness": "20 um", **LAYER}])
+test_oxide_film = parametrize_checks(OxideFilm, [{"power": "1 MW/m^2"}])
+test_protected = parametrize_checks(
+    Protected, [{"k": "1e-15 1/Pa"}], fields={"stranger_oxide": 0.5}
+)
+test_running_in = parametrize_checks(
+    RunningIn, [{"k_first": "4e-15 1/Pa", "k_last": "1e-15 1/Pa", "length": "2 m"}]
+)
+test_transition = parametrize_checks(Transition, [{"k": "1e-15 1/Pa", "p_severe": "1 GPa"}])
+test_twin_disk = parametrize_checks(
+    TwinDisk,
+    [{"speed": "2 m/s", "slip": 0.05, "circumference": DISKS, "duration": "10 min"}],
+)
