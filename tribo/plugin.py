@@ -7,6 +7,7 @@ A plugin is a module with hooks that return its classes::
 and entry points that declare their names (see the page *Write a plugin*).
 """
 
+from tribo.config.table import Table
 from tribo.contact.bounded import solve_bounded
 from tribo.contact.conditions import residuals
 from tribo.contact.operator import HalfSpace, Operator
@@ -72,6 +73,7 @@ __all__ = [
     "Stationary",
     "Surface",
     "SurfaceConfig",
+    "Table",
     "Track",
     "TriboError",
     "TriboWarning",

@@ -16,7 +16,10 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
-from tribo.cli.main import COMMANDS, tribo
+import tribo
+import tribo.plugin
+from tribo.cli.main import COMMANDS
+from tribo.cli.main import tribo as command_line
 from tribo.config.case import BodyConfig, Case
 from tribo.config.slot import Slot
 from tribo.config.stepping import ExplicitConfig, ImplicitConfig
@@ -41,6 +44,7 @@ def write(folder: Path) -> None:
         "exit_codes": "\n".join(exit_codes()),
         "columns": "\n".join(columns_table()),
         "hooks": "\n".join(hooks_table()),
+        "plugin_api": "\n".join(plugin_page()),
     }
     for name, text in pages.items():
         (folder / f"{name}.md").write_text(text + "\n", encoding="utf-8")
@@ -102,7 +106,11 @@ def commands_page() -> Iterator[str]:
         command = getattr(import_module(f"tribo.cli.{name}"), name)
         assert isinstance(command, click.Command)
         yield f"## `tribo {name}`\n"
-        yield f"```text\n$ tribo {name} --help\n{_help([name])}```\n"
+        parts = [[name]]
+        if isinstance(command, click.Group):
+            parts += [[name, part] for part in command.commands]
+        for words in parts:
+            yield f"```text\n$ tribo {' '.join(words)} --help\n{_help(words)}```\n"
 
 
 def exit_codes() -> Iterator[str]:
@@ -134,8 +142,35 @@ def hooks_table() -> Iterator[str]:
         yield f"| `{kind.hook}` | `{group(kind.name)}` | {answer} |"
 
 
+def plugin_page() -> Iterator[str]:
+    """Yield the documentation of every name in `tribo.plugin`, in the order it lists them."""
+    yield "```{eval-rst}"
+    for name in tribo.plugin.__all__:
+        # What the page on Python documents too keeps its index entry there.
+        twice = ["   :no-index:"] if name in tribo.__all__ else []
+        thing = getattr(tribo.plugin, name)
+        if name == "Array":
+            yield "``Array`` stands for ``numpy.ndarray`` of 64-bit floats.\n"
+            continue
+        if inspect.isclass(thing):
+            exception = issubclass(thing, Exception)
+            directive = "autoexception" if exception else "autoclass"
+            options = [] if exception else ["   :members:", "   :exclude-members: shape, spacing"]
+            options += twice
+        elif inspect.isfunction(thing):
+            directive, options = "autofunction", twice
+        else:
+            directive, options = "autodata", ["   :no-value:", *twice]
+        yield f".. {directive}:: tribo.plugin.{name}"
+        yield from options
+        yield ""
+    yield "```"
+
+
 def _help(words: list[str]) -> str:
-    result = CliRunner().invoke(tribo, [*words, "--help"], prog_name="tribo", terminal_width=88)
+    result = CliRunner().invoke(
+        command_line, [*words, "--help"], prog_name="tribo", terminal_width=88
+    )
     assert result.exit_code == 0, result.output
     return result.output
 

@@ -13,12 +13,14 @@ COLUMNS = "88"
 def sh(command: str, code: int = 0, lines: int | None = None) -> None:
     """Run ``tribo …``, show the command and its output; fail on another exit code than `code`.
 
+    ``pip`` and ``pytest`` are run too, as modules of the same Python.
+
     With `lines`, only so many lines of the output are shown.
     """
     program, *arguments = shlex.split(command)
-    assert program == "tribo"
+    assert program in ("tribo", "pip", "pytest")
     done = subprocess.run(
-        [sys.executable, "-m", "tribo", *arguments],
+        [sys.executable, "-m", program, *arguments],
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         env={**os.environ, "COLUMNS": COLUMNS},

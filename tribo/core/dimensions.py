@@ -6,27 +6,28 @@ import re
 from fractions import Fraction
 from functools import cache
 
-Dimension = tuple[int, int, int, int]
-"""Exponents of m, kg, s and K."""
+Dimension = tuple[int, int, int, int, int]
+"""Exponents of m, kg, s, K and mol."""
 
 _SYMBOLS: dict[str, tuple[str, Dimension]] = {
-    "m": ("1", (1, 0, 0, 0)),
-    "g": ("1e-3", (0, 1, 0, 0)),
-    "s": ("1", (0, 0, 1, 0)),
-    "K": ("1", (0, 0, 0, 1)),
-    "Hz": ("1", (0, 0, -1, 0)),
-    "N": ("1", (1, 1, -2, 0)),
-    "Pa": ("1", (-1, 1, -2, 0)),
-    "bar": ("1e5", (-1, 1, -2, 0)),
-    "J": ("1", (2, 1, -2, 0)),
-    "W": ("1", (2, 1, -3, 0)),
+    "m": ("1", (1, 0, 0, 0, 0)),
+    "g": ("1e-3", (0, 1, 0, 0, 0)),
+    "s": ("1", (0, 0, 1, 0, 0)),
+    "K": ("1", (0, 0, 0, 1, 0)),
+    "mol": ("1", (0, 0, 0, 0, 1)),
+    "Hz": ("1", (0, 0, -1, 0, 0)),
+    "N": ("1", (1, 1, -2, 0, 0)),
+    "Pa": ("1", (-1, 1, -2, 0, 0)),
+    "bar": ("1e5", (-1, 1, -2, 0, 0)),
+    "J": ("1", (2, 1, -2, 0, 0)),
+    "W": ("1", (2, 1, -3, 0, 0)),
 }
 """Symbols that take a prefix."""
 _UNPREFIXED: dict[str, tuple[str, Dimension]] = {
-    "1": ("1", (0, 0, 0, 0)),
-    "min": ("60", (0, 0, 1, 0)),
-    "h": ("3600", (0, 0, 1, 0)),
-    "day": ("86400", (0, 0, 1, 0)),
+    "1": ("1", (0, 0, 0, 0, 0)),
+    "min": ("60", (0, 0, 1, 0, 0)),
+    "h": ("3600", (0, 0, 1, 0, 0)),
+    "day": ("86400", (0, 0, 1, 0, 0)),
 }
 _PREFIXES = {"p": -12, "n": -9, "u": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9, "T": 12}
 _FACTOR = re.compile(r"(1|[A-Za-z]+)(?:\^?(-?[1-9]))?")
@@ -54,7 +55,7 @@ def scale(unit: str) -> tuple[Fraction, Dimension]:
 
 
 def _product(text: str) -> tuple[Fraction, Dimension]:
-    size, dimension = Fraction(1), (0, 0, 0, 0)
+    size, dimension = Fraction(1), (0, 0, 0, 0, 0)
     text = text.strip()
     if text.startswith("(") and text.endswith(")"):
         text = text[1:-1]
@@ -86,5 +87,5 @@ def _symbol(name: str) -> tuple[Fraction, Dimension]:
 
 
 def _combine(left: Dimension, right: Dimension, power: int) -> Dimension:
-    m, kg, s, k = (a + power * b for a, b in zip(left, right, strict=True))
-    return m, kg, s, k
+    m, kg, s, k, mol = (a + power * b for a, b in zip(left, right, strict=True))
+    return m, kg, s, k, mol

@@ -73,7 +73,9 @@ class WearRate:
     depth : ndarray
         Depth worn away per metre of sliding, in m/m; not negative.
     derivative : ndarray
-        Derivative of `depth` with respect to pressure, in 1/Pa.
+        Total derivative of `depth` with respect to pressure, in 1/Pa: also
+        through the fields that follow the pressure. An effect whose field has
+        a slope that laws need provides it as a field of its own.
     state : Mapping[str, ndarray]
         Change of each state field per metre of sliding.
     """

@@ -36,6 +36,8 @@ _KINDS = {
     "Pa/m": ("a foundation modulus", "20 GPa/mm"),
     "J": ("an energy", "1 J"),
     "W": ("a power", "1 W"),
+    "J/mol": ("an energy per mole", "50 kJ/mol"),
+    "J/m^2": ("an energy per area", "1 kJ/m^2"),
     "kg/m^3": ("a density", "7850 kg/m^3"),
     "W/(m K)": ("a thermal conductivity", "46 W/(m K)"),
     "J/(kg K)": ("a heat capacity", "460 J/(kg K)"),
@@ -182,7 +184,7 @@ def _called(dimension: Dimension) -> str:
     for unit, (name, _) in _KINDS.items():
         if scale(unit)[1] == dimension:
             return name if unit == "1" else f"{name} [{unit}]"
-    powers = zip(("m", "kg", "s", "K"), dimension, strict=True)
+    powers = zip(("m", "kg", "s", "K", "mol"), dimension, strict=True)
     return "a quantity in " + " ".join(f"{u}^{n}" if n != 1 else u for u, n in powers if n)
 
 

@@ -8,6 +8,7 @@ from typing import ClassVar
 
 from tribo.core.arrays import Array
 from tribo.core.fields import ContactConditions, Field
+from tribo.core.material import Material
 from tribo.interfaces.component import C_co, Component, ComponentConfig
 
 
@@ -27,6 +28,17 @@ class Effect(Component[C_co]):
 
     requires: ClassVar[tuple[str, ...]] = ()
     """Names of the fields it needs from effects before it, or from the case."""
+
+    def check(self, materials: Mapping[str, Material], swept: frozenset[str]) -> None:
+        """Raise `CaseError` if the effect cannot serve these bodies.
+
+        Parameters
+        ----------
+        materials : Mapping[str, Material]
+            The bodies' materials, by name.
+        swept : frozenset of str
+            Names of the bodies whose points pass through the contact.
+        """
 
     @abstractmethod
     def fields(self, contact: ContactConditions) -> Mapping[str, Mapping[str, Array]]:

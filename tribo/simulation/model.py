@@ -205,6 +205,7 @@ def assemble(
         gap=readonly(gap),
     )
     _check_ends(model)
+    _check_effects(model)
     return model
 
 
@@ -340,6 +341,14 @@ def _check_ends(model: Model) -> None:
             + ", ".join(body.name for body in model.bodies),
             "stop.body",
         )
+
+
+def _check_effects(model: Model) -> None:
+    materials = {body.name: body.material for body in model.bodies}
+    swept = frozenset(name for name in materials if model.is_swept(name))
+    for effect in model.effects:
+        with located("effects"):
+            effect.check(materials, swept)
 
 
 def _listed(times: Sequence[float]) -> str:

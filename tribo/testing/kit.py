@@ -177,13 +177,17 @@ def example_configs(cls: type[Component[Any]]) -> list[dict[str, Any]]:
     -------
     list of dict
         The ``examples`` in the JSON schema (``json_schema_extra`` of the
-        model's configuration); else ``{}`` alone if no key is required; else
-        nothing.
+        model's configuration); else ``{}`` alone if the defaults are valid;
+        else nothing.
     """
     schema = cls.Config.model_json_schema()
     if schema.get("examples"):
         return [dict(example) for example in schema["examples"]]
-    return [] if schema.get("required") else [{}]
+    try:
+        cls.Config.model_validate({})
+    except ValidationError:
+        return []
+    return [{}]
 
 
 def kind_of(cls: object) -> Kind:

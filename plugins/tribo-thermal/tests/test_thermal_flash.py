@@ -37,7 +37,10 @@ def contact(radius, swept=("disk",), material=None, load=100.0):
 
 def rises(where, **config):
     given = {"ambient": "90 degC", "source": "parabolic", "rise": "maximum", **config}
-    return Flash(FlashConfig(**given)).rises(where)
+    effect = Flash(FlashConfig(**given))
+    # As when a case is composed, before anything runs.
+    effect.check(where.materials, where.swept)
+    return effect.rises(where)
 
 
 @pytest.mark.parametrize(

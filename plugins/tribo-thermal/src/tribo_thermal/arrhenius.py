@@ -2,39 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import BeforeValidator, ConfigDict, WithJsonSchema
+from pydantic import ConfigDict
 from tribo.plugin import LocalConditions, Quantity, WearLaw, WearLawConfig, WearRate
 
 GAS_CONSTANT = 8.314462618
 """In J/(mol K)."""
-
-
-def _of_one_mole(value: Any) -> Any:
-    if not isinstance(value, str):
-        return value
-    head, per, rest = value.partition("/mol")
-    if not per or rest.strip():
-        raise ValueError(f"{value!r}: an energy per mole is needed, as in '50 kJ/mol'")
-    return head
-
-
-MolarEnergy = Annotated[
-    float,
-    Quantity("J", at_least=0),
-    BeforeValidator(_of_one_mole),
-    WithJsonSchema(
-        {
-            "anyOf": [
-                {"type": "number", "minimum": 0, "description": "in J/mol"},
-                {"type": "string", "description": "with a unit, as in '50 kJ/mol'"},
-            ],
-            "x-unit": "J/mol",
-        }
-    ),
-]
 
 
 class ArrheniusConfig(WearLawConfig):
@@ -56,7 +31,7 @@ class ArrheniusConfig(WearLawConfig):
     type: Literal["thermal.arrhenius"] = "thermal.arrhenius"
     k: Annotated[float, Quantity("1/Pa", at_least=0)]
     """Specific wear rate at the reference temperature."""
-    activation_energy: MolarEnergy
+    activation_energy: Annotated[float, Quantity("J/mol", at_least=0)]
     """Activation energy Q, per mole."""
     reference_temperature: Annotated[float, Quantity("K", above=0)]
     """Temperature at which the law equals Archard's with the same k."""

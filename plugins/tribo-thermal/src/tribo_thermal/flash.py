@@ -102,6 +102,26 @@ class Flash(Effect[FlashConfig]):
     provides = (TEMPERATURE, RISE)
     requires = ("friction_coefficient",)
 
+    def check(self, materials: Mapping[str, Material], swept: frozenset[str]) -> None:
+        """Require thermal properties, bodies that exist, and one that stays in contact."""
+        bodies = set(materials)
+        fractions = self.config.heat_fraction
+        paths = self.config.heat_paths or {}
+        if not set(paths) <= bodies:
+            raise CaseError(_which("heat_paths", paths, bodies))
+        if fractions is not None and set(fractions) != bodies:
+            raise CaseError(_which("heat_fraction", fractions, bodies))
+        if swept >= bodies:
+            raise CaseError(
+                "'thermal.flash' needs a body that stays in the contact; here all are swept, at "
+                "speeds it does not know"
+            )
+        for name, material in materials.items():
+            _needed(name, material, "conductivity")
+            if name in swept:
+                _needed(name, material, "density")
+                _needed(name, material, "heat_capacity")
+
     def fields(self, contact: ContactConditions) -> Mapping[str, Mapping[str, Array]]:
         """Return the temperature of each body and its rise, uniform over the contact."""
         rises = self.rises(contact)
@@ -112,15 +132,7 @@ class Flash(Effect[FlashConfig]):
         }
 
     def rises(self, contact: ContactConditions) -> dict[str, float]:
-        """Return how much hotter than ambient each body is in the contact, in K.
-
-        Raises
-        ------
-        CaseError
-            If a material lacks a thermal property, both bodies are swept, or
-            the configuration names bodies that do not exist.
-        """
-        self._check(contact)
+        """Return how much hotter than ambient each body is in the contact, in K."""
         if not np.any(contact.pressure > 0):
             return dict.fromkeys(contact.materials, 0.0)
         friction = next(iter(contact.fields["friction_coefficient"].values()))
@@ -147,21 +159,6 @@ class Flash(Effect[FlashConfig]):
         flash = rise_per_power(radius, conductivity, peclet, c.source, c.rise)
         path = (c.heat_paths or {}).get(name)
         return flash if path is None else flash + path.length / (path.area * conductivity)
-
-    def _check(self, contact: ContactConditions) -> None:
-        bodies = set(contact.materials)
-        fractions = self.config.heat_fraction
-        paths = self.config.heat_paths or {}
-        if not set(paths) <= bodies:
-            raise CaseError(_which("heat_paths", paths, bodies), "effects")
-        if fractions is not None and set(fractions) != bodies:
-            raise CaseError(_which("heat_fraction", fractions, bodies), "effects")
-        if contact.swept >= bodies:
-            raise CaseError(
-                "'thermal.flash' needs a body that stays in the contact; here all are swept, at "
-                "speeds it does not know",
-                "effects",
-            )
 
 
 def _needed(name: str, material: Material, key: str) -> float:

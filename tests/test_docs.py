@@ -1,0 +1,58 @@
+"""Nothing public is undocumented."""
+
+import inspect
+from pathlib import Path
+
+import pytest
+
+import tribo
+import tribo.plugin
+from tribo.interfaces.component import Component
+from tribo.registry import hookspecs
+from tribo.registry.kinds import KINDS
+from tribo.registry.registry import Registry
+
+DOCS = Path(__file__).parents[1] / "docs"
+PUBLIC = sorted({*tribo.plugin.__all__, *tribo.__all__})
+BUILT_IN = [cls for kind in KINDS for cls in Registry.with_plugins().classes(kind)]
+
+
+def public(name):
+    return getattr(tribo.plugin, name, None) or getattr(tribo, name)
+
+
+@pytest.mark.parametrize("name", PUBLIC)
+def test_every_public_name_and_its_members_have_a_docstring(name):
+    thing = public(name)
+    if not (inspect.isclass(thing) or inspect.isfunction(thing)):
+        return
+    assert inspect.getdoc(thing), name
+    if not inspect.isclass(thing) or not thing.__module__.startswith("tribo"):
+        return
+    for member, value in vars(thing).items():
+        if member.startswith("_") or not (inspect.isfunction(value) or isinstance(value, property)):
+            continue
+        assert inspect.getdoc(value), f"{name}.{member}"
+
+
+@pytest.mark.parametrize("name", sorted(tribo.__all__))
+def test_every_name_of_the_package_is_on_the_page_on_python(name):
+    assert f":: tribo.{name}\n" in (DOCS / "api.md").read_text() + "\n"
+
+
+@pytest.mark.parametrize("kind", list(KINDS))
+def test_every_hook_is_documented_in_a_line(kind):
+    hook = getattr(hookspecs, KINDS[kind].hook)
+    assert len(inspect.getdoc(hook).splitlines()) == 1
+
+
+@pytest.mark.parametrize("cls", BUILT_IN, ids=lambda c: c.type_name())
+def test_every_built_in_describes_itself_and_its_parameters(cls: type[Component]):
+    assert inspect.getdoc(cls) not in (None, inspect.getdoc(Component))
+    for name, field in cls.Config.model_fields.items():
+        assert name == "type" or field.description, name
+
+
+def test_the_plugin_module_offers_all_it_names():
+    assert all(hasattr(tribo.plugin, name) for name in tribo.plugin.__all__)
+    assert tribo.plugin.__all__ == sorted(tribo.plugin.__all__)
