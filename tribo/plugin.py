@@ -10,6 +10,7 @@ and entry points that declare their names (see the page *Write a plugin*).
 from tribo.config.table import Table
 from tribo.contact.bounded import solve_bounded
 from tribo.contact.conditions import residuals
+from tribo.contact.love import nyquist_compliance
 from tribo.contact.operator import HalfSpace, Operator
 from tribo.core.arrays import Array
 from tribo.core.contact import (
@@ -82,6 +83,7 @@ __all__ = [
     "WearLawConfig",
     "WearRate",
     "hookimpl",
+    "nyquist_compliance",
     "residuals",
     "solve_bounded",
 ]

@@ -78,3 +78,19 @@ def test_a_disk_that_the_case_does_not_have_is_named(registry):
     assert str(caught.value) == (
         "kinematics.circumference: is given for upper, disk; the bodies are upper, lower"
     )
+
+
+def test_both_disks_are_known_to_be_swept(result):
+    assert result.body("upper").swept
+    assert result.body("lower").swept
+
+
+def test_yielding_disks_get_grooves_all_the_way_round(registry):
+    soft = {**STEEL, "hardness": "0.8 GPa"}
+    bodies = {name: {**body, "material": soft} for name, body in CASE["bodies"].items()}
+    case = {**CASE, "bodies": bodies, "kinematics": {**CASE["kinematics"], "duration": 60}}
+    with Simulation(case, registry=registry).run() as result:
+        first, last = (result.body("upper").plastic_depth[i] for i in (0, -1))
+    assert np.ptp(first, axis=0).max() > 0
+    assert last.max() > 0
+    assert np.ptp(last, axis=0).max() == 0

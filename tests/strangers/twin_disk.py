@@ -3,10 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Literal
 
-import numpy as np
-
 from tribo.plugin import (
-    Array,
     CaseError,
     Exposure,
     Grid,
@@ -34,25 +31,6 @@ class TwinDiskConfig(KinematicsConfig):
     """How long they run."""
 
 
-class Round(Track):
-    """A track round a disk that turns: its points pass, its shape stays where it is.
-
-    Wear is the same all the way round, so along x in the contact frame.
-    """
-
-    def __init__(self, grid: Grid, length: float) -> None:
-        super().__init__(grid, length)
-        self._cells = grid.cells
-
-    def average(self, rate: Array) -> Array:
-        """Return the average round the disk, shape (nx, ny)."""
-        return np.broadcast_to(super().average(rate), self._cells).copy()
-
-    def envelope(self, field: Array) -> Array:
-        """Return the maximum round the disk, shape (nx, ny)."""
-        return np.broadcast_to(super().envelope(field), self._cells).copy()
-
-
 class TwinDisk(Kinematics[TwinDiskConfig]):
     """Slides |u1 − u2| t. In one pass a point slides |u1 − u2|/u_i per metre of contact, and it
     passes u_i/l_i times a second: per metre of sliding its share is dx/l_i, whatever the slip.
@@ -77,7 +55,8 @@ class TwinDisk(Kinematics[TwinDiskConfig]):
                 f"is given for {', '.join(given)}; the bodies are {', '.join(bodies)}",
                 "kinematics.circumference",
             )
-        return {name: Round(grid, given[name]) for name in bodies}
+        # A disk turns: its points pass, its shape stays where it is.
+        return {name: Track(grid, given[name], shape_stays=True) for name in bodies}
 
 
 @hookimpl

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
+from tribo.core.material import Material
 
 
 @dataclass(frozen=True)
@@ -58,6 +60,8 @@ class ContactSystem:
     curvature : tuple of float or None
         Curvature of the initial gap at its lowest point along x and y, in
         1/m; None where the surfaces do not state one.
+    materials : Mapping[str, Material]
+        The bodies' materials, by name; empty where only E* is known.
     """
 
     grid: Grid
@@ -65,6 +69,7 @@ class ContactSystem:
     load: float
     cap: float | None = None
     curvature: tuple[float, float] | None = None
+    materials: Mapping[str, Material] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

@@ -18,6 +18,14 @@ class Exposure(ABC):
     broadcasts against (nx, ny).
     """
 
+    swept: bool = False
+    """Whether the body's points pass through the contact."""
+
+    shape_stays: bool = True
+    """Whether the body's initial shape stands still in the contact frame. It does not where a body
+    passes as a whole, so that its surface must not vary along x; it does for a body that stays, and
+    for one that turns about an axis across the sliding direction."""
+
     @abstractmethod
     def average(self, rate: Array) -> Array:
         """Return the rate each point of the body sees per metre of sliding.
@@ -114,11 +122,17 @@ class Track(Exposure):
         The window.
     length : float
         Track length ℓ, in m: the stroke, or the circumference.
+    shape_stays : bool, optional
+        Whether the body turns, so that its shape stands still while its
+        points pass: the disks of a twin-disk tester.
     """
 
-    def __init__(self, grid: Grid, length: float) -> None:
+    swept = True
+
+    def __init__(self, grid: Grid, length: float, *, shape_stays: bool = False) -> None:
         self._grid = grid
         self._length = length
+        self.shape_stays = shape_stays
 
     @property
     def length(self) -> float:

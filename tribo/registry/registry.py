@@ -138,6 +138,19 @@ class Registry:
             f"reinstall {plugin.distribution}"
         )
 
+    def providers(self, fields: Iterable[str]) -> list[str]:
+        """Return the effects that provide any of `fields`, each with its plugin; imports them."""
+        wanted = set(fields)
+        found = []
+        for name in self.names("effect"):
+            try:
+                component = self.record("effect", name)
+            except CaseError:
+                continue
+            if wanted & {field.name for field in getattr(component.cls, "provides", ())}:
+                found.append(f"{name!r} ({component.plugin})")
+        return found
+
     def choices(self, kind: str) -> str:
         """Return the usable names of one kind as text, with who provides them."""
         by_plugin: dict[str, list[str]] = {}

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from tribo.config.case import Case
+from tribo.core.errors import CaseError
 from tribo.interfaces.component import ComponentConfig
 from tribo.registry.registry import Registry, default_registry
-from tribo.simulation.model import Body, Model, assemble
+from tribo.simulation.model import Body, MissingFieldError, Model, assemble
 
 
 def compose(case: Case, registry: Registry | None = None) -> Model:
@@ -30,6 +32,16 @@ def compose(case: Case, registry: Registry | None = None) -> Model:
     def make(kind: str, config: ComponentConfig) -> Any:
         return known.lookup(kind, config.type)(config)
 
+    try:
+        return _assembled(case, make)
+    except MissingFieldError as error:
+        providers = known.providers(error.missing)
+        if not providers:
+            raise
+        raise CaseError(f"{error}; these do: {', '.join(providers)}") from error
+
+
+def _assembled(case: Case, make: Callable[[str, ComponentConfig], Any]) -> Model:
     bodies = [
         Body(
             name=name,

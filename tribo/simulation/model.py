@@ -87,7 +87,7 @@ class Model:
 
     def is_swept(self, name: str) -> bool:
         """Whether the body's points pass through the contact."""
-        return self.exposures[name].average(np.zeros(self.grid.cells)).shape != self.grid.cells
+        return self.exposures[name].swept
 
     def components(self) -> Iterator[tuple[str, Component[ComponentConfig]]]:
         """Yield every component with its place in a case."""
@@ -174,6 +174,7 @@ def assemble(
         load=load,
         cap=cap,
         curvature=_curvature(bodies),
+        materials={body.name: body.material for body in bodies},
     )
     with located("contact"):
         contact.check(system)
@@ -226,8 +227,7 @@ def _check_height(body: Body, height: Array, exposure: Exposure, grid: Grid) -> 
         raise CaseError(f"{kind!r} gave heights of shape {height.shape}, not {grid.cells}")
     if not np.all(np.isfinite(height)):
         raise CaseError(f"{kind!r} gave heights that are not finite")
-    swept = exposure.average(height).shape != grid.cells
-    if swept and np.any(height != height[:1]):
+    if not exposure.shape_stays and np.any(height != height[:1]):
         raise CaseError(
             f"body {body.name!r} is swept along x, so its surface must not vary along x, as "
             f"{kind!r} does; let kinematics.swept name the other body, or use a 'flat' or a "
@@ -283,7 +283,8 @@ def _in_order(
         if ready is None:
             first = waiting[0]
             missing = sorted(set(first.requires) - known)
-            raise CaseError(_missing(f"effect {first.type_name()!r}", missing, waiting), "effects")
+            text = _missing(f"effect {first.type_name()!r}", missing, waiting)
+            raise MissingFieldError(text, "effects", missing)
         waiting.remove(ready)
         ordered.append(ready)
         for field in ready.provides:
@@ -297,11 +298,17 @@ def _in_order(
     for body in bodies:
         if body.wear is not None and not set(body.wear.requires) <= known:
             missing = sorted(set(body.wear.requires) - known)
-            raise CaseError(
-                _missing(f"wear law {body.wear.type_name()!r}", missing, []),
-                f"bodies.{body.name}.wear",
-            )
+            text = _missing(f"wear law {body.wear.type_name()!r}", missing, [])
+            raise MissingFieldError(text, f"bodies.{body.name}.wear", missing)
     return tuple(ordered)
+
+
+class MissingFieldError(CaseError):
+    """A law or an effect needs fields that nothing provides."""
+
+    def __init__(self, message: str, path: str, missing: Sequence[str]) -> None:
+        super().__init__(message, path)
+        self.missing = tuple(missing)
 
 
 def _missing(who: str, missing: Sequence[str], waiting: Sequence[Effect[EffectConfig]]) -> str:

@@ -103,7 +103,10 @@ def check(
         outcomes += [_outcome(one, subject, expected_failures) for one in SUITES[kind.name].checks]
         outcomes.append(_outcome(_enough(expected_failures), subject, _NOTHING))
     if not outcomes:
-        needed = "a configuration to check it with is needed; see example_configs"
+        needed = (
+            "not valid without configuration, and no example is given; put some into its Config: "
+            "model_config = ConfigDict(json_schema_extra={'examples': [{…}]})"
+        )
         outcomes.append(Outcome(ENOUGH, "", "no configuration", "failed", needed))
     name = f"{cls.__qualname__} ({cls.type_name()})"
     return Report(name, kind.words, tuple(outcomes))

@@ -8,13 +8,14 @@ import numpy as np
 import pytest
 from pydantic import ConfigDict
 from testing.conformance.honest import Counts, Hill, Law, LawConfig
-from testing.conformance.mutants import SecantAsDerivative
+from testing.conformance.mutants_wear_law import SecantAsDerivative
 
 from tribo.plugin import Quantity, Surface, SurfaceConfig, WearRate
 from tribo.surfaces.flat import Flat
 from tribo.testing import check, example_configs, parametrize_checks
 from tribo.testing.kit import ENOUGH, SUITES, subjects
 from tribo.testing.subject import CheckFailed
+from tribo.wear.archard import Archard
 
 
 def statuses(report):
@@ -127,6 +128,10 @@ def test_examples_come_from_the_schema():
     assert example_configs(Counts) == [{}]
 
 
+def test_defaults_that_are_not_valid_are_no_example():
+    assert example_configs(Archard) == []
+
+
 def test_fields_take_the_values_given():
     seen = []
 
@@ -162,7 +167,7 @@ def test_a_field_may_follow_the_pressure():
 
 PYTEST = """
 from testing.conformance.honest import Hill
-from testing.conformance.mutants import InwardHeight
+from testing.conformance.mutants_surface import InwardHeight
 from tribo.testing import parametrize_checks
 
 WRONG = {"curvature_is_that_of_the_heights": "made so"}

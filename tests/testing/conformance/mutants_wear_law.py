@@ -1,0 +1,101 @@
+"""Wrong wear laws."""
+
+from dataclasses import replace
+
+import numpy as np
+from testing.conformance.caught import caught_by
+from testing.conformance.honest import Law
+
+from tribo.plugin import Field
+
+
+@caught_by("rates_are_finite_arrays")
+class ScalarDerivative(Law):
+    def rate(self, local):
+        return replace(super().rate(local), derivative=1e-16)
+
+
+@caught_by("rates_are_finite_arrays")
+class SinglePrecision(Law):
+    def rate(self, local):
+        rate = super().rate(local)
+        return replace(rate, depth=rate.depth.astype(np.float32))
+
+
+@caught_by("rates_are_finite_arrays")
+class DividesByZero(Law):
+    def rate(self, local):
+        with np.errstate(invalid="ignore"):
+            return replace(super().rate(local), derivative=local.pressure / local.pressure)
+
+
+@caught_by("nothing_wears_without_pressure")
+class WearsByItself(Law):
+    def rate(self, local):
+        rate = super().rate(local)
+        return replace(rate, depth=rate.depth + 1e-12)
+
+
+@caught_by("wear_only_removes")
+class Grows(Law):
+    def rate(self, local):
+        rate = super().rate(local)
+        return replace(rate, depth=-rate.depth, derivative=-rate.derivative)
+
+
+@caught_by("derivative_is_that_of_the_depth")
+class SecantAsDerivative(Law):
+    def rate(self, local):
+        rate = super().rate(local)
+        touching = np.where(local.pressure > 0, local.pressure, 1.0)
+        return replace(rate, derivative=rate.depth / touching)
+
+
+@caught_by("depth_grows_with_pressure")
+class FallsUnseen(Law):
+    def rate(self, local):
+        rate = super().rate(local)
+        fall = np.where(local.pressure > 1e9, 1e9 / np.maximum(local.pressure, 1.0), 1.0)
+        return replace(rate, depth=rate.depth * fall**4)
+
+
+@caught_by("points_are_independent")
+class Normalised(Law):
+    def rate(self, local):
+        rate = super().rate(local)
+        return replace(rate, depth=rate.depth * np.mean(local.pressure) / 1e9)
+
+
+@caught_by("points_are_independent")
+class AveragesItself(Law):
+    def rate(self, local):
+        rate = super().rate(local)
+        mean = np.mean(rate.depth, axis=0, keepdims=True)
+        return replace(rate, depth=np.where(local.pressure > 0, mean, 0.0))
+
+
+@caught_by("only_declared_fields_are_asked_for")
+class AsksForMore(Law):
+    def rate(self, local):
+        warm = local.fields.get("temperature", 300.0)
+        rate = super().rate(local)
+        return replace(rate, depth=rate.depth * (warm / 300))
+
+
+@caught_by("every_state_field_has_a_rate")
+class ForgetsItsState(Law):
+    def rate(self, local):
+        return replace(super().rate(local), state={})
+
+
+@caught_by("state_fields_are_declared")
+class StateInMillimetres(Law):
+    state_fields = (Field("rubbed", "mm", "Distance slid under pressure."),)
+
+
+@caught_by("runs_under_implicit_stepping", RuntimeError)
+class FailsLaterOn(Law):
+    def rate(self, local):
+        if local.pressure.shape == (24, 20) and local.state["rubbed"].max() > 0:
+            raise RuntimeError("too far")
+        return super().rate(local)
