@@ -152,6 +152,18 @@ def body_fields_fit_the_window(subject: Subject) -> None:
 
 
 @fact
+def what_passes_is_swept(subject: Subject) -> None:
+    """A body whose points share the wear along x says that it is swept; one that stays does not."""
+    rate = samples.hertz_pressure(GRID)
+    for name, exposure in _exposures(subject).items():
+        average = exposure.average(rate)
+        if np.shape(average) != GRID.cells:
+            require(exposure.swept, f"{name!r} has one average for all x; set swept = True")
+        elif np.array_equal(average, rate):
+            require(not exposure.swept, f"{name!r} keeps its own rate at each x, but is swept")
+
+
+@fact
 def worn_volume_is_conserved(subject: Subject) -> None:
     """The volume of an average is the integral of the rate over the contact."""
     for rate in (1e-7 * samples.pattern(GRID.cells), samples.hertz_pressure(GRID)):
@@ -252,6 +264,7 @@ CHECKS = (
     cycles_add_up,
     every_body_is_exposed,
     body_fields_fit_the_window,
+    what_passes_is_swept,
     worn_volume_is_conserved,
     averages_are_linear,
     finer_window_averages_the_same,

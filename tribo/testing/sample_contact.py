@@ -40,8 +40,18 @@ def sample_problem(
     grid = Grid(size, samples.GRID.cells)
     curved = 1 / (scale * samples.RADIUS)
     force = scale**2 * stiffer
+    material = samples.STEEL.model_copy(
+        update={"young": stiffer * samples.STEEL.young, "hardness": cap}
+    )
     # The system states the first contact's load, whatever the problem's own is.
-    system = ContactSystem(grid, stiffer * MODULUS, force * samples.LOAD, cap, (curved, curved))
+    system = ContactSystem(
+        grid=grid,
+        modulus=stiffer * MODULUS,
+        load=force * samples.LOAD,
+        cap=cap,
+        curvature=(curved, curved),
+        materials=dict.fromkeys(samples.BODIES, material),
+    )
     gap = sample_gap(grid, scale) if gap is None else gap
     problem = ContactProblem(system, gap, force * load, wear)
     return locked(problem)  # type: ignore[no-any-return]

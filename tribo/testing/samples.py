@@ -237,14 +237,14 @@ def small_model(
 
 
 def _shapes(kinematics: Any) -> list[Any]:
-    """Return a surface for each body; those of swept bodies do not vary along x."""
+    """Return a surface for each body; those that pass as a whole do not vary along x."""
     exposures = kinematics.exposures(GRID, BODIES)
-    swept = [exposures[name].average(np.zeros(GRID.cells)).shape != GRID.cells for name in BODIES]
+    passes = [not exposures[name].shape_stays for name in BODIES]
     flat = Flat(FlatConfig())
-    if all(swept):
+    if all(passes):
         return [Cylinder(CylinderConfig(radius=RADIUS, axis="x")), flat]
     sphere = Sphere(SphereConfig(radius=RADIUS))
-    return [flat, sphere] if swept[0] else [sphere, flat]
+    return [flat, sphere] if passes[0] else [sphere, flat]
 
 
 def steps(model: Model) -> Iterator[tuple[State, State]]:

@@ -62,6 +62,12 @@ class MeanOverTheWindow(Motion):
             return np.mean(rate, axis=0, keepdims=True)
 
 
+@caught_by("what_passes_is_swept")
+class PassesUnsaid(Motion):
+    class track(Track):  # noqa: N801
+        swept = False
+
+
 @caught_by("averages_are_linear")
 class MeanSquare(Motion):
     class track(Track):  # noqa: N801
