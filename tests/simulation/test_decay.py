@@ -85,7 +85,7 @@ def amplitude_after(step, steps, distance):
 
 
 def implicit(*args):
-    return implicit_step(*args, config=ImplicitConfig())
+    return implicit_step(*args, config=ImplicitConfig()).state
 
 
 @pytest.mark.parametrize("step", [implicit, explicit_step], ids=["implicit", "explicit"])

@@ -37,7 +37,7 @@ def bodies(ball, disk):
 
 def one_step(model, increment=1.0):
     state = first_contact(model)
-    return implicit_step(model, state, increment, increment / 0.1, config=ImplicitConfig())
+    return implicit_step(model, state, increment, increment / 0.1, config=ImplicitConfig()).state
 
 
 LAWS = [(archard(), archard()), (power(1.5), power(1.5)), (power(2), archard()), (power(3), None)]

@@ -38,7 +38,7 @@ def slid(model, steps):
     state = first_contact(model)
     for i in range(1, steps + 1):
         increment, time = END / steps, END / 0.1 * i / steps
-        state = implicit_step(model, state, increment, time, config=ImplicitConfig())
+        state = implicit_step(model, state, increment, time, config=ImplicitConfig()).state
     return state
 
 

@@ -10,6 +10,7 @@ from tribo.config.stepping import ImplicitConfig
 from tribo.core.state import State
 from tribo.simulation.model import Model
 from tribo.simulation.rates import Moment, law_states, wear_rates
+from tribo.simulation.step import ImplicitStep
 
 FIRST = 0.05
 SAFETY = 0.9
@@ -24,9 +25,7 @@ def first_increment(model: Model, state: State, remaining: float) -> float:
     return min(remaining, FIRST * state.reference_depth / fastest) if fastest > 0 else remaining
 
 
-def step_error(
-    model: Model, config: ImplicitConfig, before: State, after: State
-) -> tuple[float, float]:
+def step_error(config: ImplicitConfig, before: State, step: ImplicitStep) -> tuple[float, float]:
     """Return the step's depth and pressure errors as multiples of their tolerances.
 
     The local error of backward Euler in depth is half of what its wear
@@ -37,15 +36,14 @@ def step_error(
     the relative increment of distance, so its load-weighted relative change
     Σ|Δp|/Σp is limited too.
     """
+    after = step.state
     p0, p1 = before.contact.pressure, after.contact.pressure
     load = float(np.sum(p1))
     pressure_error = float(np.sum(np.abs(p1 - p0))) / load
-    increment = after.distance - before.distance
-    moment = Moment(before.time, before.distance, increment / (after.time - before.time))
     depth_error = 0.0
-    for name, rate in wear_rates(model, p0, law_states(before), moment).items():
+    for name, forward in step.forward.items():
         worn = after.bodies[name].wear - before.bodies[name].wear
-        lag = np.abs(worn - increment * model.exposures[name].average(rate.depth))
+        lag = np.abs(worn - forward)
         scale = float(np.max(after.bodies[name].wear)) + FIRST * after.reference_depth
         depth_error = max(depth_error, 0.5 * float(np.sum(p1 * lag)) / (load * scale))
     return depth_error / config.depth_tolerance, pressure_error / config.pressure_tolerance

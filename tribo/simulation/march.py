@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 
@@ -92,15 +91,14 @@ def _implicit(model: Model, config: ImplicitConfig, state: State, stop: float) -
     target = _path_until(model, state, stop)
     remaining = target - state.distance
     natural = state.increment or first_increment(model, state, remaining)
-    step = partial(implicit_step, config=config)
     rejected = 0
     while True:
         increment = fitted(natural, remaining, target, config.settle)
         landing = increment == remaining
         time = stop if landing else _time_at(model, state, state.distance + increment, stop)
         try:
-            after = step(model, state, increment, time)
-            errors = step_error(model, config, state, after)
+            taken = implicit_step(model, state, increment, time, config=config)
+            errors = step_error(config, state, taken)
             factor = next_factor(*errors)
             if max(errors) <= 1:
                 break
@@ -118,8 +116,12 @@ def _implicit(model: Model, config: ImplicitConfig, state: State, stop: float) -
         natural = factor * increment
     # A step cut short to meet a save says little about the next: keep the longer of the two.
     proposal = max(factor * increment, natural if increment < natural else 0.0)
-    after = replace(after, increment=proposal, rejected_steps=state.rejected_steps + rejected)
+    after = replace(taken.state, increment=proposal, rejected_steps=state.rejected_steps + rejected)
     if _depth(model, after) > _depth_limit(model):
+
+        def step(model: Model, state: State, increment: float, time: float) -> State:
+            return implicit_step(model, state, increment, time, config=config).state
+
         return _stop_at_depth(model, state, step, increment, time)
     return after
 

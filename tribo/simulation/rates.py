@@ -116,7 +116,8 @@ def _effect_fields(model: Model, pressure: Array, moment: Moment) -> dict[str, d
                 what = f"{field.name!r} for body {body.name!r}"
                 if values is None:
                     raise NumericalError(f"{who} gave no {what}")
-                fields[field.name][body.name] = readonly(_finite(who, what, values, shape, moment))
+                array, _ = _finite(who, what, values, shape, moment)
+                fields[field.name][body.name] = readonly(array)
     return fields
 
 
@@ -125,11 +126,11 @@ def _checked(body: Body, rate: WearRate, shape: tuple[int, int], moment: Moment)
     who = f"wear law {body.wear.type_name()!r} of body {body.name!r}"
     if not isinstance(rate, WearRate):
         raise NumericalError(f"{who} gave a {type(rate).__name__} instead of a WearRate")
-    depth = _finite(who, "a depth per metre", rate.depth, shape, moment)
-    slope = _finite(who, "a derivative", rate.derivative, shape, moment)
-    if np.min(depth) < 0:
+    depth, least = _finite(who, "a depth per metre", rate.depth, shape, moment)
+    slope, flattest = _finite(who, "a derivative", rate.derivative, shape, moment)
+    if least < 0:
         raise NumericalError(
-            f"{who} gave a negative depth per metre ({np.min(depth):.3g}) at "
+            f"{who} gave a negative depth per metre ({least:.3g}) at "
             f"{moment.distance:.6g} m; wear only removes"
         )
     state = {}
@@ -137,21 +138,28 @@ def _checked(body: Body, rate: WearRate, shape: tuple[int, int], moment: Moment)
         if field.name not in rate.state:
             raise NumericalError(f"{who} gave no rate for its state field {field.name!r}")
         what = f"a rate of {field.name!r}"
-        state[field.name] = _finite(who, what, rate.state[field.name], shape, moment)
-    return WearRate(depth, np.maximum(slope, 0.0) if np.min(slope) < 0 else slope, state)
+        state[field.name], _ = _finite(who, what, rate.state[field.name], shape, moment)
+    return WearRate(depth, np.maximum(slope, 0.0) if flattest < 0 else slope, state)
 
 
-def _finite(who: str, what: str, values: object, shape: tuple[int, ...], moment: Moment) -> Array:
-    try:
-        array = np.broadcast_to(np.asarray(values, dtype=np.float64), shape)
-    except (TypeError, ValueError) as error:
-        raise NumericalError(
-            f"{who} gave {what} that is not an array of shape {shape}: {error}"
-        ) from error
+def _finite(
+    who: str, what: str, values: object, shape: tuple[int, ...], moment: Moment
+) -> tuple[Array, float]:
+    """Return `values` as an array of finite floats, and the smallest of them."""
+    if isinstance(values, np.ndarray) and values.shape == shape and values.dtype == np.float64:
+        array = values
+    else:
+        try:
+            array = np.broadcast_to(np.asarray(values, dtype=np.float64), shape)
+        except (TypeError, ValueError) as error:
+            raise NumericalError(
+                f"{who} gave {what} that is not an array of shape {shape}: {error}"
+            ) from error
+    low, high = float(array.min()), float(array.max())
     # Both are NaN if any value is.
-    if not (np.min(array) > -np.inf and np.max(array) < np.inf):
+    if not -np.inf < low <= high < np.inf:
         raise NumericalError(
             f"{who} gave {what} that is not finite in {np.count_nonzero(~np.isfinite(array))} "
             f"cells, at {moment.distance:.6g} m ({moment.time:.6g} s)"
         )
-    return array
+    return array, low
