@@ -27,10 +27,21 @@ _UNPREFIXED: dict[str, tuple[str, Dimension]] = {
     "1": ("1", (0, 0, 0, 0, 0)),
     "min": ("60", (0, 0, 1, 0, 0)),
     "h": ("3600", (0, 0, 1, 0, 0)),
+    "minute": ("60", (0, 0, 1, 0, 0)),
+    "minutes": ("60", (0, 0, 1, 0, 0)),
+    "hour": ("3600", (0, 0, 1, 0, 0)),
+    "hours": ("3600", (0, 0, 1, 0, 0)),
     "day": ("86400", (0, 0, 1, 0, 0)),
+    "days": ("86400", (0, 0, 1, 0, 0)),
+    "Nm": ("1", (2, 1, -2, 0, 0)),
+    "kgf": ("9.80665", (1, 1, -2, 0, 0)),
+    "HV": ("9806650", (-1, 1, -2, 0, 0)),
 }
+"""Symbols that do not. Vickers hardness is in kgf/mm² (ISO 6507-1)."""
 _PREFIXES = {"p": -12, "n": -9, "u": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9, "T": 12}
 _FACTOR = re.compile(r"(1|[A-Za-z]+)(?:\^?(-?[1-9]))?")
+_VICKERS_WITH_LOAD = re.compile(r"\bHV\d+(?:\.\d+)?\b")
+_ROCKWELL = re.compile(r"HR[A-Z]?")
 _PLAIN_SIGNS = str.maketrans("µμ·⋅⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "uu**0123456789-")
 
 
@@ -38,16 +49,19 @@ _PLAIN_SIGNS = str.maketrans("µμ·⋅⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "uu**012
 def scale(unit: str) -> tuple[Fraction, Dimension]:
     """Return the size in SI and the dimension of a unit such as ``mm^3/(N m)``.
 
+    A Vickers hardness may name its test load in kgf, as ``HV30``; it does not count.
+
     Raises
     ------
     ValueError
         If `unit` cannot be read.
     """
+    unit = _VICKERS_WITH_LOAD.sub("HV", unit)
     head, *divisors = unit.replace("**", "^").translate(_PLAIN_SIGNS).split("/")
     factor, dimension = _product(head)
     for divisor in divisors:
         if not divisor.strip().startswith("(") and len(_factors(divisor)) > 1:
-            raise ValueError("put the divisor in parentheses, as in 'W/(m K)'")
+            raise ValueError("put the divisor in parentheses, as in 'mm^3/(N m)'")
         by, per = _product(divisor)
         factor /= by
         dimension = _combine(dimension, per, -1)
@@ -83,6 +97,8 @@ def _symbol(name: str) -> tuple[Fraction, Dimension]:
         return Fraction(size) * Fraction(10) ** _PREFIXES[name[0]], dimension
     if name == "degC":
         raise ValueError("degC has an offset; use K in a compound unit")
+    if _ROCKWELL.fullmatch(name):
+        raise ValueError("Rockwell hardness has no fixed conversion; give GPa or HV (Vickers)")
     raise ValueError(f"unknown unit {name!r}")
 
 

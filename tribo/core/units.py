@@ -46,6 +46,7 @@ _KINDS = {
 
 _LONGEST = 100
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3}(?!\d))?)(?![\d.])(.*)", re.S)
+_AFTER_COMMA = re.compile(r",\d")
 
 
 def parse(text: str, unit: str) -> float:
@@ -70,6 +71,11 @@ def parse(text: str, unit: str) -> float:
         If `text` cannot be read or has another dimension than `unit`.
     """
     match = _NUMBER.fullmatch(text.strip()) if len(text) <= _LONGEST else None
+    if match is not None and _AFTER_COMMA.match(match[2]):
+        raise CaseError(
+            f"{text!r} has a comma; write a decimal point, as in '20.5', and nothing between "
+            "thousands"
+        )
     if match is None:
         raise CaseError(f"{text[:_LONGEST]!r} is not a quantity; {_needed(unit)}")
     number, symbols = Fraction(match[1]), match[2].strip()
