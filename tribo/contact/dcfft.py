@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import lru_cache
-from typing import ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
@@ -18,6 +18,7 @@ from tribo.contact.operator import HalfSpace, Operator, WornOperator
 from tribo.core.arrays import Array, Mask
 from tribo.core.contact import ContactProblem, ContactSolution, ContactSystem, WearCompliance
 from tribo.core.errors import NumericalError
+from tribo.core.units import Quantity
 from tribo.interfaces.contact import ContactSolver, ContactSolverConfig
 
 _MARGIN = 4
@@ -30,7 +31,7 @@ class DcFftConfig(ContactSolverConfig):
 
     type: Literal["dcfft"] = "dcfft"
 
-    tolerance: float = Field(default=1e-8, gt=1e-14, lt=1e-2)
+    tolerance: Annotated[float, Quantity("1", above=1e-14, below=1e-2)] = 1e-8
     """Largest residual of the contact conditions, relative to load and approach."""
 
     max_iterations: int = Field(default=500, gt=0)

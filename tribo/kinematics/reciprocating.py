@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Literal, Self
 
-from pydantic import model_validator
+from pydantic import ConfigDict, model_validator
 
 from tribo.core.grid import Grid
 from tribo.core.units import Quantity
@@ -17,6 +17,10 @@ from tribo.kinematics.swept import one_swept_body
 
 class ReciprocatingConfig(KinematicsConfig):
     """Give exactly one of ``duration``, ``cycles`` and ``distance``."""
+
+    model_config = ConfigDict(
+        json_schema_extra={"examples": [{"stroke": "2 mm", "frequency": "25 Hz", "cycles": 100}]}
+    )
 
     type: Literal["reciprocating"] = "reciprocating"
     stroke: Annotated[float, Quantity("m", above=0)]

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Literal, Self
 
-from pydantic import model_validator
+from pydantic import ConfigDict, model_validator
 
 from tribo.core.grid import Grid
 from tribo.core.units import Quantity
@@ -17,6 +17,12 @@ from tribo.kinematics.swept import one_swept_body
 
 class UnidirectionalConfig(KinematicsConfig):
     """Give one of ``track_length`` and ``track_radius``, and one end of the motion."""
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "examples": [{"speed": "0.1 m/s", "track_radius": "16 mm", "distance": "10 m"}]
+        }
+    )
 
     type: Literal["unidirectional"] = "unidirectional"
     speed: Annotated[float, Quantity("m/s", above=0)]

@@ -42,7 +42,7 @@ class Recorder(Observer[RecorderConfig]):
         """Create the file, or go on with it."""
         self._clock = self._last_checkpoint = time.monotonic()
         try:
-            if run.resumed_from is None:
+            if run.resumed_from is None or self.config.path is None:
                 self.writer.create(run)
             else:
                 self._spent_before = run.wall_time
@@ -74,6 +74,7 @@ class Recorder(Observer[RecorderConfig]):
                 if snapshot.state.time != self._saved:
                     # For the user to see; resuming drops it again.
                     self.writer.append_save(snapshot)
+                self.writer.note(snapshot.state.notices)
             self.writer.finish(reason, self._spent())
         except OSError as error:
             raise self._failed(error) from error

@@ -16,6 +16,7 @@ import h5py
 import numpy as np
 
 from tribo.core.arrays import Array
+from tribo.core.errors import CaseError
 from tribo.core.measures import Measures
 from tribo.core.state import RunInfo, Snapshot, State
 from tribo.results.columns import BODY_COLUMNS, COLUMNS
@@ -105,7 +106,8 @@ class ResultWriter:
 
     def reopen(self, run: RunInfo, state: State) -> None:
         """Go on with the file of an earlier process, dropping what came after `state`."""
-        assert self._path is not None
+        if self._path is None:
+            raise CaseError("a result that was kept in memory cannot be gone on with")
         self._file = h5py.File(self._path, "r+", libver="earliest")
         self._file.attrs["status"] = "running"
         _truncate(self._file, state.saves, state.steps + 1)
@@ -126,8 +128,12 @@ class ResultWriter:
             _append(group["wear_depth"], [worn])
             _append(group["plastic_depth"], [body.plastic])
         self._append_rows("saves", [snapshot.measures])
-        f.attrs["notices"] = json.dumps(state.notices)
+        self.note(state.notices)
         self.flush()
+
+    def note(self, notices: Sequence[str]) -> None:
+        """Write the warnings of the run so far."""
+        self._file.attrs["notices"] = json.dumps(notices)
 
     def flush(self) -> None:
         """Write the remembered rows and hand everything to the operating system."""

@@ -62,6 +62,12 @@ def march(model: Model, state: State) -> Iterator[Accepted]:
             state = _noticed(model, state)
             worn_out = _depth(model, state) >= _depth_limit(model)
             last = worn_out or state.time >= model.end_time
+            if worn_out and state.time < model.end_time:
+                text = (
+                    f"stop: ended at {state.time:.6g} s, where the wear depth reached "
+                    f"{1e6 * _depth_limit(model):.4g} µm"
+                )
+                state = replace(state, notices=(*state.notices, text))
             save = last or state.time >= stop
             if save:
                 state = replace(state, saves=state.saves + 1)

@@ -5,13 +5,13 @@ from __future__ import annotations
 import warnings
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
 from tribo.config.case import Case
 from tribo.config.load import load_case, validate_case
-from tribo.core.errors import CaseError, Interrupted, TriboWarning
+from tribo.core.errors import CaseError, Interrupted, TriboError, TriboWarning
 from tribo.core.state import BodyInfo, RunInfo, Snapshot, State
 from tribo.interfaces.observer import Observer, ObserverConfig
 from tribo.observers.recorder import Recorder, RecorderConfig
@@ -27,6 +27,8 @@ from tribo.simulation.interrupt import InterruptGuard
 from tribo.simulation.march import begin, march
 from tribo.simulation.measure import measure
 from tribo.simulation.model import Model
+
+FAILED = "failed"
 
 
 class Simulation:
@@ -139,6 +141,8 @@ class Simulation:
                 "with --allow-changed"
             )
         state, wall_time = read_checkpoint(path)
+        kept = tuple(text for text in state.notices if not text.startswith(FAILED))
+        state = replace(state, notices=kept)
         recorder = Recorder(RecorderConfig(path=path))
         return self._follow(state, recorder, observers, resumed=True, wall_time=wall_time)
 
@@ -171,6 +175,10 @@ class Simulation:
                     if guard.requested and not accepted.last:
                         raise KeyboardInterrupt
             reason = "done"
+        except TriboError as error:
+            # For whoever opens the result: it says why it ends here.
+            snapshot = _with_notice(snapshot, f"{FAILED}: {error}")
+            raise
         except KeyboardInterrupt as error:
             reason = "interrupted"
             where = recorder.config.path
@@ -227,6 +235,11 @@ def _model(
     return compose(case, known), known.plugins
 
 
+def _with_notice(snapshot: Snapshot, text: str) -> Snapshot:
+    state = replace(snapshot.state, notices=(*snapshot.state.notices, text))
+    return replace(snapshot, state=state)
+
+
 def _tell(observers: Sequence[Observer[ObserverConfig]], snapshot: Snapshot, *, save: bool) -> None:
     for observer in observers:
         observer.on_step(snapshot)
@@ -236,7 +249,9 @@ def _tell(observers: Sequence[Observer[ObserverConfig]], snapshot: Snapshot, *, 
 
 def _announce(before: Sequence[str], after: Sequence[str]) -> None:
     for notice in after[len(before) :]:
-        warnings.warn(notice, TriboWarning, stacklevel=4)
+        # That the case's own stop was reached is no warning; the result tells it.
+        if not notice.startswith("stop:"):
+            warnings.warn(notice, TriboWarning, stacklevel=4)
 
 
 def _checked_output(output: str | Path | None, overwrite: bool) -> Path | None:

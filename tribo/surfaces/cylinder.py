@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 import numpy as np
+from pydantic import ConfigDict
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
@@ -15,6 +16,10 @@ from tribo.interfaces.surface import Surface, SurfaceConfig
 
 class CylinderConfig(SurfaceConfig):
     """Configuration of `Cylinder`."""
+
+    model_config = ConfigDict(
+        json_schema_extra={"examples": [{"radius": "5 mm"}, {"radius": "5 mm", "axis": "x"}]}
+    )
 
     type: Literal["cylinder"] = "cylinder"
     radius: Annotated[float, Quantity("m", above=0)]

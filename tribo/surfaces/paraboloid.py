@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal, Self
 
-from pydantic import model_validator
+from pydantic import ConfigDict, model_validator
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
@@ -14,6 +14,12 @@ from tribo.interfaces.surface import Surface, SurfaceConfig
 
 class ParaboloidConfig(SurfaceConfig):
     """Give ``radius``, or ``radius_x`` and ``radius_y``."""
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "examples": [{"radius": "5 mm"}, {"radius_x": "5 mm", "radius_y": "10 mm"}]
+        }
+    )
 
     type: Literal["paraboloid"] = "paraboloid"
     radius: Annotated[float, Quantity("m", above=0)] | None = None

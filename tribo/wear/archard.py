@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Literal, Self
 
 import numpy as np
-from pydantic import model_validator
+from pydantic import ConfigDict, model_validator
 
 from tribo.core.errors import CaseError
 from tribo.core.fields import LocalConditions, WearRate
@@ -16,6 +16,10 @@ from tribo.interfaces.wear import WearLaw, WearLawConfig
 
 class ArchardConfig(WearLawConfig):
     """Give ``k``, or ``K`` and the hardness it refers to."""
+
+    model_config = ConfigDict(
+        json_schema_extra={"examples": [{"k": "3.11e-16 1/Pa"}, {"K": 1e-6, "hardness": "4 GPa"}]}
+    )
 
     type: Literal["archard"] = "archard"
     k: Annotated[float, Quantity("1/Pa", at_least=0)] | None = None

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
+from pydantic import ConfigDict
+
 from tribo.core.fields import LocalConditions, WearRate
 from tribo.core.units import Quantity
 from tribo.interfaces.wear import WearLaw, WearLawConfig
@@ -11,6 +13,12 @@ from tribo.interfaces.wear import WearLaw, WearLawConfig
 
 class PowerConfig(WearLawConfig):
     """Configuration of `Power`."""
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "examples": [{"k": "3.11e-16 1/Pa", "p_exponent": 1.5, "reference_pressure": "1 GPa"}]
+        }
+    )
 
     type: Literal["power"] = "power"
     k: Annotated[float, Quantity("1/Pa", at_least=0)]

@@ -21,15 +21,12 @@ from tribo.wear.power import Power
 REFERENCE = {"k": "3e-16 1/Pa", "reference_pressure": "1 GPa"}
 BACK_AND_FORTH = {"stroke": "2 mm", "frequency": "25 Hz"}
 LAYER = {"thickness": 1e-4, "young": 1e10, "poisson": 0.3}
-NO_UNITS = {"quantities_have_units": "its numbers are plain floats, in SI"}
 
 test_archard = parametrize_checks(Archard, [{"k": "3e-16 1/Pa"}, {"K": 1e-6}])
 test_power = parametrize_checks(
     Power, [{**REFERENCE, "p_exponent": 1.5}, {**REFERENCE, "p_exponent": 3}]
 )
-test_dcfft = parametrize_checks(
-    DcFft, [{}, {"plasticity": False, "tolerance": 1e-10}], expected_failures=NO_UNITS
-)
+test_dcfft = parametrize_checks(DcFft, [{}, {"plasticity": False, "tolerance": 1e-10}])
 test_winkler = parametrize_checks(
     Winkler,
     [{}, {"match": "peak_pressure"}, {"modulus": 1.3e15}, {"layer": LAYER}],
@@ -52,7 +49,6 @@ test_progress = parametrize_checks(Progress, [{}])
 test_recorder = parametrize_checks(
     Recorder,
     [{}],
-    expected_failures={"resumed_run_is_survived": "what was in memory cannot be gone on with"},
 )
 
 
