@@ -4,6 +4,7 @@ import h5py
 import numpy as np
 import pytest
 import xarray
+from made_results import made
 from paper_models import archard, flat, small, sphere, steel
 
 from tribo import Body, CaseError, Material, Result, Simulation
@@ -94,3 +95,38 @@ def test_other_hdf5_files_are_refused(tmp_path):
     h5py.File(path, "w").close()
     with pytest.raises(CaseError, match="not a tribo result"):
         Result.open(path)
+
+
+def test_a_result_says_what_it_is(path):
+    with Result.open(path) as result:
+        assert repr(result) == f"<Result {path}: done, 3 saves at 0, 20, 200 s>"
+    assert repr(result) == f"<Result {path}: closed>"
+
+
+def test_many_saves_are_not_all_listed():
+    shown = repr(made(times=tuple(range(30))))
+    assert shown == "<Result made: done, 30 saves at 0, 1, 2, 3, 4, 5, …, 29 s>"
+
+
+@pytest.mark.parametrize("save", [3, 17, -4])
+def test_a_save_out_of_range_is_refused_with_how_many_there_are(path, save):
+    with Result.open(path) as result:
+        with pytest.raises(CaseError, match=f"no save {save}: it has 3 saves, 0 to 2"):
+            result.pressure(save)
+        ball = result.body("ball")
+    with pytest.raises(CaseError, match=f"'ball' has no save {save}: it has 3 saves, 0 to 2"):
+        ball.surface(save)
+
+
+def test_saves_count_from_either_end(path):
+    with Result.open(path) as result:
+        np.testing.assert_array_equal(result.pressure(-1), result.pressure(2))
+        np.testing.assert_array_equal(result.pressure(-3), result.pressure(0))
+
+
+def test_a_save_is_found_by_its_time_within_rounding():
+    result = made(times=(0.0, 0.1 + 0.2, 3600.0))
+    assert [result.save_at(time) for time in (0, 0.3, 3600 * (1 + 1e-15))] == [0, 1, 2]
+    for time in (0.31, 3599, 3601, -1, float("nan")):
+        with pytest.raises(CaseError, match=r"no save at .* s; its saves are at 0, 0\.3, 3600 s"):
+            result.save_at(time)

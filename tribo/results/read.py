@@ -19,6 +19,10 @@ from tribo.core.grid import Grid
 from tribo.results.columns import BODY_COLUMNS, COLUMNS
 from tribo.results.store import FORMAT, read_text
 
+SAME_TIME = 1e-9
+"""How far a time may be off that of a save, relative to the last one."""
+_LISTED = 8
+
 
 @dataclass(frozen=True)
 class BodyResult:
@@ -46,7 +50,14 @@ class BodyResult:
     plastic_depth: Array
 
     def surface(self, save: int) -> Array:
-        """Return the height outward at a save, worn and deformed, in m."""
+        """Return the height outward at a save, worn and deformed, in m.
+
+        Raises
+        ------
+        CaseError
+            If there is no such save.
+        """
+        save = _checked(save, len(self.wear_depth), f"body {self.name!r}")
         surface: Array = self.height - self.wear_depth[save] - self.plastic_depth[save]
         return surface
 
@@ -92,6 +103,17 @@ class Result:
                 + (f" but of format {found}" if found is not None else "")
             )
         return cls(file, str(path))
+
+    def __repr__(self) -> str:
+        if not self._file:
+            return f"<Result {self.name}: closed>"
+        times = self.times
+        listed = [f"{time:g}" for time in times]
+        if len(listed) > _LISTED:
+            listed = [*listed[: _LISTED - 2], "…", listed[-1]]
+        saves = f"{len(times)} save{'' if len(times) == 1 else 's'}"
+        at = f" at {', '.join(listed)} s" if listed else ""
+        return f"<Result {self.name}: {self.status}, {saves}{at}>"
 
     def __enter__(self) -> Self:
         return self
@@ -168,8 +190,37 @@ class Result:
         return tuple(self.case["bodies"])
 
     def pressure(self, save: int) -> Array:
-        """Return the contact pressure at a save, shape (nx, ny), in Pa."""
-        return self._read("pressure", save)
+        """Return the contact pressure at a save, shape (nx, ny), in Pa.
+
+        Saves count from 0; -1 is the last.
+
+        Raises
+        ------
+        CaseError
+            If there is no such save.
+        """
+        return self._read("pressure", _checked(save, len(self.times), self.name))
+
+    def save_at(self, time: float) -> int:
+        """Return the index of the save at `time`.
+
+        Parameters
+        ----------
+        time : float
+            In s; may be off by rounding.
+
+        Raises
+        ------
+        CaseError
+            If nothing was saved then; the message lists the times.
+        """
+        times = self.times
+        if len(times):
+            nearest = int(np.argmin(np.abs(times - time)))
+            if abs(times[nearest] - time) <= SAME_TIME * times[-1]:
+                return nearest
+        listed = ", ".join(f"{saved:g}" for saved in times)
+        raise CaseError(f"{self.name} has no save at {time:g} s; its saves are at {listed} s")
 
     def body(self, name: str) -> BodyResult:
         """Return what is kept of a body.
@@ -226,7 +277,10 @@ class Result:
         return rows
 
     def summary(self) -> dict[str, Any]:
-        """Return the whole result but its fields, as ``tribo show --json`` prints it."""
+        """Return the whole result but its fields, as plain data.
+
+        ``tribo show --json`` prints it, with what a lab would report added.
+        """
         return {
             "case": self.case,
             "status": self.status,
@@ -259,3 +313,12 @@ class Result:
             return read_text(self._file, name)
         except (OSError, KeyError, UnicodeDecodeError) as error:
             raise CaseError(f"{self.name} is damaged: {name!r} cannot be read ({error})") from error
+
+
+def _checked(save: int, count: int, who: str) -> int:
+    if not -count <= save < count:
+        numbered = f", 0 to {count - 1}" if count > 1 else ""
+        raise CaseError(
+            f"{who} has no save {save}: it has {count} save{'' if count == 1 else 's'}{numbered}"
+        )
+    return save
