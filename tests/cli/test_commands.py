@@ -69,6 +69,13 @@ def test_show_json_has_the_documented_shape(ran):
         "max_plastic_depth_m",
     } <= last["bodies"]["ball"].keys()
     assert last["bodies"]["ball"]["wear_volume_m3"] == pytest.approx(3.11e-16 * 100 * 6)
+    assert data["lab"]["bodies"].keys() == {"ball", "disk"}
+    ball = data["lab"]["bodies"]["ball"]
+    assert ball["specific_wear_rate_mm3_per_Nm"] == pytest.approx(3.11e-7)
+    assert {"mass_kg", "scar_along_m", "scar_across_m"} <= ball.keys()
+    first = data["lab"]["first_contact"]
+    assert first["max_pressure_Pa"] == data["saves"][0]["max_pressure_Pa"]
+    assert {"hertz_peak_pressure_Pa", "yield_ratio"} <= first.keys()
 
 
 def test_show_prints_the_table_again(ran):

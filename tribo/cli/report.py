@@ -2,28 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from rich import box
 from rich.console import Console
+from rich.measure import Measurement
 from rich.table import Table
 
-from tribo.analysis.first_contact import hertz_contact
-from tribo.analysis.lab import (
-    in_mm3_per_newton_metre,
-    mass_from_volume,
-    scar,
-    specific_wear_rate,
-)
+from tribo.analysis.report import BodyReport, FirstContact, lab_report
 from tribo.results.read import Result
+
+DISPENSABLE = ("area", "p centre", "path", "along", "across")
+"""Columns that a narrow terminal does without, the first one first."""
+WIDE = 10_000
+"""More characters than any table needs."""
+NOTHING = "–"
 
 
 def print_report(result: Result, console: Console | None = None) -> None:
     """Print the saves, the worn bodies and the first contact of `result`."""
     console = console or Console(highlight=False)
-    console.print(_saves(result))
-    console.print(_bodies(result))
-    console.print(_first_contact(result))
+    lab = lab_report(result)
+    for part in _saves(result, console):
+        console.print(part)
+    console.print(_bodies(result, lab.bodies))
+    console.print(_first_contact(lab.first_contact))
     totals = result.totals()
     worst = max(float(max(result.table("history")["force_error"])), 0.0)
     console.print(
@@ -40,89 +44,94 @@ def _table(title: str) -> Table:
     return Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD)
 
 
-def _saves(result: Result) -> Table:
+def _saves(result: Result, console: Console) -> Iterator[Table | str]:
+    """Yield the table of saves, and what had to be left out of it to fit the width."""
+    left_out: list[str] = []
+    unbounded = console.options.update(width=WIDE)
+    table = _saves_table(result, left_out)
+    for name in DISPENSABLE:
+        if Measurement.get(console, unbounded, table).minimum <= console.width:
+            break
+        left_out.append(name)
+        table = _saves_table(result, left_out)
+    yield table
+    if left_out:
+        yield f"Left out for want of width: {', '.join(left_out)}."
+
+
+def _saves_table(result: Result, left_out: Sequence[str]) -> Table:
+    cells: dict[tuple[str, str], Callable[[dict[str, Any]], str]] = {
+        ("time", "s"): lambda save: f"{save['time_s']:g}",
+        ("path", "m"): lambda save: f"{save['distance_m']:.4g}",
+        ("p max", "MPa"): lambda save: f"{1e-6 * save['max_pressure_Pa']:.0f}",
+        ("p centre", "MPa"): lambda save: f"{1e-6 * save['centre_pressure_Pa']:.0f}",
+        ("along", "µm"): lambda save: f"{2e6 * save['contact_half_width_x_m']:.0f}",
+        ("across", "µm"): lambda save: f"{2e6 * save['contact_half_width_y_m']:.0f}",
+        ("area", "mm²"): lambda save: f"{1e6 * save['contact_area_m2']:.3f}",
+    }
+    shown = {head: cell for head, cell in cells.items() if head[0] not in left_out}
     table = _table("Contact, along and across the sliding direction; wear depth of each body")
-    for heading in (
-        "time\ns",
-        "path\nm",
-        "p max\nMPa",
-        "p centre\nMPa",
-        "along\nµm",
-        "across\nµm",
-        "area\nmm²",
-        *(f"{body}\nµm" for body in result.body_names),
-    ):
-        table.add_column(heading, justify="right", no_wrap=True)
-    for save in result.saves():
+    for name, unit in shown:
+        table.add_column(f"{name}\n{unit}", justify="right", no_wrap=True)
+    saves = result.saves()
+    depths = {
+        body: [f"{1e6 * save['bodies'][body]['max_wear_depth_m']:.2f}" for save in saves]
+        for body in result.body_names
+    }
+    for body, column in depths.items():
+        # A long name is broken before a number is.
+        table.add_column(
+            f"{body}\nµm", justify="right", overflow="fold", min_width=max(map(len, column))
+        )
+    for i, save in enumerate(saves):
         table.add_row(
-            f"{save['time_s']:g}",
-            f"{save['distance_m']:.4g}",
-            f"{1e-6 * save['max_pressure_Pa']:.0f}",
-            f"{1e-6 * save['centre_pressure_Pa']:.0f}",
-            f"{2e6 * save['contact_half_width_x_m']:.0f}",
-            f"{2e6 * save['contact_half_width_y_m']:.0f}",
-            f"{1e6 * save['contact_area_m2']:.3f}",
-            *(
-                f"{1e6 * save['bodies'][body]['max_wear_depth_m']:.2f}"
-                for body in result.body_names
-            ),
+            *(cell(save) for cell in shown.values()), *(column[i] for column in depths.values())
         )
     return table
 
 
-def _first_contact(result: Result) -> str:
+def _first_contact(first: FirstContact) -> str:
     """Return the line that sets the first contact against Hertz and the onset of yield."""
-    computed = 1e-6 * result.saves()[0]["max_pressure_Pa"]
-    hertz = hertz_contact(result.system)
-    if hertz is None:
+    computed = 1e-6 * first.max_pressure
+    if first.hertz_peak_pressure is None:
         return (
             f"First contact: p max {computed:.1f} MPa; no closed form to compare: the surfaces "
             "state no curvature, or the contact is flat."
         )
-    p0 = 1e-6 * hertz.peak_pressure
-    line = (
-        f"First contact: p max {computed:.1f} MPa, Hertz {p0:.1f} MPa "
-        f"({100 * (computed / p0 - 1):+.2f} %)"
-    )
-    if hertz.yield_ratio is not None:
-        line += (
-            f"; {100 * hertz.yield_ratio:.0f} % of the pressure at which the softer body "
-            "first yields beneath the surface (1.6 H/2.8)"
-        )
+    p0 = 1e-6 * first.hertz_peak_pressure
+    line = f"First contact: p max {computed:.1f} MPa, Hertz {p0:.1f} MPa"
+    if first.comparable:
+        line += f" ({100 * (computed / p0 - 1):+.2f} %)"
+    if first.yields is not None:
+        line += f"; {first.yields}"
     return line + "."
 
 
-def _bodies(result: Result) -> Table:
-    last = result.saves()[-1]
-    table = _table(f"Wear after {last['distance_m']:.4g} m")
+def _bodies(result: Result, bodies: Mapping[str, BodyReport]) -> Table:
+    table = _table(f"Wear after {result.distances[-1]:.4g} m")
     table.add_column("")
-    bodies = [_worn(result, name, last) for name in result.body_names]
-    for name in result.body_names:
-        table.add_column(f"{name} (track)" if result.body(name).swept else name, justify="right")
-    for row in bodies[0]:
-        cells = [body[row] for body in bodies]
-        if any(cell != "-" for cell in cells):
+    worn = [_worn(body) for body in bodies.values()]
+    for name, body in bodies.items():
+        heading = f"{name} (track)" if body.scar_along is None else name
+        table.add_column(heading, justify="right", overflow="fold")
+    for row in worn[0]:
+        cells = [body[row] for body in worn]
+        if any(cell != NOTHING for cell in cells):
             table.add_row(row, *cells)
     return table
 
 
-def _worn(result: Result, name: str, save: dict[str, Any]) -> dict[str, str]:
-    """Return what a lab would report of one body at the last save."""
-    body, worn = result.body(name), save["bodies"][name]
-    volume, distance = worn["wear_volume_m3"], save["distance_m"]
-    marks = scar(body.wear_depth[-1], result.grid)
-    mass = rate = "-"
-    if body.density is not None:
-        mass = f"{1e6 * mass_from_volume(volume, body.density):.3g}"
-    if distance > 0:
-        k = specific_wear_rate(volume, result.system.load, distance)
-        rate = f"{in_mm3_per_newton_metre(k):.3g}"
+def _worn(body: BodyReport) -> dict[str, str]:
+    """Return a body's cells by their row."""
+    mass, rate, along = body.mass, body.specific_wear_rate, body.scar_along
+    length = "whole track" if along is None else f"{1e3 * along:.3f}"
+    scarred = body.scar_across > 0
     return {
-        "volume, mm³": f"{1e9 * volume:.3g}",
-        "mass, mg": mass,
-        "specific wear rate, mm³/(N·m)": rate,
-        "scar along sliding, mm": "whole track" if body.swept else f"{1e3 * marks.along:.3f}",
-        "scar across, mm": f"{1e3 * marks.across:.3f}",
-        "largest depth, µm": f"{1e6 * worn['max_wear_depth_m']:.3g}",
-        "largest plastic depth, µm": f"{1e6 * worn['max_plastic_depth_m']:.3g}",
+        "volume, mm³": f"{1e9 * body.volume:.3g}",
+        "mass, mg": NOTHING if mass is None else f"{1e6 * mass:.3g}",
+        "specific wear rate, mm³/(N·m)": NOTHING if rate is None else f"{rate:.3g}",
+        "scar along sliding, mm": length if scarred else NOTHING,
+        "scar across, mm": f"{1e3 * body.scar_across:.3f}" if scarred else NOTHING,
+        "largest depth, µm": f"{1e6 * body.max_wear_depth:.3g}",
+        "largest plastic depth, µm": f"{1e6 * body.max_plastic_depth:.3g}",
     }

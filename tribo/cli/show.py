@@ -23,7 +23,10 @@ def show(output: Path, as_json: bool) -> None:
 
     with Result.open(output) as result:
         if as_json:
-            click.echo(json.dumps(result.summary(), indent=2))
+            from tribo.analysis.report import lab_report
+
+            lab = lab_report(result).as_json()
+            click.echo(json.dumps({**result.summary(), "lab": lab}, indent=2))
             return
         from tribo.cli.report import print_report
 

@@ -1,0 +1,54 @@
+"""The numbers a lab would report, in one place."""
+
+import pytest
+from made_results import made
+
+from tribo.analysis.report import lab_report, yield_ratio, yield_words
+from tribo.contact.hertz import first_yield_pressure
+
+H = 4e9
+
+
+def test_the_lab_block_is_that_of_the_worn_bodies():
+    # made() wears 3.11e-14 m³ per m of sliding at 100 N.
+    lab = lab_report(made(densities=(7850.0, None), cap=H)).as_json()
+    ball, disk = lab["bodies"]["ball"], lab["bodies"]["disk"]
+    assert ball["specific_wear_rate_mm3_per_Nm"] == pytest.approx(3.11e-7)
+    assert ball["mass_kg"] == pytest.approx(7850 * 3.11e-14 * 360)
+    assert ball["scar_along_m"] == pytest.approx(1.12e-3)
+    assert ball["scar_across_m"] == pytest.approx(1.20e-3)
+    assert disk["mass_kg"] is None
+    assert disk["scar_along_m"] is None
+    assert disk["scar_across_m"] == pytest.approx(1.20e-3)
+
+
+def test_the_first_contact_is_the_computed_one_beside_hertz():
+    result = made(cap=H)
+    first = lab_report(result).as_json()["first_contact"]
+    assert first["hertz_peak_pressure_Pa"] == pytest.approx(2.155e9, rel=1e-3)
+    assert first["max_pressure_Pa"] == result.pressure(0).max()
+    assert first["yield_ratio"] == first["max_pressure_Pa"] / first_yield_pressure(H)
+
+
+@pytest.mark.parametrize(
+    ("changes", "hertz", "ratio"),
+    [({"cap": None}, True, False), ({"cap": H, "curvature": None}, False, False)],
+)
+def test_what_is_not_known_is_null(changes, hertz, ratio):
+    first = lab_report(made(**changes)).as_json()["first_contact"]
+    assert (first["hertz_peak_pressure_Pa"] is not None) == hertz
+    assert (first["yield_ratio"] is not None) == ratio
+
+
+def test_nothing_slid_has_no_wear_rate():
+    lab = lab_report(made(times=(0.0,))).as_json()
+    assert lab["bodies"]["ball"]["specific_wear_rate_mm3_per_Nm"] is None
+    assert lab["bodies"]["ball"]["scar_across_m"] == 0
+
+
+def test_yield_is_said_in_three_stages():
+    assert yield_ratio(1.6 * H / 2.8, H) == pytest.approx(1)
+    assert yield_words(0.5 * H, H).startswith("88 % of the pressure at which")
+    assert yield_words(0.5 * H, H).endswith("(1.6 H/2.8)")
+    assert yield_words(0.8 * H, H).startswith("the softer body yields beneath the surface at first")
+    assert "yields from the start" in yield_words(H, H)

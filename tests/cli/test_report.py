@@ -1,0 +1,74 @@
+"""What a run ends with, in terminals of all widths."""
+
+import io
+
+import pytest
+from made_results import made
+from paper_models import archard, flat, foundation, small, sphere, steel
+from rich.console import Console
+
+from tribo import Body, Grid, Simulation
+from tribo.cli.report import print_report
+from tribo.kinematics.reciprocating import Reciprocating, ReciprocatingConfig
+
+
+def printed(result, width=80):
+    console = Console(file=io.StringIO(), width=width, highlight=False)
+    print_report(result, console)
+    return console.file.getvalue()
+
+
+def row(text, label):
+    """Cells of the row that begins with `label`."""
+    return next(line for line in text.splitlines() if label in line).split(label)[1].split()
+
+
+def brief(**changes):
+    bodies = [
+        Body("ball", sphere(), steel(4e9), archard()),
+        Body("disk", flat(), steel(4e9), archard()),
+    ]
+    kinematics = Reciprocating(ReciprocatingConfig(stroke=2e-3, frequency=25, duration=1))
+    return Simulation(small(**{"bodies": bodies, "kinematics": kinematics, **changes})).run()
+
+
+@pytest.mark.parametrize("width", [44, 60, 80])
+@pytest.mark.parametrize("names", [("ball", "disk"), ("upper specimen no. 1", "lower_one")])
+def test_no_number_is_cut_and_no_line_is_too_long(width, names):
+    text = printed(made(names=names), width)
+    assert "…" not in text
+    assert max(map(len, text.splitlines())) <= width
+    # The last save: the time and both depths are never left out.
+    cells = next(line for line in text.splitlines() if line.split()[:1] == ["3600"]).split()
+    assert cells[-2:] == ["27.95", "1.03"]
+
+
+def test_a_narrow_terminal_is_told_what_it_misses():
+    assert "Left out" not in printed(made(), 80)
+    assert "Left out for want of width: area, p centre." in printed(made(), 60)
+
+
+def test_a_body_that_does_not_wear_has_no_scar():
+    text = printed(made(worn=(True, False)))
+    assert row(text, "scar along sliding, mm") == ["1.120", "–"]
+    assert row(text, "scar across, mm") == ["1.200", "–"]
+
+
+def test_yield_is_judged_by_the_pressure_that_was_computed():
+    # On these springs it is beyond 1.6 H/2.8 = 2286 MPa, where Hertz's 2155 MPa is not.
+    result = brief(contact=foundation())
+    first = 1e-6 * result.saves()[0]["max_pressure_Pa"]
+    text = " ".join(printed(result).split())
+    assert first > 2285.7
+    assert "; the softer body yields beneath the surface at first" in text
+    assert f"{100 * first / 2285.7:.0f} % of 1.6 H/2.8" in text
+    assert "94 % of the pressure at which the softer body first yields" in printed(
+        brief(), width=200
+    )
+
+
+def test_hertz_is_compared_in_percent_only_where_it_should_agree():
+    assert "Hertz 2155.4 MPa (" in " ".join(printed(brief()).split())
+    assert "Hertz 2155.4 MPa;" in " ".join(printed(brief(contact=foundation())).split())
+    cut = brief(grid=Grid((0.25e-3, 0.25e-3), (24, 24)), ends_at_window=True)
+    assert "Hertz 2155.4 MPa;" in " ".join(printed(cut).split())
