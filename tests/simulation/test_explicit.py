@@ -5,6 +5,9 @@ from paper_models import K, archard, flat, half_space, last, motion, small, sphe
 from tribo.config.stepping import ExplicitConfig
 from tribo.core.errors import CaseError
 from tribo.simulation.model import Body
+from tribo.simulation.rates import Moment
+from tribo.simulation.run import Simulation
+from tribo.simulation.step import first_contact, largest_stable_increment
 
 
 def ball_only():
@@ -52,3 +55,23 @@ def test_unknown_compliance_is_said_so():
     contact.smallest_compliance = lambda system: None
     with pytest.raises(CaseError, match="does not state its smallest compliance"):
         last(small(contact=contact, stepping=ExplicitConfig(time_step=1)))
+
+
+def test_where_only_the_track_wears_the_limit_counts_the_part_of_it_in_contact():
+    # λ <= k (2b/ℓ)/K̂: a point of the track is in contact for 2b of every ℓ slid.
+    bodies = [Body("ball", sphere(), steel()), Body("disk", flat(), steel(), archard())]
+    model = small(bodies=bodies)
+    state = first_contact(model)
+    touching = np.count_nonzero(state.contact.pressure > 0, axis=0).max()
+    spacing = model.grid.spacing[0]
+    expected = 2 * 0.58069 * spacing / (K * model.system.modulus * touching * spacing / 2e-3)
+    limit = largest_stable_increment(model, state, Moment(0.0, 0.0, 0.1))
+    assert limit == pytest.approx(expected, rel=1e-3)
+
+
+@pytest.mark.parametrize(("step", "words"), [("60 s", "largest stable"), (1e-30, "steps")])
+def test_a_time_step_that_cannot_do_is_refused_before_anything_is_written(tmp_path, step, words):
+    model = small(stepping=ExplicitConfig(time_step=step), save_times=(1.0, 2.0))
+    with pytest.raises(CaseError, match=words):
+        Simulation(model).run(tmp_path / "run.h5")
+    assert list(tmp_path.iterdir()) == []

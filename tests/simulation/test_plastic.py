@@ -102,3 +102,34 @@ def test_the_papers_load_does_not_yield():
     model = yielding(load=100.0, grid=Grid((0.7e-3, 0.7e-3), (48, 48)))
     assert all(body.plastic.max() == 0 for state in states(model) for body in state.bodies.values())
     assert replace(model.system).cap == HARDNESS
+
+
+@pytest.mark.parametrize("hardness", [("6 GPa", "4 GPa"), ("4 GPa", "3 GPa")])
+def test_a_softer_disk_gets_a_groove_that_comes_to_rest(hardness):
+    model = yielding(hardness=hardness, kinematics=motion(duration=20))
+    all_states = states(model)
+    assert all(state.bodies["ball"].plastic.max() == 0 for state in all_states)
+    last = all_states[-1]
+    disk = last.bodies["disk"].plastic
+    # Without the ball's share the disk alone sinks deeper than with equal hardness.
+    assert disk.max() > 2e-6
+    assert np.ptp(disk, axis=0).max() == 0
+    assert last.contact.pressure.max() < model.system.cap
+
+
+def test_what_is_pressed_in_is_shared_out_whole(run):
+    first = run[1][0]
+    shared = first.bodies["ball"].plastic + first.bodies["disk"].plastic
+    np.testing.assert_allclose(shared, first.contact.overlap, rtol=1e-12)
+
+
+def test_every_pressure_belongs_to_the_geometry_saved_with_it(run):
+    model, all_states = run
+    for state in (all_states[0], all_states[1], all_states[-1]):
+        again = model.contact.solve(
+            ContactProblem(model.system, geometry(model, state.bodies), model.load)
+        )
+        np.testing.assert_allclose(
+            again.pressure, state.contact.pressure, atol=1e-4 * state.contact.pressure.max()
+        )
+        assert again.overlap.max() <= 1e-5 * state.bodies["disk"].plastic.max()

@@ -197,3 +197,54 @@ def test_a_model_made_of_objects_describes_the_case_that_makes_it():
 def test_a_swept_body_must_not_vary_along_the_track():
     with pytest.raises(CaseError, match=r"bodies\.disk\.surface: .*kinematics\.swept"):
         small(bodies=[Body("ball", flat(), steel()), Body("disk", sphere(), steel())])
+
+
+def test_the_checkpoint_of_another_case_is_not_gone_on_with(tmp_path):
+    ours, theirs = tmp_path / "ours.h5", tmp_path / "theirs.h5"
+    for path, load in ((ours, 100.0), (theirs, 80.0)):
+        with pytest.raises(Interrupted):
+            Simulation(small(load=load)).run(path, observers=[Stopper(5)])
+    theirs.replace(ours)
+    with pytest.raises(CaseError, match="belongs to another case"):
+        Simulation(small(load=80.0)).resume(ours)
+
+
+def test_replacing_a_result_drops_its_checkpoints(tmp_path):
+    path = tmp_path / "run.h5"
+    with pytest.raises(Interrupted):
+        Simulation(small()).run(path, observers=[Stopper(5)])
+    short = small(load=50.0, kinematics=motion(duration=1))
+    Simulation(short).run(path, overwrite=True).close()
+    assert [p.name for p in tmp_path.iterdir()] == ["run.h5"]
+
+
+def test_a_result_that_lost_rows_is_not_padded(tmp_path):
+    path = tmp_path / "run.h5"
+    with pytest.raises(Interrupted):
+        Simulation(small()).run(path, observers=[Stopper(5)])
+    with h5py.File(path, "r+") as file:
+        file["history/time"].resize(2, axis=0)
+    with pytest.raises(CaseError, match="lacks rows"):
+        Simulation(small()).resume(path)
+
+
+def test_a_failed_run_says_why_in_its_result(tmp_path):
+    path = tmp_path / "run.h5"
+    with pytest.raises(NumericalError):
+        Simulation(small(grid=Grid((0.4e-3, 0.4e-3), (32, 32)))).run(path)
+    with Result.open(path) as result:
+        assert result.notices[-1].startswith("failed: at ")
+        assert "grid.size" in result.notices[-1]
+
+
+def test_a_depth_that_ends_a_run_is_told_in_the_result():
+    result = Simulation(small(stop=StopConfig(depth="0.4 um"))).run()
+    assert result.notices[-1].startswith("stop: ended at ")
+
+
+def test_steps_shorten_before_a_save_and_are_long_again_after_it():
+    times = Simulation(small(save_times=(100,))).run().table("history")["distance_m"]
+    steps = np.diff(times)
+    at = int(np.flatnonzero(np.isclose(times, 10.0))[0])
+    assert steps[at - 1] <= 1.5 * 0.01 * 10.0
+    assert steps[at] > 2 * steps[at - 1]

@@ -192,6 +192,7 @@ def _displacement_bound(problem: ContactProblem, pressure: Array) -> Array:
     for axis, line in ((0, x), (1, y)):
         loaded = line.ravel()[touching.any(axis=1 - axis)]
         reach.append(np.maximum(np.abs(line - loaded[0]), np.abs(line - loaded[-1])))
-    distance = np.hypot(reach[0], reach[1])
+    # Within half a cell a uniform load displaces more than the bound at its edge.
+    distance = np.maximum(np.hypot(reach[0], reach[1]), 0.5 * min(problem.system.grid.spacing))
     bound: Array = problem.load / (np.pi * problem.system.modulus * distance)
     return bound

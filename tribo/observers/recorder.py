@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Literal
 
-from tribo.core.errors import OutputError
+from tribo.core.errors import CaseError, OutputError
 from tribo.core.state import RunInfo, Snapshot
 from tribo.core.units import Quantity
 from tribo.interfaces.observer import Observer, ObserverConfig
@@ -21,6 +22,8 @@ class RecorderConfig(ObserverConfig):
     type: Literal["recorder"] = "recorder"
     path: Path | None = None
     """Where to write; in memory if left out."""
+    overwrite: bool = False
+    """Whether an existing file may be replaced."""
     checkpoint_every: Annotated[float, Quantity("s", at_least=0)] = 10.0
     """Wall time between checkpoints; one is also written at every save."""
 
@@ -37,18 +40,21 @@ class Recorder(Observer[RecorderConfig]):
         self._spent_before = 0.0
         self._last_checkpoint = 0.0
         self._saved = -1.0
+        self._case: Mapping[str, object] = {}
 
     def on_start(self, run: RunInfo) -> None:
         """Create the file, or go on with it."""
         self._clock = self._last_checkpoint = time.monotonic()
+        self._case = run.case
         try:
             if run.resumed_from is None or self.config.path is None:
+                self._make_room()
                 self.writer.create(run)
             else:
                 self._spent_before = run.wall_time
                 self._saved = run.resumed_from.state.time
                 self.writer.reopen(run, run.resumed_from.state)
-        except OSError as error:
+        except (OSError, RuntimeError) as error:
             raise self._failed(error) from error
 
     def on_step(self, snapshot: Snapshot) -> None:
@@ -61,7 +67,7 @@ class Recorder(Observer[RecorderConfig]):
         """Write the fields, then a checkpoint."""
         try:
             self.writer.append_save(snapshot)
-        except OSError as error:
+        except (OSError, RuntimeError) as error:
             raise self._failed(error) from error
         self._saved = snapshot.state.time
         self._checkpoint(snapshot)
@@ -76,7 +82,7 @@ class Recorder(Observer[RecorderConfig]):
                     self.writer.append_save(snapshot)
                 self.writer.note(snapshot.state.notices)
             self.writer.finish(reason, self._spent())
-        except OSError as error:
+        except (OSError, RuntimeError) as error:
             raise self._failed(error) from error
         if self.config.path is not None:
             self.writer.close()
@@ -89,21 +95,30 @@ class Recorder(Observer[RecorderConfig]):
             return Result.open(self.config.path)
         return Result(self.writer.file, "the result")
 
+    def _make_room(self) -> None:
+        """Refuse to replace a file unasked; drop the checkpoints of what is replaced."""
+        path = self.config.path
+        if path is None:
+            return
+        if path.exists() and not self.config.overwrite:
+            raise CaseError(f"{path} exists; choose another path, or set overwrite = true")
+        remove_checkpoint(path)
+
     def _checkpoint(self, snapshot: Snapshot) -> None:
         if self.config.path is None:
             return
         try:
             # The file must hold every row that the checkpoint counts.
             self.writer.flush()
-            write_checkpoint(self.config.path, snapshot.state, self._spent())
-        except OSError as error:
+            write_checkpoint(self.config.path, snapshot.state, self._spent(), self._case)
+        except (OSError, RuntimeError) as error:
             raise self._failed(error) from error
         self._last_checkpoint = time.monotonic()
 
     def _spent(self) -> float:
         return self._spent_before + time.monotonic() - self._clock
 
-    def _failed(self, error: OSError) -> OutputError:
+    def _failed(self, error: Exception) -> OutputError:
         return OutputError(
             f"cannot write {self.config.path}: {error}; free space or choose another place with "
             "-o; what was saved before is intact"

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Mapping
+from hashlib import sha256
 from pathlib import Path
 
 import h5py
@@ -28,7 +30,14 @@ def previous_path(result: Path) -> Path:
     return result.with_name(result.name + ".ckpt.prev")
 
 
-def write_checkpoint(result: Path, state: State, wall_time: float) -> None:
+def fingerprint(case: Mapping[str, object]) -> str:
+    """Return what tells the checkpoint of one case from that of another."""
+    return sha256(json.dumps(case, sort_keys=True).encode()).hexdigest()
+
+
+def write_checkpoint(
+    result: Path, state: State, wall_time: float, case: Mapping[str, object]
+) -> None:
     """Replace the checkpoint of `result` by `state`, keeping the one before.
 
     Parameters
@@ -39,10 +48,13 @@ def write_checkpoint(result: Path, state: State, wall_time: float) -> None:
         What to keep.
     wall_time : float
         Time spent so far, in s.
+    case : Mapping
+        The configuration of the run, as plain data.
     """
     path = checkpoint_path(result)
     fresh = path.with_name(path.name + ".new")
     with h5py.File(fresh, "w", libver="earliest") as file:
+        file.attrs["case"] = fingerprint(case)
         _write_state(file, state, wall_time)
     with fresh.open("rb") as handle:
         os.fsync(handle.fileno())
@@ -51,8 +63,15 @@ def write_checkpoint(result: Path, state: State, wall_time: float) -> None:
     fresh.replace(path)
 
 
-def read_checkpoint(result: Path) -> tuple[State, float]:
+def read_checkpoint(result: Path, case: Mapping[str, object]) -> tuple[State, float]:
     """Return the last good state of `result` and the time spent until then.
+
+    Parameters
+    ----------
+    result : Path
+        The result file.
+    case : Mapping
+        Its configuration, as plain data; a checkpoint of another is refused.
 
     Raises
     ------
@@ -65,7 +84,9 @@ def read_checkpoint(result: Path) -> tuple[State, float]:
             continue
         try:
             with h5py.File(path, "r") as file:
-                return _read_state(file)
+                if file.attrs["case"] == fingerprint(case):
+                    return _read_state(file)
+                reasons.append(f"{path.name} belongs to another case")
         except (OSError, KeyError, ValueError) as error:
             reasons.append(f"{path.name} cannot be read ({error})")
     raise CaseError(

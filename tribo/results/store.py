@@ -253,6 +253,12 @@ def _truncate(file: h5py.File, saves: int, steps: int) -> None:
 
     def shorten(name: str, item: h5py.Dataset | h5py.Group) -> None:
         if isinstance(item, h5py.Dataset) and item.maxshape[0] is None:
-            item.resize(steps if name.startswith("history/") else saves, axis=0)
+            length = steps if name.startswith("history/") else saves
+            if item.shape[0] < length:
+                raise CaseError(
+                    f"the result lacks rows that its checkpoint counts ({name}: {item.shape[0]} of "
+                    f"{length}); start again with 'tribo run'"
+                )
+            item.resize(length, axis=0)
 
     file.visititems(shorten)

@@ -25,6 +25,7 @@ from tribo.simulation.step import (
 
 FEW_CELLS = 8
 MAX_REJECTIONS = 40
+MOST_STEPS = 1e8
 DEPTH_ACCURACY = 1e-6
 
 
@@ -38,8 +39,20 @@ class Accepted:
 
 
 def begin(model: Model) -> State:
-    """Return the state at t = 0; raises as `first_contact`."""
-    return _noticed(model, replace(first_contact(model), saves=1))
+    """Return the state at t = 0.
+
+    Raises
+    ------
+    CaseError
+        If the contact does not fit the window, or a fixed time step is not
+        stable or would never come to an end.
+    NumericalError
+        If the contact cannot be solved.
+    """
+    state = first_contact(model)
+    if isinstance(model.stepping, ExplicitConfig):
+        _check_time_step(model, model.stepping, state)
+    return _noticed(model, replace(state, saves=1))
 
 
 def march(model: Model, state: State) -> Iterator[Accepted]:
@@ -87,9 +100,9 @@ def _explicit(model: Model, config: ExplicitConfig, state: State, stop: float) -
     time = state.time + config.time_step
     if stop - time < 1e-6 * config.time_step:
         time = stop
-    increment = _path_until(model, state, time) - state.distance
     if not config.allow_unstable:
-        _check_stability(model, state, increment, time)
+        _check_stability(model, state, config.time_step)
+    increment = _path_until(model, state, time) - state.distance
     return _stop_at_depth(model, state, explicit_step, increment, time)
 
 
@@ -192,7 +205,22 @@ def _depth_limit(model: Model) -> float:
     return model.stop.depth if model.stop.depth is not None else np.inf
 
 
-def _check_stability(model: Model, state: State, increment: float, time: float) -> None:
+def _check_time_step(model: Model, config: ExplicitConfig, state: State) -> None:
+    steps = model.end_time / config.time_step
+    if steps > MOST_STEPS:
+        raise CaseError(
+            f"{config.time_step:g} s would take {steps:.2g} steps; {MOST_STEPS:.0e} are allowed: "
+            "make it longer, or use stepping.type = 'implicit'",
+            "stepping.time_step",
+        )
+    if not config.allow_unstable:
+        _check_stability(model, state, config.time_step)
+
+
+def _check_stability(model: Model, state: State, step: float) -> None:
+    """Raise `CaseError` unless a whole time step from now is stable."""
+    time = state.time + step
+    increment = _path_until(model, state, time) - state.distance
     moment = Moment(time, state.distance + increment, increment / (time - state.time))
     limit = largest_stable_increment(model, state, moment)
     if limit is None:

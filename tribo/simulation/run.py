@@ -95,7 +95,7 @@ class Simulation:
             If it was stopped from outside; it can be resumed.
         """
         path = _checked_output(output, overwrite)
-        recorder = Recorder(RecorderConfig(path=path))
+        recorder = Recorder(RecorderConfig(path=path, overwrite=overwrite))
         with blaming():
             state = begin(self.model)
         return self._follow(state, recorder, observers, resumed=False, wall_time=0.0)
@@ -140,7 +140,7 @@ class Simulation:
                 f"{path} was begun with other components: {listed}. Install those again, or go on "
                 "with --allow-changed"
             )
-        state, wall_time = read_checkpoint(path)
+        state, wall_time = read_checkpoint(path, describe(self.model))
         kept = tuple(text for text in state.notices if not text.startswith(FAILED))
         state = replace(state, notices=kept)
         recorder = Recorder(RecorderConfig(path=path))

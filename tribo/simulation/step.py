@@ -228,14 +228,14 @@ def _check_solution(model: Model, solution: ContactSolution) -> None:
         kind = type(solution).__name__
         raise NumericalError(f"{who} gave a {kind} instead of a ContactSolution")
     for what, field in (("pressure", solution.pressure), ("overlap", solution.overlap)):
-        if np.shape(field) != model.grid.cells:
+        if not isinstance(field, np.ndarray) or field.shape != model.grid.cells:
             raise NumericalError(
                 f"{who} gave a {what} of shape {np.shape(field)}, not {model.grid.cells}"
             )
         # NaN if any value is.
-        if not np.min(field) >= 0:
+        if not field.min() >= 0:
             raise NumericalError(f"{who} gave a {what} that is negative or not finite")
-    carried = float(np.sum(solution.pressure)) * model.grid.cell_area
+    carried = float(solution.pressure.sum()) * model.grid.cell_area
     if not abs(carried - model.load) <= LOAD_BALANCE * model.load:
         raise NumericalError(
             f"{who} gave a pressure that carries {carried:.9g} N instead of {model.load:.9g} N"
