@@ -8,6 +8,7 @@ from importlib import import_module
 
 import click
 
+from tribo.cli.plain import make_plain
 from tribo.cli.running import warnings_on_stderr
 from tribo.core.errors import TriboError
 
@@ -89,6 +90,8 @@ def tribo(no_plugin: tuple[str, ...], only: str | None) -> None:
 def main() -> None:
     """Run the command; every expected error becomes one message and an exit code."""
     debug = bool(os.environ.get("TRIBO_DEBUG"))
+    make_plain(sys.stdout)
+    make_plain(sys.stderr)
     try:
         with warnings_on_stderr():
             tribo.main(standalone_mode=False)
