@@ -26,11 +26,13 @@ def made(
     cap=None,
     plastic=0.0,
     power=0.5,
+    shape=(1.0, 1.1),
     status="done",
 ):
     """Return a result in which the contact grows as that of a ball worn flat.
 
-    The pressure goes as ``(1 - r²/a²)**power``.
+    The pressure goes as ``(1 - r²/a²)**power``; `shape` are the half-widths along x and y in
+    parts of a.
     """
     bodies = tuple(zip(names, swept, worn, densities, strict=True))
     writer = ResultWriter(None)
@@ -48,10 +50,10 @@ def made(
         )
     )
     for time in times:
-        snapshot = _snapshot(time, bodies, plastic, power)
+        snapshot = _snapshot(time, bodies, plastic, power, shape)
         # Two steps to each save.
         if time > 0:
-            writer.append_step(_snapshot(0.9 * time, bodies, plastic, power).measures)
+            writer.append_step(_snapshot(0.9 * time, bodies, plastic, power, shape).measures)
         writer.append_step(snapshot.measures)
         writer.append_save(snapshot)
     writer.finish(status, 1.0)
@@ -68,10 +70,10 @@ def _height(body):
     return -(x**2 + y**2) / (2 * RADIUS) if body == 0 else np.zeros(GRID.cells)
 
 
-def _snapshot(time, bodies, plastic, power):
+def _snapshot(time, bodies, plastic, power, shape):
     x, y = GRID.mesh
     a = half_width(time)
-    inside = np.maximum(1 - (x**2 + (y / 1.1) ** 2) / a**2, 0.0)
+    inside = np.maximum(1 - ((x / shape[0]) ** 2 + (y / shape[1]) ** 2) / a**2, 0.0)
     pressure = np.where(inside > 0, inside**power, 0.0)
     pressure *= 100.0 / (pressure.sum() * GRID.cell_area)
     # What levels a ball, and a tenth of it for a groove.

@@ -105,4 +105,4 @@ def test_threads_can_draw_at_the_same_time():
     with ThreadPoolExecutor(4) as pool:
         figures = list(pool.map(lambda _: pressure_sections(result), range(8)))
     assert {figure.axes[0].xaxis.label.get_fontsize() for figure in figures} == {8.0}
-    assert {len(figure.axes[0].lines) for figure in figures} == {len(TIMES) + 1}
+    assert {len(figure.axes[1].lines) for figure in figures} == {len(TIMES) + 1}

@@ -105,54 +105,116 @@ def test_a_groove_is_the_swept_bodys_section(result):
 
 def test_sections_hold_every_save_and_hertz(result):
     figure = pressure_sections(result)
-    assert len(figure.axes) == 4
-    for i, axes in enumerate(figure.axes):
+    assert len(figure.axes) == 3
+    hertz = hertz_contact(result.system)
+    for axis, axes in enumerate(figure.axes[1:]):
         shown = curves(axes)
         assert len(shown) == len(TIMES) + 1
         for save, label in enumerate(list(shown)[:-1]):
-            expected = 1e-6 * profile(result.pressure(save), i % 2)
+            expected = 1e-6 * profile(result.pressure(save), axis)
             np.testing.assert_allclose(shown[label][1], expected)
         x, y = shown["Hertz, 0 s"]
-        hertz = hertz_contact(result.system)
         assert y.max() == pytest.approx(1e-6 * hertz.peak_pressure, rel=1e-3)
         assert x[y > 0].max() == pytest.approx(1e3 * hertz.half_width_x, rel=0.02)
-    assert names(figure.legends[0]) == set(curves(figure.axes[0]))
+    assert names(figure.legends[0]) == set(curves(figure.axes[1]))
 
 
-def test_the_second_row_of_sections_is_filled_by_what_comes_later(result):
-    upper, lower = pressure_sections(result).axes[::2]
-    assert upper.get_ylim()[1] >= 1e-6 * result.pressure(0).max()
+def test_a_first_pressure_that_dwarfs_the_later_ones_stands_whole_in_its_own_panel(result):
+    whole, along, across = pressure_sections(result).axes
+    shown = curves(whole)
+    assert set(shown) == {"0 s", "Hertz, 0 s"}
+    np.testing.assert_allclose(shown["0 s"][1], 1e-6 * profile(result.pressure(0), 0))
+    assert whole.get_ylim()[1] >= max(1e-6 * result.pressure(0).max(), shown["Hertz, 0 s"][1].max())
     later = 1e-6 * profile(result.pressure(1), 0).max()
-    assert later < lower.get_ylim()[1] < 1.2 * later
+    for axes in (along, across):
+        assert later < axes.get_ylim()[1] < 1.2 * later
+
+
+def test_later_pressures_as_high_as_the_first_share_its_panels():
+    result = made((0.0, 1.0))
+    along, across = pressure_sections(result).axes
+    for axes in (along, across):
+        assert axes.get_ylim()[1] >= 1e-6 * result.pressure(0).max()
+
+
+@pytest.mark.parametrize("times", [(0.0, 1.0), TIMES])
+def test_sections_that_reach_the_hardness_mark_it(times):
+    result = made(times, cap=2e9)
+    result_axes = pressure_sections(result).axes
+    marked = result_axes[:1] if len(result_axes) == 3 else result_axes
+    assert all("dotted: hardness" in axes.get_title(loc="left") for axes in marked)
 
 
 def test_the_map_is_the_pressure_at_true_scale(result):
-    axes, bar = pressure_map(result, 1).axes
+    (axes,) = pressure_map(result, 1).axes
+    (bar,) = axes.child_axes
     (image,) = axes.images
-    shown = np.ma.filled(image.get_array(), 0.0)
-    np.testing.assert_allclose(shown, 1e-6 * result.pressure(1).T)
+    pressure = result.pressure(1).T
+    shown = np.asarray(image.get_array())
+    np.testing.assert_allclose(shown[pressure > 0], 1e-6 * pressure[pressure > 0])
     np.testing.assert_allclose(image.get_extent(), [-1.0, 1.0, -0.8, 0.8])
-    assert axes.get_aspect() == 1.0
+    axes.figure.draw_without_rendering()
+    box = axes.get_window_extent()
+    per_mm = box.width / np.ptp(axes.get_xlim()), box.height / np.ptp(axes.get_ylim())
+    assert per_mm[0] == pytest.approx(per_mm[1])
     assert axes.get_title(loc="left") == "t = 200 s"
     assert bar.get_ylabel() == "Pressure (MPa)"
     reach = 1e3 * half_width(200.0)
     assert reach < axes.get_xlim()[1] < 1.5 * reach
 
 
-@pytest.mark.parametrize(("power", "cut"), [(0.5, False), (0.05, True)])
-def test_the_scale_of_a_map_starts_from_zero_unless_the_pressure_is_a_plateau(power, cut):
-    axes, bar = pressure_map(made((0.0, 3600.0), power=power)).axes
-    low, high = axes.images[0].get_clim()
-    assert (low > 0.5 * high) is cut
-    assert low <= 0.8 * high
-    # An arrow below the scale tells that it leaves something out.
-    assert (axes.images[0].colorbar.extend == "min") is cut
-    assert bar.get_ylabel().endswith("(MPa)")
+@pytest.mark.parametrize("power", [0.5, 0.05])
+def test_the_scale_of_a_map_goes_from_zero_to_the_largest_pressure(power):
+    result = made((0.0, 3600.0), power=power)
+    (axes,) = pressure_map(result).axes
+    assert axes.images[0].get_clim() == (0.0, pytest.approx(1e-6 * result.pressure(1).max()))
+    assert axes.child_axes[0].get_ylabel().endswith("(MPa)")
+
+
+def test_a_map_is_white_outside_a_smooth_edge_of_the_contact(result):
+    pressure = result.pressure(4)
+    (axes,) = pressure_map(result).axes
+    x, y = (1e3 * position for position in np.broadcast_arrays(*GRID.mesh))
+    points = np.column_stack([x.ravel(), y.ravel()])
+    edge_path = axes.images[0].get_clip_path().get_fully_transformed_path()
+    inside = edge_path.contains_points(axes.transData.transform(points)).reshape(GRID.cells)
+    # It differs from the cells in contact at the rim only.
+    r = np.hypot(x, y / 1.1)
+    edge = 1e3 * half_width(3600.0)
+    far = np.abs(r - edge) > 1.5e3 * max(GRID.spacing)
+    np.testing.assert_array_equal(inside[far], (pressure > 0)[far])
+    assert np.mean(inside == (pressure > 0)) > 0.97
+
+
+@pytest.mark.parametrize(("power", "lines"), [(0.5, True), (0.001, False)])
+def test_lines_of_equal_pressure_are_labelled_or_the_pressure_is_called_even(power, lines):
+    (axes,) = pressure_map(made((0.0, 3600.0), power=power)).axes
+    assert bool(axes.texts) is lines
+    assert ("even within" in axes.get_title(loc="left")) is not lines
+
+
+SHAPES = {"1:20": (0.05, 1.0), "20:1": (1.0, 0.05), "1:5": (0.2, 1.0), "5:1": (1.0, 0.2)}
+
+
+@pytest.mark.parametrize("shape", SHAPES.values(), ids=SHAPES)
+def test_the_map_of_a_thin_contact_has_room_for_title_and_scale(shape):
+    (axes,) = pressure_map(made((6e4,), shape=shape, curvature=None)).axes
+    figure = axes.figure
+    figure.draw_without_rendering()
+    box, bar = axes.get_window_extent(), axes.child_axes[0].get_window_extent()
+    assert 1 / 3.05 < box.height / box.width < 3.05
+    assert bar.height == pytest.approx(box.height)
+    assert figure.bbox.width >= axes.get_tightbbox().x1
+    stretched = "not to scale" in axes.get_title(loc="left")
+    assert stretched is (min(shape) < 0.1)
+    assert not axes.get_title(loc="right")
+    assert not figure.legends
 
 
 def test_the_map_marks_the_ellipse_of_hertz(result):
-    axes = pressure_map(result).axes[0]
-    (ellipse,) = axes.patches
+    figure = pressure_map(result)
+    (ellipse,) = figure.axes[0].patches
+    assert names(figure.legends[0]) == {"Hertz, 0 s"}
     hertz = hertz_contact(result.system)
     assert ellipse.width == pytest.approx(2e3 * hertz.half_width_x)
     assert ellipse.height == pytest.approx(2e3 * hertz.half_width_y)
@@ -179,6 +241,22 @@ def test_the_swept_body_lies_below_whatever_its_place():
     assert [text.get_text() for text in figure.axes[0].texts] == ["disk", "ball"]
 
 
+def test_what_the_upper_body_lost_is_stated_and_not_drawn_inside_the_lower(result):
+    for axes in worn_section(result).axes:
+        upper, lower = (line.get_ydata() for line in axes.lines if line.get_label() == "unworn")
+        _, bottom = (line.get_ydata() for line in axes.lines if line.get_label() == "worn")
+        drawn = np.isfinite(upper)
+        assert 0 < drawn.sum() < drawn.size
+        assert np.all(upper[drawn] >= bottom[drawn])
+        assert np.all(np.isfinite(lower))
+    depths = [text.get_text() for text in axes.texts]
+    for name, text in zip(("ball", "disk"), depths, strict=True):
+        body = result.body(name)
+        value, unit = text.removeprefix(f"{name}: ").removesuffix(" deep").split()
+        expected = body.wear_depth[-1].max() * {"µm": 1e6, "nm": 1e9}[unit]
+        assert float(value) == pytest.approx(expected, rel=1e-2)
+
+
 def test_volume_and_mass_are_the_histories(result):
     figure = wear_history(result)
     (axes,) = figure.axes
@@ -198,6 +276,16 @@ def test_markers_stand_at_the_saves(result):
     axes = wear_history(result).axes[0]
     line = axes.lines[0]
     np.testing.assert_allclose(line.get_xdata()[line.get_markevery()], TIMES)
+
+
+def test_two_moments_are_not_joined_and_no_marker_is_cut_off():
+    def lines(result):
+        return wear_history(result).axes[0].lines
+
+    two, more = made((0.0,)), made((0.0, 200.0))
+    assert {line.get_linestyle() for line in lines(two)} == {"None"}
+    assert "None" not in {line.get_linestyle() for line in lines(more)}
+    assert not any(line.get_clip_on() for line in lines(more))
 
 
 def test_different_densities_give_mass_its_own_panel():
@@ -225,6 +313,21 @@ def test_contact_history_is_the_history(result):
     pressures, widths = curves(upper), curves(lower)
     np.testing.assert_allclose(pressures["largest"][1], 1e-6 * history["max_pressure_Pa"])
     np.testing.assert_allclose(pressures["centre"][1], 1e-6 * history["centre_pressure_Pa"])
-    along = history["contact_half_width_x_m"]
-    np.testing.assert_allclose(widths["along sliding"][1], 1e3 * along)
+    for axis, label in enumerate(("along sliding", "across sliding")):
+        width = 1e3 * history[f"contact_half_width_{'xy'[axis]}_m"]
+        shown = np.interp(history["time_s"], *widths[label])
+        assert np.max(np.abs(shown - width)) <= 1e3 * GRID.spacing[axis] * (1 + 1e-9)
+        assert shown[[0, -1]] == pytest.approx(width[[0, -1]])
+    assert lower.get_title(loc="right") == "± 1 cell, 40 µm"
     assert all(axes.get_legend() for axes in (upper, lower))
+
+
+def test_half_widths_that_grow_by_cells_are_drawn_without_stairs():
+    result = made(tuple(1.12 ** np.arange(60.0)))
+    _, lower = contact_history(result).axes
+    x, y = curves(lower)["along sliding"]
+    width = result.table("history")["contact_half_width_x_m"]
+    assert np.mean(np.diff(width) == 0) > 0.8
+    # But for the two ends, no piece is level.
+    assert np.all(np.diff(y)[1:-1] > 0)
+    assert np.all(np.diff(x) > 0)

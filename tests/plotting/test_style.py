@@ -27,11 +27,11 @@ def lightness(colour):
     return float(linear @ [0.2126, 0.7152, 0.0722])
 
 
-def test_higher_pressure_is_darker_and_no_contact_white():
+def test_higher_pressure_is_lighter_and_no_contact_white():
     colours = pressure_colours()
     shades = [lightness(colours(value)[:3]) for value in np.linspace(0, 1, 64)]
-    assert np.all(np.diff(shades) < 0)
-    assert lightness(colours.get_bad()[:3]) > shades[0] + 0.1
+    assert np.all(np.diff(shades) > 0)
+    assert lightness(colours.get_bad()[:3]) > shades[-1] + 0.1
 
 
 @pytest.mark.parametrize("count", [1, 2, 5, 17])
@@ -59,6 +59,13 @@ def test_bodies_differ_in_marker_width_and_lightness():
 def test_other_pairs_of_lines_differ_in_dashes(pair):
     one, other = pair
     assert one.dashes != other.dashes
+
+
+@pytest.mark.parametrize("pair", [(LARGEST, CENTRE), (ALONG, ACROSS)])
+def test_lines_that_may_coincide_both_show(pair):
+    below, above = pair
+    assert below.width > 2 * above.width
+    assert lightness(below.colour) > 4 * lightness(above.colour)
 
 
 def test_the_style_ends_with_its_context_and_ignores_the_users():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,19 +14,19 @@ from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter
 from tribo.core.arrays import Array
 from tribo.plotting.style import (
     BODY_STROKES,
+    OVER,
     Stroke,
     house_style,
     legend_below,
     new_figure,
 )
-from tribo.plotting.units import MG, MM3, length_unit, pressure_unit, time_unit
+from tribo.plotting.units import MG, MM3, height_unit, length_unit, pressure_unit, time_unit
 from tribo.plotting.window import number_of_saves
 from tribo.results.read import Result
 
-ALONG = Stroke("black", width=1.2)
-ACROSS = Stroke("#0072b2", dashes=(0.0, (4.0, 1.6)), width=1.2)
-LARGEST = Stroke("black", width=1.2)
-CENTRE = Stroke("#d55e00", dashes=(0.0, (4.0, 1.6)), width=1.2)
+ALONG = Stroke("#56b4e9", width=2.4)
+LARGEST = Stroke("#e69f00", width=2.4)
+CENTRE = ACROSS = OVER
 _DECADE = 10.0
 """Pressures that fall by more than this factor are drawn on a logarithmic scale."""
 
@@ -33,7 +34,8 @@ _DECADE = 10.0
 def wear_history(result: Result) -> Figure:
     """Draw the volume and the mass that each body has lost against time.
 
-    Markers are the saves. Mass is on the right where all densities are equal,
+    Markers are the saves; a line joins them where there are steps between, or
+    more than two. Mass is on the right where all densities are equal,
     else in a panel of its own; it is left out without densities.
 
     Parameters
@@ -95,6 +97,9 @@ def wear_history(result: Result) -> Figure:
 def contact_history(result: Result) -> Figure:
     """Draw the largest and central pressure and both half-widths against time.
 
+    A half-width is known to a cell, so that it grows in steps; the line goes
+    through their middles.
+
     Parameters
     ----------
     result : Result
@@ -114,17 +119,20 @@ def contact_history(result: Result) -> Figure:
     history, unit = result.table("history"), time_unit(result.times)
     time = unit.of(history["time_s"])
     largest, centre = history["max_pressure_Pa"], history["centre_pressure_Pa"]
-    along, across = history["contact_half_width_x_m"], history["contact_half_width_y_m"]
+    widths = [history["contact_half_width_x_m"], history["contact_half_width_y_m"]]
+    spacing = result.grid.spacing
     stress = pressure_unit(float(np.max(largest)))
-    length = length_unit(float(max(np.max(along), np.max(across))))
+    length = length_unit(float(np.max(widths)))
     marker = "o" if len(time) == 1 else ""
     with house_style():
         figure = new_figure(88.0)
         upper, lower = figure.subplots(2, 1, sharex=True)
         _draw_pair(
             upper,
-            time,
-            ((LARGEST, stress.of(largest), "largest"), (CENTRE, stress.of(centre), "centre")),
+            (
+                (LARGEST, time, stress.of(largest), "largest"),
+                (CENTRE, time, stress.of(centre), "centre"),
+            ),
             marker,
         )
         upper.set_ylabel(f"Pressure ({stress.name})")
@@ -132,15 +140,18 @@ def contact_history(result: Result) -> Figure:
             _logarithmic(upper)
         else:
             _from_zero(upper)
+        (t_along, along), (t_across, across) = (
+            _through_steps(time, width, cell) for width, cell in zip(widths, spacing, strict=True)
+        )
         _draw_pair(
             lower,
-            time,
             (
-                (ALONG, length.of(along), "along sliding"),
-                (ACROSS, length.of(across), "across sliding"),
+                (ALONG, t_along, length.of(along), "along sliding"),
+                (ACROSS, t_across, length.of(across), "across sliding"),
             ),
             marker,
         )
+        lower.set_title(f"± 1 cell, {_cells(spacing)}", loc="right", fontsize=7.0)
         lower.set_ylabel(f"Contact half-width ({length.name})")
         _from_zero(lower)
         lower.set_xlabel(f"Time ({unit.name})")
@@ -162,22 +173,51 @@ def _draw_body(
 ) -> Line2D:
     """Draw every step as a line with its saves marked."""
     time = history["time_s"]
+    if len(time) <= 2:
+        # A line between two points would claim that nothing else happened.
+        stroke = replace(stroke, dashes="none")
     return stroke.draw(
         axes,
         per_second * time,
         scale * history[_volume(name)],
         name,
+        clip_on=False,
         markevery=list(np.flatnonzero(np.isin(time, saves["time_s"]))),
         markerfacecolor="white",
     )
 
 
-def _draw_pair(
-    axes: Axes, time: Array, curves: Sequence[tuple[Stroke, Array, str]], marker: str
-) -> None:
-    for stroke, values, label in curves:
+def _draw_pair(axes: Axes, curves: Sequence[tuple[Stroke, Array, Array, str]], marker: str) -> None:
+    for stroke, time, values, label in curves:
         stroke.draw(axes, time, values, label, **({"marker": marker} if marker else {}))
     axes.legend(loc="best")
+
+
+def _through_steps(time: Array, width: Array, cell: float) -> tuple[Array, Array]:
+    """Return a line through a width that grows in steps, nowhere more than a cell from it.
+
+    A plateau between steps of a cell is left with its middle; larger steps stay
+    as they are.
+    """
+    steps = np.diff(width)
+    ends = np.append(np.flatnonzero(steps), len(width) - 1)
+    starts = np.append(0, ends[:-1] + 1)
+    small = np.concatenate(([False], np.abs(steps[ends[:-1]]) < 1.5 * cell, [False]))
+    middle = small[:-1] & small[1:]
+    times = np.where(middle, 0.5 * (time[starts] + time[ends]), time[starts])
+    last = ~middle & (ends > starts)
+    order = np.argsort(np.append(times, time[ends[last]]), kind="stable")
+    return (
+        np.append(times, time[ends[last]])[order],
+        np.append(width[starts], width[ends[last]])[order],
+    )
+
+
+def _cells(spacing: tuple[float, float]) -> str:
+    """Say how large a cell is."""
+    unit = height_unit(max(spacing))
+    sizes = [f"{unit.factor * size:.3g}" for size in spacing]
+    return f"{' × '.join(dict.fromkeys(sizes))} {unit.name}"
 
 
 def _from_zero(axes: Axes) -> None:

@@ -30,6 +30,8 @@ def worn_section(result: Result) -> Figure:
 
     They are set down on each other without load, so that they touch at their
     closest point and the scars are seen to conform. A swept body lies below.
+    The unworn surfaces are dashed; where the upper one would run inside the
+    lower body it is left out, and the depths of the scars are stated instead.
 
     Parameters
     ----------
@@ -64,12 +66,12 @@ def worn_section(result: Result) -> Figure:
         [
             visible(line, x, window)
             for section, x in zip(sections, xs, strict=True)
-            for line in (section.upper, section.lower, section.first_upper, section.first_lower)
+            for line in (section.upper, section.lower, section.first_lower)
         ]
     )
     # Room for the names inside the bodies.
-    room = 0.12 * (height[1] - height[0])
-    height = (height[0] - room, height[1] + room)
+    room = height[1] - height[0]
+    height = (height[0] - 0.2 * room, height[1] + 0.12 * room)
     length, unit = length_unit(window[1] - window[0]), height_unit(height[1] - height[0])
     with house_style():
         figure = new_figure(56.0, WIDE)
@@ -80,13 +82,25 @@ def worn_section(result: Result) -> Figure:
             axes.set_box_aspect(_SHAPE)
             axes.xaxis.set_major_locator(MaxNLocator(6))
             axes.set_xlabel(f"{AXIS_LABELS[axis]} ({length.name})")
-            axes.text(0.5, 0.97, upper.name, transform=axes.transAxes, ha="center", va="top")
-            axes.text(0.03, 0.05, lower.name, transform=axes.transAxes, va="bottom")
+        for body, height_of_text, side in ((upper, 0.97, "top"), (lower, 0.04, "bottom")):
+            depth = float(np.max(removed(result, body.name)[last]))
+            for axes, label in zip(panels, (body.name, _scar(body.name, depth)), strict=True):
+                axes.text(
+                    0.5, height_of_text, label, transform=axes.transAxes, ha="center", va=side
+                )
         panels[0].set_ylabel(f"Height ({unit.name})")
         panels[0].set_title(f"t = {time_labels(result)[last]}, unloaded", loc="left")
         panels[1].set_title(enlargement(window, height, _SHAPE), loc="right", fontsize=7.0)
         legend_below(figure, curves)
     return figure
+
+
+def _scar(name: str, depth: float) -> str:
+    """Return a body's name and how deep its scar is."""
+    if depth <= 0:
+        return name
+    unit = height_unit(depth)
+    return f"{name}: {unit.factor * depth:.3g} {unit.name} deep"
 
 
 @dataclass(frozen=True)
@@ -121,7 +135,9 @@ def _draw(axes: Axes, x: Array, section: _Section, height: Limits, unit: Unit) -
     top, bottom = unit.of(section.upper), unit.of(section.lower)
     axes.fill_between(x, top, high, color=UPPER, linewidth=0.0)
     axes.fill_between(x, bottom, low, color=LOWER, linewidth=0.0)
-    for line in (section.first_upper, section.first_lower):
+    # Inside the lower body it would seem to be a part of that.
+    first_upper = np.where(section.first_upper >= section.lower, section.first_upper, np.nan)
+    for line in (first_upper, section.first_lower):
         unworn = UNWORN.draw(axes, x, unit.of(line), "unworn")
     for line in (top, bottom):
         worn = WORN.draw(axes, x, line, "worn")

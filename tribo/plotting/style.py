@@ -5,14 +5,14 @@ from __future__ import annotations
 import threading
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, Literal
 
 import matplotlib
 import numpy as np
 from matplotlib import style
 from matplotlib.axes import Axes
-from matplotlib.colors import Colormap, ListedColormap
+from matplotlib.colors import Colormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
@@ -73,7 +73,7 @@ class Stroke:
     """How a line looks: its lightness, its dashes and its marker."""
 
     colour: str | tuple[float, float, float]
-    dashes: Dashes = (0.0, ())
+    dashes: Dashes | Literal["none"] = (0.0, ())
     marker: str = ""
     width: float = 1.2
     size: float = 4.0
@@ -94,11 +94,12 @@ class Stroke:
         return line
 
 
+OVER = Stroke("#202020", dashes=(0.0, (3.0, 1.6)), width=1.1)
+"""A narrow dark line: it and a wide light one below it both show where they coincide."""
 BODY_STROKES = (
     Stroke("#56b4e9", marker="o", width=2.4, size=7.0),
-    Stroke("#202020", dashes=(0.0, (3.0, 1.6)), marker="s", width=1.1, size=3.0),
+    replace(OVER, marker="s", size=3.0),
 )
-"""A wide light line and a narrow dark one: both show where they coincide."""
 
 
 @contextmanager
@@ -123,10 +124,8 @@ def new_figure(height: float, width: float = SINGLE_COLUMN) -> Figure:
 
 
 def pressure_colours() -> Colormap:
-    """Return the map of pressures: darker is higher, and white is no contact."""
-    # The darkest part of the map would swallow black lines.
-    colours = ListedColormap(matplotlib.colormaps["viridis_r"](np.linspace(0.0, 0.8, 256)))
-    return colours.with_extremes(bad="white")
+    """Return the map of pressures: lighter is higher, and white is no contact."""
+    return matplotlib.colormaps["viridis"].with_extremes(bad="white")
 
 
 def save_strokes(count: int) -> list[Stroke]:
