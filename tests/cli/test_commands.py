@@ -121,6 +121,22 @@ def test_every_template_is_valid_and_predicted(tmp_path, name):
     assert ("stroke averaging" in done.stdout) == (name == "weighed_split")
 
 
+def test_check_begins_with_its_verdict(tmp_path):
+    tribo("new", "ball_on_disk", "my.toml", cwd=tmp_path)
+    done = tribo("check", "my.toml", cwd=tmp_path)
+    assert done.stdout.startswith("my.toml is valid.\n")
+    # As the report of the run words it.
+    assert "94 % of the pressure at which the softer body first yields" in done.stdout
+    small = ["--set", "grid.size=0.9 mm", "--set", "grid.cells=64"]
+    done = tribo("check", "my.toml", *small, cwd=tmp_path)
+    assert done.returncode == 0
+    verdict, first, *_ = done.stdout.splitlines()
+    assert verdict == "my.toml is valid, but:"
+    assert first.startswith("  - the contact outgrows the window of 0.9 × 0.9 mm")
+    data = json.loads(tribo("check", "my.toml", *small, "--json", cwd=tmp_path).stdout)
+    assert data["problems"] == [first.removeprefix("  - ")]
+
+
 @pytest.mark.parametrize("name", list(TEMPLATES))
 def test_examples_are_the_templates(name):
     assert (EXAMPLES / f"{name}.toml").read_text() == template(name)

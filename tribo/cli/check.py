@@ -8,6 +8,7 @@ from pathlib import Path
 
 import click
 
+from tribo.analysis.report import yield_words
 from tribo.simulation.model import Model
 from tribo.simulation.predict import Prediction
 
@@ -19,7 +20,7 @@ from tribo.simulation.predict import Prediction
 def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
     """Validate CASE and predict its first contact, its final scar, and its size.
 
-    Nothing is written. The scar is estimated on a coarse grid.
+    What would go wrong comes first. Nothing is written. The scar is estimated on a coarse grid.
 
     \b
     Example:
@@ -34,7 +35,9 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
     if as_json:
         click.echo(json.dumps(asdict(prediction), indent=2))
         return
-    click.echo(f"{case} is valid.")
+    click.echo(f"{case} is valid, but:" if prediction.problems else f"{case} is valid.")
+    for problem in prediction.problems:
+        click.echo(f"  - {problem}")
     for name, value in _lines(model, prediction):
         click.echo(f"  {name:<26}{value}")
 
@@ -51,26 +54,23 @@ def _lines(model: Model, prediction: Prediction) -> list[tuple[str, str]]:
         found = f"computed {1e-6 * prediction.first.max_pressure:.1f} MPa"
         lines.append(("Hertz peak pressure p0", f"{p0}, {found}"))
         if model.system.cap is not None:
-            ratio = hertz.peak_pressure / model.system.cap
-            verdict = "yields from the start" if ratio > 1 else "elastic at first"
-            lines.append(("p0/H", f"{ratio:.3f}: {verdict}"))
+            hardness = model.system.cap
+            lines.append(("p0/H", f"{hertz.peak_pressure / hardness:.3f}"))
+            lines.append(("yield", yield_words(prediction.first.max_pressure, hardness)))
         x, y = prediction.cells_across
-        few = "" if min(x, y) >= 10 else "; few: raise grid.cells"
-        lines.append(("cells across the contact", f"{x:.0f} × {y:.0f}{few}"))
+        lines.append(("cells across the contact", f"{x:.0f} × {y:.0f}"))
     last = prediction.last
     if last is None:
-        lines.append(("final scar", "not estimated for this contact type"))
+        lines.append(("final scar", "not estimated"))
     else:
         size = f"{2e3 * last.half_width_x:.2f} × {2e3 * last.half_width_y:.2f} mm"
         lines.append(("contact at the end, about", size))
         window = " × ".join(f"{1e3 * edge:.4g}" for edge in model.grid.size)
-        verdict = "holds it" if prediction.window_holds else "TOO SMALL: make grid.size larger"
+        verdict = "holds it" if prediction.window_holds else "TOO SMALL"
         lines.append((f"window of {window} mm", verdict))
         for name, body in last.bodies.items():
             depth = f"{1e6 * body.max_wear_depth:.3g} µm, {1e9 * body.wear_volume:.3g} mm³"
             lines.append((f"wear of {name}, about", depth))
-    if prediction.limitation is not None:
-        lines.append(("note", prediction.limitation))
     lines.append(("memory, at most", f"{prediction.memory / 2**20:.0f} MiB"))
     lines.append(("result file, at most", f"{prediction.file_size / 2**20:.1f} MiB"))
     return lines

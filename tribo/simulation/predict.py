@@ -2,22 +2,28 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 
 from tribo.analysis.first_contact import HertzContact, hertz_contact
-from tribo.config.stepping import ImplicitConfig
+from tribo.config.stepping import ExplicitConfig, ImplicitConfig
 from tribo.core.errors import CaseError, NumericalError
 from tribo.core.grid import Grid
 from tribo.core.measures import Measures
-from tribo.simulation.march import begin, march
+from tribo.core.state import State
+from tribo.simulation.march import FEW_CELLS, MOST_STEPS, begin, march
 from tribo.simulation.measure import measure
 from tribo.simulation.model import Model, assemble
+from tribo.simulation.rates import Moment
+from tribo.simulation.step import first_contact, largest_stable_increment, start_sliding
 
 COARSE = 72
 MARGINS = (1.5, 1.0)
 LOOSE = ImplicitConfig(depth_tolerance=2e-2, pressure_tolerance=0.5, settle=0.1)
 FIELDS_IN_MEMORY = 24
 PADDED_ARRAYS = 12
+DEEP = 0.1
+"""Wear depth, relative to the radius of curvature, that is more likely a slip of units."""
 
 
 @dataclass(frozen=True)
@@ -27,7 +33,8 @@ class Prediction:
     Parameters
     ----------
     first : Measures
-        The first contact, on the case's own grid.
+        The first contact, on the case's own grid; on a coarse one where the
+        case's own is too large for this machine's memory.
     hertz : HertzContact or None
         The same by Hertz's theory.
     cells_across : tuple of float or None
@@ -41,6 +48,8 @@ class Prediction:
         Why the motion's averaging will not hold, if so.
     memory, file_size : float
         In bytes; upper estimates.
+    problems : tuple of str
+        What will go wrong, each with its remedy.
     """
 
     first: Measures
@@ -51,6 +60,19 @@ class Prediction:
     limitation: str | None
     memory: float
     file_size: float
+    problems: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class CoarseRun:
+    """The end of a coarse run, and when its contact outgrew the case's window.
+
+    `outgrown` is in s; None if it did not. `failure` says why there is no end.
+    """
+
+    last: Measures | None
+    outgrown: float | None = None
+    failure: str | None = None
 
 
 def predict(model: Model) -> Prediction:
@@ -63,58 +85,177 @@ def predict(model: Model) -> Prediction:
     NumericalError
         If it cannot be solved.
     """
-    first = measure(model, begin(model))
+    cells = model.grid.cells[0] * model.grid.cells[1]
+    memory = 8.0 * cells * (FIELDS_IN_MEMORY + 4 * PADDED_ARRAYS)
+    problems = []
+    solved = model
+    if memory > machine_memory():
+        problems.append(
+            f"it needs about {memory / 2**30:.3g} GiB of memory, and this machine has "
+            f"{machine_memory() / 2**30:.3g} GiB: lower grid.cells"
+        )
+        solved = _coarsened(model, 1.0)
+    state = first_contact(solved)
+    first = measure(solved, state)
     hertz = hertz_contact(model.system)
     dx, dy = model.grid.spacing
-    last = _coarse_run(model)
+    coarse = _coarse_run(model)
+    last = coarse.last
     holds = limitation = None
     if last is not None:
-        lx, ly = model.grid.size
-        inside = last.half_width_x < lx / 2 - dx and last.half_width_y < ly / 2 - dy
-        holds = inside or model.ends_at_window
+        holds = _inside(model, last) or model.ends_at_window
         limitation = model.kinematics.limitation(model.grid, last.half_width_x)
-    cells = model.grid.cells[0] * model.grid.cells[1]
+    across = None
+    if hertz is not None:
+        across = (2 * hertz.half_width_x / dx, 2 * hertz.half_width_y / dy)
+    problems += [
+        problem
+        for problem in (
+            _few_cells(across or (2 * first.half_width_x / dx, 2 * first.half_width_y / dy)),
+            _unsettled(solved, state),
+            _unstable(model, solved, state),
+            _outgrown(model, coarse) if holds is False else None,
+            *_deep(model, last),
+            limitation,
+        )
+        if problem is not None
+    ]
+    if coarse.failure is not None and not problems:
+        problems.append(f"a trial run on a coarse grid failed: {coarse.failure}")
     fields = 1 + sum(1 if model.is_swept(body.name) else 2 for body in model.bodies)
     fields += sum(1 for body in model.bodies if model.is_swept(body.name))
     saves = len({0.0, model.end_time, *model.save_times})
     return Prediction(
         first=first,
         hertz=hertz,
-        cells_across=None
-        if hertz is None
-        else (2 * hertz.half_width_x / dx, 2 * hertz.half_width_y / dy),
+        cells_across=across,
         last=last,
         window_holds=holds,
         limitation=limitation,
-        memory=8.0 * cells * (FIELDS_IN_MEMORY + 4 * PADDED_ARRAYS),
+        memory=memory,
         file_size=8.0 * cells * fields * saves,
+        problems=tuple(problems),
     )
 
 
-def _coarse_run(model: Model) -> Measures | None:
-    if not model.contact.accepts_wear_compliance:
+def machine_memory() -> float:
+    """Return the memory of this machine, in bytes."""
+    return float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
+
+
+def _few_cells(across: tuple[float, float]) -> str | None:
+    if min(across) >= FEW_CELLS:
         return None
+    return (
+        f"the first contact is only {min(across):.1f} cells wide, so its pressure is inaccurate "
+        f"until it has grown: raise grid.cells for {FEW_CELLS} or more"
+    )
+
+
+def _unsettled(model: Model, state: State) -> str | None:
+    try:
+        start_sliding(model, state)
+    except NumericalError as error:
+        return f"the run would stop when sliding starts: {error}"
+    return None
+
+
+def _unstable(model: Model, solved: Model, state: State) -> str | None:
+    config = model.stepping
+    if not isinstance(config, ExplicitConfig):
+        return None
+    time = config.time_step
+    steps = model.end_time / time
+    if steps > MOST_STEPS:
+        return (
+            f"stepping.time_step = {time:g} s would take {steps:.2g} steps, and the run "
+            f"stops at once beyond {MOST_STEPS:.0e}: make it longer, or use stepping.type = "
+            "'implicit'"
+        )
+    increment = model.kinematics.distance(time)
+    limit = largest_stable_increment(solved, state, Moment(time, increment, increment / time))
+    if limit is None:
+        return None if config.allow_unstable else _unknown_stability(model)
+    if increment < limit:
+        return None
+    ends = "its pressure would oscillate" if config.allow_unstable else "the run would stop at once"
+    return (
+        f"stepping.time_step = {time:g} s is beyond the stability limit, so {ends}: "
+        f"the largest stable step is {time * limit / increment:.4g} s at first, and less as the "
+        "contact grows; or use stepping.type = 'implicit'"
+    )
+
+
+def _unknown_stability(model: Model) -> str:
+    return (
+        f"contact.type = {model.contact.type_name()!r} does not state its smallest compliance, so "
+        "explicit steps stop at once: set stepping.allow_unstable = true to go on without"
+    )
+
+
+def _outgrown(model: Model, coarse: CoarseRun) -> str:
+    lx, ly = model.grid.size
+    when = "" if coarse.outgrown is None else f", at about {coarse.outgrown:.3g} s"
+    return (
+        f"the contact outgrows the window of {1e3 * lx:.4g} × {1e3 * ly:.4g} mm, and the run would "
+        f"stop there{when}: make grid.size larger (and grid.cells with it)"
+    )
+
+
+def _deep(model: Model, last: Measures | None) -> list[str]:
+    """Say which bodies wear deeper than is plausible for the contact's curvature."""
+    curvature = max(model.system.curvature or (0.0, 0.0))
+    if last is None or curvature <= 0:
+        return []
+    return [
+        f"{name} would wear about {1e3 * body.max_wear_depth:.3g} mm deep, which is "
+        f"{body.max_wear_depth * curvature:.3g} times the radius of curvature of "
+        f"{1e3 / curvature:.3g} mm: is its wear coefficient in the unit that was meant? A bare k "
+        "is in 1/Pa; write '1e-6 mm^3/(N m)' for that unit"
+        for name, body in last.bodies.items()
+        if body.max_wear_depth * curvature > DEEP
+    ]
+
+
+def _inside(model: Model, measures: Measures) -> bool:
+    (lx, ly), (dx, dy) = model.grid.size, model.grid.spacing
+    return measures.half_width_x < lx / 2 - dx and measures.half_width_y < ly / 2 - dy
+
+
+def _coarsened(model: Model, margin: float) -> Model:
+    """Return `model` on a coarse grid, in a window `margin` times as wide."""
+    largest = max(model.grid.size)
+    nx, ny = (max(8, 2 * round(0.5 * COARSE * size / largest)) for size in model.grid.size)
+    lx, ly = (margin * size for size in model.grid.size)
+    return assemble(
+        grid=Grid((lx, ly), (nx, ny)),
+        load=model.load,
+        bodies=model.bodies,
+        contact=model.contact,
+        kinematics=model.kinematics,
+        stepping=LOOSE if model.contact.accepts_wear_compliance else model.stepping,
+        friction_coefficient=model.friction_coefficient,
+        effects=model.effects,
+        stop=model.stop,
+        ends_at_window=True,
+    )
+
+
+def _coarse_run(model: Model) -> CoarseRun:
+    if not model.contact.accepts_wear_compliance:
+        return CoarseRun(None)
+    failure = None
     for margin in MARGINS:
-        largest = max(model.grid.size)
-        cells = tuple(max(8, 2 * round(0.5 * COARSE * size / largest)) for size in model.grid.size)
-        size = tuple(margin * size for size in model.grid.size)
+        outgrown = None
         try:
-            coarse = assemble(
-                grid=Grid((size[0], size[1]), (cells[0], cells[1])),
-                load=model.load,
-                bodies=model.bodies,
-                contact=model.contact,
-                kinematics=model.kinematics,
-                stepping=LOOSE,
-                friction_coefficient=model.friction_coefficient,
-                effects=model.effects,
-                stop=model.stop,
-                ends_at_window=True,
-            )
+            coarse = _coarsened(model, margin)
             state = begin(coarse)
             for accepted in march(coarse, state):
                 state = accepted.state
-        except (CaseError, NumericalError):
+                if outgrown is None and not _inside(model, measure(coarse, state)):
+                    outgrown = state.time
+        except (CaseError, NumericalError) as error:
+            failure = failure or str(error)
             continue
-        return measure(coarse, state)
-    return None
+        return CoarseRun(measure(coarse, state), outgrown)
+    return CoarseRun(None, failure=failure)

@@ -1,0 +1,117 @@
+"""What check foresees is what the run then does."""
+
+import re
+
+import pytest
+from paper_models import K, archard, flat, half_space, motion, small, sphere, steel
+
+from tribo import Body, CaseError, Grid, NumericalError, Simulation
+from tribo.config.stepping import ExplicitConfig
+from tribo.simulation import predict as module
+from tribo.simulation import step
+from tribo.simulation.predict import predict
+
+
+def bodies(k=K, hardness=None):
+    return [
+        Body("ball", sphere(), steel(hardness), archard(k)),
+        Body("disk", flat(), steel(hardness), archard(k)),
+    ]
+
+
+def only_problem(model):
+    (problem,) = predict(model).problems
+    return problem
+
+
+def number(pattern, text):
+    return float(re.search(pattern, text)[1])
+
+
+def test_a_sound_case_has_no_problems():
+    assert predict(small()).problems == ()
+
+
+def test_a_window_that_the_contact_outgrows_is_foreseen_with_the_time():
+    model = small(grid=Grid((0.5e-3, 0.5e-3), (48, 48)))
+    problem = only_problem(model)
+    assert "make grid.size larger" in problem
+    with pytest.raises(NumericalError) as stopped:
+        Simulation(model).run()
+    foreseen, actual = (
+        number(r"about ([\d.e+]+) s", problem),
+        number(r"at ([\d.]+) s", str(stopped.value)),
+    )
+    # The contact grows as the fourth root of time: a coarse cell of 2 % shifts it by some 10 %.
+    assert foreseen == pytest.approx(actual, rel=0.3)
+
+
+def test_a_body_that_ends_at_the_window_cannot_outgrow_it():
+    model = small(grid=Grid((0.5e-3, 0.5e-3), (48, 48)), ends_at_window=True)
+    assert predict(model).problems == ()
+
+
+def test_few_cells_are_counted():
+    problem = only_problem(small(grid=Grid((0.7e-3, 0.7e-3), (16, 16))))
+    # Hertz's contact is 297.6 µm wide, a cell 43.75 µm.
+    assert "only 6.8 cells wide" in problem
+    assert "grid.cells" in problem
+
+
+def test_a_wear_coefficient_in_the_wrong_unit_is_suspected():
+    # 1e-6 mm^3/(N m), forgotten its unit: 1e9 times too much.
+    problems = predict(small(bodies=bodies(k=1e-6))).problems
+    deep = [problem for problem in problems if "unit that was meant" in problem]
+    assert {problem.split()[0] for problem in deep} == {"ball", "disk"}
+    assert all("radius of curvature of 5 mm" in problem for problem in deep)
+
+
+def test_more_memory_than_the_machine_has_is_foreseen(monkeypatch):
+    monkeypatch.setattr(module, "machine_memory", lambda: 2.0**20)
+    prediction = predict(small())
+    assert prediction.memory > 2.0**20
+    assert any("memory" in p and "lower grid.cells" in p for p in prediction.problems)
+    # The first contact is then solved on a grid that fits.
+    assert prediction.first.max_pressure == pytest.approx(2.155e9, rel=0.05)
+
+
+def test_the_memory_of_this_machine_is_known():
+    assert 2**28 < module.machine_memory() < 2**50
+
+
+def test_the_largest_stable_step_is_the_one_the_run_takes():
+    def model(time_step):
+        stepping = ExplicitConfig(type="explicit", time_step=time_step)
+        return small(stepping=stepping)
+
+    problem = only_problem(model(50))
+    assert "stop at once" in problem
+    largest = number(r"largest stable step is ([\d.]+) s", problem)
+    with pytest.raises(CaseError, match="stability limit"):
+        Simulation(model(1.01 * largest)).run()
+    assert "stability" in only_problem(model(1.01 * largest))
+    assert predict(model(0.99 * largest)).problems == ()
+
+
+def test_a_step_too_short_to_end_is_a_problem():
+    stepping = ExplicitConfig(type="explicit", time_step=1e-9)
+    assert "would take 2e+11 steps" in only_problem(small(stepping=stepping))
+
+
+def test_a_step_allowed_to_be_unstable_is_still_said_to_be():
+    stepping = ExplicitConfig(type="explicit", time_step=100, allow_unstable=True)
+    assert "oscillate" in only_problem(small(stepping=stepping))
+
+
+def test_a_groove_that_does_not_settle_is_foreseen(monkeypatch):
+    monkeypatch.setattr(step, "SETTLE_PASSES", 1)
+    model = small(bodies=bodies(hardness=1.5e9), contact=half_space())
+    problems = predict(model).problems
+    assert any("when sliding starts" in p and "still yields" in p for p in problems)
+    monkeypatch.undo()
+    assert predict(model).problems == ()
+
+
+def test_a_contact_too_long_for_the_stroke_is_a_problem():
+    problem = only_problem(small(kinematics=motion(stroke="0.6 mm", frequency=83)))
+    assert "stroke averaging" in problem
