@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution, ContactSystem
+from tribo.core.fields import WearRate
 from tribo.core.measures import Measures
 
 
@@ -52,6 +53,9 @@ class State:
         Counted from the beginning of the run.
     saves : int
         Number of saves passed.
+    rates : Mapping[str, WearRate]
+        Rates of the laws at the end of the last implicit step, in the contact
+        frame: where the next one begins. Empty where there are none.
     notices : tuple of str
         Warnings given so far, each given once.
     """
@@ -67,6 +71,7 @@ class State:
     contact_solves: int = 1
     solver_iterations: int = 0
     saves: int = 0
+    rates: Mapping[str, WearRate] = field(default_factory=dict)
     notices: tuple[str, ...] = ()
 
 

@@ -16,6 +16,7 @@ import h5py
 
 from tribo.core.contact import ContactSolution, Residuals
 from tribo.core.errors import CaseError
+from tribo.core.fields import WearRate
 from tribo.core.state import BodyState, State
 from tribo.results.store import read_text, write_array, write_text
 
@@ -124,6 +125,7 @@ def _write_state(file: h5py.File, state: State, wall_time: float) -> None:
     scalars["residuals"] = vars(contact.residuals)
     scalars["wall_time"] = wall_time
     scalars["bodies"] = {name: sorted(body.law) for name, body in state.bodies.items()}
+    scalars["rates"] = {name: sorted(rate.state) for name, rate in state.rates.items()}
     # json writes floats so that they read back to the same bits.
     write_text(file, "scalars", json.dumps(scalars))
     write_array(file, "pressure", contact.pressure)
@@ -133,6 +135,11 @@ def _write_state(file: h5py.File, state: State, wall_time: float) -> None:
         write_array(file, f"bodies/{name}/plastic", body.plastic)
         for field, values in body.law.items():
             write_array(file, f"bodies/{name}/law/{field}", values)
+    for name, rate in state.rates.items():
+        write_array(file, f"rates/{name}/depth", rate.depth)
+        write_array(file, f"rates/{name}/derivative", rate.derivative)
+        for field, values in rate.state.items():
+            write_array(file, f"rates/{name}/state/{field}", values)
 
 
 def _read_state(file: h5py.File) -> tuple[State, float]:
@@ -152,10 +159,19 @@ def _read_state(file: h5py.File) -> tuple[State, float]:
         )
         for name, fields in scalars["bodies"].items()
     }
+    rates = {
+        name: WearRate(
+            depth=file[f"rates/{name}/depth"][:],
+            derivative=file[f"rates/{name}/derivative"][:],
+            state={field: file[f"rates/{name}/state/{field}"][:] for field in fields},
+        )
+        for name, fields in scalars["rates"].items()
+    }
     state = State(
         **{name: scalars[name] for name in _SCALARS},
         bodies=bodies,
         contact=contact,
+        rates=rates,
         notices=tuple(scalars["notices"]),
     )
     return state, scalars["wall_time"]

@@ -124,8 +124,10 @@ def implicit_step(
     settled = law
     asked_again = False
     mismatch = drift = np.inf
+    rates: Mapping[str, WearRate] = state.rates
     while True:
-        rates = wear_rates(model, solution.pressure, law, moment)
+        if implied is not None or not rates:
+            rates = wear_rates(model, solution.pressure, law, moment)
         worn = _worn(model, rates, increment)
         depth = sum(worn.values(), np.zeros(model.grid.cells))
         if implied is not None:
@@ -162,7 +164,9 @@ def implicit_step(
         solves += 1
         iterations += solution.iterations
     worn_state = _with_wear(state, worn, settled)
-    after = _accept(model, state, worn_state, solution, moment, solves, iterations)
+    # Set first: settling a groove leaves the pressure that these rates belong to.
+    before_it = replace(state, rates=rates)
+    after = _accept(model, before_it, worn_state, solution, moment, solves, iterations)
     return ImplicitStep(after, forward)
 
 
@@ -344,6 +348,7 @@ def _settle(model: Model, state: State) -> State:
             state,
             bodies=drawn if settled else _yielded(model, drawn, solution.overlap),
             contact=solution,
+            rates={},
             contact_solves=state.contact_solves + 1,
             solver_iterations=state.solver_iterations + solution.iterations,
         )
