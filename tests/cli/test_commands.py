@@ -241,3 +241,53 @@ def test_a_solve_that_does_not_converge_exits_with_3(tmp_path):
     assert done.returncode == 3
     assert "max_iterations" in done.stderr
     assert "residual" in done.stderr
+
+
+LINE = """
+[grid]
+size = "1 mm"
+cells = 48
+ends_at_window = true
+[load]
+normal = 100
+[bodies.roller]
+surface = { type = "cylinder", radius = "5 mm" }
+wear = { type = "archard", k = 3e-16 }
+material = { young = "207 GPa", poisson = 0.3 }
+[bodies.disk]
+surface = "flat"
+material = { young = "207 GPa", poisson = 0.3 }
+[kinematics]
+type = "reciprocating"
+stroke = "2 mm"
+frequency = 25
+distance = "2 m"
+"""
+
+
+def test_a_line_contact_is_checked_in_its_own_window_and_told_in_plain_json(tmp_path):
+    (tmp_path / "line.toml").write_text(LINE)
+    told = tribo("check", "line.toml", cwd=tmp_path)
+    assert "74.82 µm of a line contact" in told.stdout
+    assert "inf" not in told.stdout
+    done = tribo("check", "line.toml", "--json", cwd=tmp_path)
+    data = json.loads(done.stdout, parse_constant=lambda name: pytest.fail(name))
+    assert data["hertz"]["half_width_y"] is None
+    # The roller ends where the window does: 1 mm, not the wider one of the estimate.
+    assert data["last"]["half_width_y"] == pytest.approx(0.5e-3)
+
+
+def test_a_run_does_not_write_over_its_own_case(tmp_path):
+    (tmp_path / "case.toml").write_text(CASE)
+    done = tribo("run", "case.toml", "-o", "case.toml", "--force", cwd=tmp_path)
+    assert done.returncode == 2
+    assert "the case itself" in done.stderr
+    assert (tmp_path / "case.toml").read_text() == CASE
+
+
+def test_the_demo_does_not_write_over_a_case_unasked(tmp_path):
+    (tmp_path / "ball_on_disk.toml").write_text("mine")
+    done = tribo("demo", "-d", ".", cwd=tmp_path)
+    assert done.returncode == 2
+    assert "--force" in done.stderr
+    assert (tmp_path / "ball_on_disk.toml").read_text() == "mine"

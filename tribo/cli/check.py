@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import math
 from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -33,13 +35,22 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
     model = Simulation(load_case(case, overrides=overrides)).model
     prediction = predict(model)
     if as_json:
-        click.echo(json.dumps(asdict(prediction), indent=2))
+        click.echo(json.dumps(_finite(asdict(prediction)), indent=2, allow_nan=False))
         return
     click.echo(f"{case} is valid, but:" if prediction.problems else f"{case} is valid.")
     for problem in prediction.problems:
         click.echo(f"  - {problem}")
     for name, value in _lines(model, prediction):
         click.echo(f"  {name:<26}{value}")
+
+
+def _finite(value: Any) -> Any:
+    """Replace what JSON cannot say: the width of a line contact along itself is null."""
+    if isinstance(value, dict):
+        return {key: _finite(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def _lines(model: Model, prediction: Prediction) -> list[tuple[str, str]]:
@@ -49,7 +60,10 @@ def _lines(model: Model, prediction: Prediction) -> list[tuple[str, str]]:
         lines.append(("first contact", "no Hertz solution for these surfaces"))
     else:
         a, b = hertz.half_width_x, hertz.half_width_y
-        lines.append(("Hertz half-widths", f"{1e6 * a:.4g} × {1e6 * b:.4g} µm along × across"))
+        if math.isinf(a) or math.isinf(b):
+            lines.append(("Hertz half-width", f"{1e6 * min(a, b):.4g} µm of a line contact"))
+        else:
+            lines.append(("Hertz half-widths", f"{1e6 * a:.4g} × {1e6 * b:.4g} µm along × across"))
         p0 = f"{1e-6 * hertz.peak_pressure:.1f} MPa"
         found = f"computed {1e-6 * prediction.first.max_pressure:.1f} MPa"
         lines.append(("Hertz peak pressure p0", f"{p0}, {found}"))
@@ -57,8 +71,8 @@ def _lines(model: Model, prediction: Prediction) -> list[tuple[str, str]]:
             hardness = model.system.cap
             lines.append(("p0/H", f"{hertz.peak_pressure / hardness:.3f}"))
             lines.append(("yield", yield_words(prediction.first.max_pressure, hardness)))
-        x, y = prediction.cells_across
-        lines.append(("cells across the contact", f"{x:.0f} × {y:.0f}"))
+        across = [f"{n:.0f}" for n in prediction.cells_across if math.isfinite(n)]
+        lines.append(("cells across the contact", " × ".join(across)))
     last = prediction.last
     if last is None:
         lines.append(("final scar", "not estimated"))

@@ -33,8 +33,9 @@ def demo(directory: Path, force: bool) -> None:
     from tribo.templates import template
 
     case, output = directory / "ball_on_disk.toml", directory / "ball_on_disk.h5"
-    if output.exists() and not force:
-        raise CaseError(f"{output} exists; choose another folder with -d, or use --force")
+    for path in (case, output):
+        if path.exists() and not force:
+            raise CaseError(f"{path} exists; choose another folder with -d, or use --force")
     try:
         directory.mkdir(parents=True, exist_ok=True)
         case.write_text(template("ball_on_disk"), encoding="utf-8")

@@ -54,11 +54,15 @@ def write_checkpoint(
     """
     path = checkpoint_path(result)
     fresh = path.with_name(path.name + ".new")
-    with h5py.File(fresh, "w", libver="earliest") as file:
-        file.attrs["case"] = fingerprint(case)
-        _write_state(file, state, wall_time)
-    with fresh.open("rb") as handle:
-        os.fsync(handle.fileno())
+    try:
+        with h5py.File(fresh, "w", libver="earliest") as file:
+            file.attrs["case"] = fingerprint(case)
+            _write_state(file, state, wall_time)
+        with fresh.open("rb") as handle:
+            os.fsync(handle.fileno())
+    except BaseException:
+        fresh.unlink(missing_ok=True)
+        raise
     if path.exists():
         path.replace(previous_path(result))
     fresh.replace(path)

@@ -245,7 +245,8 @@ def _coarse_run(model: Model) -> CoarseRun:
     if not model.contact.accepts_wear_compliance:
         return CoarseRun(None)
     failure = None
-    for margin in MARGINS:
+    # A body that ends at the window has no more to give in a wider one.
+    for margin in (1.0,) if model.ends_at_window else MARGINS:
         outgrown = None
         try:
             coarse = _coarsened(model, margin)
