@@ -19,9 +19,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tribo.core.arrays import Array, Mask
+from tribo.core.arrays import Array
 from tribo.core.grid import Grid
-from tribo.core.measures import centre
+from tribo.core.measures import centre, extent
 
 VISIBLE_DEPTH = 1e-8
 """Smallest depth taken for wear, in m: about the roughness of a polished flat."""
@@ -423,8 +423,8 @@ def scar(depth: Array, grid: Grid, visible: float = VISIBLE_DEPTH) -> Scar:
         With diameters 0 where nothing is worn visibly.
     """
     worn = depth > visible
-    along = _extent(np.asarray(worn.any(axis=1))) * grid.spacing[0]
-    across = _extent(np.asarray(worn.any(axis=0))) * grid.spacing[1]
+    along = extent(np.asarray(worn.any(axis=1))) * grid.spacing[0]
+    across = extent(np.asarray(worn.any(axis=0))) * grid.spacing[1]
     return Scar(
         along=along,
         across=across,
@@ -468,8 +468,3 @@ def crown(height: Array, depth: Array, visible: float = VISIBLE_DEPTH) -> float:
     part = height[first : last + 1]
     chord = np.linspace(part[0], part[-1], part.size)
     return float(np.max(part - chord))
-
-
-def _extent(worn: Mask) -> int:
-    index = np.flatnonzero(worn)
-    return int(index[-1] - index[0] + 1) if index.size else 0

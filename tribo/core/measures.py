@@ -55,8 +55,8 @@ def half_widths(pressure: Array, grid: Grid) -> tuple[float, float]:
     touching: Mask = pressure > 0
     along, across = np.any(touching, axis=1), np.any(touching, axis=0)
     return (
-        0.5 * _extent(np.asarray(along)) * grid.spacing[0],
-        0.5 * _extent(np.asarray(across)) * grid.spacing[1],
+        0.5 * extent(np.asarray(along)) * grid.spacing[0],
+        0.5 * extent(np.asarray(across)) * grid.spacing[1],
     )
 
 
@@ -73,6 +73,7 @@ def reaches_border(pressure: Array) -> bool:
     )
 
 
-def _extent(touching: Mask) -> int:
+def extent(touching: Mask) -> int:
+    """Return the number of entries from the first to the last that is set."""
     index = np.flatnonzero(touching)
     return int(index[-1] - index[0] + 1) if index.size else 0
