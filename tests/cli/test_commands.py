@@ -82,7 +82,9 @@ def test_show_prints_the_table_again(ran):
     folder, done = ran
     shown = tribo("show", "my.h5", cwd=folder)
     assert shown.returncode == 0
-    assert shown.stdout in done.stdout
+    table, provenance = shown.stdout.split("\nMade with ")
+    assert table in done.stdout
+    assert "bodies.ball.wear: archard, tribo.wear.archard.Archard of tribo" in provenance
 
 
 def test_export_writes_csv_with_units_in_the_column_names(ran):

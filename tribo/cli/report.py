@@ -40,6 +40,33 @@ def print_report(result: Result, console: Console | None = None) -> None:
         console.print(f"[yellow]Note:[/] {notice}")
 
 
+def print_provenance(result: Result, console: Console | None = None) -> None:
+    """Print which class, distribution and version each model of `result` came from."""
+    console = console or Console(highlight=False)
+    made = result.provenance
+    packages = ", ".join(f"{name} {version}" for name, version in made["packages"].items())
+    console.print(f"\nMade with Python {made['python']}, {packages}; models:")
+    for again in (made, *made.get("resumed_with", ())):
+        if again is not made:
+            console.print("Gone on with other versions:")
+        for place, origin in again["components"].items():
+            console.print(f"  {place}: {_origin(origin)}")
+        for plugin in again["plugins"]:
+            if plugin["status"] not in ("loaded", "available"):
+                console.print(
+                    f"  plugin {plugin['distribution']} {plugin['version']} was "
+                    f"{plugin['status']}: {plugin['reason']}"
+                )
+
+
+def _origin(origin: Mapping[str, Any]) -> str:
+    editable = ", editable" if origin["editable"] else ""
+    return (
+        f"{origin['type']}, {origin['class']} of {origin['distribution']} "
+        f"{origin['version']}{editable}"
+    )
+
+
 def _table(title: str) -> Table:
     return Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD)
 

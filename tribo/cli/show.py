@@ -12,7 +12,7 @@ import click
 @click.argument("output", type=click.Path(path_type=Path))
 @click.option("--json", "as_json", is_flag=True, help="One JSON object, in SI units.")
 def show(output: Path, as_json: bool) -> None:
-    """Print the result file OUTPUT: every save, and what a lab would report.
+    """Print the result file OUTPUT: saves, what a lab would report, and what made it.
 
     \b
     Example:
@@ -28,6 +28,7 @@ def show(output: Path, as_json: bool) -> None:
             lab = lab_report(result).as_json()
             click.echo(json.dumps({**result.summary(), "lab": lab}, indent=2))
             return
-        from tribo.cli.report import print_report
+        from tribo.cli.report import print_provenance, print_report
 
         print_report(result)
+        print_provenance(result)
