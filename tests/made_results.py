@@ -6,6 +6,7 @@ from tribo.core.contact import ContactSolution, ContactSystem, Residuals
 from tribo.core.grid import Grid
 from tribo.core.measures import BodyMeasures, Measures, centre, contact_area, half_widths
 from tribo.core.state import BodyInfo, BodyState, RunInfo, Snapshot, State
+from tribo.results.provenance import provenance
 from tribo.results.read import Result
 from tribo.results.store import ResultWriter
 
@@ -46,7 +47,7 @@ def made(
             end_time=3600.0,
             end_distance=360.0,
             case={"bodies": {name: {} for name in names}},
-            provenance={},
+            provenance=provenance([]),
         )
     )
     for time in times:

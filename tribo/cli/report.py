@@ -50,7 +50,7 @@ def print_provenance(result: Result, console: Console | None = None) -> None:
         if again is not made:
             console.print("Gone on with other versions:")
         for place, origin in again["components"].items():
-            console.print(f"  {place}: {_origin(origin)}")
+            console.print(f"  {place}: {_origin(origin)}", soft_wrap=True)
         for plugin in again["plugins"]:
             if plugin["status"] not in ("loaded", "available"):
                 console.print(
