@@ -1,6 +1,5 @@
 """Files in and heights out: scale, orientation, holes, and what is refused."""
 
-import pickle
 import zipfile
 
 import numpy as np
@@ -244,10 +243,3 @@ def test_too_large_a_file_is_refused_before_it_is_read(write, tmp_path, monkeypa
     assert path.stat().st_size < 20_000
     with pytest.raises(CaseError, match="MiB are read"):
         describe(path)
-
-
-def test_surface_is_pickled_with_what_it_read(write, heights):
-    measured = quiet(write("x3p"), heights)
-    values = measured.height(Grid(SIZE, PIXELS))
-    again = pickle.loads(pickle.dumps(measured))
-    np.testing.assert_array_equal(again.height(Grid(SIZE, PIXELS)), values)
