@@ -251,7 +251,7 @@ def test_two_distributions_that_claim_a_name_lose_it(folder: Path) -> None:
 def test_plugins_can_be_turned_off(folder: Path, monkeypatch: pytest.MonkeyPatch, off: str) -> None:
     points = {"tribo.v1.observer": {"five.calm": "five_calm"}}
     distribute(folder, "five-tribo", "1.0", points, five_calm=observer("five.calm"))
-    monkeypatch.setenv("TRIBO_DISABLE_PLUGINS", f"other, {off}")
+    monkeypatch.setenv("TRIBO_DISABLE_PLUGINS", f" {off}, ")
     registry = found("five-tribo")
     assert [p.status for p in registry.plugins] == ["disabled"]
     with pytest.raises(CaseError, match=r"five-tribo 1\.0 is disabled: turned off"):

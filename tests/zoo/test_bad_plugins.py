@@ -61,6 +61,16 @@ ZOO = {
     "mutated input": (law("p *= 0.5; " + GOOD), 3, "read-only"),
     "exception": (law("raise KeyError('oops')"), 3, "KeyError"),
     "nothing": (law("return None"), 3, "WearRate"),
+    "exit in the middle": (law("raise SystemExit(0)"), 3, "SystemExit"),
+    "complex": (law("return WearRate(k * p * 1j, k)"), 3, "complex"),
+    "no state but a number": (law("return WearRate(k * p, k, 7)"), 3, "int"),
+    "state fields that are names": (law(GOOD, "state_fields = ('slid',)"), 2, "tuple of Field"),
+    "requires a text": (law(GOOD, "requires = 'temperature'"), 2, "tuple of names"),
+    "hook that returns a class": (
+        law(GOOD).replace("return [Bad]", "return Bad"),
+        2,
+        "must return a list",
+    ),
     "state of the wrong kind": (
         law(
             "return WearRate(k * p, k, {'slid': 'far'})", "state_fields = (Field('slid','m','.'),)"
@@ -259,3 +269,56 @@ def test_the_result_says_who_took_part_and_a_changed_version_is_refused(tmp_path
 
 def test_the_case_is_toml():
     assert tomllib.loads(CASE.format(wear='"x"'))["grid"]["cells"] == 32
+
+
+@pytest.mark.parametrize("fault", ["entry points", "no metadata", "odd value"])
+def test_a_malformed_distribution_harms_no_other(tmp_path, fault):
+    keep(tmp_path, law(GOOD))
+    info = tmp_path / "site" / "odd-1.0.dist-info"
+    info.mkdir()
+    if fault != "no metadata":
+        (info / "METADATA").write_text("Metadata-Version: 2.1\nName: odd\nVersion: 1.0\n")
+    lines = {
+        "entry points": "[console_scripts]\nno equals sign\n",
+        "no metadata": "[tribo.v1.wear_law]\nodd.law = odd\n",
+        "odd value": "[console_scripts]\nodd = not a module !!\n",
+    }
+    (info / "entry_points.txt").write_text(lines[fault])
+    for args in (["plugins", "list"], ["run", "plain.toml"], ["run", "named.toml"]):
+        done = command(tmp_path, *args)
+        assert done.returncode == 0, done.stderr
+    with Result.open(tmp_path / "named.h5") as result:
+        origin = result.provenance["components"]["bodies.ball.wear"]
+    assert (origin["distribution"], origin["version"]) == ("zoo-tribo", "1.0")
+
+
+def test_a_plugin_is_not_tried_with_the_modules_of_the_folder_one_is_in(tmp_path):
+    keep(tmp_path, law(GOOD))
+    (tmp_path / "pluggy.py").write_text("raise SystemExit('a stranger in the folder')")
+    command_line = [sys.executable, "-P", "-m", "tribo", "run", "named.toml"]
+    path = os.pathsep.join([str(tmp_path / "site"), str(Path(tribo.__file__).parents[1])])
+    done = subprocess.run(
+        command_line,
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": path},
+        capture_output=True,
+        text=True,
+        timeout=100,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+
+
+def test_another_version_may_have_another_key(tmp_path):
+    stop = "import os, signal\n        os.kill(os.getpid(), signal.SIGINT)\n        "
+    keep(tmp_path, law(stop + GOOD))
+    assert command(tmp_path, "run", "named.toml").returncode == 130
+    info = tmp_path / "site" / "zoo_tribo-1.0.dist-info" / "METADATA"
+    info.write_text(info.read_text().replace("Version: 1.0", "Version: 1.1"))
+    newer = law(GOOD).replace('"zoo.bad"\n', '"zoo.bad"\n    extra: float = 1.0\n', 1)
+    assert "extra" in newer
+    (tmp_path / "site" / "zoo_bad.py").write_text(newer)
+    refused = command(tmp_path, "resume", "named.h5")
+    assert refused.returncode == 2
+    assert "zoo-tribo 1.1" in refused.stderr
+    assert command(tmp_path, "resume", "named.h5", "--allow-changed").returncode == 0

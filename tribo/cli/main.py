@@ -90,6 +90,8 @@ def tribo(no_plugin: tuple[str, ...], only: str | None) -> None:
 def main() -> None:
     """Run the command; every expected error becomes one message and an exit code."""
     debug = bool(os.environ.get("TRIBO_DEBUG"))
+    # Looking for plugins of its own, pydantic falls over any malformed distribution.
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     make_plain(sys.stdout)
     make_plain(sys.stderr)
     try:

@@ -86,7 +86,10 @@ def check(name: str) -> None:
     failed = []
     for kind, component in find(registry, name):
         cls = registry.lookup(kind, component)
-        report = conform(cls, example_configs(cls))
+        try:
+            report = conform(cls, example_configs(cls))
+        except ValueError as error:
+            raise NumericalError(f"the examples of {component!r}: {error}") from error
         click.echo(str(report))
         if not report.ok:
             failed.append(component)

@@ -20,12 +20,17 @@ def resume(output: Path, allow_changed: bool) -> None:
       tribo resume my.h5
     """
     from tribo.cli.report import print_report
+    from tribo.core.errors import CaseError
     from tribo.observers.progress import Progress
     from tribo.results.read import Result
     from tribo.simulation.run import Simulation
 
     with Result.open(output) as stopped:
-        case = stopped.case
-    simulation = Simulation(case)
+        case, origins = stopped.case, stopped.provenance["components"].values()
+    try:
+        simulation = Simulation(case)
+    except CaseError as error:
+        makers = sorted({f"{o['distribution']} {o['version']}" for o in origins})
+        raise CaseError(f"{error} (the run was begun with {', '.join(makers)})") from error
     with simulation.resume(output, observers=[Progress()], allow_changed=allow_changed) as result:
         print_report(result)

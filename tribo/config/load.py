@@ -7,11 +7,13 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from packaging.requirements import InvalidRequirement, Requirement
 from pydantic import ValidationError
 
 from tribo.config.case import Case
 from tribo.config.explain import case_error
 from tribo.config.overrides import apply_overrides
+from tribo.config.requirements import check_requirements
 from tribo.core.errors import CaseError
 from tribo.registry.registry import Registry, default_registry
 
@@ -58,10 +60,22 @@ def validate_case(data: Mapping[str, Any], *, registry: Registry | None = None) 
     """
     known = registry or default_registry()
     data = _with_default_types(data)
+    requires = data.get("requires")
+    if isinstance(requires, list | tuple) and all(_is_requirement(text) for text in requires):
+        # Before any name is looked up: what lacks is then told by the package to install.
+        check_requirements(requires)
     try:
         return Case.model_validate(data, context={"registry": known})
     except ValidationError as error:
         raise case_error(error, Case, data, known) from None
+
+
+def _is_requirement(text: object) -> bool:
+    try:
+        Requirement(str(text))
+    except InvalidRequirement:
+        return False
+    return isinstance(text, str)
 
 
 def _with_default_types(data: Mapping[str, Any]) -> dict[str, Any]:

@@ -51,9 +51,15 @@ class Slot:
                 text = f"a {words} is needed, as a table with its type; {_choose(registry, self)}"
                 raise _error(text)
             config = _config(registry, self, value)
-            return config.__pydantic_validator__.validate_python(  # type: ignore[no-any-return]
-                dict(value), context=info.context
-            )
+            try:
+                return config.__pydantic_validator__.validate_python(  # type: ignore[no-any-return]
+                    dict(value), context=info.context
+                )
+            except (ValidationError, PydanticCustomError):
+                raise
+            except Exception as error:
+                text = f"{value['type']!r} could not read its keys: {type(error).__name__}: {error}"
+                raise _error(text) from error
 
         return core_schema.with_info_plain_validator_function(
             validate,

@@ -66,7 +66,7 @@ class LocalConditions:
 
 @dataclass(frozen=True)
 class WearRate:
-    """What a wear law answers, each array of shape (nx, ny).
+    """What a wear law answers, arrays of the pressure's shape, or what broadcasts to it.
 
     Parameters
     ----------

@@ -54,6 +54,8 @@ class Recorder(Observer[RecorderConfig]):
                 self._spent_before = run.wall_time
                 self._saved = run.resumed_from.state.time
                 self.writer.reopen(run, run.resumed_from.state)
+                # Gone on with other versions, the file keeps the case it was begun with.
+                self._case = self.writer.case()
         except (OSError, RuntimeError) as error:
             raise self._failed(error) from error
 

@@ -11,6 +11,8 @@ from typing import Any
 
 import pluggy
 
+from tribo.core.distributions import entry_points
+from tribo.core.fields import Field
 from tribo.interfaces.component import ComponentConfig
 from tribo.registry import hookspecs
 from tribo.registry.kinds import KINDS, Kind
@@ -69,11 +71,10 @@ def installed() -> list[Source]:
     of that name. The entry points of one module are one plugin.
     """
     points: dict[tuple[str, str, str], list[metadata.EntryPoint]] = {}
-    everything = metadata.entry_points()
-    for name in filter(_GROUP.fullmatch, everything.groups):
-        for point in everything.select(group=name):
-            who = (point.dist.name, point.dist.version) if point.dist else ("", "")
-            points.setdefault((*who, point.value), []).append(point)
+    for distribution, point in entry_points():
+        if _GROUP.fullmatch(point.group):
+            key = (distribution.name, distribution.version, point.value)
+            points.setdefault(key, []).append(point)
     return [_source(*key, points[key]) for key in sorted(points)]
 
 
@@ -174,7 +175,12 @@ def _offered(manager: pluggy.PluginManager, record: PluginRecord) -> Iterable[Co
     seen: set[Name] = set()
     for kind in KINDS.values():
         for implementation in getattr(manager.hook, kind.hook).get_hookimpls():
-            for cls in implementation.function():
+            returned = implementation.function()
+            if not isinstance(returned, Iterable):
+                raise TypeError(
+                    f"{kind.hook} returns {returned!r}; it must return a list of classes"
+                )
+            for cls in returned:
                 offer = ComponentRecord(kind.name, _name(cls, kind), cls, record)
                 if (offer.kind, offer.name) in seen:
                     raise ValueError(f"{kind.hook} returns {offer.name!r} twice")
@@ -193,10 +199,27 @@ def _name(cls: Any, kind: Kind) -> str:
     config = getattr(cls, "Config", None)
     if not (inspect.isclass(config) and issubclass(config, ComponentConfig)):
         raise TypeError(f"{shown}.Config is not a subclass of {_of(ComponentConfig)}")
+    _check_declarations(cls, shown)
     name = config.model_fields["type"].default
     if not (isinstance(name, str) and name):
         raise TypeError(f'{config.__qualname__} needs a line: type: Literal["NAME"] = "NAME"')
     return name
+
+
+def _check_declarations(cls: type, shown: str) -> None:
+    """Raise TypeError unless what a class declares of fields is declared as it must be."""
+    for attribute in ("state_fields", "provides"):
+        fields = getattr(cls, attribute, ())
+        if not (isinstance(fields, tuple | list) and all(isinstance(f, Field) for f in fields)):
+            raise TypeError(
+                f"{shown}.{attribute} is {fields!r}; it must be a tuple of Field, as in "
+                '(Field("name", "m", "What it means."),)'
+            )
+    names = getattr(cls, "requires", ())
+    if not (isinstance(names, tuple | list) and all(isinstance(name, str) for name in names)):
+        raise TypeError(
+            f'{shown}.requires is {names!r}; it must be a tuple of names, as in ("temperature",)'
+        )
 
 
 def _of(cls: type) -> str:

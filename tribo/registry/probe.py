@@ -48,7 +48,7 @@ def probe(source: Source, time_limit: float | None = None) -> Source:
     """
     record = source.record
     limit = time_limit or float(os.environ.get("TRIBO_PLUGIN_TIME_LIMIT", TIME_LIMIT))
-    command = [sys.executable, "-c", _CODE, record.distribution, record.entry_point]
+    command = [sys.executable, "-P", "-c", _CODE, record.distribution, record.entry_point]
     # The child finds what this process would find.
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
     status: Status = "broken"
@@ -77,5 +77,6 @@ def probe_all(sources: Iterable[Source], time_limit: float | None = None) -> lis
 
 def _ended(code: int) -> str:
     if code < 0:
-        return f"its import crashed the process ({signal.Signals(-code).name})"
+        known = {number.value: number.name for number in signal.Signals}
+        return f"its import crashed the process ({known.get(-code, f'signal {-code}')})"
     return f"its import ended the process with exit code {code}"

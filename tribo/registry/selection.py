@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import os
 import re
+import warnings
 from collections.abc import Iterable
 from dataclasses import replace
 
+from tribo.core.errors import TriboWarning
 from tribo.registry.loader import Source
 
 ONLY = "TRIBO_PLUGINS"
@@ -22,7 +24,11 @@ def selected(sources: Iterable[Source]) -> list[Source]:
     line's ``--no-plugin`` and ``--plugins`` set them, so that processes
     started from there make the same choice.
     """
+    sources = list(sources)
     only, off = _names(ONLY), _names(DISABLED)
+    known = set().union(*map(_answers_to, sources)) | {"*"}
+    for name in sorted((only | off) - known):
+        warnings.warn(f"no plugin is called {name!r}", TriboWarning, stacklevel=3)
     chosen = []
     for source in sources:
         answers = _answers_to(source)

@@ -4,10 +4,15 @@ from __future__ import annotations
 
 import json
 import platform
-from collections.abc import Iterable, Mapping
+import sys
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
+from hashlib import sha256
 from importlib import metadata
+from itertools import takewhile
+from pathlib import Path
 
+from tribo.core.distributions import entry_points
 from tribo.interfaces.component import Component, ComponentConfig
 
 PACKAGES = ("tribo", "numpy", "scipy", "h5py", "pydantic", "pluggy")
@@ -67,13 +72,14 @@ def changed_components(
 def _words(origin: dict[str, str] | None) -> str:
     if origin is None:
         return "nothing"
-    commit = f" at {origin['commit'][:10]}" if origin.get("commit") else ""
-    return f"{origin['class']} of {origin['distribution']} {origin['version']}{commit}".strip()
+    at = origin.get("commit") or origin.get("code") or ""
+    state = f" (code {at[:10]})" if at else ""
+    return f"{origin['class']} of {origin['distribution']} {origin['version']}{state}".strip()
 
 
 def _origin(component: Component[ComponentConfig]) -> dict[str, object]:
     cls = type(component)
-    distribution = _distribution(cls.__module__.split(".")[0])
+    distribution = _distribution(cls.__module__)
     origin: dict[str, object] = {
         "type": cls.type_name(),
         "class": f"{cls.__module__}.{cls.__qualname__}",
@@ -86,21 +92,45 @@ def _origin(component: Component[ComponentConfig]) -> dict[str, object]:
         origin["distribution"] = distribution.name
         origin["version"] = distribution.version
         origin["editable"] = bool(source.get("dir_info", {}).get("editable"))
+        if origin["editable"]:
+            # The version says nothing of what is edited in place.
+            origin["code"] = _code(cls.__module__.split(".")[0])
         if "vcs_info" in source:
             origin["commit"] = source["vcs_info"].get("commit_id", "")
     return origin
 
 
 @cache
-def _distribution(package: str) -> metadata.Distribution | None:
-    """Return the distribution that a top-level package came with."""
-    # An editable installation lists no packages, but its entry points name them.
-    everything = metadata.entry_points()
-    for group in everything.groups:
-        if group.startswith("tribo.v") or group == "console_scripts":
-            for point in everything.select(group=group):
-                if point.module.split(".")[0] == package and point.dist is not None:
-                    return metadata.distribution(point.dist.name)
+def _code(package: str) -> str:
+    """Return a hash of the source files of a top-level package that is imported."""
+    digest = sha256()
+    for folder in getattr(sys.modules[package], "__path__", ()):
+        for path in sorted(Path(folder).rglob("*.py")):
+            digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def _shared(left: Sequence[str], right: Sequence[str]) -> int:
+    """Return how many parts two dotted paths share from their beginning."""
+    pairs = zip(left, right, strict=False)
+    return sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], pairs))
+
+
+@cache
+def _distribution(module: str) -> metadata.Distribution | None:
+    """Return the distribution that a module came with."""
+    # An editable installation lists no packages, but its entry points name modules. Of
+    # distributions that share a namespace, that of the longest common path is meant.
+    package = module.split(".")[0]
+    best: tuple[int, metadata.Distribution | None] = (0, None)
+    for distribution, point in entry_points():
+        if point.group.startswith("tribo.v") or point.group == "console_scripts":
+            named = point.value.split(":")[0].strip().split(".")
+            common = _shared(named, module.split("."))
+            if common > best[0]:
+                best = common, distribution
+    if best[1] is not None:
+        return best[1]
     names = metadata.packages_distributions().get(package, [])
     return metadata.distribution(names[0]) if names else None
 

@@ -113,6 +113,10 @@ class ResultWriter:
         _truncate(self._file, state.saves, state.steps + 1)
         _record_change(self._file, run.provenance)
 
+    def case(self) -> dict[str, object]:
+        """Return the configuration that the file was begun with."""
+        return dict(json.loads(read_text(self._file, "case")))
+
     def append_step(self, measures: Measures) -> None:
         """Remember a row of the history; it is written at the next flush."""
         self._rows.append(measures)

@@ -20,9 +20,9 @@ def blaming() -> Iterator[None]:
     """
     try:
         yield
-    except TriboError:
+    except (TriboError, KeyboardInterrupt, GeneratorExit):
         raise
-    except Exception as error:
+    except BaseException as error:
         culprit = _culprit(error)
         if culprit is None:
             raise
@@ -33,7 +33,7 @@ def blaming() -> Iterator[None]:
         ) from error
 
 
-def _culprit(error: Exception) -> str | None:
+def _culprit(error: BaseException) -> str | None:
     found = None
     for frame, _ in traceback.walk_tb(error.__traceback__):
         owner = frame.f_locals.get("self")

@@ -9,6 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from tribo.config.requirements import check_requirements
 from tribo.config.stepping import ExplicitConfig, ImplicitConfig
 from tribo.config.stop import StopConfig
 from tribo.core.arrays import Array, readonly
@@ -25,7 +26,6 @@ from tribo.interfaces.kinematics import Kinematics, KinematicsConfig
 from tribo.interfaces.observer import Observer, ObserverConfig
 from tribo.interfaces.surface import Surface, SurfaceConfig
 from tribo.interfaces.wear import WearLaw, WearLawConfig
-from tribo.simulation.requirements import check_requirements
 
 
 @dataclass(frozen=True)
@@ -157,6 +157,11 @@ def assemble(
         raise CaseError("a contact needs two bodies with different names", "bodies")
     names = [body.name for body in bodies]
     exposures = kinematics.exposures(grid, names)
+    if set(exposures) != set(names):
+        raise CaseError(
+            f"{kinematics.type_name()!r} exposes {sorted(exposures)}, but the bodies are {names}",
+            "kinematics",
+        )
     gap = np.zeros(grid.cells)
     for body in bodies:
         with located(f"bodies.{body.name}.surface"):
@@ -223,8 +228,8 @@ def located(path: str) -> Iterator[None]:
 
 def _check_height(body: Body, height: Array, exposure: Exposure, grid: Grid) -> None:
     kind = body.surface.type_name()
-    if height.shape != grid.cells:
-        raise CaseError(f"{kind!r} gave heights of shape {height.shape}, not {grid.cells}")
+    if not isinstance(height, np.ndarray) or height.shape != grid.cells:
+        raise CaseError(f"{kind!r} gave heights of shape {np.shape(height)}, not {grid.cells}")
     if not np.all(np.isfinite(height)):
         raise CaseError(f"{kind!r} gave heights that are not finite")
     if not exposure.shape_stays and np.any(height != height[:1]):
@@ -239,7 +244,13 @@ def _check_law(law: WearLaw[WearLawConfig], material: Material) -> None:
     law.check(material)
     declared = {field.name for field in law.state_fields}
     given = law.initial_state()
-    if set(given) != declared or not all(np.isfinite(value) for value in given.values()):
+    if (
+        not isinstance(given, Mapping)
+        or set(given) != declared
+        or not all(
+            isinstance(value, int | float) and np.isfinite(value) for value in given.values()
+        )
+    ):
         raise CaseError(
             f"{law.type_name()!r} declares the state fields {sorted(declared)}, but starts with "
             f"{given}; each needs a finite initial value"

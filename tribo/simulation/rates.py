@@ -111,7 +111,8 @@ def _effect_fields(model: Model, pressure: Array, moment: Moment) -> dict[str, d
         for field in effect.provides:
             fields[field.name] = {}
             for body in model.bodies:
-                values = answer.get(field.name, {}).get(body.name)
+                of_bodies = answer.get(field.name, {})
+                values = of_bodies.get(body.name) if isinstance(of_bodies, Mapping) else None
                 who = f"effect {effect.type_name()!r}"
                 what = f"{field.name!r} for body {body.name!r}"
                 if values is None:
@@ -133,6 +134,8 @@ def _checked(body: Body, rate: WearRate, shape: tuple[int, int], moment: Moment)
             f"{who} gave a negative depth per metre ({least:.3g}) at "
             f"{moment.distance:.6g} m; wear only removes"
         )
+    if not isinstance(rate.state, Mapping):
+        raise NumericalError(f"{who} gave a {type(rate.state).__name__} as rates of its state")
     state = {}
     for field in body.wear.state_fields:
         if field.name not in rate.state:
@@ -150,7 +153,10 @@ def _finite(
         array = values
     else:
         try:
-            array = np.broadcast_to(np.asarray(values, dtype=np.float64), shape)
+            plain = np.asarray(values)
+            if plain.dtype.kind not in "fiub":
+                raise TypeError(f"its values are of the kind {plain.dtype}")
+            array = np.broadcast_to(plain.astype(np.float64), shape)
         except (TypeError, ValueError) as error:
             raise NumericalError(
                 f"{who} gave {what} that is not an array of shape {shape}: {error}"

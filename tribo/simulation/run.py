@@ -131,16 +131,18 @@ class Simulation:
         with Result.open(path) as result:
             if result.status == "done":
                 raise CaseError(f"{path} is done; there is nothing to resume")
-            if result.case != describe(self.model):
-                raise CaseError(f"{path} is the result of another case; resume that one")
             changes = changed_components(result.provenance, self._provenance())
+            case = result.case
         if changes and not allow_changed:
             listed = "; ".join(f"{place} was {old}, is {new}" for place, old, new in changes)
             raise CaseError(
                 f"{path} was begun with other components: {listed}. Install those again, or go on "
                 "with --allow-changed"
             )
-        state, wall_time = read_checkpoint(path, describe(self.model))
+        # Another version of a component may have other keys.
+        if case != describe(self.model) and not changes:
+            raise CaseError(f"{path} is the result of another case; resume that one")
+        state, wall_time = read_checkpoint(path, case)
         kept = tuple(text for text in state.notices if not text.startswith(FAILED))
         state = replace(state, notices=kept)
         recorder = Recorder(RecorderConfig(path=path))
@@ -188,7 +190,7 @@ class Simulation:
             ) from error
         finally:
             # The recorder comes last, so that nothing another one raises costs a result.
-            with ExitStack() as finishing:
+            with blaming(), ExitStack() as finishing:
                 for observer in started:
                     finishing.callback(observer.on_finish, snapshot, reason)
         return recorder.result()

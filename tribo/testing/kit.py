@@ -253,7 +253,9 @@ def _outcome(one: Check, subject: Subject, expected: Mapping[str, str]) -> Outco
         if inapplicable is not None:
             return came("not applicable", inapplicable)
         one.run(subject)
-    except Exception as error:
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:
         said = _said(error)
         return came("failed", said) if reason is None else came("expected failure", reason)
     if reason is not None:
@@ -261,7 +263,7 @@ def _outcome(one: Check, subject: Subject, expected: Mapping[str, str]) -> Outco
     return came("passed")
 
 
-def _said(error: Exception) -> str:
+def _said(error: BaseException) -> str:
     text = " ".join(str(error).split())
     if isinstance(error, CheckFailed):
         return text
