@@ -117,21 +117,29 @@ def _shared(left: Sequence[str], right: Sequence[str]) -> int:
 
 
 @cache
+def _named_modules() -> tuple[tuple[list[str], metadata.Distribution], ...]:
+    """Return the modules that entry points name, in parts, each with its distribution."""
+    return tuple(
+        (point.value.split(":")[0].strip().split("."), distribution)
+        for distribution, point in entry_points()
+        if point.group.startswith("tribo.v") or point.group == "console_scripts"
+    )
+
+
+@cache
 def _distribution(module: str) -> metadata.Distribution | None:
     """Return the distribution that a module came with."""
     # An editable installation lists no packages, but its entry points name modules. Of
     # distributions that share a namespace, that of the longest common path is meant.
-    package = module.split(".")[0]
+    parts = module.split(".")
     best: tuple[int, metadata.Distribution | None] = (0, None)
-    for distribution, point in entry_points():
-        if point.group.startswith("tribo.v") or point.group == "console_scripts":
-            named = point.value.split(":")[0].strip().split(".")
-            common = _shared(named, module.split("."))
-            if common > best[0]:
-                best = common, distribution
+    for named, distribution in _named_modules():
+        common = _shared(named, parts)
+        if common > best[0]:
+            best = common, distribution
     if best[1] is not None:
         return best[1]
-    names = metadata.packages_distributions().get(package, [])
+    names = metadata.packages_distributions().get(parts[0], [])
     return metadata.distribution(names[0]) if names else None
 
 
