@@ -121,7 +121,6 @@ def implicit_step(
     solves = iterations = 0
     implied: Array | None = None
     forward: dict[str, Array] = {}
-    settled = law
     asked_again = False
     mismatch = drift = np.inf
     rates: Mapping[str, WearRate] = state.rates
@@ -129,10 +128,10 @@ def implicit_step(
         if implied is not None or not rates:
             rates = wear_rates(model, solution.pressure, law, moment)
         worn = _worn(model, rates, increment)
+        settled = _advanced(model, before, rates, increment)
         depth = sum(worn.values(), np.zeros(model.grid.cells))
         if implied is not None:
             mismatch = float(np.max(np.abs(depth - implied)))
-            settled = _advanced(model, before, rates, increment)
             drift = _largest_change(law, settled)
             if mismatch <= config.nonlinear_tolerance * float(np.max(depth)):
                 if drift <= config.nonlinear_tolerance:
@@ -155,12 +154,10 @@ def implicit_step(
         remainder = depth - compliance.depth(solution.pressure, dx)
         try:
             solution = _solve(model, base + remainder, compliance, solution)
-        except StepRejected:
-            raise
         except NumericalError as error:
             raise StepRejected(str(error)) from error
         implied = remainder + compliance.depth(solution.pressure, dx)
-        law = _advanced(model, before, rates, increment)
+        law = settled
         solves += 1
         iterations += solution.iterations
     worn_state = _with_wear(state, worn, settled)
