@@ -38,7 +38,6 @@ class Progress(Observer[ProgressConfig]):
         self._live: Live | None = None
         self._run: RunInfo | None = None
         self._begun = 0.0
-        self._from = 0.0
         self._steps = 0
         self._previous = 0.0
 
@@ -46,9 +45,7 @@ class Progress(Observer[ProgressConfig]):
         """Start the clock."""
         self._run = run
         self._begun = time.monotonic()
-        self._from = self._previous = (
-            run.resumed_from.measures.distance if run.resumed_from is not None else 0.0
-        )
+        self._previous = run.resumed_from.measures.distance if run.resumed_from is not None else 0.0
 
     def on_step(self, snapshot: Snapshot) -> None:
         """Renew the line."""

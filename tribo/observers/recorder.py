@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -46,7 +47,7 @@ class Recorder(Observer[RecorderConfig]):
         """Create the file, or go on with it."""
         self._clock = self._last_checkpoint = time.monotonic()
         self._case = run.case
-        try:
+        with self._writing():
             if run.resumed_from is None or self.config.path is None:
                 self._make_room()
                 self.writer.create(run)
@@ -56,8 +57,6 @@ class Recorder(Observer[RecorderConfig]):
                 self.writer.reopen(run, run.resumed_from.state)
                 # Gone on with other versions, the file keeps the case it was begun with.
                 self._case = self.writer.case()
-        except (OSError, RuntimeError) as error:
-            raise self._failed(error) from error
 
     def on_step(self, snapshot: Snapshot) -> None:
         """Add to the history; now and then write a checkpoint."""
@@ -67,16 +66,14 @@ class Recorder(Observer[RecorderConfig]):
 
     def on_save(self, snapshot: Snapshot) -> None:
         """Write the fields, then a checkpoint."""
-        try:
+        with self._writing():
             self.writer.append_save(snapshot)
-        except (OSError, RuntimeError) as error:
-            raise self._failed(error) from error
         self._saved = snapshot.state.time
         self._checkpoint(snapshot)
 
     def on_finish(self, snapshot: Snapshot | None, reason: str) -> None:
         """Write what is left; keep the checkpoint unless the run is done."""
-        try:
+        with self._writing():
             if snapshot is not None and reason != "done":
                 self._checkpoint(snapshot)
                 if snapshot.state.time != self._saved:
@@ -84,8 +81,6 @@ class Recorder(Observer[RecorderConfig]):
                     self.writer.append_save(snapshot)
                 self.writer.note(snapshot.state.notices)
             self.writer.finish(reason, self._spent())
-        except (OSError, RuntimeError) as error:
-            raise self._failed(error) from error
         if self.config.path is not None:
             self.writer.close()
             if reason == "done":
@@ -109,19 +104,21 @@ class Recorder(Observer[RecorderConfig]):
     def _checkpoint(self, snapshot: Snapshot) -> None:
         if self.config.path is None:
             return
-        try:
+        with self._writing():
             # The file must hold every row that the checkpoint counts.
             self.writer.flush()
             write_checkpoint(self.config.path, snapshot.state, self._spent(), self._case)
-        except (OSError, RuntimeError) as error:
-            raise self._failed(error) from error
         self._last_checkpoint = time.monotonic()
 
     def _spent(self) -> float:
         return self._spent_before + time.monotonic() - self._clock
 
-    def _failed(self, error: Exception) -> OutputError:
-        return OutputError(
-            f"cannot write {self.config.path}: {error}; free space or choose another place with "
-            "-o; what was saved before is intact"
-        )
+    @contextmanager
+    def _writing(self) -> Iterator[None]:
+        try:
+            yield
+        except (OSError, RuntimeError) as error:
+            raise OutputError(
+                f"cannot write {self.config.path}: {error}; free space or choose another place "
+                "with -o; what was saved before is intact"
+            ) from error
