@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import importlib
+import os
 import subprocess
 import sys
 import tomllib
@@ -88,6 +89,33 @@ def test_its_example_runs_with_it(
     with Simulation(tmp_path / name / "example.toml", registry=registry).run() as result:
         used = {c["type"]: c["class"] for c in result.provenance["components"].values()}
     assert used[plugin.component] == f"{plugin.package}.{plugin.module}.{plugin.title}"
+
+
+def test_its_conformance_test_covers_every_class_of_the_hook(tmp_path: Path) -> None:
+    folder = tmp_path / "acme-fretting"
+    write_plugin(folder.name, "wear-law", folder)
+    module = folder / "src/acme_fretting/fretting.py"
+    text = module.read_text()
+    second = text[text.index("class FrettingConfig") :]
+    second = second.replace("Fretting", "Second").replace("acme.fretting", "acme.second")
+    module.write_text(text + "\n\n" + second.replace("depth=k", "depth=2 * k"))
+    package = folder / "src/acme_fretting/__init__.py"
+    package.write_text(
+        package.read_text()
+        .replace("import Fretting", "import Fretting, Second")
+        .replace("(Fretting,)", "(Fretting, Second)")
+    )
+    done = subprocess.run(
+        [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "tests"],
+        cwd=folder,
+        env={"PYTHONPATH": os.pathsep.join([str(folder / "src"), *sys.path])},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    # The depth of the second is twice what its derivative says.
+    assert "test_Second_conforms[derivative_is_that_of_the_depth" in done.stdout
+    assert "FAILED tests/test_conformance.py::test_Fretting" not in done.stdout
 
 
 @pytest.mark.parametrize("kind", NAMES)
