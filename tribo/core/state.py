@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution, ContactSystem
-from tribo.core.fields import WearRate
+from tribo.core.fields import Field, WearRate
 from tribo.core.measures import Measures
 
 
@@ -89,12 +89,15 @@ class BodyInfo:
         In kg/m³.
     height : ndarray, shape (nx, ny)
         Its initial height outward, in m.
+    state_fields : tuple of Field, optional
+        What its wear law keeps per material point.
     """
 
     name: str
     swept: bool
     density: float | None
     height: Array
+    state_fields: tuple[Field, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Generic, TypeVar
@@ -9,6 +10,12 @@ from typing import Generic, TypeVar
 from tribo.core.measures import BodyMeasures, Measures
 
 M = TypeVar("M")
+
+
+def labelled(name: str, unit: str) -> str:
+    """Return a name with its unit, as ``max_pressure_Pa`` or ``dissipated_energy_J_m2``."""
+    suffix = re.sub(r"\W+", "_", unit.replace("^", ""))
+    return name if unit == "1" else f"{name}_{suffix}"
 
 
 @dataclass(frozen=True)
@@ -23,8 +30,7 @@ class Column(Generic[M]):
     @property
     def label(self) -> str:
         """Name with the unit, as in JSON and CSV: ``max_pressure_Pa``."""
-        suffix = self.unit.replace("^", "")
-        return self.name if self.unit == "1" else f"{self.name}_{suffix}"
+        return labelled(self.name, self.unit)
 
 
 COLUMNS: tuple[Column[Measures], ...] = (

@@ -10,6 +10,7 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.errors import OutputError
+from tribo.results.columns import labelled
 from tribo.results.read import Result
 
 
@@ -74,6 +75,7 @@ def _profiles(result: Result, axis: int) -> dict[str, Array]:
         for label, fields in (
             ("wear_depth_m", body.wear_depth),
             ("plastic_depth_m", body.plastic_depth),
+            *((f"state.{labelled(f.name, f.unit)}", body.state[f.name]) for f in body.state_fields),
         ):
             columns[f"bodies.{name}.{label}"] = _stacked(profile(f, axis) for f in fields)
         columns[f"bodies.{name}.height_m"] = _stacked(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
@@ -15,6 +15,7 @@ import numpy as np
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError
+from tribo.core.fields import Field
 from tribo.core.grid import Grid
 from tribo.results.columns import BODY_COLUMNS, COLUMNS
 from tribo.results.store import FORMAT, read_text
@@ -40,6 +41,11 @@ class BodyResult:
         Its initial height outward, in m.
     wear_depth, plastic_depth : ndarray, shape (saves, nx, ny)
         At each save, in m. On a swept body the wear does not vary along x.
+    state : Mapping[str, ndarray]
+        What its wear law keeps per material point, by name, shaped as
+        `wear_depth`.
+    state_fields : tuple of Field
+        Units and meanings of `state`.
     """
 
     name: str
@@ -48,6 +54,8 @@ class BodyResult:
     height: Array
     wear_depth: Array
     plastic_depth: Array
+    state: Mapping[str, Array] = field(default_factory=dict)
+    state_fields: tuple[Field, ...] = ()
 
     def surface(self, save: int) -> Array:
         """Return the height outward at a save, worn and deformed, in m.
@@ -235,17 +243,20 @@ class Result:
                 f"{self.name} has no body {name!r}; its bodies are {', '.join(self.body_names)}"
             )
         group = self._file[f"bodies/{name}"]
-        worn = self._read(f"bodies/{name}/wear_depth")
-        if worn.ndim == 2:
-            worn = np.broadcast_to(worn[:, None, :], (worn.shape[0], *self.grid.cells))
         density = group.attrs.get("density_kg_m3")
+        kept = [
+            Field(field, str(values.attrs["units"]), str(values.attrs["long_name"]))
+            for field, values in group.get("state", {}).items()
+        ]
         return BodyResult(
             name=name,
             swept=bool(group.attrs["swept"]),
             density=None if density is None else float(density),
             height=self._read(f"bodies/{name}/height"),
-            wear_depth=worn,
+            wear_depth=self._on_window(f"bodies/{name}/wear_depth"),
             plastic_depth=self._read(f"bodies/{name}/plastic_depth"),
+            state={f.name: self._on_window(f"bodies/{name}/state/{f.name}") for f in kept},
+            state_fields=tuple(kept),
         )
 
     def table(self, name: str) -> dict[str, Array]:
@@ -301,6 +312,13 @@ class Result:
             "solver_iterations": int(np.sum(history["solver_iterations"][last])),
             "wall_time_s": self.wall_time,
         }
+
+    def _on_window(self, name: str) -> Array:
+        """Return a body's own field at every save, spread along x where the body is swept."""
+        values = self._read(name)
+        if values.ndim == 2:
+            values = np.broadcast_to(values[:, None, :], (len(values), *self.grid.cells))
+        return values
 
     def _read(self, name: str, index: int | slice = slice(None)) -> Array:
         try:

@@ -95,6 +95,9 @@ class ResultWriter:
                 "m",
                 "Permanent displacement",
             )
+            for field in body.state_fields:
+                kept = f"bodies/{body.name}/state/{field.name}"
+                _series(f, kept, own, field.unit, field.description)
         _growing_scale(f, "history/step", "1", "Number of the step")
         for table, scale in (("saves", "time"), ("history", "history/step")):
             for column in COLUMNS:
@@ -131,6 +134,9 @@ class ResultWriter:
             worn = body.wear if group["wear_depth"].ndim == 3 else body.wear[0]
             _append(group["wear_depth"], [worn])
             _append(group["plastic_depth"], [body.plastic])
+            for field, values in body.law.items():
+                kept = group[f"state/{field}"]
+                _append(kept, [values if kept.ndim == 3 else values[0]])
         self._append_rows("saves", [snapshot.measures])
         self.note(state.notices)
         self.flush()

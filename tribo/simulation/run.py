@@ -211,6 +211,7 @@ class Simulation:
                     swept=model.is_swept(body.name),
                     density=body.material.density,
                     height=body.surface.height(model.grid),
+                    state_fields=() if body.wear is None else tuple(body.wear.state_fields),
                 )
                 for body in model.bodies
             ),
