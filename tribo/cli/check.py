@@ -42,6 +42,10 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
         click.echo(f"  - {problem}")
     for name, value in _lines(model, prediction):
         click.echo(f"  {name:<26}{value}")
+    for place, facts in prediction.facts.items():
+        click.echo(f"  {place}:")
+        for name, text in facts.items():
+            click.echo(f"    {name:<24}{text}")
 
 
 def _finite(value: Any) -> Any:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
@@ -9,6 +10,7 @@ from rich import box
 from rich.console import Console
 from rich.measure import Measurement
 from rich.table import Table
+from rich.text import Text
 
 from tribo.analysis.report import BodyReport, FirstContact, lab_report
 from tribo.results.read import Result
@@ -41,16 +43,17 @@ def print_report(result: Result, console: Console | None = None) -> None:
 
 
 def print_provenance(result: Result, console: Console | None = None) -> None:
-    """Print which class, distribution and version each model of `result` came from."""
+    """Print where each model of `result` came from, its configuration and what it states."""
     console = console or Console(highlight=False)
     made = result.provenance
-    packages = ", ".join(f"{name} {version}" for name, version in made["packages"].items())
-    console.print(f"\nMade with Python {made['python']}, {packages}; models:")
+    console.print()
     for again in (made, *made.get("resumed_with", ())):
-        if again is not made:
-            console.print("Gone on with other versions:")
+        packages = ", ".join(f"{name} {version}" for name, version in again["packages"].items())
+        with_what = "Made with" if again is made else "Gone on with"
+        console.print(f"{with_what} Python {again['python']}, {packages}; models, in SI units:")
         for place, origin in again["components"].items():
-            console.print(f"  {place}: {_origin(origin)}", soft_wrap=True)
+            for line in _origin(place, origin):
+                console.print(Text(line), soft_wrap=True)
         for plugin in again["plugins"]:
             if plugin["status"] not in ("loaded", "available"):
                 console.print(
@@ -59,12 +62,18 @@ def print_provenance(result: Result, console: Console | None = None) -> None:
                 )
 
 
-def _origin(origin: Mapping[str, Any]) -> str:
-    editable = ", editable" if origin["editable"] else ""
-    return (
-        f"{origin['type']}, {origin['class']} of {origin['distribution']} "
-        f"{origin['version']}{editable}"
-    )
+def _origin(place: str, origin: Mapping[str, Any]) -> Iterator[str]:
+    where = f"{origin['class']} of {origin['distribution']} {origin['version']}".rstrip()
+    yield f"  {place}: {origin['type']}, {where}{', editable' if origin['editable'] else ''}"
+    config = [
+        f"{key} = {json.dumps(value, ensure_ascii=False)}"
+        for key, value in origin["config"].items()
+        if key != "type" and value is not None
+    ]
+    if config:
+        yield f"      {', '.join(config)}"
+    for name, text in origin["facts"].items():
+        yield f"      {name}: {text}"
 
 
 def _table(title: str) -> Table:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC
+from collections.abc import Mapping
 from typing import ClassVar, Generic, TypeVar
 
 from pydantic import BaseModel, ConfigDict
@@ -40,6 +41,19 @@ class Component(ABC, Generic[C_co]):
     def config(self) -> C_co:
         """The configuration this component was made from."""
         return self._config
+
+    def facts(self) -> Mapping[str, str]:
+        """Return what a user ought to see before a run, such as what a file was read as.
+
+        ``tribo check`` shows it, every result keeps it, and a run does not
+        resume where it has changed.
+
+        Returns
+        -------
+        Mapping[str, str]
+            Text by its name, as in ``{"size": "1.24 × 0.94 mm"}``.
+        """
+        return {}
 
     @classmethod
     def type_name(cls) -> str:

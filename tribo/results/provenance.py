@@ -11,10 +11,13 @@ from hashlib import sha256
 from importlib import metadata
 from itertools import takewhile
 from pathlib import Path
+from typing import Any
 
 from tribo.core.distributions import entry_points
+from tribo.core.errors import PluginError
 from tribo.interfaces.component import Component, ComponentConfig
 
+_IDENTITY = ("class", "distribution", "version", "code", "facts")
 PACKAGES = ("tribo", "numpy", "scipy", "h5py", "pydantic", "pluggy")
 
 
@@ -22,7 +25,7 @@ def provenance(
     components: Iterable[tuple[str, Component[ComponentConfig]]],
     plugins: Iterable[Mapping[str, object]] = (),
 ) -> dict[str, object]:
-    """Return versions, and for each component its class, distribution and version.
+    """Return versions, and for each component where it came from and how it is configured.
 
     Parameters
     ----------
@@ -53,9 +56,13 @@ def environment() -> dict[str, object]:
 
 
 def changed_components(
-    before: Mapping[str, object], now: Mapping[str, object]
+    before: Mapping[str, Any], now: Mapping[str, Any]
 ) -> list[tuple[str, str, str]]:
-    """Return the components whose class or version differ: place, before, now.
+    """Return the components that are not what they were: place, before, now.
+
+    A component is what its class, distribution, version and source code make
+    of it, and the facts it states. Whether it is installed to be edited, and
+    its configuration, which is compared with the whole case, do not count.
 
     Parameters
     ----------
@@ -63,18 +70,45 @@ def changed_components(
         What `provenance` returned.
     """
     old, new = before["components"], now["components"]
-    assert isinstance(old, dict)
-    assert isinstance(new, dict)
-    places = [place for place in {**old, **new} if old.get(place) != new.get(place)]
-    return [(place, _words(old.get(place)), _words(new.get(place))) for place in places]
+    changes = []
+    for place in {**old, **new}:
+        was, is_now = old.get(place, {}), new.get(place, {})
+        differing = [key for key in _IDENTITY if was.get(key) != is_now.get(key)]
+        if differing:
+            changes.append((place, _words(was, differing), _words(is_now, differing)))
+    return changes
 
 
-def _words(origin: dict[str, str] | None) -> str:
-    if origin is None:
-        return "nothing"
-    at = origin.get("commit") or origin.get("code") or ""
-    state = f" (code {at[:10]})" if at else ""
-    return f"{origin['class']} of {origin['distribution']} {origin['version']}{state}".strip()
+def stated_facts(component: Component[ComponentConfig]) -> dict[str, str]:
+    """Return what a component states of itself.
+
+    Raises
+    ------
+    PluginError
+        If that is not text by text.
+    """
+    facts = component.facts()
+    if not isinstance(facts, Mapping) or not all(
+        isinstance(text, str) for pair in facts.items() for text in pair
+    ):
+        raise PluginError(
+            f"{component.type_name()!r} states {facts!r} as its facts, not text by text"
+        )
+    return dict(facts)
+
+
+def _words(origin: Mapping[str, Any], differing: Sequence[str]) -> str:
+    """Return which class of which version it is, and of the rest what makes the difference."""
+    if not origin:
+        return "not there"
+    words = f"{origin['class']} of {origin['distribution'] or 'no distribution'}"
+    words = f"{words} {origin['version']}".rstrip()
+    if "code" in differing:
+        words += f" (source code {origin['code'][:10] or 'unknown'})"
+    if "facts" in differing:
+        stated = ", ".join(f"{name} {text}" for name, text in origin["facts"].items())
+        words += f" (with {stated or 'no facts'})"
+    return words
 
 
 def _origin(component: Component[ComponentConfig]) -> dict[str, object]:
@@ -86,15 +120,16 @@ def _origin(component: Component[ComponentConfig]) -> dict[str, object]:
         "distribution": "",
         "version": "",
         "editable": False,
+        # The version says nothing of what is edited in place.
+        "code": _code(cls.__module__.split(".")[0]),
+        "config": component.config.model_dump(mode="json"),
+        "facts": stated_facts(component),
     }
     if distribution is not None:
         source = json.loads(distribution.read_text("direct_url.json") or "{}")
         origin["distribution"] = distribution.name
         origin["version"] = distribution.version
         origin["editable"] = bool(source.get("dir_info", {}).get("editable"))
-        if origin["editable"]:
-            # The version says nothing of what is edited in place.
-            origin["code"] = _code(cls.__module__.split(".")[0])
         if "vcs_info" in source:
             origin["commit"] = source["vcs_info"].get("commit_id", "")
     return origin
@@ -102,12 +137,19 @@ def _origin(component: Component[ComponentConfig]) -> dict[str, object]:
 
 @cache
 def _code(package: str) -> str:
-    """Return a hash of the source files of a top-level package that is imported."""
+    """Return a hash of the source files of a top-level package or module that is imported."""
+    module = sys.modules[package]
+    files = [
+        path
+        for folder in getattr(module, "__path__", ())
+        for path in sorted(Path(folder).rglob("*.py"))
+    ]
+    if not files and getattr(module, "__file__", None):
+        files = [Path(str(module.__file__))]
     digest = sha256()
-    for folder in getattr(sys.modules[package], "__path__", ()):
-        for path in sorted(Path(folder).rglob("*.py")):
-            digest.update(path.read_bytes())
-    return digest.hexdigest()
+    for path in files:
+        digest.update(path.read_bytes())
+    return digest.hexdigest() if files else ""
 
 
 def _shared(left: Sequence[str], right: Sequence[str]) -> int:

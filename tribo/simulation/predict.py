@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from tribo.analysis.first_contact import HertzContact, hertz_contact
@@ -11,6 +12,7 @@ from tribo.core.errors import CaseError, NumericalError
 from tribo.core.grid import Grid
 from tribo.core.measures import Measures
 from tribo.core.state import State
+from tribo.results.provenance import stated_facts
 from tribo.simulation.march import FEW_CELLS, MOST_STEPS, begin, march
 from tribo.simulation.measure import measure
 from tribo.simulation.model import Model, assemble
@@ -22,6 +24,7 @@ MARGINS = (1.5, 1.0)
 LOOSE = ImplicitConfig(depth_tolerance=2e-2, pressure_tolerance=0.5, settle=0.1)
 FIELDS_IN_MEMORY = 24
 PADDED_ARRAYS = 12
+BARE_FILE = 1e6
 DEEP = 0.1
 """Wear depth, relative to the radius of curvature, that is more likely a slip of units."""
 
@@ -48,6 +51,8 @@ class Prediction:
         Why the motion's averaging will not hold, if so.
     memory, file_size : float
         In bytes; upper estimates.
+    facts : Mapping[str, Mapping[str, str]]
+        What components state of themselves, by their place in the case.
     problems : tuple of str
         What will go wrong, each with its remedy.
     """
@@ -60,6 +65,7 @@ class Prediction:
     limitation: str | None
     memory: float
     file_size: float
+    facts: Mapping[str, Mapping[str, str]]
     problems: tuple[str, ...]
 
 
@@ -122,9 +128,7 @@ def predict(model: Model) -> Prediction:
     ]
     if coarse.failure is not None and not problems:
         problems.append(f"a trial run on a coarse grid failed: {coarse.failure}")
-    fields = 1 + sum(1 if model.is_swept(body.name) else 2 for body in model.bodies)
-    fields += sum(1 for body in model.bodies if model.is_swept(body.name))
-    saves = len({0.0, model.end_time, *model.save_times})
+    facts = {place: stated_facts(component) for place, component in model.components()}
     return Prediction(
         first=first,
         hertz=hertz,
@@ -133,7 +137,8 @@ def predict(model: Model) -> Prediction:
         window_holds=holds,
         limitation=limitation,
         memory=memory,
-        file_size=8.0 * cells * fields * saves,
+        file_size=_file_size(model),
+        facts={place: stated for place, stated in facts.items() if stated},
         problems=tuple(problems),
     )
 
@@ -141,6 +146,21 @@ def predict(model: Model) -> Prediction:
 def machine_memory() -> float:
     """Return the memory of this machine, in bytes."""
     return float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
+
+
+def _file_size(model: Model) -> float:
+    """Return the size of the result file without compression, in bytes."""
+    nx, ny = model.grid.cells
+    saves = len({0.0, model.end_time, *model.save_times})
+    # Per save: the pressure, and of each body its plastic depth, its wear and its state.
+    field = 8.0 * nx * ny
+    each = field
+    for body in model.bodies:
+        own = field / nx if model.is_swept(body.name) else field
+        states = len(body.wear.state_fields) if body.wear is not None else 0
+        each += field + (1 + states) * own
+    heights = field * len(model.bodies)
+    return BARE_FILE + heights + saves * each
 
 
 def _few_cells(across: tuple[float, float]) -> str | None:

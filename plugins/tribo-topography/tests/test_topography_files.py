@@ -31,7 +31,7 @@ def quiet(path, heights, **config):
 def test_size_range_sq_and_every_pixel_come_back(write, heights, kind):
     path = write(kind)
     measured = quiet(path, heights)
-    facts = measured.facts
+    facts = measured.scale
     assert facts.format == kind
     assert facts.pixels == PIXELS
     # Sizes are kept as float32 in .opd and .sur, heights as float32 and to 1 pm.
@@ -62,28 +62,28 @@ def test_holes_are_an_error_or_filled_from_their_neighbours(write, heights, kind
 def test_wrong_scale_is_caught(write, heights):
     path = write("opd")
     with pytest.raises(CaseError, match=r"0\.864 × 0\.9 mm, but expect_size says 0\.864 × 0\.45"):
-        surface(path, expect_size=["0.864 mm", "0.45 mm"]).facts  # noqa: B018
+        surface(path, expect_size=["0.864 mm", "0.45 mm"]).scale  # noqa: B018
     with pytest.raises(CaseError, match=r"range over .* µm, but expect_range says 0\.1 µm"):
-        surface(path, expect_range="0.1 µm").facts  # noqa: B018
+        surface(path, expect_range="0.1 µm").scale  # noqa: B018
     corrected = quiet(path, 8 * heights, height_scale=8)
-    assert corrected.facts.sq == pytest.approx(1.6e-6, rel=1e-5)
+    assert corrected.scale.sq == pytest.approx(1.6e-6, rel=1e-5)
     half = quiet(path, heights, size=["1.728 mm", "1.8 mm"], expect_size=["1.728 mm", "1.8 mm"])
-    assert half.facts.size == (1.728e-3, 1.8e-3)
+    assert half.scale.size == (1.728e-3, 1.8e-3)
 
 
 @pytest.mark.parametrize("size", [(160.0, 160.0), (0.5e-6, 0.5e-6)])
 def test_absurd_size_is_refused_unless_it_is_stated(write, heights, size):
     path = write("x3p", 1e-3 * heights, size)
     with pytest.raises(CaseError, match="which is unlikely; give size if that is wrong"):
-        surface(path).facts  # noqa: B018
-    assert surface(path, expect_size=size).facts.size == pytest.approx(size)
+        surface(path).scale  # noqa: B018
+    assert surface(path, expect_size=size).scale.size == pytest.approx(size)
 
 
 def test_heights_beyond_the_width_are_refused_unless_stated(write, heights):
     path = write("x3p", 1e4 * heights)
     with pytest.raises(CaseError, match=r"would range over .* which is unlikely"):
-        surface(path).facts  # noqa: B018
-    assert surface(path, expect_range=1e4 * np.ptp(heights)).facts.range > 1e-3
+        surface(path).scale  # noqa: B018
+    assert surface(path, expect_range=1e4 * np.ptp(heights)).scale.range > 1e-3
 
 
 def test_unconfirmed_scale_is_told_once_with_the_figures(write):
@@ -172,7 +172,7 @@ MISTAKES = [
 @pytest.mark.parametrize(("kind", "config", "message"), MISTAKES)
 def test_mistake_is_one_line_that_says_what_to_do(write, kind, config, message):
     with pytest.raises(CaseError, match=message) as raised:
-        surface(write(kind), **config).facts  # noqa: B018
+        surface(write(kind), **config).scale  # noqa: B018
     assert "\n" not in str(raised.value)
     assert len(str(raised.value)) < 400
 
@@ -220,12 +220,12 @@ def test_pickles_are_not_opened(tmp_path):
     path = tmp_path / "scan.npy"
     np.save(path, np.array([[Trap()] * 4] * 4, dtype=object), allow_pickle=True)
     with pytest.raises(CaseError):
-        surface(path).facts  # noqa: B018
+        surface(path).scale  # noqa: B018
     archive = tmp_path / "scan.npz"
     with zipfile.ZipFile(archive, "w") as file:
         file.write(path, "scan.npy")
     with pytest.raises(CaseError):
-        surface(archive, size=SIZE, unit=1).facts  # noqa: B018
+        surface(archive, size=SIZE, unit=1).scale  # noqa: B018
 
 
 def test_too_large_a_file_is_refused_before_it_is_read(write, tmp_path, monkeypatch):

@@ -1,13 +1,16 @@
 """Measured bodies in contact, and what a case is told."""
 
+import json
 import subprocess
 import sys
+from hashlib import sha256
 from pathlib import Path
 
 import numpy as np
 import pytest
 from tribo import Simulation
 from tribo.plugin import CaseError, ContactProblem, TriboWarning
+from tribo.simulation.predict import predict
 
 ROOT = Path(__file__).parents[1]
 SIZE = 0.6e-3
@@ -88,6 +91,67 @@ def test_scale_that_nobody_confirmed_is_told_by_the_run(case):
     del unconfirmed["bodies"]["ball"]["surface"]["expect_range"]
     with pytest.warns(TriboWarning, match=r"96 × 96 pixels on 0\.6 × 0\.6 mm, heights over 1"):
         Simulation(unconfirmed)
+
+
+def test_what_the_file_was_read_as_is_shown_by_check_and_kept_in_the_result(case):
+    data = case()
+    path = data["bodies"]["ball"]["surface"]["path"]
+    data["kinematics"]["duration"] = "2 s"
+    simulation = Simulation(data)
+    facts = predict(simulation.model).facts["bodies.ball.surface"]
+    assert facts["pixels"] == "96 × 96"
+    assert facts["size"] == "0.6 × 0.6 mm"
+    assert facts["read as"] == "x3p, 'Default'"
+    assert facts["heights"].startswith("over 1")
+    assert facts["sha256"] == sha256(Path(path).read_bytes()).hexdigest()
+    with simulation.run() as result:
+        assert result.provenance["components"]["bodies.ball.surface"]["facts"] == facts
+
+
+def test_check_and_show_print_it(case, tmp_path):
+    data = case()
+    surface = data["bodies"]["ball"]["surface"]
+    quoted = {key: json.dumps(value, default=str) for key, value in surface.items()}
+    text = CASE.format(surface=", ".join(f"{key} = {value}" for key, value in quoted.items()))
+    (tmp_path / "case.toml").write_text(text)
+    for command in (("check", "case.toml"), ("run", "case.toml"), ("show", "case.h5")):
+        done = subprocess.run(
+            [sys.executable, "-m", "tribo", *command],
+            cwd=tmp_path,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert done.returncode == 0, done.stderr
+        if command[0] != "run":
+            lines = [line.split() for line in done.stdout.splitlines()]
+            assert any(line[0].startswith("pixels") and "96" in line for line in lines if line)
+            assert sha256(Path(surface["path"]).read_bytes()).hexdigest() in done.stdout
+
+
+CASE = """
+[grid]
+size = "0.5 mm"
+cells = 40
+
+[load]
+normal = "40 N"
+
+[bodies.ball]
+surface = {{ {surface} }}
+material = {{ young = "207 GPa", poisson = 0.3 }}
+wear = {{ type = "archard", k = "3.11e-16 1/Pa" }}
+
+[bodies.disk]
+surface = "flat"
+material = {{ young = "207 GPa", poisson = 0.3 }}
+
+[kinematics]
+type = "reciprocating"
+stroke = "2 mm"
+frequency = "25 Hz"
+distance = "0.2 m"
+"""
 
 
 def test_offering_the_surface_does_not_import_surfacetopography():

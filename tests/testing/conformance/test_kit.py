@@ -29,7 +29,7 @@ def test_a_report_counts_and_is_a_table():
         report.counts["passed"] == len(report.outcomes) == 2 * (len(SUITES["surface"].checks) + 1)
     )
     text = str(report)
-    assert text.startswith("surface Hill (honest.hill): 40 passed")
+    assert text.startswith("surface Hill (honest.hill): 42 passed")
     assert "  with radius=0.005\n" in text
     assert "    heights_are_finite_arrays " in text
 
@@ -69,7 +69,7 @@ def test_too_few_checks_fail():
     names = [one.name for one in SUITES["surface"].checks][:6]
     report = check(Hill, [{}], expected_failures=dict.fromkeys(names, "all too hard"))
     assert statuses(report)[ENOUGH] == "failed"
-    assert "only 13 of 19 checks apply; at least 16 must" in str(report)
+    assert "only 14 of 20 checks apply; at least 17 must" in str(report)
 
 
 def test_no_configuration_is_no_success():
@@ -198,7 +198,7 @@ def test_pytest_runs_each_check(tmp_path):
         text=True,
         env={"PYTHONPATH": ":".join(sys.path)},
     )
-    assert "2 failed, 96 passed, 1 skipped, 1 xfailed" in done.stdout
+    assert "2 failed, 101 passed, 1 skipped, 1 xfailed" in done.stdout
     assert "The curvature is that at the highest point" in done.stdout
     assert "FAILED test_them.py::test_wrong[curvature_is_that_of_the_heights-0]" in done.stdout
     assert "FAILED test_them.py::test_mended[curvature_is_that_of_the_heights-0]" in done.stdout

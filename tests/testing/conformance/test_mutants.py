@@ -3,6 +3,7 @@
 import pytest
 from testing.conformance import (
     mutants_calls,
+    mutants_component,
     mutants_config,
     mutants_contact_solver,
     mutants_effect,
@@ -21,6 +22,7 @@ from tribo.testing.kit import SUITES, kind_of, subjects
 # Their import lists the mutants.
 MUTANT_FILES = (
     mutants_config,
+    mutants_component,
     mutants_calls,
     mutants_wear_law,
     mutants_contact_solver,

@@ -13,6 +13,7 @@ from tribo_topography.form import detrended
 from tribo_topography.read import Map, read
 
 WIDEST, NARROWEST = 0.1, 1e-6
+_FORM = {"none": "", "mean": "", "tilt": ", tilt removed", "curvature": ", form removed"}
 
 
 @dataclass(frozen=True)
@@ -57,14 +58,27 @@ class Facts:
 
     def __str__(self) -> str:
         """Return the facts in one line, in the units of a lab."""
-        form = {"none": "", "mean": "", "tilt": ", tilt removed", "curvature": ", form removed"}
         missing = f", {100 * self.missing:.2g} % missing" if self.missing else ""
         return (
             f"{self.path.name} ({self.format}, {self.channel!r}): {self.pixels[0]} × "
-            f"{self.pixels[1]} pixels on {1e3 * self.size[0]:.4g} × {1e3 * self.size[1]:.4g} mm, "
+            f"{self.pixels[1]} pixels on {_shown(self.size)}, "
             f"heights over {1e6 * self.range:.4g} µm, Sq {1e6 * self.sq:.4g} µm"
-            f"{form[self.detrend]}{missing}"
+            f"{_FORM[self.detrend]}{missing}"
         )
+
+    def stated(self) -> dict[str, str]:
+        """Return the facts one by one, in the units of a lab."""
+        stated = {
+            "file": self.path.name,
+            "read as": f"{self.format}, {self.channel!r}",
+            "pixels": f"{self.pixels[0]} × {self.pixels[1]}",
+            "size": _shown(self.size),
+            "heights": f"over {1e6 * self.range:.4g} µm{_FORM[self.detrend]}",
+            "Sq": f"{1e6 * self.sq:.4g} µm",
+        }
+        if self.missing:
+            stated["missing"] = f"{100 * self.missing:.2g} %"
+        return {**stated, "sha256": self.sha256}
 
 
 def describe(what: MeasuredConfig | str | Path) -> Facts:

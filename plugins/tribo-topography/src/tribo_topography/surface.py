@@ -31,9 +31,13 @@ class Measured(Surface[MeasuredConfig]):
         self._told = False
 
     @property
-    def facts(self) -> Facts:
+    def scale(self) -> Facts:
         """What the file is taken to be; reads it."""
         return self._measured()[2]
+
+    def facts(self) -> dict[str, str]:
+        """Return what the file is taken to be, for the user to look at; reads it."""
+        return self.scale.stated()
 
     def height(self, grid: Grid) -> Array:
         """Return the measured height; the window must lie inside the measured area."""

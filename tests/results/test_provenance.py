@@ -1,0 +1,128 @@
+"""Where each model of a result came from, and when it counts as another."""
+
+import io
+import json
+from copy import deepcopy
+
+import pytest
+from paper_models import archard, flat, small, steel
+from rich.console import Console
+
+from tribo import Body, CaseError, Simulation
+from tribo.cli.report import print_provenance
+from tribo.core.errors import PluginError
+from tribo.interfaces.component import Component
+from tribo.results.provenance import changed_components, provenance, stated_facts
+from tribo.surfaces.sphere import Sphere, SphereConfig
+
+
+class Stated(Sphere):
+    """A sphere that states what it was read from."""
+
+    serial = "7"
+
+    def facts(self):
+        return {"serial number": self.serial}
+
+
+def stated():
+    return Stated(SphereConfig(radius="5 mm"))
+
+
+def model():
+    bodies = [Body("ball", stated(), steel(), archard()), Body("disk", flat(), steel())]
+    return small(bodies=bodies, save_times=(20,))
+
+
+def made(**changes):
+    before = provenance([("contact", archard())])
+    before["components"]["contact"].update(changes)
+    return before
+
+
+def test_each_component_of_a_model_made_of_objects_has_its_configuration_and_facts():
+    with Simulation(model()).run() as result:
+        components = result.provenance["components"]
+        bodies = result.case["bodies"]
+    ball = components["bodies.ball.surface"]
+    assert ball["config"] == {"type": "sphere", "radius": 0.005}
+    assert ball["facts"] == {"serial number": "7"}
+    assert components["bodies.disk.surface"]["facts"] == {}
+    assert components["bodies.ball.wear"]["config"] == bodies["ball"]["wear"]
+    assert "bodies.disk.wear" not in components
+
+
+def test_show_prints_configuration_and_facts_of_each():
+    with Simulation(model()).run() as result:
+        console = Console(file=io.StringIO(), width=60, highlight=False)
+        print_provenance(result, console)
+    text = console.file.getvalue()
+    lines = text.splitlines()
+    at = next(i for i, line in enumerate(lines) if line.startswith("  bodies.ball.surface: sphere"))
+    assert lines[at + 1 : at + 3] == ["      radius = 0.005", "      serial number: 7"]
+    assert "      type" not in text
+
+
+def test_being_editable_is_no_change():
+    assert changed_components(made(editable=False), made(editable=True)) == []
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"version": "9.9"}, "Archard of tribo 9.9"),
+        ({"class": "other.Law"}, "other.Law of tribo"),
+        ({"distribution": "fork"}, "Archard of fork"),
+        ({"code": "abcdef0123456789"}, "(source code abcdef0123)"),
+        ({"facts": {"sha256": "beef"}}, "(with sha256 beef)"),
+    ],
+)
+def test_a_change_is_told_by_what_differs(changes, words):
+    ((place, old, new),) = changed_components(made(), made(**changes))
+    assert place == "contact"
+    assert words in new
+    assert old != new
+
+
+def test_only_what_differs_is_told():
+    ((_, old, new),) = changed_components(made(), made(version="9.9", editable=True))
+    assert "source code" not in old + new
+    assert "editable" not in old + new
+
+
+def test_a_component_more_or_less_is_a_change():
+    fewer = made()
+    del fewer["components"]["contact"]
+    ((_, old, new),) = changed_components(fewer, made())
+    assert (old, new[:6]) == ("not there", "tribo.")
+
+
+def test_all_of_it_is_plain_data():
+    data = provenance([("ball", stated())])
+    assert json.loads(json.dumps(data)) == data
+
+
+def test_a_run_does_not_go_on_with_another_file_behind_its_surface(tmp_path, monkeypatch):
+    path = tmp_path / "stopped.h5"
+    Simulation(model()).run(path).close()
+    # As if it had been stopped.
+    import h5py
+
+    with h5py.File(path, "r+") as file:
+        file.attrs["status"] = "interrupted"
+    monkeypatch.setattr(Stated, "serial", "8")
+    with pytest.raises(CaseError, match=r"was .*\(with serial number 7\), is .*number 8\)"):
+        Simulation(model()).resume(path)
+
+
+@pytest.mark.parametrize("facts", [None, ["size"], {"size": 1.0}, {1: "m"}])
+def test_facts_that_are_not_text_are_an_error_that_names_the_component(facts):
+    wrong = stated()
+    wrong.facts = lambda: facts
+    with pytest.raises(PluginError, match=r"'sphere' states .* as its facts"):
+        stated_facts(wrong)
+
+
+def test_most_components_state_nothing():
+    assert Component.facts(archard()) == {}
+    assert deepcopy(stated_facts(archard())) == {}
