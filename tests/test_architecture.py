@@ -25,10 +25,11 @@ RANK = {
     "config": 5,
     "simulation": 6,
     "plotting": 7,
+    "study": 8,
     "testing": 7,
     "templates": 7,
     "scaffold": 7,
-    "cli": 8,
+    "cli": 9,
 }
 IMPLEMENTATIONS = {"contact", "wear", "kinematics", "surfaces", "observers"}
 

@@ -120,7 +120,8 @@ def _unknown_key(place: Place) -> tuple[str, str | None]:
     if place.table is None:
         return f"unknown key {key!r}", None
     allowed = [name for name in place.fields() if name not in place.siblings or name == key]
-    meant = did_you_mean(key, allowed)
+    # One that is there already may still be meant: an override adds its key beside it.
+    meant = did_you_mean(key, allowed) or did_you_mean(key, place.fields())
     text = f"unknown key {key!r}{suggestion(meant)} Allowed: {', '.join(place.fields())}"
     return text, place.beside(meant) if meant else None
 

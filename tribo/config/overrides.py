@@ -35,11 +35,55 @@ def apply_overrides(data: Mapping[str, Any], overrides: Sequence[str]) -> dict[s
         If an override is not of that form, or its path leads through a value
         that is no table.
     """
+    return _applied(data, [_parse(text) for text in overrides])
+
+
+def apply_settings(data: Mapping[str, Any], settings: Mapping[str, Any]) -> dict[str, Any]:
+    """Return `data` with values replaced, as `apply_overrides` does.
+
+    Parameters
+    ----------
+    data : Mapping
+        Tables as read from TOML; left unchanged.
+    settings : Mapping
+        Values, as TOML would give them, by path.
+
+    Raises
+    ------
+    CaseError
+        If a path is none, or leads through a value that is no table.
+    """
+    return _applied(data, [(path_keys(path), value) for path, value in settings.items()])
+
+
+def path_keys(path: str) -> list[str]:
+    """Return the keys of a path; a key may be quoted as in TOML.
+
+    Raises
+    ------
+    CaseError
+        If it is no path.
+    """
+    keys = _keys(path)
+    if not keys:
+        raise CaseError(f"{path!r} is no path to a value of a case, as load.normal is one")
+    return keys
+
+
+def parse_value(text: str) -> Any:
+    """Return what a text says as TOML, or else the text."""
+    try:
+        read = tomllib.loads(f"value = {text}")
+    except (ValueError, RecursionError):
+        return text
+    return read["value"] if len(read) == 1 else text
+
+
+def _applied(data: Mapping[str, Any], overrides: Sequence[_Override]) -> dict[str, Any]:
     changed = deepcopy(dict(data))
-    parsed = [_parse(text) for text in overrides]
-    types = sorted((o for o in parsed if o[0][-1] == "type"), key=lambda o: len(o[0]))
-    for keys, value in types + [o for o in parsed if o[0][-1] != "type"]:
-        _set(changed, keys, value)
+    types = sorted((o for o in overrides if o[0][-1] == "type"), key=lambda o: len(o[0]))
+    for keys, value in types + [o for o in overrides if o[0][-1] != "type"]:
+        _set(changed, keys, deepcopy(value))
     return changed
 
 
@@ -48,11 +92,10 @@ def _parse(text: str) -> _Override:
     keys = _keys(path.strip())
     if not (equals and keys):
         raise CaseError(f"{text!r} is not of the form path=value, as in load.normal=50")
-    return keys, _value(value.strip())
+    return keys, parse_value(value.strip())
 
 
 def _keys(path: str) -> list[str]:
-    """Split a path, in which a key may be quoted as in TOML."""
     try:
         table: Any = tomllib.loads(f"{path} = 0") if "\n" not in path else {}
     except ValueError:
@@ -62,14 +105,6 @@ def _keys(path: str) -> list[str]:
         ((key, table),) = table.items()
         keys.append(key)
     return keys
-
-
-def _value(text: str) -> Any:
-    try:
-        read = tomllib.loads(f"value = {text}")
-    except (ValueError, RecursionError):
-        return text
-    return read["value"] if len(read) == 1 else text
 
 
 def _set(data: dict[str, Any], keys: list[str], value: Any) -> None:
