@@ -6,13 +6,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from tribo.analysis.first_contact import hertz_contact
-from tribo.analysis.lab import (
+from tribo.analysis.conversion import (
     in_mm3_per_newton_metre,
     mass_from_volume,
-    scar,
     specific_wear_rate,
 )
+from tribo.analysis.first_contact import hertz_contact
+from tribo.analysis.inferred import InferredVolume, inferred_volumes, track_section
+from tribo.analysis.scar import scar
 from tribo.contact.hertz import first_yield_pressure
 from tribo.core.measures import reaches_border
 from tribo.results.read import Result
@@ -39,6 +40,8 @@ class BodyReport:
         scar is the whole track.
     scar_across : float
         Extent across it, in m; 0 where nothing is worn visibly.
+    track_section : float or None
+        Area of a swept body's groove in section, in m²; None for another body.
     max_wear_depth, max_plastic_depth : float
         In m.
     """
@@ -48,6 +51,7 @@ class BodyReport:
     specific_wear_rate: float | None
     scar_along: float | None
     scar_across: float
+    track_section: float | None
     max_wear_depth: float
     max_plastic_depth: float
 
@@ -81,9 +85,13 @@ class FirstContact:
 
 @dataclass(frozen=True)
 class LabReport:
-    """The bodies after the last save, by name, and the first contact."""
+    """The bodies after the last save, by name, and the first contact.
+
+    `inferred` are the volumes by a lab's formulas, beside those worn.
+    """
 
     bodies: Mapping[str, BodyReport]
+    inferred: tuple[InferredVolume, ...]
     first_contact: FirstContact
 
     def as_json(self) -> dict[str, Any]:
@@ -96,9 +104,20 @@ class LabReport:
                     "mass_kg": body.mass,
                     "scar_along_m": body.scar_along,
                     "scar_across_m": body.scar_across,
+                    "track_section_m2": body.track_section,
                 }
                 for name, body in self.bodies.items()
             },
+            "inferred_volumes": [
+                {
+                    "body": each.body,
+                    "method": each.method,
+                    "standard": each.standard,
+                    "volume_m3": each.volume,
+                    "relative_error": each.relative_error,
+                }
+                for each in self.inferred
+            ],
             "first_contact": {
                 "hertz_peak_pressure_Pa": first.hertz_peak_pressure,
                 "max_pressure_Pa": first.max_pressure,
@@ -112,6 +131,7 @@ def lab_report(result: Result) -> LabReport:
     saves = result.saves()
     return LabReport(
         bodies={name: _body(result, name, saves[-1]) for name in result.body_names},
+        inferred=tuple(inferred_volumes(result)),
         first_contact=_first_contact(result, saves[0]["max_pressure_Pa"]),
     )
 
@@ -158,6 +178,7 @@ def _body(result: Result, name: str, save: Mapping[str, Any]) -> BodyReport:
         specific_wear_rate=rate,
         scar_along=None if body.swept else marks.along,
         scar_across=marks.across,
+        track_section=track_section(result, body),
         max_wear_depth=worn["max_wear_depth_m"],
         max_plastic_depth=worn["max_plastic_depth_m"],
     )

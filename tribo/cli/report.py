@@ -12,6 +12,7 @@ from rich.measure import Measurement
 from rich.table import Table
 from rich.text import Text
 
+from tribo.analysis.inferred import InferredVolume
 from tribo.analysis.report import BodyReport, FirstContact, lab_report
 from tribo.results.read import Result
 
@@ -29,6 +30,8 @@ def print_report(result: Result, console: Console | None = None) -> None:
     for part in _saves(result, console):
         console.print(part)
     console.print(_bodies(result, lab.bodies))
+    if lab.inferred:
+        console.print(_inferred(lab.inferred))
     console.print(_first_contact(lab.first_contact))
     totals = result.totals()
     worst = max(float(max(result.table("history")["force_error"])), 0.0)
@@ -157,6 +160,21 @@ def _bodies(result: Result, bodies: Mapping[str, BodyReport]) -> Table:
     return table
 
 
+def _inferred(volumes: Sequence[InferredVolume]) -> Table:
+    """Set what a lab would infer from the scars against what was worn."""
+    table = _table("Volume by a lab's formulas, and how far that is off")
+    table.add_column("")
+    for unit in ("mm³", "%"):
+        table.add_column(unit, justify="right", no_wrap=True)
+    for each in volumes:
+        table.add_row(
+            f"{each.body}: {each.method}" + (f" ({each.standard})" if each.standard else ""),
+            f"{1e9 * each.volume:.3g}",
+            f"{100 * each.relative_error:+.0f}",
+        )
+    return table
+
+
 def _worn(body: BodyReport) -> dict[str, str]:
     """Return a body's cells by their row."""
     mass, rate, along = body.mass, body.specific_wear_rate, body.scar_along
@@ -168,6 +186,9 @@ def _worn(body: BodyReport) -> dict[str, str]:
         "specific wear rate, mm³/(N·m)": NOTHING if rate is None else f"{rate:.3g}",
         "scar along sliding, mm": length if scarred else NOTHING,
         "scar across, mm": f"{1e3 * body.scar_across:.3f}" if scarred else NOTHING,
+        "section of the track, mm²": f"{1e6 * body.track_section:.3g}"
+        if body.track_section and scarred
+        else NOTHING,
         "largest depth, µm": f"{1e6 * body.max_wear_depth:.3g}",
         "largest plastic depth, µm": f"{1e6 * body.max_plastic_depth:.3g}",
     }
