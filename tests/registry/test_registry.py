@@ -275,7 +275,7 @@ def test_the_built_in_components_come_through_the_same_hooks() -> None:
     ]
     assert registry.plugins[0].entry_point == builtin_module
     assert {kind: registry.names(kind) for kind in ("contact_solver", "wear_law", "surface")} == {
-        "contact_solver": ["dcfft", "winkler"],
+        "contact_solver": ["dcfft", "periodic", "winkler"],
         "wear_law": ["archard", "power"],
         "surface": ["cylinder", "flat", "paraboloid", "sphere"],
     }

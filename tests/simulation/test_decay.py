@@ -1,53 +1,29 @@
 """In full contact a sinusoid wears off as exp(−k s/K̂); both steppings have their order."""
 
+from dataclasses import replace
 from typing import Literal
 
 import numpy as np
 import pytest
 from paper_models import K, archard, flat, motion, small, steel
 
+from tribo import Simulation
 from tribo.config.stepping import ImplicitConfig
-from tribo.core.contact import ContactSolution, Residuals
+from tribo.contact.periodic import Periodic, PeriodicConfig
 from tribo.core.grid import Grid
-from tribo.interfaces.contact import ContactSolver, ContactSolverConfig
 from tribo.interfaces.surface import Surface, SurfaceConfig
 from tribo.simulation.model import Body
-from tribo.simulation.step import explicit_step, first_contact, implicit_step
+from tribo.simulation.rates import Moment
+from tribo.simulation.step import (
+    explicit_step,
+    first_contact,
+    implicit_step,
+    largest_stable_increment,
+)
 from tribo.testing.reference.sinusoid import compliance, worn_amplitude
 
 WAVELENGTH = 1e-4
 GRID = Grid((4e-4, 4e-4), (32, 32))
-
-
-class FullContactConfig(ContactSolverConfig):
-    type: Literal["test.full-contact"] = "test.full-contact"
-
-
-class FullContact(ContactSolver[FullContactConfig]):
-    """A periodic half-space in full contact: one division in Fourier space."""
-
-    Config = FullContactConfig
-    accepts_wear_compliance = True
-
-    def solve(self, problem, start=None):
-        grid = problem.system.grid
-        q = (
-            2
-            * np.pi
-            * np.hypot(
-                np.fft.fftfreq(grid.cells[0], grid.spacing[0])[:, None],
-                np.fft.fftfreq(grid.cells[1], grid.spacing[1])[None, :],
-            )
-        )
-        with np.errstate(divide="ignore"):
-            symbol = 2 / (problem.system.modulus * q)
-        if problem.wear is not None:
-            symbol = symbol + problem.wear.local[0, 0]
-        modes = -np.fft.fft2(problem.gap) / symbol
-        modes[0, 0] = problem.load / grid.cell_area
-        pressure = np.fft.ifft2(modes).real
-        assert pressure.min() > 0
-        return ContactSolution(pressure, 1e-6, np.zeros_like(pressure), 1, Residuals(0.0, 0.0, 0.0))
 
 
 class WaveConfig(SurfaceConfig):
@@ -67,9 +43,8 @@ def model():
         grid=GRID,
         load=300.0,
         bodies=[Body("wavy", Wave(WaveConfig()), steel(), archard()), Body("b", flat(), steel())],
-        contact=FullContact(FullContactConfig()),
+        contact=Periodic(PeriodicConfig()),
         kinematics=motion(),
-        ends_at_window=True,
     )
 
 
@@ -97,3 +72,49 @@ def test_a_sinusoid_decays_at_the_exact_rate_with_first_order(step):
     assert abs(errors[-1]) < 0.01
     orders = np.log2(errors[:-1] / errors[1:])
     assert orders == pytest.approx([1.0, 1.0], abs=0.05)
+
+
+@pytest.mark.parametrize(("part", "grows"), [(0.98, False), (1.02, True)])
+def test_explicit_steps_decay_just_below_the_stated_limit_and_grow_just_above(part, grows):
+    case = model()
+    state = first_contact(case)
+    chequer = (-1.0) ** np.add.outer(*map(np.arange, GRID.cells))
+    ball = state.bodies["wavy"]
+    state = replace(
+        state, bodies={**state.bodies, "wavy": replace(ball, wear=ball.wear + 1e-13 * chequer)}
+    )
+    state = explicit_step(case, state, 1e-9, 1e-8)
+    limit = largest_stable_increment(case, state, Moment(1.0, 1.0, 1.0))
+
+    def content(state):
+        return abs(np.sum(state.contact.pressure * chequer))
+
+    before = content(state)
+    for i in range(20):
+        state = explicit_step(case, state, part * limit, i + 1.0)
+    assert (content(state) > before) == grows
+
+
+def test_two_flats_that_repeat_wear_evenly():
+    bodies = [Body("a", flat(), steel(), archard()), Body("b", flat(), steel())]
+    result = Simulation(
+        small(grid=GRID, bodies=bodies, contact=Periodic(PeriodicConfig()), kinematics=motion())
+    ).run()
+    save = result.saves()[-1]
+    depth = K * 100.0 / (GRID.size[0] * GRID.size[1]) * save["distance_m"]
+    assert -result.body("a").surface(-1) == pytest.approx(np.full(GRID.cells, depth), rel=1e-9)
+
+
+def test_a_wave_worn_flat_goes_on_without_noise():
+    bodies = [Body("a", Wave(WaveConfig()), steel(), archard()), Body("b", flat(), steel())]
+    # Some 800 decay lengths: nothing is left of the wave but the rounding of the depth.
+    result = Simulation(
+        small(
+            grid=GRID,
+            load=300.0,
+            bodies=bodies,
+            contact=Periodic(PeriodicConfig()),
+            kinematics=motion(duration=7200),
+        )
+    ).run()
+    assert np.ptp(result.pressure(-1)) < 1e-6 * result.pressure(-1).mean()

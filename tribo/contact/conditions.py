@@ -69,6 +69,8 @@ def residuals(
         float(np.max(displacement, where=~zero, initial=0.0)),
         float(np.ptp(gap[~zero])),
     )
+    # Two flats that repeat do not displace.
+    scale = scale or 1.0
     opening = np.where(pressure >= limit, np.maximum(deformed, 0.0), np.abs(deformed))
     return Residuals(
         force=abs(float(np.sum(pressure)) / total - 1.0),

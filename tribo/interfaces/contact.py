@@ -25,6 +25,9 @@ class ContactSolver(Component[C_co]):
     honours_cap: ClassVar[bool] = False
     """Whether `solve` honours ``problem.system.cap``."""
 
+    periodic: ClassVar[bool] = False
+    """Whether the contact repeats with the window, so that it may reach the window's edge."""
+
     def check(self, system: ContactSystem) -> None:
         """Raise `CaseError` if this configuration cannot serve `system`."""
 

@@ -15,11 +15,12 @@ from tribo.registry.hookspecs import hookimpl
 
 @hookimpl
 def tribo_contact_solvers() -> Iterable[type[ContactSolver[Any]]]:
-    """Offer the elastic half-space and the elastic foundation."""
+    """Offer the elastic half-space, in free space and periodic, and the elastic foundation."""
     from tribo.contact.dcfft import DcFft
+    from tribo.contact.periodic import Periodic
     from tribo.contact.winkler import Winkler
 
-    return DcFft, Winkler
+    return DcFft, Periodic, Winkler
 
 
 @hookimpl

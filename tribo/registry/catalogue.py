@@ -125,6 +125,7 @@ def _facts(cls: type[Any]) -> list[str]:
     for attribute, words in (
         ("accepts_wear_compliance", "Takes a wear compliance (implicit steps)"),
         ("honours_cap", "Limits the pressure to a hardness"),
+        ("periodic", "Repeats with the window"),
     ):
         if hasattr(cls, attribute):
             facts.append(f"{words}: {'yes' if getattr(cls, attribute) else 'no'}")

@@ -22,7 +22,9 @@ def first_increment(model: Model, state: State, remaining: float) -> float:
     moment = Moment(state.time, state.distance, remaining / (model.end_time - state.time))
     rates = wear_rates(model, state.contact.pressure, law_states(state), moment)
     fastest = max((float(np.max(rate.depth)) for rate in rates.values()), default=0.0)
-    return min(remaining, FIRST * state.reference_depth / fastest) if fastest > 0 else remaining
+    part = FIRST * state.reference_depth
+    # Two flats that repeat have no approach, and wear evenly.
+    return min(remaining, part / fastest) if fastest > 0 and part > 0 else remaining
 
 
 def step_error(config: ImplicitConfig, before: State, step: ImplicitStep) -> tuple[float, float]:

@@ -241,7 +241,7 @@ def _check_stability(model: Model, state: State, step: float) -> None:
 
 
 def _check_window(model: Model, state: State) -> None:
-    if model.ends_at_window or not reaches_border(state.contact.pressure):
+    if model.may_reach_edge or not reaches_border(state.contact.pressure):
         return
     width, breadth = half_widths(state.contact.pressure, model.grid)
     raise NumericalError(

@@ -78,6 +78,11 @@ class Model:
     gap: Array
 
     @property
+    def may_reach_edge(self) -> bool:
+        """Whether the contact may reach the edge of the window."""
+        return self.ends_at_window or self.contact.periodic
+
+    @property
     def end_time(self) -> float:
         """When the run ends if no depth stops it earlier, in s."""
         end = self.kinematics.duration

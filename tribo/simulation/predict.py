@@ -109,7 +109,7 @@ def predict(model: Model) -> Prediction:
     last = coarse.last
     holds = limitation = None
     if last is not None:
-        holds = _inside(model, last) or model.ends_at_window
+        holds = _inside(model, last) or model.may_reach_edge
         limitation = model.kinematics.limitation(model.grid, last.half_width_x)
     across = None
     if hertz is not None:
@@ -265,8 +265,8 @@ def _coarse_run(model: Model) -> CoarseRun:
     if not model.contact.accepts_wear_compliance:
         return CoarseRun(None)
     failure = None
-    # A body that ends at the window has no more to give in a wider one.
-    for margin in (1.0,) if model.ends_at_window else MARGINS:
+    # A body or a period that ends at the window has no more to give in a wider one.
+    for margin in (1.0,) if model.may_reach_edge else MARGINS:
         outgrown = None
         try:
             coarse = _coarsened(model, margin)

@@ -49,7 +49,7 @@ def first_contact(model: Model) -> State:
         If the solver fails.
     """
     solution = _solve(model, model.gap, None, None)
-    if reaches_border(solution.pressure) and not model.ends_at_window:
+    if reaches_border(solution.pressure) and not model.may_reach_edge:
         raise CaseError(
             "the first contact reaches the edge of the window of "
             f"{1e3 * model.grid.size[0]:.4g} × {1e3 * model.grid.size[1]:.4g} mm; make it larger "

@@ -3,6 +3,7 @@
 import pytest
 
 from tribo.contact.dcfft import DcFft
+from tribo.contact.periodic import Periodic
 from tribo.contact.winkler import Winkler
 from tribo.kinematics.reciprocating import Reciprocating
 from tribo.kinematics.unidirectional import Unidirectional
@@ -27,6 +28,7 @@ test_power = parametrize_checks(
     Power, [{**REFERENCE, "p_exponent": 1.5}, {**REFERENCE, "p_exponent": 3}]
 )
 test_dcfft = parametrize_checks(DcFft, [{}, {"plasticity": False, "tolerance": 1e-10}])
+test_periodic = parametrize_checks(Periodic, [{}, {"plasticity": False, "tolerance": 1e-10}])
 test_winkler = parametrize_checks(
     Winkler,
     [{}, {"match": "peak_pressure"}, {"modulus": 1.3e15}, {"layer": LAYER}],

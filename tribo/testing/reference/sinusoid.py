@@ -3,8 +3,9 @@
 References
 ----------
 H. M. Westergaard (1939), J. Appl. Mech. 6, 49-53; K. L. Johnson (1985),
-Contact Mechanics, section 13.2. The wear of a mode follows from Archard's
-law, see `worn_amplitude`.
+Contact Mechanics, section 13.2; K. L. Johnson, J. A. Greenwood,
+J. G. Higginson (1985), Int. J. Mech. Sci. 27, 383-396. The wear of a mode
+follows from Archard's law, see `worn_amplitude`.
 """
 
 from __future__ import annotations
@@ -180,3 +181,53 @@ def westergaard_pressure(x: ArrayLike, contact: Westergaard, wavelength: float) 
         return np.asarray(contact.mean_pressure + contact.complete * np.cos(2.0 * psi))
     root = np.sqrt(np.maximum(contact.mean_pressure / contact.complete - np.sin(psi) ** 2, 0.0))
     return np.asarray(2.0 * contact.complete * np.abs(np.cos(psi)) * root)
+
+
+@dataclass(frozen=True)
+class WavyLimits:
+    """The two ends of the contact of a surface that is wavy both ways.
+
+    Parameters
+    ----------
+    complete : float
+        Mean pressure p* that closes the gap, in Pa.
+    light_area : float
+        Contact area per nominal area as p̄/p* → 0.
+    heavy_area : float
+        The same as p̄/p* → 1.
+    """
+
+    complete: float
+    light_area: float
+    heavy_area: float
+
+
+def johnson_greenwood_higginson(
+    mean_pressure: float, amplitude: float, wavelength: float, modulus: float
+) -> WavyLimits:
+    """Press the surface Δ cos(2πx/λ) cos(2πy/λ) on a half-space.
+
+    p* = √2 πE*Δ/λ. Light contacts are Hertz's, two crests per λ²:
+    A/λ² = π (3p̄/8πp*)^⅔; heavy ones leave penny-shaped gaps at the troughs open,
+    two per λ²: A/λ² = 1 − (3/2π)(1 − p̄/p*). Between them there is no closed form.
+
+    Parameters
+    ----------
+    mean_pressure : float
+        Load per nominal area p̄, in Pa.
+    amplitude : float
+        Δ, in m.
+    wavelength : float
+        λ, in m.
+    modulus : float
+        Contact modulus E*, in Pa.
+
+    Returns
+    -------
+    WavyLimits
+    """
+    complete = float(np.sqrt(2.0) * np.pi * modulus * amplitude / wavelength)
+    ratio = mean_pressure / complete
+    light = np.pi * (3.0 * ratio / (8.0 * np.pi)) ** (2.0 / 3.0)
+    heavy = 1.0 - 1.5 / np.pi * (1.0 - ratio)
+    return WavyLimits(complete, float(light), float(heavy))

@@ -1,0 +1,139 @@
+"""Two half-spaces that repeat along x and y: the `periodic` contact solver."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import lru_cache
+from typing import Annotated, ClassVar, Literal
+
+import numpy as np
+import scipy.fft
+from pydantic import Field
+
+from tribo.contact.bounded import solve_bounded
+from tribo.contact.conditions import check_bearable
+from tribo.core.arrays import Array
+from tribo.core.contact import ContactProblem, ContactSolution, ContactSystem
+from tribo.core.units import Quantity
+from tribo.interfaces.contact import ContactSolver, ContactSolverConfig
+
+
+class PeriodicHalfSpace:
+    """Elastic half-space under a pressure that repeats beyond the window.
+
+    A mode of wavenumber q displaces the surface by 2/(E* q) per pressure, the
+    mean pressure by nothing: displacements count from their mean. Between the
+    cells' centres the pressure is the trigonometric polynomial through them.
+
+    Parameters
+    ----------
+    shape : tuple of int
+        Cells (nx, ny) of the window.
+    spacing : tuple of float
+        Edge lengths of a cell along x and y, in m.
+    modulus : float
+        Contact modulus E*, in Pa.
+
+    References
+    ----------
+    H. M. Stanley, T. Kato, "An FFT-based method for rough surface contact",
+    J. Tribol. 119 (1997) 481-485; K. L. Johnson, Contact Mechanics (1985),
+    section 13.2.
+    """
+
+    def __init__(
+        self, shape: tuple[int, int], spacing: tuple[float, float], modulus: float
+    ) -> None:
+        self.shape = shape
+        self.spacing = spacing
+        along = np.fft.fftfreq(shape[0], spacing[0])[:, None]
+        across = np.fft.rfftfreq(shape[1], spacing[1])
+        wavenumber = 2 * np.pi * np.hypot(along, across)
+        wavenumber[0, 0] = np.inf
+        self._spectrum = 2.0 / (modulus * wavenumber)
+        self._self_compliance = float(scipy.fft.irfft2(self._spectrum, s=shape)[0, 0])
+
+    def apply(self, pressure: Array) -> Array:
+        """Return the displacement under `pressure`; see `Operator.apply`."""
+        modes = scipy.fft.rfft2(pressure)
+        modes *= self._spectrum
+        displacement: Array = scipy.fft.irfft2(modes, s=self.shape, overwrite_x=True)
+        return displacement
+
+    def symbol(self) -> Array:
+        """Return the eigenvalues, with the largest in place of the mean's, which is 0."""
+        symbol: Array = self._spectrum.copy()
+        symbol[0, 0] = np.max(symbol)
+        return symbol
+
+    def diag(self) -> Array:
+        """Return displacement of each cell per pressure on itself; see `Operator.diag`."""
+        return np.full(self.shape, self._self_compliance)
+
+
+class PeriodicConfig(ContactSolverConfig):
+    """Elastic half-spaces whose contact repeats with the window, along x and y."""
+
+    type: Literal["periodic"] = "periodic"
+
+    tolerance: Annotated[float, Quantity("1", above=1e-14, below=1e-2)] = 1e-8
+    """Largest residual of the contact conditions, relative to load and displacement."""
+
+    max_iterations: int = Field(default=500, gt=0)
+    """Iterations after which a solve is given up."""
+
+
+class Periodic(ContactSolver[PeriodicConfig]):
+    """Contact of two half-spaces that repeats with the window, for nominally flat surfaces.
+
+    The window is one period along x and y, and its mean pressure the load over
+    its area (Stanley & Kato 1997, J. Tribol. 119, 481-485). Far from the
+    surface a mean pressure moves the whole body, so the approach counts from
+    the mean of the deformed surface. The hardness limits the pressure as in
+    `dcfft`.
+    """
+
+    Config: ClassVar[type[PeriodicConfig]] = PeriodicConfig
+    accepts_wear_compliance: ClassVar[bool] = True
+    honours_cap: ClassVar[bool] = True
+    periodic: ClassVar[bool] = True
+
+    def check(self, system: ContactSystem) -> None:
+        """Raise `CaseError` if the window cannot bear the load at the pressure cap."""
+        cap = self._cap(system)
+        area = system.grid.size[0] * system.grid.size[1]
+        check_bearable(system.load, area, np.inf if cap is None else cap)
+
+    def solve(
+        self, problem: ContactProblem, start: ContactSolution | None = None
+    ) -> ContactSolution:
+        """Solve one contact problem; see `ContactSolver.solve`."""
+        grid = problem.system.grid
+        # Of a deep uniform wear, rounding would be left in a contact that hardly displaces.
+        lowest = float(np.min(problem.gap))
+        solution = solve_bounded(
+            _half_space(grid.cells, grid.spacing, problem.system.modulus),
+            problem.gap - lowest,
+            problem.load,
+            self._cap(problem.system),
+            problem.wear,
+            start=None if start is None else start.pressure,
+            tolerance=self.config.tolerance,
+            max_iterations=self.config.max_iterations,
+        )
+        return replace(solution, approach=solution.approach + lowest)
+
+    def smallest_compliance(self, system: ContactSystem) -> float:
+        """Return the compliance of the chequerboard mode, in m/Pa."""
+        dx, dy = system.grid.spacing
+        return 2.0 / (system.modulus * np.pi * float(np.hypot(1 / dx, 1 / dy)))
+
+    def _cap(self, system: ContactSystem) -> float | None:
+        return system.cap if self.config.plasticity else None
+
+
+@lru_cache(maxsize=8)
+def _half_space(
+    shape: tuple[int, int], spacing: tuple[float, float], modulus: float
+) -> PeriodicHalfSpace:
+    return PeriodicHalfSpace(shape, spacing, modulus)
