@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import scipy.fft
 
-from tribo.contact.conditions import check_bearable, check_finite, residuals
+from tribo.contact.conditions import check_bearable, check_finite, dot, residuals
 from tribo.contact.operator import Operator, WornOperator
 from tribo.contact.projection import balance, project
 from tribo.core.arrays import Array, Mask
@@ -120,54 +120,65 @@ class _Iterate:
         self.limit = limit
         self.pressure = _feasible(start, gap.shape, total, limit)
         self.displacement = operator.apply(self.pressure)
+        self.full = np.zeros(gap.shape, dtype=bool)
         self.conjugate = True
         self.direction: Array | None = None
         self.gradient = np.zeros(0)
         self.decrease = 0.0
-        self.rate = 1.0 / float(np.max(self.symbol))
+        self.rate = 1.0 / float(self.symbol.max())
         self.lengthen = False
 
     def judge(self) -> Residuals:
         """Sort the cells, find the approach and the deformed gap, and judge them."""
         p = self.pressure
-        gap = self.displacement + self.gap
-        self.zero, self.full = p <= 0, p >= self.limit
-        self.free = ~(self.zero | self.full)
-        self.approach = _approach(gap, self.free, self.zero, self.full)
-        self.deformed = gap - self.approach
+        self.free = p > 0
+        self.zero = ~self.free
+        if self.limit < np.inf:
+            self.full = p >= self.limit
+            self.free &= ~self.full
+        self.deformed = self.displacement + self.gap
+        self.approach = _approach(self.deformed, self.free, self.zero, self.full)
+        self.deformed -= self.approach
         return residuals(p, self.gap, self.displacement, self.approach, self.total, self.limit)
 
     def conjugate_step(self) -> bool:
         """Move along a conjugate direction on the face; False if there is none."""
         g = self.deformed
-        face = self.free | (self.zero & (g < 0)) | (self.full & (g > 0))
-        residual = _centred(g, face)
+        face = self.free | (self.zero & (g < 0))
+        if self.limit < np.inf:
+            face |= self.full & (g > 0)
+        share = 1.0 / max(int(np.count_nonzero(face)), 1)
+        residual = _centred(g, face, share)
         modes = scipy.fft.rfft2(residual)
         modes /= self.symbol
         shape = (residual.shape[0], residual.shape[1])
-        z = _centred(scipy.fft.irfft2(modes, s=shape, overwrite_x=True), face)
-        decrease = _dot(residual, z)
+        z = _centred(scipy.fft.irfft2(modes, s=shape, overwrite_x=True), face, share)
+        decrease = dot(residual, z)
         direction = -z
         if self.direction is not None:
             # Polak and Ribière's formula forgets by itself when the face changes.
-            beta = (decrease - _dot(z, self.gradient)) / self.decrease
+            beta = (decrease - dot(z, self.gradient)) / self.decrease
             if beta > 0:
-                direction += beta * _centred(self.direction, face)
-        slope = _dot(residual, direction)
+                kept = _centred(self.direction, face, share)
+                kept *= beta
+                direction += kept
+        slope = dot(residual, direction)
         if slope >= 0:
             direction, slope = -z, -decrease
         response = self.operator.apply(direction)
-        curvature = _dot(direction, response)
+        curvature = dot(direction, response)
         if not (slope < 0 < curvature):
             return False
         length = -slope / curvature
         self.direction, self.gradient, self.decrease = direction, residual, decrease
-        moved = self.pressure + length * direction
-        if float(np.min(moved)) < 0 or float(np.max(moved)) > self.limit:
+        moved = length * direction
+        moved += self.pressure
+        if float(moved.min()) < 0 or float(moved.max()) > self.limit:
             self._move(project(moved, self.total, self.limit, face))
         else:
             self.pressure = balance(moved, self.total, self.limit)
-            self.displacement += length * response
+            response *= length
+            self.displacement += response
         return True
 
     def spectral_step(self) -> None:
@@ -177,10 +188,10 @@ class _Iterate:
         moved = before - self.rate * self.deformed
         self._move(project(moved, self.total, self.limit, everywhere))
         change, response = self.pressure - before, self.displacement - displaced
-        curvature = _dot(change, response)
+        curvature = dot(change, response)
         if curvature > 0:
-            long = _dot(change, change) / curvature
-            short = curvature / _dot(response, response)
+            long = dot(change, change) / curvature
+            short = curvature / dot(response, response)
             # Alternating the two keeps the steps from settling into a cycle.
             self.rate = long if self.lengthen else short
             self.lengthen = not self.lengthen
@@ -189,7 +200,7 @@ class _Iterate:
         """Hand over to the other method."""
         self.conjugate = not self.conjugate
         self.direction = None
-        self.rate = 1.0 / float(np.max(self.symbol))
+        self.rate = 1.0 / float(self.symbol.max())
 
     def _move(self, pressure: Array) -> None:
         self.pressure = pressure
@@ -209,27 +220,28 @@ def _approach(gap: Array, free: Mask, zero: Mask, full: Mask) -> float:
     if free.any():
         return float(np.mean(gap[free]))
     # Without a cell between the bounds any value between the two will do.
-    highest = float(np.max(gap[full]))
-    return 0.5 * (highest + float(np.min(gap[zero]))) if zero.any() else highest
+    highest = float(gap[full].max())
+    return 0.5 * (highest + float(gap[zero].min())) if zero.any() else highest
 
 
-def _centred(values: Array, face: Mask) -> Array:
-    count = int(np.count_nonzero(face))
-    kept = np.where(face, values, 0.0)
-    return np.where(face, kept - float(np.sum(kept)) / max(count, 1), 0.0)
+def _centred(values: Array, face: Mask, share: float) -> Array:
+    """Return `values` on the face less their mean there, `share` being one over its cells."""
+    kept = values * face
+    np.subtract(kept, share * float(kept.sum()), out=kept, where=face)
+    return kept
 
 
 def _feasible(start: Array | None, shape: tuple[int, ...], total: float, limit: float) -> Array:
     loaded = np.ones(shape, dtype=bool)
     guess = np.full(shape, total / loaded.size)
-    if start is not None and float(np.sum(start)) > 0:
-        guess = np.clip(start * (total / float(np.sum(start))), 0.0, limit)
+    given = 0.0 if start is None else float(start.sum())
+    if start is not None and given > 0:
+        guess = np.maximum(start, 0.0)
+        guess *= total / float(guess.sum())
+        if float(guess.max()) <= limit:
+            return balance(guess, total, limit)
+        np.minimum(guess, limit, out=guess)
         support = guess > 0
         if int(np.count_nonzero(support)) * limit > total:
             loaded = support
     return project(guess, total, limit, loaded)
-
-
-def _dot(a: Array, b: Array) -> float:
-    # Not np.vdot: BLAS sums in an order that depends on the number of threads.
-    return float(np.einsum("ij,ij->", a, b))

@@ -63,17 +63,27 @@ def residuals(
         the gap there if that is more; so it is positive for two flats as well.
         An open gap under pressure at the limit counts against complementarity.
     """
-    deformed = gap + displacement - approach
-    zero = pressure <= 0
+    deformed = gap + displacement
+    deformed -= approach
+    touching = pressure > 0
+    undeformed = gap[touching]
     scale = max(
-        float(np.max(displacement, where=~zero, initial=0.0)),
-        float(np.ptp(gap[~zero])),
+        float(np.max(displacement, where=touching, initial=0.0)),
+        float(undeformed.max() - undeformed.min()),
     )
     # Two flats that repeat do not displace.
     scale = scale or 1.0
-    opening = np.where(pressure >= limit, np.maximum(deformed, 0.0), np.abs(deformed))
+    deepest = float(np.min(deformed, where=~touching, initial=0.0))
+    if limit < np.inf:
+        np.maximum(deformed, 0.0, out=deformed, where=pressure >= limit)
+    np.abs(deformed, out=deformed)
     return Residuals(
-        force=abs(float(np.sum(pressure)) / total - 1.0),
-        complementarity=float(np.sum(pressure * opening)) / (total * scale),
-        penetration=0.0 - float(np.min(deformed, where=zero, initial=0.0)) / scale,
+        force=abs(float(pressure.sum()) / total - 1.0),
+        complementarity=dot(pressure, deformed) / (total * scale),
+        penetration=0.0 - deepest / scale,
     )
+
+
+def dot(a: Array, b: Array) -> float:
+    """Return sum(a * b), in an order that does not depend on the number of threads."""
+    return float(np.einsum("ij,ij->", a, b))

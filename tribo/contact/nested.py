@@ -36,13 +36,12 @@ def coarsen(problem: ContactProblem) -> ContactProblem:
 def prolong(pressure: Array, cells: tuple[int, int]) -> Array:
     """Return `pressure` of a coarsened problem on the finer grid of `cells`."""
     for axis in (0, 1):
-        if cells[axis] % 2 == 0:
-            pressure = np.repeat(pressure, 2, axis=axis)
-        else:
-            coarse = np.moveaxis(pressure, axis, 0)
-            fine = np.repeat(coarse, 2, axis=0)[:-1]
-            fine[1::2] = 0.5 * (coarse[:-1] + coarse[1:])
-            pressure = np.moveaxis(fine, 0, axis)
+        coarse = np.moveaxis(pressure, axis, 0)
+        fine = np.empty((cells[axis], coarse.shape[1]))
+        fine[::2] = coarse
+        even = cells[axis] % 2 == 0
+        fine[1::2] = coarse if even else 0.5 * (coarse[:-1] + coarse[1:])
+        pressure = np.moveaxis(fine, 0, axis)
     return pressure
 
 

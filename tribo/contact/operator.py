@@ -7,6 +7,7 @@ from typing import Protocol
 
 import numpy as np
 import scipy.fft
+from numpy.typing import NDArray
 
 from tribo.contact.love import nyquist_compliance, wrapped_kernel
 from tribo.core.arrays import Array
@@ -101,17 +102,29 @@ class HalfSpace:
         # Cutting 1/r off at the box makes its spectrum oscillate, least of all near
         # its minimum; the bound keeps the preconditioner definite on any box.
         self._symbol = np.maximum(periodic, 0.5 * nyquist_compliance(spacing)) / modulus
+        # Fresh memory costs as much as the transforms; whoever applies takes one of these.
+        self._buffers: list[NDArray[np.complex128]] = []
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement under `pressure`; see `Operator.apply`."""
         nx, ny = self.shape
+        length = self._padded[1]
+        modes = self._take_buffer()
         # Axis by axis, so that rows of padding are neither transformed nor kept.
-        modes = scipy.fft.rfft(pressure, self._padded[1], axis=1)
-        modes = scipy.fft.fft(modes, self._padded[0], axis=0)
-        modes *= self._spectrum
-        modes = scipy.fft.ifft(modes, axis=0, overwrite_x=True)[:nx]
-        displacement: Array = scipy.fft.irfft(modes, self._padded[1], axis=1)[:, :ny]
+        modes[:nx] = scipy.fft.rfft(pressure, length, axis=1)
+        modes[nx:] = 0
+        product = scipy.fft.fft(modes, axis=0, overwrite_x=True)
+        product *= self._spectrum
+        product = scipy.fft.ifft(product, axis=0, overwrite_x=True)
+        displacement: Array = scipy.fft.irfft(product[:nx], length, axis=1)[:, :ny]
+        self._buffers.append(modes)
         return displacement
+
+    def _take_buffer(self) -> NDArray[np.complex128]:
+        try:
+            return self._buffers.pop()
+        except IndexError:
+            return np.empty((self._padded[0], self._padded[1] // 2 + 1), dtype=np.complex128)
 
     def symbol(self) -> Array:
         """Return the eigenvalues of the periodic operator with the same near field."""

@@ -6,6 +6,10 @@ import numpy as np
 
 from tribo.core.arrays import Array, Mask
 
+_ROUND_OFF = 1e-15
+# `balance` does the rest.
+_NEAR = 1e-12
+
 
 def project(pressure: Array, total: float, limit: float, cells: Mask) -> Array:
     """Return the nearest pressure within [0, limit] whose sum is `total`.
@@ -31,7 +35,7 @@ def project(pressure: Array, total: float, limit: float, cells: Mask) -> Array:
     """
     fixed = np.where(cells, 0.0, pressure)
     values = pressure[cells]
-    target = total - float(np.sum(fixed))
+    target = total - float(fixed.sum())
     moved = np.clip(values + _shift(values, target, limit), 0.0, limit)
     result = fixed
     result[cells] = moved
@@ -44,10 +48,12 @@ def balance(pressure: Array, total: float, limit: float) -> Array:
     Only cells strictly within the bounds change, all by the same amount.
     """
     for _ in range(2):
-        inner = (pressure > 0) & (pressure < limit)
+        missing = total - float(pressure.sum())
+        if abs(missing) <= _ROUND_OFF * total:
+            break
+        inner = _inner(pressure, limit)
         count = int(np.count_nonzero(inner))
-        missing = total - float(np.sum(pressure))
-        if not count or missing == 0.0:
+        if not count:
             break
         np.clip(pressure + missing / count, 0.0, limit, out=pressure, where=inner)
     return pressure
@@ -56,15 +62,16 @@ def balance(pressure: Array, total: float, limit: float) -> Array:
 def _shift(values: Array, target: float, limit: float) -> float:
     # Σ clip(v + μ) grows piecewise linearly in μ: Newton's method, kept inside
     # a bracket, ends at the root after finitely many steps.
-    low = -float(np.max(values))
-    high = (limit if np.isfinite(limit) else target) - float(np.min(values))
+    low = -float(values.max())
+    high = (limit if np.isfinite(limit) else target) - float(values.min())
     shift = 0.0 if low < 0.0 < high else 0.5 * (low + high)
+    moved = np.empty_like(values)
     for _ in range(200):
-        moved = values + shift
-        inner = int(np.count_nonzero((moved > 0) & (moved < limit)))
-        excess = float(np.sum(np.clip(moved, 0.0, limit))) - target
-        if abs(excess) <= 1e-15 * target:
+        np.clip(values + shift, 0.0, limit, out=moved)
+        excess = float(moved.sum()) - target
+        if abs(excess) <= _NEAR * target:
             break
+        inner = int(np.count_nonzero(_inner(moved, limit)))
         if excess > 0:
             high = shift
         else:
@@ -76,3 +83,11 @@ def _shift(values: Array, target: float, limit: float) -> float:
             break
         shift = step
     return shift
+
+
+def _inner(pressure: Array, limit: float) -> Mask:
+    """Find the cells strictly within the bounds."""
+    inner: Mask = pressure > 0
+    if limit < np.inf:
+        inner &= pressure < limit
+    return inner
