@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from tribo.core.arrays import Array
@@ -60,6 +62,7 @@ def wrapped_kernel(shape: tuple[int, int], spacing: tuple[float, float]) -> Arra
     return wrapped
 
 
+@lru_cache(maxsize=64)
 def nyquist_compliance(spacing: tuple[float, float]) -> float:
     """Smallest eigenvalue of Love's kernel on an unbounded grid, for E* = 1.
 

@@ -20,6 +20,7 @@ from tribo.simulation.step import (
     first_contact,
     implicit_step,
     largest_stable_increment,
+    rated,
     start_sliding,
 )
 
@@ -100,9 +101,11 @@ def _explicit(model: Model, config: ExplicitConfig, state: State, stop: float) -
     time = state.time + config.time_step
     if stop - time < 1e-6 * config.time_step:
         time = stop
-    if not config.allow_unstable:
-        _check_stability(model, state, config.time_step)
     increment = _path_until(model, state, time) - state.distance
+    moment = Moment(time, state.distance + increment, increment / (time - state.time))
+    state = rated(model, state, moment)
+    if not config.allow_unstable:
+        _check_stability(model, state, moment)
     return _stop_at_depth(model, state, explicit_step, increment, time)
 
 
@@ -214,14 +217,14 @@ def _check_time_step(model: Model, config: ExplicitConfig, state: State) -> None
             "stepping.time_step",
         )
     if not config.allow_unstable:
-        _check_stability(model, state, config.time_step)
+        increment = _path_until(model, state, config.time_step)
+        _check_stability(
+            model, state, Moment(config.time_step, increment, increment / config.time_step)
+        )
 
 
-def _check_stability(model: Model, state: State, step: float) -> None:
-    """Raise `CaseError` unless a whole time step from now is stable."""
-    time = state.time + step
-    increment = _path_until(model, state, time) - state.distance
-    moment = Moment(time, state.distance + increment, increment / (time - state.time))
+def _check_stability(model: Model, state: State, moment: Moment) -> None:
+    """Raise `CaseError` unless the step from now to `moment` is stable."""
     limit = largest_stable_increment(model, state, moment)
     if limit is None:
         raise CaseError(
@@ -230,8 +233,9 @@ def _check_stability(model: Model, state: State, step: float) -> None:
             "stepping.allow_unstable = true to go on without",
             "stepping.time_step",
         )
+    increment = moment.distance - state.distance
     if increment >= limit:
-        dt = time - state.time
+        dt = moment.time - state.time
         raise CaseError(
             f"{dt:.4g} s slides {increment:.4g} m, beyond the stability limit of {limit:.4g} m; "
             f"the largest stable step is {dt * limit / increment:.4g} s (or use stepping.type = "

@@ -129,7 +129,7 @@ def implicit_step(
             rates = wear_rates(model, solution.pressure, law, moment)
         worn = _worn(model, rates, increment)
         settled = _advanced(model, before, rates, increment)
-        depth = sum(worn.values(), np.zeros(model.grid.cells))
+        depth = _total(model, worn)
         if implied is not None:
             mismatch = float(np.max(np.abs(depth - implied)))
             drift = _largest_change(law, settled)
@@ -170,13 +170,22 @@ def implicit_step(
 def explicit_step(model: Model, state: State, increment: float, time: float) -> State:
     """Return the state after one forward Euler step; parameters as `implicit_step`."""
     moment = _moment(state, increment, time)
+    rates = rated(model, state, moment).rates
     law = law_states(state)
-    rates = wear_rates(model, state.contact.pressure, law, moment)
     worn_state = _with_wear(
         state, _worn(model, rates, increment), _advanced(model, law, rates, increment)
     )
     solution = _solve(model, geometry(model, worn_state), None, state.contact)
-    return _accept(model, state, worn_state, solution, moment, 1, solution.iterations)
+    before = replace(state, rates={})
+    return _accept(model, before, worn_state, solution, moment, 1, solution.iterations)
+
+
+def rated(model: Model, state: State, moment: Moment) -> State:
+    """Return `state` with the rates of its contact, asked for unless it has them."""
+    if state.rates:
+        return state
+    rates = wear_rates(model, state.contact.pressure, law_states(state), moment)
+    return replace(state, rates=rates)
 
 
 def largest_stable_increment(model: Model, state: State, moment: Moment) -> float | None:
@@ -190,12 +199,10 @@ def largest_stable_increment(model: Model, state: State, moment: Moment) -> floa
     smallest = model.contact.smallest_compliance(model.system)
     if smallest is None:
         return None
-    law = law_states(state)
     pressure = state.contact.pressure
-    compliance = _compliance(model, wear_rates(model, pressure, law, moment), pressure, 1.0)
-    touching = pressure > 0
-    length = np.count_nonzero(touching, axis=0) * model.grid.spacing[0]
-    local = float(np.max(np.where(touching, compliance.local, 0.0)))
+    compliance = _compliance(model, rated(model, state, moment).rates, pressure, 1.0)
+    length = np.count_nonzero(pressure > 0, axis=0) * model.grid.spacing[0]
+    local = float(np.max(compliance.local, where=pressure > 0, initial=0.0))
     slope = local + float(np.max(compliance.swept * length))
     return 2 * smallest / slope if slope > 0 else np.inf
 
@@ -247,6 +254,13 @@ def _worn(model: Model, rates: Mapping[str, WearRate], increment: float) -> dict
     return {
         name: increment * model.exposures[name].average(rate.depth) for name, rate in rates.items()
     }
+
+
+def _total(model: Model, worn: Mapping[str, Array]) -> Array:
+    total = np.zeros(model.grid.cells)
+    for depth in worn.values():
+        total += depth
+    return total
 
 
 def _advanced(
