@@ -131,7 +131,7 @@ class DcFft(ContactSolver[DcFftConfig]):
         return prolong(coarse.pressure, cells)
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=16)
 def _half_space(shape: tuple[int, int], spacing: tuple[float, float], modulus: float) -> HalfSpace:
     return HalfSpace(shape, spacing, modulus)
 

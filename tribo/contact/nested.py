@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from tribo.contact.box import Box, around
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactProblem, WearCompliance
 from tribo.core.grid import Grid
@@ -35,14 +36,19 @@ def coarsen(problem: ContactProblem) -> ContactProblem:
 
 def prolong(pressure: Array, cells: tuple[int, int]) -> Array:
     """Return `pressure` of a coarsened problem on the finer grid of `cells`."""
+    # Most of a window is not in contact, and zeros that nobody touches cost nothing.
+    box = around(pressure > 0, 1)
+    part = pressure[box.slices]
     for axis in (0, 1):
-        coarse = np.moveaxis(pressure, axis, 0)
-        fine = np.empty((cells[axis], coarse.shape[1]))
-        fine[::2] = coarse
+        coarse = np.moveaxis(part, axis, 0)
         even = cells[axis] % 2 == 0
+        fine = np.empty((2 * len(coarse) - (0 if even else 1), coarse.shape[1]))
+        fine[::2] = coarse
         fine[1::2] = coarse if even else 0.5 * (coarse[:-1] + coarse[1:])
-        pressure = np.moveaxis(fine, 0, axis)
-    return pressure
+        part = np.moveaxis(fine, 0, axis)
+    first = 2 * box.first[0], 2 * box.first[1]
+    shape = part.shape[0], part.shape[1]
+    return Box(first, shape, cells).embed(part)
 
 
 def _halve(values: Array, axis: int) -> Array:
