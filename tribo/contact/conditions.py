@@ -67,13 +67,11 @@ def residuals(
     deformed -= approach
     touching = pressure > 0
     undeformed = gap[touching]
-    scale = max(
-        float(np.max(displacement, where=touching, initial=0.0)),
-        float(undeformed.max() - undeformed.min()),
-    )
     # Two flats that repeat do not displace.
-    scale = scale or 1.0
-    deepest = float(np.min(deformed, where=~touching, initial=0.0))
+    scale = (
+        max(float(displacement[touching].max()), float(undeformed.max() - undeformed.min())) or 1.0
+    )
+    deepest = min(float(np.where(touching, 0.0, deformed).min()), 0.0)
     if limit < np.inf:
         np.maximum(deformed, 0.0, out=deformed, where=pressure >= limit)
     np.abs(deformed, out=deformed)

@@ -201,9 +201,9 @@ def largest_stable_increment(model: Model, state: State, moment: Moment) -> floa
         return None
     pressure = state.contact.pressure
     compliance = _compliance(model, rated(model, state, moment).rates, pressure, 1.0)
-    length = np.count_nonzero(pressure > 0, axis=0) * model.grid.spacing[0]
-    local = float(np.max(compliance.local, where=pressure > 0, initial=0.0))
-    slope = local + float(np.max(compliance.swept * length))
+    touching = pressure > 0
+    length = np.count_nonzero(touching, axis=0) * model.grid.spacing[0]
+    slope = float(compliance.local[touching].max()) + float((compliance.swept * length).max())
     return 2 * smallest / slope if slope > 0 else np.inf
 
 
