@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from tribo.registry.loader import Source, installed
+
 OBSERVER = """
 from typing import Literal
 from tribo.plugin import Observer, ObserverConfig, hookimpl
@@ -23,6 +25,11 @@ def tribo_observers():
 def observer(name: str) -> str:
     """Return the code of a plugin with one observer of this name."""
     return OBSERVER.format(name=name, title=name.split(".")[-1].title())
+
+
+def sources(*distributions: str) -> list[Source]:
+    """Return the plugins of these distributions."""
+    return [s for s in installed() if s.record.distribution in distributions]
 
 
 def distribute(

@@ -7,6 +7,9 @@ from typing import Any, Literal
 
 from tribo.interfaces.component import Component
 
+Name = tuple[str, str]
+"""Kind and name of a component."""
+
 Status = Literal["available", "loaded", "disabled", "broken", "incompatible", "conflict"]
 
 

@@ -13,6 +13,7 @@ from tribo.config.slot import Slot
 from tribo.interfaces.component import ComponentConfig
 from tribo.registry.hookspecs import hookimpl
 from tribo.registry.kinds import KINDS
+from tribo.registry.names import name_fault
 from tribo.registry.registry import Registry
 from tribo.testing.subject import Check, CheckFailed, Subject, fact, require
 
@@ -111,11 +112,8 @@ def a_case_can_name_it(subject: Subject) -> None:
 @fact
 def name_has_a_prefix(subject: Subject) -> None:
     """Its name carries a prefix, as in acme.fretting; only tribo's own do without."""
-    name = subject.cls.type_name()
-    require(
-        "." in name.strip(".") or _is_builtin(subject),
-        f"the name is {name!r}; it needs a prefix, as in 'acme.{name}'",
-    )
+    fault = name_fault(subject.cls.type_name())
+    require(not fault or _is_builtin(subject), fault)
 
 
 @fact
