@@ -3,18 +3,24 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import signal
 import subprocess
 import sys
 from collections.abc import Iterable
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from dataclasses import replace
+from tempfile import TemporaryFile
 
+from tribo.core.errors import CaseError
 from tribo.registry.loader import Source
 from tribo.registry.records import Status
+from tribo.registry.verdicts import remember
 
 TIME_LIMIT = 20.0
+LIMIT = "TRIBO_PLUGIN_TIME_LIMIT"
 _PROBES = 2
 _CODE = """
 import json, os, sys
@@ -30,7 +36,7 @@ for source in installed():
 
 
 def probe(source: Source, time_limit: float | None = None) -> Source:
-    """Return `source` with what importing it in a child process showed.
+    """Return `source` with what importing it in a child process showed, and remember that.
 
     Parameters
     ----------
@@ -45,23 +51,15 @@ def probe(source: Source, time_limit: float | None = None) -> Source:
     Source
         Its status is ``loaded``, or ``broken`` with the reason: what it
         raised, the signal that ended it, or that it took too long.
+
+    Raises
+    ------
+    CaseError
+        If the time limit is no number above 0.
     """
-    record = source.record
-    limit = time_limit or float(os.environ.get("TRIBO_PLUGIN_TIME_LIMIT", TIME_LIMIT))
-    command = [sys.executable, "-P", "-c", _CODE, record.distribution, record.entry_point]
-    # The child finds what this process would find.
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
-    status: Status = "broken"
-    try:
-        child = subprocess.run(
-            command, capture_output=True, timeout=limit, check=False, env=environment
-        )
-        status, reason = json.loads(child.stdout)
-    except subprocess.TimeoutExpired:
-        reason = f"its import did not end within {limit:g} s"
-    except ValueError:
-        reason = _ended(child.returncode)
-    return replace(source, record=replace(record, status=status, reason=reason))
+    status, reason = _tried(source.record.distribution, source.record.entry_point, time_limit)
+    remember(source.record, status == "loaded")
+    return replace(source, record=replace(source.record, status=status, reason=reason))
 
 
 def probe_all(sources: Iterable[Source], time_limit: float | None = None) -> list[Source]:
@@ -73,6 +71,52 @@ def probe_all(sources: Iterable[Source], time_limit: float | None = None) -> lis
 
     with ThreadPoolExecutor(_PROBES) as pool:
         return list(pool.map(tried, sources))
+
+
+def _tried(distribution: str, entry_point: str, time_limit: float | None) -> tuple[Status, str]:
+    limit = _limit(time_limit)
+    command = [sys.executable, "-P", "-c", _CODE, distribution, entry_point]
+    # The child finds what this process would find.
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    # A file and a session of its own: what the plugin starts may outlive the child, and would
+    # hold a pipe open.
+    with TemporaryFile() as answer:
+        child = subprocess.Popen(
+            command,
+            stdin=subprocess.DEVNULL,
+            stdout=answer,
+            stderr=subprocess.DEVNULL,
+            env=environment,
+            start_new_session=True,
+        )
+        try:
+            code = child.wait(limit)
+        except subprocess.TimeoutExpired:
+            return "broken", f"its import did not end within {limit:g} s"
+        finally:
+            with suppress(ProcessLookupError):
+                os.killpg(child.pid, signal.SIGKILL)
+            child.wait()
+        answer.seek(0)
+        try:
+            status, reason = json.load(answer)
+        except ValueError:
+            return "broken", _ended(code)
+        return status, reason
+
+
+def _limit(given: float | None) -> float:
+    chosen = os.environ.get(LIMIT, TIME_LIMIT) if given is None else given
+    try:
+        limit = float(chosen)
+    except ValueError:
+        limit = math.nan
+    if not 0 < limit < math.inf:
+        raise CaseError(
+            f"the time limit of a plugin ({LIMIT}, --time-limit) must be a number of seconds above "
+            f"0; {str(chosen)!r} was given"
+        )
+    return limit
 
 
 def _ended(code: int) -> str:
