@@ -9,7 +9,7 @@ from types import ModuleType
 from typing import Any, Literal
 
 import pytest
-from fake_distributions import distribute, observer
+from fake_distributions import distribute, observer, sources
 
 from tribo.core.errors import CaseError
 from tribo.interfaces.observer import Observer, ObserverConfig
@@ -108,7 +108,11 @@ class Unconfigured(Observer[QuietConfig]):
     [
         (plugin("bad", tribo_observers=raises(RuntimeError("no licence"))), "no licence"),
         (plugin("bad", tribo_observers=raises(SystemExit(3))), "SystemExit: 3"),
-        (plugin("bad", tribo_observer=lambda: [Loud]), "unknown hook 'tribo_observer'"),
+        (
+            plugin("bad", tribo_observer=lambda: [Loud]),
+            "unknown hook 'tribo_observer' (did you mean 'tribo_observers'?)",
+        ),
+        (plugin("bad", tribo_zzz=lambda: [Loud]), "(the hooks are tribo_contact_solvers, tribo_"),
         (plugin("bad", tribo_observers=lambda: None), "TypeError"),
         (plugin("bad", tribo_observers=lambda: [Bare]), "Bare, not a subclass of tribo.interf"),
         (plugin("bad", tribo_observers=lambda: [Quiet(QuietConfig())]), "not a subclass of"),
@@ -143,16 +147,8 @@ def test_a_name_claimed_twice_is_unusable_and_both_are_named() -> None:
     ]
 
 
-@pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder of distributions that are found as if installed."""
-    monkeypatch.syspath_prepend(str(tmp_path))
-    return tmp_path
-
-
 def found(*distributions: str) -> Registry:
-    sources = [s for s in loader.installed() if s.record.distribution in distributions]
-    return Registry(selected(sources))
+    return Registry(selected(sources(*distributions)))
 
 
 def test_names_are_known_without_importing_and_looked_up_by_importing(folder: Path) -> None:
@@ -197,7 +193,7 @@ def test_a_broken_plugin_is_fatal_only_where_it_is_named(folder: Path, fault: st
     module = "two_" + fault.replace(" ", "_")
     points = {"tribo.v1.observer": {"two.calm": module}}
     distribute(folder, "two-tribo", "0.1", points, **{module: code})
-    registry = Registry([loader.builtin(), *found_sources("two-tribo")])
+    registry = Registry([loader.builtin(), *sources("two-tribo")])
     assert registry.lookup("wear_law", "archard").type_name() == "archard"
     with pytest.raises(
         CaseError, match=r"'two\.calm' is in two-tribo 0\.1, which is broken"
@@ -206,10 +202,6 @@ def test_a_broken_plugin_is_fatal_only_where_it_is_named(folder: Path, fault: st
     assert reason in str(caught.value)
     assert "reinstall two-tribo" in str(caught.value)
     assert registry.plugins[1].status == "broken"
-
-
-def found_sources(*distributions: str) -> list[loader.Source]:
-    return [s for s in loader.installed() if s.record.distribution in distributions]
 
 
 @pytest.mark.parametrize(
@@ -224,6 +216,7 @@ def found_sources(*distributions: str) -> list[loader.Source]:
         ),
         ("tribo.v1", "three.calm", "broken", "is unknown"),
         ("tribo.v1.observer", "calm", "broken", "needs a prefix"),
+        ("tribo.v1.observer", "tribo.calm", "broken", "prefix 'tribo', which is tribo's own"),
     ],
 )
 def test_what_is_wrong_at_first_sight_is_not_imported(
@@ -247,6 +240,104 @@ def test_two_distributions_that_claim_a_name_lose_it(folder: Path) -> None:
         registry.lookup("observer", "four.calm")
 
 
+def test_only_the_name_that_two_claim_is_lost(folder: Path) -> None:
+    for name in ("four-c", "four-d"):
+        module = name.replace("-", "_")
+        own = f"{module}.loud"
+        code = observer("four.quiet") + observer(own).replace(
+            "return [Loud]", "return [Quiet, Loud]"
+        )
+        points = {"tribo.v1.observer": {"four.quiet": module, own: module}}
+        distribute(folder, name, "1.0", points, **{module: code})
+    registry = found("four-c", "four-d")
+    assert registry.names("observer") == ["four_c.loud", "four_d.loud"]
+    assert registry.lookup("observer", "four_c.loud").__module__ == "four_c"
+    # What is known of a plugin once it is imported includes the conflict.
+    assert [(p.status, p.reason) for p in registry.plugins] == [
+        ("conflict", "observer 'four.quiet' also from four-d 1.0"),
+        ("conflict", "observer 'four.quiet' also from four-c 1.0"),
+    ]
+
+
+def test_what_supports_two_versions_of_the_interfaces_is_used_in_the_one_of_now(
+    folder: Path,
+) -> None:
+    both = {
+        "tribo.v1.observer": {"eight.calm": "eight_now"},
+        "tribo.v2.observer": {"eight.calm": "eight_now", "eight.more": "eight_then"},
+    }
+    distribute(folder, "eight-tribo", "1.0", both, eight_now=observer("eight.calm"))
+    registry = found("eight-tribo")
+    assert [(p.entry_point, p.status) for p in registry.plugins] == [("eight_now", "available")]
+    assert registry.lookup("observer", "eight.calm").__module__ == "eight_now"
+
+
+def test_a_plugin_for_other_versions_only_says_for_which(folder: Path) -> None:
+    points = {f"tribo.v{api}.observer": {"nine.calm": "nine_calm"} for api in (2, 3)}
+    distribute(folder, "nine-tribo", "1.0", points, nine_calm="1/0")
+    (record,) = found("nine-tribo").plugins
+    assert record.status == "incompatible"
+    assert record.reason == (
+        "made for interface version 2 and 3, this tribo has 1; install a newer tribo"
+    )
+
+
+def test_what_a_plugin_prints_does_not_reach_stdout(
+    folder: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    code = observer("ten.calm").replace("    return", "    print('from the hook')\n    return")
+    points = {"tribo.v1.observer": {"ten.calm": "ten_calm"}}
+    distribute(folder, "ten-tribo", "1.0", points, ten_calm="print('from the import')" + code)
+    found("ten-tribo").lookup("observer", "ten.calm")
+    assert capfd.readouterr() == ("", "from the import\nfrom the hook\n")
+
+
+def test_a_hook_that_is_not_marked_is_named(folder: Path) -> None:
+    code = observer("eleven.calm").replace("@hookimpl", "")
+    points = {"tribo.v1.observer": {"eleven.calm": "eleven_calm"}}
+    distribute(folder, "eleven-tribo", "1.0", points, eleven_calm=code)
+    with pytest.raises(CaseError, match=r"hook tribo_observers is not marked .* write @hookimpl"):
+        found("eleven-tribo").lookup("observer", "eleven.calm")
+
+
+def test_a_hook_of_another_version_may_be_optional() -> None:
+    later = plugin("later", tribo_observers=lambda: [Quiet])
+    later.tribo_lubricants = hookimpl(  # type: ignore[attr-defined]
+        specname="tribo_lubricants", optionalhook=True
+    )(lambda: [])
+    assert only(later).names("observer") == ["quiet"]
+
+
+EFFECT = """
+from typing import Literal
+from tribo.plugin import Effect, EffectConfig, Field, hookimpl
+
+class WarmConfig(EffectConfig):
+    type: Literal["{name}"] = "{name}"
+
+class Warm(Effect[WarmConfig]):
+    Config = WarmConfig
+    provides = (Field("warmth", "K", "How warm."),)
+
+    def fields(self, conditions): ...
+
+@hookimpl
+def tribo_effects():
+    return [Warm]
+"""
+
+
+def test_who_provides_a_field_is_known_of_what_is_imported(folder: Path) -> None:
+    for name in ("warm_a", "warm_b"):
+        points = {"tribo.v1.effect": {f"{name}.warm": name}}
+        distribute(folder, name, "1.0", points, **{name: EFFECT.format(name=f"{name}.warm")})
+    registry = found("warm_a", "warm_b")
+    assert registry.providers(["warmth"]) == []
+    registry.lookup("effect", "warm_b.warm")
+    assert registry.providers(["warmth"]) == ["'warm_b.warm' (warm_b 1.0)"]
+    assert "warm_a" not in sys.modules
+
+
 @pytest.mark.parametrize("off", ["five-tribo", "Five_Tribo", "five", "five.calm", "*"])
 def test_plugins_can_be_turned_off(folder: Path, monkeypatch: pytest.MonkeyPatch, off: str) -> None:
     points = {"tribo.v1.observer": {"five.calm": "five_calm"}}
@@ -261,8 +352,8 @@ def test_plugins_can_be_turned_off(folder: Path, monkeypatch: pytest.MonkeyPatch
 def test_only_some_plugins_can_be_kept(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("six-a", "six-b"):
         module = name.replace("-", "_")
-        points = {"tribo.v1.observer": {f"{name}.calm": module}}
-        distribute(folder, name, "1.0", points, **{module: observer(f"{name}.calm")})
+        points = {"tribo.v1.observer": {f"{module}.calm": module}}
+        distribute(folder, name, "1.0", points, **{module: observer(f"{module}.calm")})
     monkeypatch.setenv("TRIBO_PLUGINS", "six-b")
     assert [p.status for p in found("six-a", "six-b").plugins] == ["disabled", "available"]
 

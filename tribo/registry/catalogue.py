@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any, get_args
 
 from pydantic.fields import FieldInfo
@@ -13,16 +14,17 @@ from tribo.core.fields import Field
 from tribo.core.units import Quantity
 from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.kinds import KINDS
-from tribo.registry.loader import Name, distribution_summary
-from tribo.registry.records import ComponentRecord, PluginRecord
+from tribo.registry.loader import distribution_summary
+from tribo.registry.records import ComponentRecord, Name, PluginRecord
 from tribo.registry.registry import Registry
 
 
 def catalogue(registry: Registry) -> list[dict[str, str]]:
     """Return a row for every component, and for every plugin that cannot be used.
 
-    Nothing is imported that has not been: the summary of a plugin's component
-    is that of its distribution.
+    Nothing is imported that has not been: the summary of a component of a
+    plugin not imported yet is that of its distribution, and says so. A name
+    that more than one plugin claims has a row for each, in conflict.
 
     Returns
     -------
@@ -30,15 +32,20 @@ def catalogue(registry: Registry) -> list[dict[str, str]]:
         With ``name``, ``kind``, ``distribution``, ``version``, ``status``,
         ``reason`` and ``summary``.
     """
-    rows = [
-        _row(name, KINDS[kind].words, registry.owner(kind, name), registry.summary(kind, name))
-        for kind in KINDS
-        for name in registry.names(kind)
-    ]
+    rows = []
+    for kind in KINDS.values():
+        for name in registry.names(kind.name):
+            (plugin,) = registry.claimants(kind.name, name)
+            rows.append(_row(name, kind.words, plugin, registry.summary(kind.name, name)))
+    for key, reason in registry.conflicts().items():
+        for plugin in registry.claimants(*key):
+            contested = replace(plugin, status="conflict", reason=reason)
+            words = KINDS[key[0]].words
+            rows.append(_row(key[1], words, contested, distribution_summary(plugin)))
     rows += [
         _row("", "", plugin, distribution_summary(plugin))
         for plugin in registry.plugins
-        if plugin.reason
+        if plugin.status in ("disabled", "broken", "incompatible")
     ]
     return rows
 
@@ -46,21 +53,30 @@ def catalogue(registry: Registry) -> list[dict[str, str]]:
 def find(registry: Registry, name: str) -> list[Name]:
     """Return kind and name of the component, or of all of the distribution, called `name`.
 
+    Names that more than one plugin claims are found too, and come last.
+
     Raises
     ------
     CaseError
         If there is none.
     """
-    known = [(kind, known) for kind in KINDS for known in registry.names(kind)]
+    usable = [(kind, known) for kind in KINDS for known in registry.names(kind)]
+    known = [*usable, *registry.conflicts()]
     found = [key for key in known if key[1] == name]
-    found = found or [key for key in known if registry.owner(*key).distribution == name]
+    found = found or [
+        key for key in known if name in [p.distribution for p in registry.claimants(*key)]
+    ]
     if found:
         return found
-    for plugin in registry.plugins:
-        if plugin.distribution == name:
-            raise CaseError(f"plugin {plugin} is {plugin.status}: {plugin.reason or 'it is empty'}")
-    names = [key[1] for key in known]
-    meant = suggestion(did_you_mean(name, names))
+    refusals = [
+        f"plugin {plugin} is {plugin.status}: {plugin.reason or 'it is empty'}"
+        for plugin in registry.plugins
+        if plugin.distribution == name
+    ]
+    refusals = refusals or registry.refusals(name)
+    if refusals:
+        raise CaseError("; ".join(refusals))
+    meant = suggestion(did_you_mean(name, [key[1] for key in known]))
     raise CaseError(
         f"no component or distribution is called {name!r}{meant} See tribo plugins list"
     )

@@ -13,7 +13,6 @@ from tribo.core.words import did_you_mean, suggestion
 from tribo.interfaces.component import Component
 from tribo.registry.kinds import KINDS
 from tribo.registry.loader import (
-    Name,
     Source,
     builtin,
     distribution_summary,
@@ -22,8 +21,9 @@ from tribo.registry.loader import (
     load,
 )
 from tribo.registry.probe import probe
-from tribo.registry.records import ComponentRecord, PluginRecord
+from tribo.registry.records import ComponentRecord, Name, PluginRecord
 from tribo.registry.selection import selected
+from tribo.registry.verdicts import shown_to_import
 
 _UNUSABLE = ("disabled", "broken", "incompatible")
 
@@ -53,8 +53,6 @@ class Registry:
                 declared = tuple((o.kind, o.name) for o in self._load(number))
             for name in declared:
                 self._claims.setdefault(name, []).append(number)
-        for number in range(len(self._sources)):
-            self._records[number] = self._with_conflicts(number)
 
     @classmethod
     def with_plugins(cls, *plugins: object) -> Registry:
@@ -71,8 +69,12 @@ class Registry:
 
     @property
     def plugins(self) -> tuple[PluginRecord, ...]:
-        """Every plugin that was found, with what is known of it by now."""
-        return tuple(self._records)
+        """Every plugin that was found, with what is known of it by now.
+
+        One that could be used but for a name that another claims too is in
+        ``conflict``; its other names are usable.
+        """
+        return tuple(self._with_conflicts(number) for number in range(len(self._records)))
 
     def names(self, kind: str) -> list[str]:
         """Return the usable names of one kind, sorted; imports nothing."""
@@ -82,9 +84,21 @@ class Registry:
             if k == kind and len(claims) == 1 and self._records[claims[0]].status != "broken"
         )
 
-    def owner(self, kind: str, name: str) -> PluginRecord:
-        """Return the plugin that offers a usable name; imports nothing."""
-        return self._records[self._claims[kind, name][0]]
+    def conflicts(self) -> dict[Name, str]:
+        """Return the names that more than one plugin claims, and what to do about each."""
+        found = {}
+        for (kind, name), claims in self._claims.items():
+            if len(claims) > 1:
+                owners = " and ".join(str(self._records[number]) for number in claims)
+                found[kind, name] = (
+                    f"{KINDS[kind].words} {name!r} is offered by {owners}, so that it is not clear "
+                    "which is meant; uninstall or disable one of them"
+                )
+        return found
+
+    def claimants(self, kind: str, name: str) -> list[PluginRecord]:
+        """Return the plugins that claim a name; imports nothing."""
+        return [self._records[number] for number in self._claims.get((kind, name), ())]
 
     def summary(self, kind: str, name: str) -> str:
         """Return what a usable name is about, in a line; imports nothing."""
@@ -92,7 +106,8 @@ class Registry:
         for offer in self._offers.get(number, ()):
             if (offer.kind, offer.name) == (kind, name):
                 return (offer.cls.__doc__ or "").strip().split("\n")[0]
-        return distribution_summary(self._records[number])
+        plugin = self._records[number]
+        return f"(all of {plugin.distribution}) {distribution_summary(plugin)}".rstrip()
 
     def classes(self, kind: str) -> list[type[Component[Any]]]:
         """Return the usable classes of one kind, sorted by name; imports their plugins."""
@@ -122,11 +137,7 @@ class Registry:
         words = KINDS[kind].words
         claims = self._claims.get((kind, name), [])
         if len(claims) > 1:
-            owners = " and ".join(str(self._records[number]) for number in claims)
-            raise CaseError(
-                f"{words} {name!r} is offered by {owners}, so that it is not clear which is"
-                " meant; uninstall or disable one of them"
-            )
+            raise CaseError(self.conflicts()[kind, name])
         if not claims:
             raise CaseError(f"unknown {words} {name!r}{self._instead(kind, name)}")
         for offer in self._load(claims[0]):
@@ -139,30 +150,33 @@ class Registry:
         )
 
     def providers(self, fields: Iterable[str]) -> list[str]:
-        """Return the effects that provide any of `fields`, each with its plugin; imports them."""
+        """Return the effects that provide any of `fields`, each with its plugin.
+
+        Only those of plugins that have been imported are known; imports nothing.
+        """
         wanted = set(fields)
-        found = []
-        for name in self.names("effect"):
-            try:
-                component = self.record("effect", name)
-            except CaseError:
-                continue
-            if wanted & {field.name for field in getattr(component.cls, "provides", ())}:
-                found.append(f"{name!r} ({component.plugin})")
-        return found
+        return [
+            f"{offer.name!r} ({offer.plugin})"
+            for found in self._offers.values()
+            for offer in found
+            if offer.name in self.names("effect")
+            and wanted & {field.name for field in getattr(offer.cls, "provides", ())}
+        ]
 
     def choices(self, kind: str) -> str:
         """Return the usable names of one kind as text, with who provides them."""
         by_plugin: dict[str, list[str]] = {}
         for name in self.names(kind):
-            by_plugin.setdefault(str(self.owner(kind, name)), []).append(name)
+            (plugin,) = self.claimants(kind, name)
+            by_plugin.setdefault(str(plugin), []).append(name)
         listed = (f"{', '.join(names)} ({plugin})" for plugin, names in by_plugin.items())
         return "; ".join(listed) or "none"
 
     def _load(self, number: int) -> tuple[ComponentRecord, ...]:
         if number not in self._offers:
             source = self._sources[number]
-            if source.record.status == "available":
+            record = source.record
+            if record.status == "available" and not shown_to_import(record):
                 # An import that never ends or crashes does so in a process of its own first.
                 source = probe(source)
             if source.record.status == "broken":
@@ -171,22 +185,29 @@ class Registry:
                 self._records[number], self._offers[number] = load(source)
         return self._offers[number]
 
+    def refusals(self, name: str) -> list[str]:
+        """Return why plugins that may offer a component called `name` cannot be used."""
+        return [
+            f"{plugin} is {plugin.status}: {plugin.reason}"
+            for source, plugin in zip(self._sources, self._records, strict=True)
+            if plugin.status in _UNUSABLE
+            and (not source.declared or name in [declared for _, declared in source.declared])
+        ]
+
     def _instead(self, kind: str, name: str) -> str:
         text = suggestion(did_you_mean(name, self.names(kind)))
         text += f" Installed: {self.choices(kind)}"
-        for source, plugin in zip(self._sources, self._records, strict=True):
-            declared = source.declared or ()
-            if plugin.status in _UNUSABLE and (not declared or (kind, name) in declared):
-                text += f". {plugin} is {plugin.status}: {plugin.reason}"
-        return text
+        return ". ".join([text, *self.refusals(name)])
 
     def _with_conflicts(self, number: int) -> PluginRecord:
+        record = self._records[number]
+        if record.status in _UNUSABLE:
+            return record
         reasons = []
         for (kind, name), claims in self._claims.items():
             others = [str(self._records[other]) for other in claims if other != number]
             if others and number in claims:
                 reasons.append(f"{KINDS[kind].words} {name!r} also from {', '.join(others)}")
-        record = self._records[number]
         return replace(record, status="conflict", reason="; ".join(reasons)) if reasons else record
 
 
@@ -194,11 +215,15 @@ class Registry:
 def default_registry() -> Registry:
     """Return the registry of the built-in and the installed plugins.
 
-    A plugin that is seen at once to be unusable is warned of, once.
+    A plugin that is seen at once to be unusable is warned of, once, and so is
+    a name that two plugins claim.
     """
     registry = Registry([builtin(), *selected(installed())])
-    for plugin in registry.plugins:
-        if plugin.status in ("broken", "incompatible", "conflict"):
-            message = f"plugin {plugin} is left out, {plugin.status}: {plugin.reason}"
-            warnings.warn(message, TriboWarning, stacklevel=2)
+    messages = [
+        f"plugin {plugin} is left out, {plugin.status}: {plugin.reason}"
+        for plugin in registry.plugins
+        if plugin.status in ("broken", "incompatible")
+    ]
+    for message in (*messages, *registry.conflicts().values()):
+        warnings.warn(message, TriboWarning, stacklevel=2)
     return registry

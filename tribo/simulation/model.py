@@ -342,7 +342,7 @@ def _missing(who: str, missing: Sequence[str], waiting: Sequence[Effect[EffectCo
         )
     return (
         f"{who} needs the field {', '.join(missing)}, which nothing in this case provides: add an "
-        "effect that does"
+        "effect that does ('tribo plugins list' names those installed)"
     )
 
 
