@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import sys
+from contextlib import redirect_stdout
 
 import click
 
@@ -18,14 +20,8 @@ def schema() -> None:
     """
     from tribo.config.case import Case
     from tribo.config.schema import json_schema
-    from tribo.registry.loader import builtin, installed
-    from tribo.registry.probe import probe_all
-    from tribo.registry.registry import Registry
-    from tribo.registry.selection import selected
 
-    # The schema needs every plugin's code; one that cannot be imported is left out.
-    registry = Registry([builtin(), *probe_all(selected(installed()))])
-    for plugin in registry.plugins:
-        if plugin.status in ("broken", "incompatible", "conflict"):
-            click.echo(f"warning: {plugin} is left out: {plugin.reason}", err=True)
-    click.echo(json.dumps(json_schema(Case, registry), indent=2))
+    # Only the schema belongs on stdout, whatever a plugin prints while it is asked for its part.
+    with redirect_stdout(sys.stderr):
+        text = json.dumps(json_schema(Case), indent=2)
+    click.echo(text)

@@ -3,24 +3,28 @@
 from __future__ import annotations
 
 from contextvars import ContextVar
-from typing import Any, Literal
+from typing import Any
 
 from pydantic import BaseModel, GetJsonSchemaHandler, TypeAdapter
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, core_schema
 
+from tribo.config.choices import Choices, Mode, trying
 from tribo.registry.registry import Registry, default_registry
 
-_registry: ContextVar[Registry | None] = ContextVar("_registry", default=None)
+_choices: ContextVar[Choices | None] = ContextVar("_choices", default=None)
 _begun: ContextVar[frozenset[str]] = ContextVar("_begun", default=frozenset())
 
 
 def json_schema(
     model: type[BaseModel],
     registry: Registry | None = None,
-    mode: Literal["validation", "serialization"] = "validation",
+    mode: Mode = "validation",
 ) -> dict[str, Any]:
     """Return the JSON schema of a configuration.
+
+    A component that cannot be imported, or whose own schema cannot be made,
+    is left out of the choices, with a warning that names its plugin.
 
     Parameters
     ----------
@@ -31,11 +35,11 @@ def json_schema(
     mode : str
         The schema of what is read (``"validation"``) or of what is written.
     """
-    token = _registry.set(registry)
+    token = _choices.set(Choices(registry or default_registry(), mode))
     try:
         return model.model_json_schema(mode=mode)
     finally:
-        _registry.reset(token)
+        _choices.reset(token)
 
 
 def slot_schema(kind: str, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
@@ -43,8 +47,9 @@ def slot_schema(kind: str, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
 
     It is made anew each time, and so follows the registry.
     """
-    registry = _registry.get() or default_registry()
-    configs = {name: registry.lookup(kind, name).Config for name in registry.names(kind)}
+    if trying.get():
+        return {}
+    configs = (_choices.get() or Choices(default_registry(), handler.mode)).of(kind)
     if not configs:
         return {"not": {}}
     schemas = {name: TypeAdapter(config).core_schema for name, config in configs.items()}

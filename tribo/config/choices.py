@@ -1,0 +1,88 @@
+"""The configurations that the slots of a schema may take."""
+
+from __future__ import annotations
+
+import json
+import warnings
+from contextvars import ContextVar
+from typing import Literal
+
+from pydantic import BaseModel
+
+from tribo.core.errors import CaseError, TriboWarning
+from tribo.interfaces.component import ComponentConfig
+from tribo.registry.kinds import KINDS
+from tribo.registry.loader import said
+from tribo.registry.registry import Registry
+
+Mode = Literal["validation", "serialization"]
+Configs = dict[str, type[ComponentConfig]]
+
+trying: ContextVar[bool] = ContextVar("trying", default=False)
+"""Whether the schema of one configuration is tried, in which slots are of no interest."""
+
+
+class Choices:
+    """The configurations of each kind by name, found once for a schema.
+
+    One that cannot be imported, or whose own schema cannot be made, is left
+    out and warned of, once.
+
+    Parameters
+    ----------
+    registry : Registry
+        Where they come from.
+    mode : str
+        What the schema is of: ``"validation"`` or ``"serialization"``.
+    """
+
+    def __init__(self, registry: Registry, mode: Mode) -> None:
+        self._registry = registry
+        self._mode = mode
+        self._found: dict[str, Configs] = {}
+        self._told: set[str] = set()
+
+    def of(self, kind: str) -> Configs:
+        """Return the configurations of a kind."""
+        if kind not in self._found:
+            names = self._registry.names(kind)
+            configs = {name: self._config(kind, name) for name in names}
+            self._found[kind] = {name: config for name, config in configs.items() if config}
+        return self._found[kind]
+
+    def _config(self, kind: str, name: str) -> type[ComponentConfig] | None:
+        try:
+            record = self._registry.record(kind, name)
+        except CaseError:
+            (plugin,) = self._registry.claimants(kind, name)
+            if plugin.status != "broken":
+                raise
+            self._warn(f"{plugin} is left out: {plugin.reason}")
+            return None
+        fault = _fault(record.cls.Config, self._mode)
+        if fault:
+            self._warn(
+                f"{KINDS[kind].words} {name!r} of {record.plugin} is left out: making the schema "
+                f"of its configuration raised {fault}"
+            )
+            return None
+        return record.cls.Config
+
+    def _warn(self, message: str) -> None:
+        if message not in self._told:
+            self._told.add(message)
+            warnings.warn(message, TriboWarning, stacklevel=2)
+
+
+def _fault(config: type[BaseModel], mode: Mode) -> str:
+    """Return what making the schema of a configuration raises; empty if nothing."""
+    token = trying.set(True)
+    try:
+        json.dumps(config.model_json_schema(mode=mode), allow_nan=False)
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:
+        return said(error)
+    finally:
+        trying.reset(token)
+    return ""
