@@ -10,9 +10,14 @@ import click
 
 @click.command()
 @click.option("--json", "as_json", is_flag=True, help="One JSON object.")
-@click.option("--time-limit", default=20.0, show_default=True, help="Seconds a plugin may take.")
-def doctor(as_json: bool, time_limit: float) -> None:
-    """Test the installation, and try every plugin in a process of its own.
+@click.option(
+    "--time-limit",
+    type=float,
+    metavar="SECONDS",
+    help="What a plugin's import may take.  [default: TRIBO_PLUGIN_TIME_LIMIT, or 20]",
+)
+def doctor(as_json: bool, time_limit: float | None) -> None:
+    """Test the installation, and try every plugin anew, in a process of its own.
 
     Exit codes: 0 all is well, 3 something is not.
 
@@ -21,6 +26,7 @@ def doctor(as_json: bool, time_limit: float) -> None:
       tribo doctor
     """
     from tribo.core.errors import NumericalError
+    from tribo.registry.hints import undeclared
     from tribo.registry.loader import installed
     from tribo.registry.probe import probe_all
     from tribo.registry.registry import Registry
@@ -28,20 +34,17 @@ def doctor(as_json: bool, time_limit: float) -> None:
     from tribo.results.provenance import environment
     from tribo.simulation.selftest import self_test
 
-    # A registry notices names that are claimed twice.
     sources = selected(installed())
-    conflicts = {
-        (p.distribution, p.entry_point): p
-        for p in Registry(sources).plugins
-        if p.status == "conflict"
-    }
-    records = [source.record for source in probe_all(sources, time_limit)]
-    records = [conflicts.get((r.distribution, r.entry_point), r) for r in records]
+    tried = [source.record for source in probe_all(sources, time_limit)]
+    # A registry notices names that are claimed twice.
+    known = zip(tried, Registry(sources).plugins, strict=True)
+    records = [c if c.status == "conflict" and t.status == "loaded" else t for t, c in known]
     checks = self_test()
     found: dict[str, Any] = {
         **environment(),
         "checks": [{"name": c.name, "ok": c.ok, "detail": c.detail} for c in checks],
         "plugins": [vars(record) for record in records],
+        "hints": undeclared(),
     }
     if as_json:
         click.echo(json.dumps(found, indent=2))
@@ -63,6 +66,8 @@ def _print(found: dict[str, Any]) -> None:
         name = f"plugin {plugin['distribution']} {plugin['version']} ({plugin['entry_point']})"
         well = plugin["status"] in ("loaded", "disabled")
         _line(well, name, f"{plugin['status']} {plugin['reason']}".rstrip())
+    for hint in found["hints"]:
+        click.echo(f"hint  {hint}")
 
 
 def _line(well: bool, name: str, detail: str) -> None:

@@ -30,9 +30,12 @@ def list_(as_json: bool) -> None:
       tribo plugins list --json
     """
     from tribo.registry.catalogue import catalogue
+    from tribo.registry.hints import undeclared
     from tribo.registry.registry import default_registry
 
     rows = catalogue(default_registry())
+    for hint in undeclared():
+        click.echo(f"hint: {hint}", err=True)
     if as_json:
         click.echo(json.dumps(rows, indent=2))
         return
@@ -59,7 +62,9 @@ def show(name: str) -> None:
     from tribo.registry.registry import default_registry
 
     registry = default_registry()
-    click.echo("\n\n".join(describe(registry.record(*key)) for key in find(registry, name)))
+    for number, key in enumerate(find(registry, name)):
+        described = describe(registry.record(*key))
+        click.echo(f"\n{described}" if number else described)
 
 
 @plugins.command()
