@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import sys
 import traceback
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -14,6 +15,7 @@ from pydantic import ValidationError
 
 from tribo.interfaces.component import Component, ComponentConfig
 from tribo.registry.kinds import KINDS, Kind
+from tribo.registry.loader import said
 from tribo.testing import (
     checks_contact_solver,
     checks_effect,
@@ -183,10 +185,24 @@ def example_configs(cls: type[Component[Any]]) -> list[dict[str, Any]]:
         The ``examples`` in the JSON schema (``json_schema_extra`` of the
         model's configuration); else ``{}`` alone if the defaults are valid;
         else nothing.
+
+    Raises
+    ------
+    ValueError
+        If the schema cannot be made, or its examples are no list of tables.
     """
-    schema = cls.Config.model_json_schema()
-    if schema.get("examples"):
-        return [dict(example) for example in schema["examples"]]
+    try:
+        examples = cls.Config.model_json_schema().get("examples")
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:
+        raise ValueError(
+            f"making the schema of {cls.Config.__qualname__} raised {said(error)}"
+        ) from error
+    if examples:
+        if not (isinstance(examples, list) and all(isinstance(e, Mapping) for e in examples)):
+            raise ValueError(f"they are {examples!r}; they must be a list of tables")
+        return [dict(example) for example in examples]
     try:
         cls.Config.model_validate({})
     except ValidationError:
@@ -257,20 +273,29 @@ def _outcome(one: Check, subject: Subject, expected: Mapping[str, str]) -> Outco
     except KeyboardInterrupt:
         raise
     except BaseException as error:
-        said = _said(error)
-        return came("failed", said) if reason is None else came("expected failure", reason)
+        found = _found(error, subject.cls)
+        return came("failed", found) if reason is None else came("expected failure", reason)
     if reason is not None:
         return came("failed", f"it passed, although a failure is expected ({reason})")
     return came("passed")
 
 
-def _said(error: BaseException) -> str:
+def _found(error: BaseException, cls: type[Component[Any]]) -> str:
     text = " ".join(str(error).split())
     if isinstance(error, CheckFailed):
         return text
-    frame = traceback.extract_tb(error.__traceback__)[-1]
-    where = f"line {frame.lineno} of {Path(frame.filename).name}"
-    return f"it raised {type(error).__name__} in {where}: {text}".rstrip(": ")
+    frames = traceback.extract_tb(error.__traceback__)
+    own = [frame for frame in frames if Path(frame.filename).is_relative_to(_code(cls))]
+    where = (own or frames)[-1]
+    raised = f"it raised {type(error).__name__} in {where.filename}:{where.lineno}"
+    return f"{raised}: {text}".rstrip(": ")
+
+
+def _code(cls: type) -> Path:
+    """Return the folder of the package that a class is in, or the file of its lone module."""
+    module = sys.modules.get(cls.__module__.split(".")[0])
+    folders = list(getattr(module, "__path__", ()))
+    return Path(folders[0] if folders else getattr(module, "__file__", None) or "")
 
 
 def _enough(expected: Mapping[str, str]) -> Check:

@@ -73,11 +73,21 @@ class Report:
         counted = ", ".join(f"{count} {status}" for status, count in self.counts.items())
         lines = [f"{self.kind} {self.subject}: {counted}"]
         width = max((len(outcome.check) for outcome in self.outcomes), default=0)
+        spoiled = Counter(failure.message for failure in self.failures)
+        told: set[str] = set()
         config = None
         for outcome in self.outcomes:
             if outcome.config != config:
                 config = outcome.config
                 lines.append(f"  with {config}")
             line = f"    {outcome.check:<{width}}  {outcome.status}"
-            lines.append(f"{line}: {outcome.message}" if outcome.message else line)
+            message = outcome.message
+            if outcome.status == "failed":
+                # What spoils many checks is told with the first of them.
+                if message in told:
+                    continue
+                told.add(message)
+                count = spoiled[message]
+                message += f" (this spoils {count} checks)" if count > 1 else ""
+            lines.append(f"{line}: {message}" if message else line)
         return "\n".join(lines)

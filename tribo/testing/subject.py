@@ -109,14 +109,16 @@ def _made(function: Callable[[Subject], None], *, unless: Unless) -> Check:
 
 
 _READ = """
-import pickle, sys
+import os, pickle, sys
+answer = os.fdopen(os.dup(1), "w")
+os.dup2(2, 1)
 sys.path[:] = pickle.load(sys.stdin.buffer)
 for blob in pickle.load(sys.stdin.buffer):
     try:
         config = pickle.loads(blob)
-        print(repr((True, config.model_dump_json())))
+        print(repr((True, config.model_dump_json())), file=answer)
     except Exception as error:
-        print(repr((False, f"{type(error).__name__}: {error}")))
+        print(repr((False, f"{type(error).__name__}: {error}")), file=answer)
 """
 
 
