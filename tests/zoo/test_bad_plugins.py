@@ -85,7 +85,7 @@ ZOO = {
     ),
     "state that starts nowhere": (
         law(GOOD, "state_fields = (Field('slid','m','.'),)\n    initial_state = lambda self: {}"),
-        2,
+        3,
         "slid",
     ),
 }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
@@ -105,7 +105,7 @@ def _lines(
         kind = details["type"]
         if kind == "extra_forbidden" or (kind == "missing" and place.path in meant):
             continue
-        path, text = place.path, _message(details, place, known)
+        path, text = place.path, _message(details, place, known) or _unsaid(details["input"])
         if kind.startswith("union_tag"):
             path = f"{path}.type" if path else "type"
         texts = lines.setdefault(path, [])
@@ -147,6 +147,12 @@ def _message(details: ErrorDetails, place: Place, registry: Registry) -> str:
     if kind == "value_error":
         return str(context["error"])
     return _plain(details["msg"])
+
+
+def _unsaid(given: object) -> str:
+    if isinstance(given, Mapping) and "type" in given:
+        return f"{given['type']!r} refused its keys without saying why"
+    return f"{shown(given)} was refused without saying why"
 
 
 def _hints(metadata: Sequence[Any], registry: Registry) -> Iterator[str]:

@@ -13,6 +13,7 @@ from pydantic_core.core_schema import SerializationInfo, ValidationInfo
 
 from tribo.config.schema import slot_schema
 from tribo.core.errors import CaseError
+from tribo.core.words import said
 from tribo.interfaces.component import ComponentConfig
 from tribo.registry.kinds import KINDS
 from tribo.registry.registry import Registry, default_registry
@@ -55,10 +56,10 @@ class Slot:
                 return config.__pydantic_validator__.validate_python(  # type: ignore[no-any-return]
                     dict(value), context=info.context
                 )
-            except (ValidationError, PydanticCustomError):
+            except (ValidationError, PydanticCustomError, KeyboardInterrupt):
                 raise
-            except Exception as error:
-                text = f"{value['type']!r} could not read its keys: {type(error).__name__}: {error}"
+            except BaseException as error:
+                text = f"{value['type']!r} could not read its keys: {said(error)}"
                 raise _error(text) from error
 
         return core_schema.with_info_plain_validator_function(

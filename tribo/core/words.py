@@ -31,3 +31,12 @@ def did_you_mean(name: object, known: Iterable[str]) -> str | None:
 def suggestion(meant: str | None) -> str:
     """Return the end of a sentence that suggests what was meant, if that is known."""
     return f"; did you mean {meant!r}?" if meant else "."
+
+
+def said(error: BaseException) -> str:
+    """Return the type of an error and its message on one line."""
+    try:
+        text = " ".join(str(error).split())
+    except Exception:
+        text = "(its message cannot be shown)"
+    return f"{type(error).__name__}: {text}" if text else f"{type(error).__name__} and says no more"

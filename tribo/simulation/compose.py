@@ -9,6 +9,7 @@ from tribo.config.case import Case
 from tribo.core.errors import CaseError
 from tribo.interfaces.component import ComponentConfig
 from tribo.registry.registry import Registry, default_registry
+from tribo.simulation.calling import calling
 from tribo.simulation.model import Body, MissingFieldError, Model, assemble
 
 
@@ -30,7 +31,9 @@ def compose(case: Case, registry: Registry | None = None) -> Model:
     known = registry or default_registry()
 
     def make(kind: str, config: ComponentConfig) -> Any:
-        return known.lookup(kind, config.type)(config)
+        cls = known.lookup(kind, config.type)
+        with calling(cls):
+            return cls(config)
 
     try:
         return _assembled(case, make)

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+from tribo.interfaces.component import Component, ComponentConfig
+from tribo.simulation.calling import calling
 from tribo.simulation.model import Model
 
 
@@ -21,20 +25,25 @@ def describe(model: Model) -> dict[str, object]:
         "load": {"normal": model.load},
         "bodies": {
             body.name: {
-                "surface": body.surface.config.model_dump(mode="json"),
+                "surface": _dump(body.surface, body.name),
                 "material": body.material.model_dump(mode="json"),
-                "wear": None if body.wear is None else body.wear.config.model_dump(mode="json"),
+                "wear": None if body.wear is None else _dump(body.wear, body.name),
             }
             for body in model.bodies
         },
-        "contact": model.contact.config.model_dump(mode="json"),
-        "kinematics": model.kinematics.config.model_dump(mode="json"),
+        "contact": _dump(model.contact),
+        "kinematics": _dump(model.kinematics),
         "stepping": model.stepping.model_dump(mode="json"),
         "friction": None
         if model.friction_coefficient is None
         else {"coefficient": model.friction_coefficient},
-        "effects": [effect.config.model_dump(mode="json") for effect in model.effects],
-        "observers": [observer.config.model_dump(mode="json") for observer in model.observers],
+        "effects": [_dump(effect) for effect in model.effects],
+        "observers": [_dump(observer) for observer in model.observers],
         "output": {"save_times": list(model.save_times)},
         "stop": model.stop.model_dump(mode="json"),
     }
+
+
+def _dump(component: Component[ComponentConfig], body: str | None = None) -> dict[str, Any]:
+    with calling(component, body):
+        return component.config.model_dump(mode="json")

@@ -8,11 +8,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from tribo.config.stepping import ExplicitConfig, ImplicitConfig
-from tribo.core.errors import CaseError, NumericalError
+from tribo.core.errors import CaseError, NumericalError, PluginError
 from tribo.core.measures import half_widths, reaches_border
 from tribo.core.state import State
+from tribo.simulation.calling import named
 from tribo.simulation.control import SHRINK, first_increment, fitted, next_factor, step_error
 from tribo.simulation.model import Model
+from tribo.simulation.motion import averaging_limit, path_at, time_at
 from tribo.simulation.rates import Moment
 from tribo.simulation.step import (
     StepRejected,
@@ -26,6 +28,8 @@ from tribo.simulation.step import (
 
 FEW_CELLS = 8
 MAX_REJECTIONS = 40
+# Of the path until the next stop: a shorter step would drown in rounding.
+SMALLEST = 1e-12
 MOST_STEPS = 1e8
 DEPTH_ACCURACY = 1e-6
 
@@ -126,10 +130,10 @@ def _implicit(model: Model, config: ImplicitConfig, state: State, stop: float) -
                 break
         except StepRejected:
             factor = SHRINK
-            if rejected == MAX_REJECTIONS:
+            if rejected == MAX_REJECTIONS or factor * increment < SMALLEST * target:
                 raise
         rejected += 1
-        if rejected > MAX_REJECTIONS:
+        if rejected > MAX_REJECTIONS or factor * increment < SMALLEST * target:
             raise NumericalError(
                 f"steps down to {increment:.3g} m at {state.distance:.6g} m still miss their "
                 f"tolerances (depth error {errors[0]:.3g}, pressure change {errors[1]:.3g} times "
@@ -150,10 +154,10 @@ def _implicit(model: Model, config: ImplicitConfig, state: State, stop: float) -
 
 def _path_until(model: Model, state: State, time: float) -> float:
     """Return the path at a later time, which must have grown."""
-    distance = model.kinematics.distance(time)
+    distance = path_at(model.kinematics, time)
     if not state.distance < distance < np.inf:
-        raise NumericalError(
-            f"kinematics {model.kinematics.type_name()!r} does not slide on: {state.distance:g} m "
+        raise PluginError(
+            f"{named(model.kinematics)} does not slide on: {state.distance:g} m "
             f"at {state.time:g} s, {distance:g} m at {time:g} s"
         )
     return distance
@@ -161,10 +165,10 @@ def _path_until(model: Model, state: State, time: float) -> float:
 
 def _time_at(model: Model, state: State, distance: float, stop: float) -> float:
     """Return the time at which the path is reached, between now and the next stop."""
-    time = model.kinematics.time(distance)
+    time = time_at(model.kinematics, distance)
     if not state.time < time <= stop * (1 + 1e-9):
-        raise NumericalError(
-            f"kinematics {model.kinematics.type_name()!r} puts {distance:g} m at {time:g} s, which "
+        raise PluginError(
+            f"{named(model.kinematics)} puts {distance:g} m at {time:g} s, which "
             f"does not lie between {state.time:g} s and {stop:g} s"
         )
     return time
@@ -190,7 +194,7 @@ def _stop_at_depth(
         # Aim just above the limit, so that the end approaches it from the side that stops.
         part = (limit * (1 + 0.5 * DEPTH_ACCURACY) - depth_low) / (depth_high - depth_low)
         trial = low + part * (high - low)
-        state_at = step(model, state, trial, model.kinematics.time(state.distance + trial))
+        state_at = step(model, state, trial, time_at(model.kinematics, state.distance + trial))
         depth = _depth(model, state_at)
         if depth >= limit:
             high, depth_high, after = trial, depth, state_at
@@ -268,7 +272,7 @@ def _noticed(model: Model, state: State) -> State:
     pressure = state.contact.pressure
     width, breadth = half_widths(pressure, model.grid)
     due = []
-    limitation = model.kinematics.limitation(model.grid, width)
+    limitation = averaging_limit(model.kinematics, model.grid, width)
     if limitation is not None and _track_changes(model):
         due.append(("averaging", f"at {state.time:.6g} s ({state.distance:.6g} m) {limitation}"))
     dx, dy = model.grid.spacing

@@ -14,7 +14,7 @@ from tribo.config.stepping import ExplicitConfig, ImplicitConfig
 from tribo.config.stop import StopConfig
 from tribo.core.arrays import Array, readonly
 from tribo.core.contact import ContactSystem
-from tribo.core.errors import CaseError
+from tribo.core.errors import CaseError, PluginError
 from tribo.core.fields import FRICTION_COEFFICIENT
 from tribo.core.grid import Grid
 from tribo.core.material import Material, contact_modulus
@@ -26,6 +26,8 @@ from tribo.interfaces.kinematics import Kinematics, KinematicsConfig
 from tribo.interfaces.observer import Observer, ObserverConfig
 from tribo.interfaces.surface import Surface, SurfaceConfig
 from tribo.interfaces.wear import WearLaw, WearLawConfig
+from tribo.simulation import answers, motion
+from tribo.simulation.calling import calling, named
 
 
 @dataclass(frozen=True)
@@ -85,10 +87,7 @@ class Model:
     @property
     def end_time(self) -> float:
         """When the run ends if no depth stops it earlier, in s."""
-        end = self.kinematics.duration
-        if self.stop.distance is not None:
-            end = min(end, self.kinematics.time(self.stop.distance))
-        return end
+        return motion.end_time(self.kinematics, self.stop.distance)
 
     def is_swept(self, name: str) -> bool:
         """Whether the body's points pass through the contact."""
@@ -161,21 +160,17 @@ def assemble(
     if len(bodies) != 2 or bodies[0].name == bodies[1].name:
         raise CaseError("a contact needs two bodies with different names", "bodies")
     names = [body.name for body in bodies]
-    exposures = kinematics.exposures(grid, names)
-    if set(exposures) != set(names):
-        raise CaseError(
-            f"{kinematics.type_name()!r} exposes {sorted(exposures)}, but the bodies are {names}",
-            "kinematics",
-        )
+    with located("kinematics"):
+        exposures = motion.exposures(kinematics, grid, names)
     gap = np.zeros(grid.cells)
     for body in bodies:
         with located(f"bodies.{body.name}.surface"):
-            height = body.surface.height(grid)
-            _check_height(body, height, exposures[body.name], grid)
+            height = surface_height(body, grid)
+            _check_sliding(body, height, exposures[body.name])
         gap -= height
         if body.wear is not None:
             with located(f"bodies.{body.name}.wear"):
-                _check_law(body.wear, body.material)
+                _check_law(body.wear, body)
     gap -= float(np.min(gap))
     cap, share = _plastic(bodies, contact)
     system = ContactSystem(
@@ -186,7 +181,7 @@ def assemble(
         curvature=_curvature(bodies),
         materials={body.name: body.material for body in bodies},
     )
-    with located("contact"):
+    with located("contact"), calling(contact):
         contact.check(system)
     stepping = stepping or ImplicitConfig()
     if isinstance(stepping, ImplicitConfig) and not contact.accepts_wear_compliance:
@@ -215,6 +210,7 @@ def assemble(
         system=system,
         gap=readonly(gap),
     )
+    motion.check_path(kinematics, model.end_time)
     _check_ends(model)
     _check_effects(model)
     return model
@@ -231,49 +227,60 @@ def located(path: str) -> Iterator[None]:
         raise CaseError(str(error), path) from error
 
 
-def _check_height(body: Body, height: Array, exposure: Exposure, grid: Grid) -> None:
-    kind = body.surface.type_name()
-    if not isinstance(height, np.ndarray) or height.shape != grid.cells:
-        raise CaseError(f"{kind!r} gave heights of shape {np.shape(height)}, not {grid.cells}")
-    if not np.all(np.isfinite(height)):
-        raise CaseError(f"{kind!r} gave heights that are not finite")
+def surface_height(body: Body, grid: Grid) -> Array:
+    """Return the height of a body's surface before it wears, shape (nx, ny), in m."""
+    with calling(body.surface, body.name):
+        answer = body.surface.height(grid)
+    return answers.field(named(body.surface, body.name), "a height map", answer, grid.cells)[0]
+
+
+def _check_sliding(body: Body, height: Array, exposure: Exposure) -> None:
     if not exposure.shape_stays and np.any(height != height[:1]):
         raise CaseError(
             f"body {body.name!r} is swept along x, so its surface must not vary along x, as "
-            f"{kind!r} does; let kinematics.swept name the other body, or use a 'flat' or a "
-            "'cylinder' with axis = 'x'"
+            f"{body.surface.type_name()!r} does; let kinematics.swept name the other body, or use "
+            "a 'flat' or a 'cylinder' with axis = 'x'"
         )
 
 
-def _check_law(law: WearLaw[WearLawConfig], material: Material) -> None:
-    law.check(material)
+def _check_law(law: WearLaw[WearLawConfig], body: Body) -> None:
+    with calling(law, body.name):
+        law.check(body.material)
+        given = law.initial_state()
+    who = named(law, body.name)
     declared = {field.name for field in law.state_fields}
-    given = law.initial_state()
-    if (
-        not isinstance(given, Mapping)
-        or set(given) != declared
-        or not all(
-            isinstance(value, int | float) and np.isfinite(value) for value in given.values()
+    if not isinstance(given, Mapping) or set(given) != declared:
+        raise PluginError(
+            f"{who} declares the state fields {sorted(declared)}, but starts with {given!r:.80}"
         )
-    ):
-        raise CaseError(
-            f"{law.type_name()!r} declares the state fields {sorted(declared)}, but starts with "
-            f"{given}; each needs a finite initial value"
-        )
+    for name, value in given.items():
+        answers.number(who, f"an initial {name!r}", value)
 
 
 def _curvature(bodies: Sequence[Body]) -> tuple[float, float] | None:
-    known = [body.surface.curvature for body in bodies]
+    known = [_curvature_of(body) for body in bodies]
     if any(c is None for c in known):
         return None
     return sum(c[0] for c in known if c), sum(c[1] for c in known if c)
+
+
+def _curvature_of(body: Body) -> tuple[float, float] | None:
+    with calling(body.surface, body.name):
+        answer = body.surface.curvature
+    if answer is None:
+        return None
+    who = named(body.surface, body.name)
+    along, across = answers.field(who, "a curvature", answer, (2,))[0]
+    return float(along), float(across)
 
 
 def _plastic(
     bodies: Sequence[Body], contact: ContactSolver[ContactSolverConfig]
 ) -> tuple[float | None, dict[str, float]]:
     hardness = {b.name: b.material.hardness for b in bodies if b.material.hardness is not None}
-    if not hardness or not contact.config.plasticity:
+    with calling(contact):
+        plastic = contact.config.plasticity
+    if not hardness or not plastic:
         return None, {body.name: 0.0 for body in bodies}
     if not contact.honours_cap:
         raise CaseError(
@@ -370,7 +377,7 @@ def _check_effects(model: Model) -> None:
     materials = {body.name: body.material for body in model.bodies}
     swept = frozenset(name for name in materials if model.is_swept(name))
     for effect in model.effects:
-        with located("effects"):
+        with located("effects"), calling(effect):
             effect.check(materials, swept)
 
 

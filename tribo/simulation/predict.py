@@ -16,6 +16,7 @@ from tribo.results.provenance import stated_facts
 from tribo.simulation.march import FEW_CELLS, MOST_STEPS, begin, march
 from tribo.simulation.measure import measure
 from tribo.simulation.model import Model, assemble
+from tribo.simulation.motion import averaging_limit, path_at
 from tribo.simulation.rates import Moment
 from tribo.simulation.step import first_contact, largest_stable_increment, start_sliding
 
@@ -110,7 +111,7 @@ def predict(model: Model) -> Prediction:
     holds = limitation = None
     if last is not None:
         holds = _inside(model, last) or model.may_reach_edge
-        limitation = model.kinematics.limitation(model.grid, last.half_width_x)
+        limitation = averaging_limit(model.kinematics, model.grid, last.half_width_x)
     across = None
     if hertz is not None:
         across = (2 * hertz.half_width_x / dx, 2 * hertz.half_width_y / dy)
@@ -192,7 +193,7 @@ def _unstable(model: Model, solved: Model, state: State) -> str | None:
             f"stops at once beyond {MOST_STEPS:.0e}: make it longer, or use stepping.type = "
             "'implicit'"
         )
-    increment = model.kinematics.distance(time)
+    increment = path_at(model.kinematics, time)
     limit = largest_stable_increment(solved, state, Moment(time, increment, increment / time))
     if limit is None:
         return None if config.allow_unstable else _unknown_stability(model)

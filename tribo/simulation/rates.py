@@ -9,10 +9,15 @@ import numpy as np
 
 from tribo.contact.box import around, whole
 from tribo.core.arrays import Array, readonly
-from tribo.core.errors import NumericalError
+from tribo.core.errors import PluginError
 from tribo.core.fields import FRICTION_COEFFICIENT, ContactConditions, LocalConditions, WearRate
 from tribo.core.state import State
-from tribo.simulation.model import Body, Model
+from tribo.interfaces.wear import WearLaw, WearLawConfig
+from tribo.simulation.answers import spread
+from tribo.simulation.calling import calling, named
+from tribo.simulation.model import Model
+
+Law = WearLaw[WearLawConfig]
 
 
 @dataclass(frozen=True)
@@ -22,6 +27,11 @@ class Moment:
     time: float
     distance: float
     speed: float
+
+    @property
+    def words(self) -> str:
+        """The moment as the end of a message."""
+        return f", at {self.distance:.6g} m ({self.time:.6g} s)"
 
 
 # Cells around the contact where laws are asked too: what a step may newly touch.
@@ -53,7 +63,7 @@ def wear_rates(
 
     Raises
     ------
-    NumericalError
+    PluginError
         If an effect or a law answers with anything but finite arrays of the
         right shape, or a negative depth.
     """
@@ -78,7 +88,9 @@ def wear_rates(
                 for name, values in law_states[body.name].items()
             },
         )
-        rate = _checked(body, body.wear.rate(local), box.shape, moment)
+        with calling(body.wear, body.name):
+            answer = body.wear.rate(local)
+        rate = _checked(named(body.wear, body.name), body.wear, answer, box.shape, moment)
         if not box.is_window:
             rate = WearRate(box.embed(rate.depth), box.embed(rate.derivative))
         rates[body.name] = rate
@@ -92,80 +104,51 @@ def _effect_fields(model: Model, pressure: Array, moment: Moment) -> dict[str, d
         uniform = readonly(np.full(shape, model.friction_coefficient))
         fields[FRICTION_COEFFICIENT.name] = {body.name: uniform for body in model.bodies}
     for effect in model.effects:
-        answer = effect.fields(
-            ContactConditions(
-                grid=model.grid,
-                pressure=pressure,
-                speed=moment.speed,
-                time=moment.time,
-                distance=moment.distance,
-                friction_coefficient=model.friction_coefficient,
-                materials={body.name: body.material for body in model.bodies},
-                swept=frozenset(b.name for b in model.bodies if model.is_swept(b.name)),
-                fields=fields,
-            )
+        conditions = ContactConditions(
+            grid=model.grid,
+            pressure=pressure,
+            speed=moment.speed,
+            time=moment.time,
+            distance=moment.distance,
+            friction_coefficient=model.friction_coefficient,
+            materials={body.name: body.material for body in model.bodies},
+            swept=frozenset(b.name for b in model.bodies if model.is_swept(b.name)),
+            fields={name: dict(of_bodies) for name, of_bodies in fields.items()},
         )
+        with calling(effect):
+            answer = effect.fields(conditions)
+        who = named(effect)
         if not isinstance(answer, Mapping):
-            kind = type(answer).__name__
-            raise NumericalError(f"effect {effect.type_name()!r} gave a {kind}, not its fields")
+            raise PluginError(f"{who} gave a {type(answer).__name__}, not its fields")
         for field in effect.provides:
             fields[field.name] = {}
             for body in model.bodies:
                 of_bodies = answer.get(field.name, {})
                 values = of_bodies.get(body.name) if isinstance(of_bodies, Mapping) else None
-                who = f"effect {effect.type_name()!r}"
                 what = f"{field.name!r} for body {body.name!r}"
                 if values is None:
-                    raise NumericalError(f"{who} gave no {what}")
-                array, _ = _finite(who, what, values, shape, moment)
+                    raise PluginError(f"{who} gave no {what}")
+                array, _, _ = spread(who, what, values, shape, moment.words)
                 fields[field.name][body.name] = readonly(array)
     return fields
 
 
-def _checked(body: Body, rate: WearRate, shape: tuple[int, int], moment: Moment) -> WearRate:
-    assert body.wear is not None
-    who = f"wear law {body.wear.type_name()!r} of body {body.name!r}"
+def _checked(who: str, law: Law, rate: object, shape: tuple[int, int], moment: Moment) -> WearRate:
     if not isinstance(rate, WearRate):
-        raise NumericalError(f"{who} gave a {type(rate).__name__} instead of a WearRate")
-    depth, least = _finite(who, "a depth per metre", rate.depth, shape, moment)
-    slope, flattest = _finite(who, "a derivative", rate.derivative, shape, moment)
+        raise PluginError(f"{who} gave a {type(rate).__name__} instead of a WearRate")
+    when = moment.words
+    depth, least, _ = spread(who, "a depth per metre", rate.depth, shape, when)
+    slope, flattest, _ = spread(who, "a derivative", rate.derivative, shape, when)
     if least < 0:
-        raise NumericalError(
-            f"{who} gave a negative depth per metre ({least:.3g}) at "
-            f"{moment.distance:.6g} m; wear only removes"
+        raise PluginError(
+            f"{who} gave a negative depth per metre ({least:.3g}){when}; wear only removes"
         )
     if not isinstance(rate.state, Mapping):
-        raise NumericalError(f"{who} gave a {type(rate.state).__name__} as rates of its state")
+        raise PluginError(f"{who} gave a {type(rate.state).__name__} as rates of its state")
     state = {}
-    for field in body.wear.state_fields:
+    for field in law.state_fields:
         if field.name not in rate.state:
-            raise NumericalError(f"{who} gave no rate for its state field {field.name!r}")
+            raise PluginError(f"{who} gave no rate for its state field {field.name!r}")
         what = f"a rate of {field.name!r}"
-        state[field.name], _ = _finite(who, what, rate.state[field.name], shape, moment)
+        state[field.name], _, _ = spread(who, what, rate.state[field.name], shape, when)
     return WearRate(depth, np.maximum(slope, 0.0) if flattest < 0 else slope, state)
-
-
-def _finite(
-    who: str, what: str, values: object, shape: tuple[int, ...], moment: Moment
-) -> tuple[Array, float]:
-    """Return `values` as an array of finite floats, and the smallest of them."""
-    if isinstance(values, np.ndarray) and values.shape == shape and values.dtype == np.float64:
-        array = values
-    else:
-        try:
-            plain = np.asarray(values)
-            if plain.dtype.kind not in "fiub":
-                raise TypeError(f"its values are of the kind {plain.dtype}")
-            array = np.broadcast_to(plain.astype(np.float64), shape)
-        except (TypeError, ValueError) as error:
-            raise NumericalError(
-                f"{who} gave {what} that is not an array of shape {shape}: {error}"
-            ) from error
-    low, high = float(array.min()), float(array.max())
-    # Both are NaN if any value is.
-    if not -np.inf < low <= high < np.inf:
-        raise NumericalError(
-            f"{who} gave {what} that is not finite in {np.count_nonzero(~np.isfinite(array))} "
-            f"cells, at {moment.distance:.6g} m ({moment.time:.6g} s)"
-        )
-    return array, low

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping, Sequence
-from contextlib import ExitStack
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
@@ -20,13 +19,14 @@ from tribo.registry.registry import Registry, default_registry
 from tribo.results.checkpoint import read_checkpoint
 from tribo.results.provenance import changed_components, provenance
 from tribo.results.read import Result
-from tribo.simulation.blame import blaming
 from tribo.simulation.compose import compose
 from tribo.simulation.describe import describe
 from tribo.simulation.interrupt import InterruptGuard
 from tribo.simulation.march import begin, march
 from tribo.simulation.measure import measure
-from tribo.simulation.model import Model
+from tribo.simulation.model import Model, surface_height
+from tribo.simulation.motion import path_at
+from tribo.simulation.watching import Audience
 
 FAILED = "failed"
 
@@ -58,8 +58,7 @@ class Simulation:
         case: Case | Mapping[str, Any] | str | Path | Model,
         registry: Registry | None = None,
     ) -> None:
-        with blaming():
-            self.model, self._plugins = _model(case, registry)
+        self.model, self._plugins = _model(case, registry)
 
     def run(
         self,
@@ -96,8 +95,7 @@ class Simulation:
         """
         path = _checked_output(output, overwrite)
         recorder = Recorder(RecorderConfig(path=path, overwrite=overwrite))
-        with blaming():
-            state = begin(self.model)
+        state = begin(self.model)
         return self._follow(state, recorder, observers, resumed=False, wall_time=0.0)
 
     def resume(
@@ -157,23 +155,20 @@ class Simulation:
         resumed: bool,
         wall_time: float,
     ) -> Result:
-        observers = (recorder, *self.model.observers, *extra)
+        audience = Audience((recorder, *self.model.observers, *extra))
         snapshot = self._snapshot(state)
         info = self._info(snapshot if resumed else None, wall_time)
         reason = "failed"
-        started: list[Observer[ObserverConfig]] = []
         try:
-            with blaming(), InterruptGuard() as guard:
-                for observer in observers:
-                    observer.on_start(info)
-                    started.append(observer)
+            with InterruptGuard() as guard:
+                audience.start(info)
                 if not resumed:
                     _announce((), state.notices)
-                    _tell(observers, snapshot, save=True)
+                    audience.step(snapshot, save=True)
                 for accepted in march(self.model, state):
                     _announce(snapshot.state.notices, accepted.state.notices)
                     snapshot = self._snapshot(accepted.state)
-                    _tell(observers, snapshot, save=accepted.save)
+                    audience.step(snapshot, save=accepted.save)
                     if guard.requested and not accepted.last:
                         raise KeyboardInterrupt
             reason = "done"
@@ -189,10 +184,7 @@ class Simulation:
                 + (f"; go on with: tribo resume {where}" if where else "")
             ) from error
         finally:
-            # The recorder comes last, so that nothing another one raises costs a result.
-            with blaming(), ExitStack() as finishing:
-                for observer in started:
-                    finishing.callback(observer.on_finish, snapshot, reason)
+            audience.finish(snapshot, reason)
         return recorder.result()
 
     def _snapshot(self, state: State) -> Snapshot:
@@ -210,13 +202,13 @@ class Simulation:
                     name=body.name,
                     swept=model.is_swept(body.name),
                     density=body.material.density,
-                    height=body.surface.height(model.grid),
+                    height=surface_height(body, model.grid),
                     state_fields=() if body.wear is None else tuple(body.wear.state_fields),
                 )
                 for body in model.bodies
             ),
             end_time=model.end_time,
-            end_distance=model.kinematics.distance(model.end_time),
+            end_distance=path_at(model.kinematics, model.end_time),
             case=describe(model),
             provenance=self._provenance(),
             resumed_from=resumed_from,
@@ -241,13 +233,6 @@ def _model(
 def _with_notice(snapshot: Snapshot, text: str) -> Snapshot:
     state = replace(snapshot.state, notices=(*snapshot.state.notices, text))
     return replace(snapshot, state=state)
-
-
-def _tell(observers: Sequence[Observer[ObserverConfig]], snapshot: Snapshot, *, save: bool) -> None:
-    for observer in observers:
-        observer.on_step(snapshot)
-        if save:
-            observer.on_save(snapshot)
 
 
 def _announce(before: Sequence[str], after: Sequence[str]) -> None:

@@ -8,19 +8,19 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from tribo.config.stepping import ImplicitConfig
-from tribo.core.arrays import Array, readonly
+from tribo.core.arrays import Array
 from tribo.core.contact import ContactProblem, ContactSolution, WearCompliance
-from tribo.core.errors import CaseError, NumericalError
+from tribo.core.errors import CaseError, NumericalError, PluginError
 from tribo.core.fields import WearRate
 from tribo.core.measures import reaches_border
 from tribo.core.state import BodyState, State
 from tribo.simulation.model import Model
 from tribo.simulation.rates import LawStates, Moment, law_states, wear_rates
+from tribo.simulation.solving import smallest_compliance, solve
 
 # Each pass is one warm solve; a groove in a much softer body takes over a thousand.
 SETTLE_PASSES = 5000
 SETTLED = 1e-6
-LOAD_BALANCE = 1e-6
 
 
 class StepRejected(NumericalError):
@@ -154,6 +154,8 @@ def implicit_step(
         remainder = depth - compliance.depth(solution.pressure, dx)
         try:
             solution = _solve(model, base + remainder, compliance, solution)
+        except PluginError:
+            raise
         except NumericalError as error:
             raise StepRejected(str(error)) from error
         implied = remainder + compliance.depth(solution.pressure, dx)
@@ -196,7 +198,7 @@ def largest_stable_increment(model: Model, state: State, moment: Moment) -> floa
     in contact) over the smallest compliance. None where the contact solver
     does not state its smallest compliance; infinity where nothing wears.
     """
-    smallest = model.contact.smallest_compliance(model.system)
+    smallest = smallest_compliance(model.contact, model.system)
     if smallest is None:
         return None
     pressure = state.contact.pressure
@@ -223,31 +225,7 @@ def _moment(state: State, increment: float, time: float) -> Moment:
 def _solve(
     model: Model, gap: Array, wear: WearCompliance | None, start: ContactSolution | None
 ) -> ContactSolution:
-    problem = ContactProblem(model.system, readonly(gap), model.load, wear)
-    solution = model.contact.solve(problem, start)
-    _check_solution(model, solution)
-    return solution
-
-
-def _check_solution(model: Model, solution: ContactSolution) -> None:
-    """Raise `NumericalError` if a solver's answer cannot be one."""
-    who = f"contact solver {model.contact.type_name()!r}"
-    if not isinstance(solution, ContactSolution):
-        kind = type(solution).__name__
-        raise NumericalError(f"{who} gave a {kind} instead of a ContactSolution")
-    for what, field in (("pressure", solution.pressure), ("overlap", solution.overlap)):
-        if not isinstance(field, np.ndarray) or field.shape != model.grid.cells:
-            raise NumericalError(
-                f"{who} gave a {what} of shape {np.shape(field)}, not {model.grid.cells}"
-            )
-        # NaN if any value is.
-        if not field.min() >= 0:
-            raise NumericalError(f"{who} gave a {what} that is negative or not finite")
-    carried = float(solution.pressure.sum()) * model.grid.cell_area
-    if not abs(carried - model.load) <= LOAD_BALANCE * model.load:
-        raise NumericalError(
-            f"{who} gave a pressure that carries {carried:.9g} N instead of {model.load:.9g} N"
-        )
+    return solve(model.contact, ContactProblem(model.system, gap, model.load, wear), start)
 
 
 def _worn(model: Model, rates: Mapping[str, WearRate], increment: float) -> dict[str, Array]:

@@ -1,0 +1,95 @@
+"""Ask the kinematics, and hold what it answers to the contract."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from tribo.core.errors import PluginError
+from tribo.core.grid import Grid
+from tribo.interfaces.exposure import Exposure
+from tribo.interfaces.kinematics import Kinematics, KinematicsConfig
+from tribo.simulation.answers import number
+from tribo.simulation.calling import calling, named
+from tribo.simulation.exposed import CheckedExposure
+
+Motion = Kinematics[KinematicsConfig]
+
+SAMPLES = 8
+INVERSE = 1e-6
+
+
+def exposures(motion: Motion, grid: Grid, bodies: Sequence[str]) -> dict[str, Exposure]:
+    """Return how each body meets the contact; what the exposures answer is checked.
+
+    Raises
+    ------
+    PluginError
+        If there is not just one exposure for each body.
+    """
+    with calling(motion):
+        answer = motion.exposures(grid, bodies)
+        if not isinstance(answer, Mapping) or set(answer) != set(bodies):
+            given = list(answer) if isinstance(answer, Mapping) else f"a {type(answer).__name__}"
+            raise PluginError(
+                f"{named(motion)} gave exposures of {given}, but the bodies are {list(bodies)}"
+            )
+        for body, exposure in answer.items():
+            if not isinstance(exposure, Exposure):
+                kind = type(exposure).__name__
+                raise PluginError(f"{named(motion)} gave a {kind} as exposure of body {body!r}")
+        return {body: CheckedExposure(answer[body], motion, body, grid) for body in bodies}
+
+
+def end_time(motion: Motion, distance: float | None) -> float:
+    """Return when the motion ends, or reaches `distance` (m) if that is sooner, in s."""
+    with calling(motion):
+        duration = motion.duration
+    end = number(named(motion), "a duration", duration)
+    if distance is not None:
+        end = min(end, time_at(motion, distance))
+    if end <= 0:
+        raise PluginError(f"{named(motion)} ends at {end:g} s, before it begins")
+    return end
+
+
+def path_at(motion: Motion, time: float) -> float:
+    """Return the path slid from 0 to `time` (s), in m."""
+    with calling(motion):
+        answer = motion.distance(time)
+    return number(named(motion), f"a path at {time:g} s", answer)
+
+
+def time_at(motion: Motion, distance: float) -> float:
+    """Return the time at which the path reaches `distance` (m), in s."""
+    with calling(motion):
+        answer = motion.time(distance)
+    return number(named(motion), f"a time at {distance:g} m", answer)
+
+
+def averaging_limit(motion: Motion, grid: Grid, half_width_x: float) -> str | None:
+    """Return why the motion's averaging no longer holds, if so."""
+    with calling(motion):
+        answer = motion.limitation(grid, half_width_x)
+    if not isinstance(answer, str | None):
+        raise PluginError(f"{named(motion)} gave a {type(answer).__name__} as its limitation")
+    return answer
+
+
+def check_path(motion: Motion, end: float) -> None:
+    """Raise `PluginError` unless the path grows from 0 until `end` (s) and `time` is its inverse.
+
+    A few times are tried; a run checks the ones it comes to.
+    """
+    who = named(motion)
+    start, total = path_at(motion, 0.0), path_at(motion, end)
+    if start != 0 or not total > 0:
+        raise PluginError(f"{who} slides from {start:g} m to {total:g} m; it must slide on from 0")
+    for part in range(1, SAMPLES + 1):
+        distance = total * part / SAMPLES
+        time = time_at(motion, distance)
+        reached = path_at(motion, time)
+        if not (time >= 0 and abs(reached - distance) <= INVERSE * total):
+            raise PluginError(
+                f"{who} puts {distance:g} m at {time:g} s, but has slid {reached:g} m by then: its "
+                "time is not the inverse of its distance"
+            )
