@@ -1,0 +1,103 @@
+"""Components that fail before they do anything: in their configuration, or when they are made."""
+
+from typing import Annotated
+
+import pytest
+from pydantic import AfterValidator, ConfigDict, PrivateAttr, field_serializer, model_validator
+from zoo_keeper import Zoo, expect_harmless, expect_one_message
+
+from tribo.plugin import CaseError, Observer, ObserverConfig
+
+ZOO = Zoo()
+bad = ZOO.bad
+
+
+class Watcher(Observer[ObserverConfig]):
+    Config = ObserverConfig
+
+
+def helper(value):
+    raise LookupError(f"no {value}")
+
+
+@bad("could not read its keys: LookupError: no such", code=2)
+class ValidatorRaises(Watcher):
+    class Config(ObserverConfig):
+        key: Annotated[str, AfterValidator(helper)] = "such"
+        model_config = ConfigDict(validate_default=True)
+
+
+def validated(error):
+    """Return a configuration whose validator raises `error`."""
+
+    class Config(ObserverConfig):
+        @model_validator(mode="after")
+        def _check(self):
+            raise error
+
+    return Config
+
+
+@bad("could not read its keys: ZeroDivisionError: by 0", code=2)
+class ValidatorDivides(Watcher):
+    Config = validated(ZeroDivisionError("by 0"))
+
+
+@bad("could not read its keys: SystemExit: 0", code=2)
+class ValidatorLeaves(Watcher):
+    Config = validated(SystemExit(0))
+
+
+@bad("refused its keys without saying why", code=2)
+class ValidatorSaysNothing(Watcher):
+    Config = validated(ValueError())
+
+
+@bad("refused its keys without saying why", code=2)
+class ValidatorAsserts(Watcher):
+    Config = validated(AssertionError())
+
+
+@bad("pressure and speed exclude each other", code=2)
+class ValidatorRefuses(Watcher):
+    Config = validated(CaseError("pressure and speed exclude each other"))
+
+
+@bad("could not read its keys: RuntimeError: no license", code=2)
+class InitialisationRaises(Watcher):
+    class Config(ObserverConfig):
+        _license: object = PrivateAttr(default_factory=lambda: None)
+
+        def model_post_init(self, context):
+            raise RuntimeError("no license")
+
+
+@bad("raised OSError: no device")
+class CannotBeMade(Watcher):
+    def __init__(self, config):
+        raise OSError("no device")
+
+
+@bad("raised AttributeError")
+class KeepsNoConfiguration(Watcher):
+    def __init__(self, config):
+        pass
+
+
+@bad("Error calling function")
+class CannotBeWritten(Watcher):
+    class Config(ObserverConfig):
+        key: str = "value"
+
+        @field_serializer("key")
+        def _write(self, key):
+            raise LookupError(key)
+
+
+@pytest.mark.parametrize("cls", ZOO.kept, ids=lambda cls: cls.__name__)
+def test_it_ends_with_one_message(run, cls):
+    expect_one_message(run(ZOO, cls), cls)
+
+
+def test_none_harms_a_case_that_names_another(run):
+    expect_harmless(run(ZOO))
