@@ -47,7 +47,7 @@ def made(
             end_time=3600.0,
             end_distance=360.0,
             case={"bodies": {name: {} for name in names}},
-            provenance=provenance([]),
+            provenance=provenance({}),
         )
     )
     for time in times:

@@ -12,7 +12,7 @@ from tribo import Body, CaseError, Simulation
 from tribo.cli.report import print_provenance
 from tribo.core.errors import PluginError
 from tribo.interfaces.component import Component
-from tribo.results.provenance import changed_components, provenance, stated_facts
+from tribo.results.provenance import changed_components, origin, provenance, stated_facts
 from tribo.surfaces.sphere import Sphere, SphereConfig
 
 
@@ -35,7 +35,7 @@ def model():
 
 
 def made(**changes):
-    before = provenance([("contact", archard())])
+    before = provenance({"contact": origin(archard())})
     before["components"]["contact"].update(changes)
     return before
 
@@ -98,7 +98,7 @@ def test_a_component_more_or_less_is_a_change():
 
 
 def test_all_of_it_is_plain_data():
-    data = provenance([("ball", stated())])
+    data = provenance({"ball": origin(stated())})
     assert json.loads(json.dumps(data)) == data
 
 

@@ -4,7 +4,7 @@ from typing import Annotated
 
 import pytest
 from pydantic import AfterValidator, ConfigDict, PrivateAttr, field_serializer, model_validator
-from zoo_keeper import Zoo, expect_harmless, expect_one_message
+from zoo_keeper import Zoo, case_of, expect_harmless, expect_one_message
 
 from tribo.plugin import CaseError, Observer, ObserverConfig
 
@@ -94,9 +94,31 @@ class CannotBeWritten(Watcher):
             raise LookupError(key)
 
 
+@bad("raised ConnectionError: offline")
+class StatesNothing(Watcher):
+    def facts(self):
+        raise ConnectionError("offline")
+
+
+@bad("facts, not text by text")
+class StatesNumbers(Watcher):
+    def facts(self):
+        return {"size": 3}
+
+
 @pytest.mark.parametrize("cls", ZOO.kept, ids=lambda cls: cls.__name__)
 def test_it_ends_with_one_message(run, cls):
     expect_one_message(run(ZOO, cls), cls)
+
+
+# A check writes no result, and so asks no component for its configuration.
+CHECKED = [cls for cls in ZOO.kept if cls not in (KeepsNoConfiguration, CannotBeWritten)]
+
+
+@pytest.mark.parametrize("cls", CHECKED, ids=lambda cls: cls.__name__)
+def test_a_check_ends_with_it_too(tmp_path, command, cls):
+    (tmp_path / "case.toml").write_text(case_of(cls))
+    expect_one_message(command(ZOO, "check", "case.toml"), cls)
 
 
 def test_none_harms_a_case_that_names_another(run):

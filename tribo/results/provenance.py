@@ -22,15 +22,15 @@ PACKAGES = ("tribo", "numpy", "scipy", "h5py", "pydantic", "pluggy")
 
 
 def provenance(
-    components: Iterable[tuple[str, Component[ComponentConfig]]],
+    components: Mapping[str, Mapping[str, object]],
     plugins: Iterable[Mapping[str, object]] = (),
 ) -> dict[str, object]:
     """Return versions, and for each component where it came from and how it is configured.
 
     Parameters
     ----------
-    components : iterable of (str, Component)
-        Each with its place in the case.
+    components : Mapping[str, Mapping]
+        The `origin` of each, by its place in the case.
     plugins : iterable of Mapping
         Every plugin that was found, loaded or not, as plain data.
 
@@ -41,7 +41,7 @@ def provenance(
     """
     return {
         **environment(),
-        "components": {place: _origin(component) for place, component in components},
+        "components": {place: dict(made) for place, made in components.items()},
         "plugins": [dict(plugin) for plugin in plugins],
     }
 
@@ -111,10 +111,17 @@ def _words(origin: Mapping[str, Any], differing: Sequence[str]) -> str:
     return words
 
 
-def _origin(component: Component[ComponentConfig]) -> dict[str, object]:
+def origin(component: Component[ComponentConfig]) -> dict[str, object]:
+    """Return where a component came from and how it is configured, as plain data.
+
+    Raises
+    ------
+    PluginError
+        If the facts it states are not text by text.
+    """
     cls = type(component)
     distribution = _distribution(cls.__module__)
-    origin: dict[str, object] = {
+    made: dict[str, object] = {
         "type": cls.type_name(),
         "class": f"{cls.__module__}.{cls.__qualname__}",
         "distribution": "",
@@ -127,12 +134,12 @@ def _origin(component: Component[ComponentConfig]) -> dict[str, object]:
     }
     if distribution is not None:
         source = json.loads(distribution.read_text("direct_url.json") or "{}")
-        origin["distribution"] = distribution.name
-        origin["version"] = distribution.version
-        origin["editable"] = bool(source.get("dir_info", {}).get("editable"))
+        made["distribution"] = distribution.name
+        made["version"] = distribution.version
+        made["editable"] = bool(source.get("dir_info", {}).get("editable"))
         if "vcs_info" in source:
-            origin["commit"] = source["vcs_info"].get("commit_id", "")
-    return origin
+            made["commit"] = source["vcs_info"].get("commit_id", "")
+    return made
 
 
 @cache

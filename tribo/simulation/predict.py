@@ -13,6 +13,7 @@ from tribo.core.grid import Grid
 from tribo.core.measures import Measures
 from tribo.core.state import State
 from tribo.results.provenance import stated_facts
+from tribo.simulation.calling import calling
 from tribo.simulation.march import FEW_CELLS, MOST_STEPS, begin, march
 from tribo.simulation.measure import measure
 from tribo.simulation.model import Model, assemble
@@ -129,7 +130,10 @@ def predict(model: Model) -> Prediction:
     ]
     if coarse.failure is not None and not problems:
         problems.append(f"a trial run on a coarse grid failed: {coarse.failure}")
-    facts = {place: stated_facts(component) for place, component in model.components()}
+    facts = {}
+    for place, component in model.components():
+        with calling(component):
+            facts[place] = stated_facts(component)
     return Prediction(
         first=first,
         hertz=hertz,

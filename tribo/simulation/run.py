@@ -17,8 +17,9 @@ from tribo.observers.recorder import Recorder, RecorderConfig
 from tribo.registry.records import PluginRecord
 from tribo.registry.registry import Registry, default_registry
 from tribo.results.checkpoint import read_checkpoint
-from tribo.results.provenance import changed_components, provenance
+from tribo.results.provenance import changed_components, origin, provenance
 from tribo.results.read import Result
+from tribo.simulation.calling import calling
 from tribo.simulation.compose import compose
 from tribo.simulation.describe import describe
 from tribo.simulation.interrupt import InterruptGuard
@@ -191,7 +192,11 @@ class Simulation:
         return Snapshot(state, measure(self.model, state))
 
     def _provenance(self) -> dict[str, object]:
-        return provenance(self.model.components(), map(asdict, self._plugins))
+        components = {}
+        for place, component in self.model.components():
+            with calling(component):
+                components[place] = origin(component)
+        return provenance(components, map(asdict, self._plugins))
 
     def _info(self, resumed_from: Snapshot | None, wall_time: float) -> RunInfo:
         model = self.model
