@@ -29,7 +29,7 @@ cells = 32
 normal = 100
 [bodies.ball]
 surface = {surface}
-wear = {{ type = "archard", k = 3e-16 }}
+wear = {wear_law}
 [bodies.ball.material]
 young = "207 GPa"
 poisson = 0.3
@@ -49,6 +49,7 @@ SOUND = {
     "surface": '{ type = "sphere", radius = "5 mm" }',
     "ball": 'hardness = "2 GPa"',
     "disk": "",
+    "wear_law": '{ type = "archard", k = 3e-16 }',
     "more": "",
 }
 SLOTS = {"contact_solver": "contact"}

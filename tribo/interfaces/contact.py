@@ -47,7 +47,7 @@ class ContactSolver(Component[C_co]):
         Returns
         -------
         ContactSolution
-            A new solution that owns its arrays.
+            A new solution that owns its arrays; they become read-only.
 
         Raises
         ------

@@ -14,8 +14,8 @@ from tribo.core.grid import Grid
 class Exposure(ABC):
     """Maps rates in the contact frame on to a body's own surface.
 
-    Fields on a body's surface have the shape that `average` returns; it
-    broadcasts against (nx, ny).
+    Fields on a body's surface have shape (nx, ny) where its points stay in the
+    contact, and (1, ny) where they are swept through it.
     """
 
     swept: bool = False

@@ -13,7 +13,8 @@ class ObserverConfig(ComponentConfig):
 class Observer(Component[C_co]):
     """Watches a run through read-only views; it cannot change the answer.
 
-    An exception that an observer raises stops the run.
+    An exception that an observer raises stops the run; one raised in `on_finish`
+    is only warned of where the run did not come to its end.
     """
 
     def on_start(self, run: RunInfo) -> None:
