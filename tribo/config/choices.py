@@ -10,9 +10,9 @@ from typing import Literal
 from pydantic import BaseModel
 
 from tribo.core.errors import CaseError, TriboWarning
+from tribo.core.words import said
 from tribo.interfaces.component import ComponentConfig
 from tribo.registry.kinds import KINDS
-from tribo.registry.loader import said
 from tribo.registry.registry import Registry
 
 Mode = Literal["validation", "serialization"]

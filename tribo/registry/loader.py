@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from importlib import import_module, metadata
 
 from tribo.core.distributions import with_entry_points
+from tribo.core.words import said
 from tribo.registry.kinds import KINDS
 from tribo.registry.names import name_fault
 from tribo.registry.offers import offers
@@ -110,15 +111,6 @@ def load(source: Source) -> tuple[PluginRecord, tuple[ComponentRecord, ...]]:
         raise
     except BaseException as error:
         return replace(record, status="broken", reason=said(error)), ()
-
-
-def said(error: BaseException) -> str:
-    """Return what was raised, in a line."""
-    try:
-        text = " ".join(str(error).split())
-    except Exception:
-        text = "(its message cannot be shown)"
-    return f"{type(error).__name__}: {text}" if text else type(error).__name__
 
 
 def _sources(

@@ -13,9 +13,9 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from tribo.core.words import said
 from tribo.interfaces.component import Component, ComponentConfig
 from tribo.registry.kinds import KINDS, Kind
-from tribo.registry.loader import said
 from tribo.testing import (
     checks_contact_solver,
     checks_effect,
