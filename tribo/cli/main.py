@@ -18,6 +18,7 @@ COMMANDS = {
     "check": "Validate a case and predict what it will do.",
     "run": "Run a case.",
     "resume": "Go on with a run that was stopped.",
+    "compare": "Run variants of a case, or take results, side by side.",
     "show": "Print a result as a table or as JSON.",
     "plot": "Draw the pictures of a result.",
     "export": "Write profiles and history as CSV.",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -53,14 +53,18 @@ def save_figures(result: Result, folder: Path, suffix: str = "png") -> list[Path
     OutputError
         If they cannot be written.
     """
-    suffix = suffix.removeprefix(".")
-    known = FigureCanvasBase.get_supported_filetypes()
-    if suffix not in known:
-        raise CaseError(f"pictures cannot be written as {suffix!r}; use one of {', '.join(known)}")
+    return write_figures(_pictures(result), folder, suffix)
+
+
+def write_figures(
+    pictures: Mapping[str, Callable[[], Figure]], folder: Path, suffix: str = "png"
+) -> list[Path]:
+    """Draw pictures and write them to files of their names; see `save_figures`."""
+    suffix = _known(suffix)
     paths = []
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        for name, draw in _pictures(result).items():
+        for name, draw in pictures.items():
             path = folder / f"{name}.{suffix}"
             figure = draw()
             with house_style():
@@ -69,6 +73,14 @@ def save_figures(result: Result, folder: Path, suffix: str = "png") -> list[Path
     except OSError as error:
         raise OutputError(f"cannot write to {folder}: {error.strerror}") from error
     return paths
+
+
+def _known(suffix: str) -> str:
+    suffix = suffix.removeprefix(".")
+    known = FigureCanvasBase.get_supported_filetypes()
+    if suffix not in known:
+        raise CaseError(f"pictures cannot be written as {suffix!r}; use one of {', '.join(known)}")
+    return suffix
 
 
 def _pictures(result: Result) -> dict[str, Callable[[], Figure]]:

@@ -138,6 +138,16 @@ def save_strokes(count: int) -> list[Stroke]:
     return strokes[:count]
 
 
+def overlay_strokes(count: int) -> list[Stroke]:
+    """Return a stroke for each of several results; the first shows below one that coincides."""
+    return [Stroke("#a8a8a8", width=3.0), *save_strokes(count - 1)][:count]
+
+
+def difference_colours() -> Colormap:
+    """Return the map of differences: white is none, and both ends are dark."""
+    return matplotlib.colormaps["PuOr"]
+
+
 def legend_below(figure: Figure, lines: Sequence[Line2D], columns: int = 3) -> None:
     """Put a legend under the axes, where it hides nothing.
 

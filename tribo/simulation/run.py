@@ -130,7 +130,7 @@ class Simulation:
         with Result.open(path) as result:
             if result.status == "done":
                 raise CaseError(f"{path} is done; there is nothing to resume")
-            changes = changed_components(result.provenance, self._provenance())
+            changes = self.changed_since(result)
             case = result.case
         if changes and not allow_changed:
             listed = "; ".join(f"{place} was {old}, is {new}" for place, old, new in changes)
@@ -146,6 +146,13 @@ class Simulation:
         state = replace(state, notices=kept)
         recorder = Recorder(RecorderConfig(path=path))
         return self._follow(state, recorder, observers, resumed=True, wall_time=wall_time)
+
+    def changed_since(self, result: Result) -> list[tuple[str, str, str]]:
+        """Return the place of each component that is not the one a result was made with.
+
+        With it, in words, which it was and which it is now.
+        """
+        return changed_components(result.provenance, self._provenance())
 
     def _follow(
         self,

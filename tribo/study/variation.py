@@ -150,6 +150,21 @@ def variants(
     return found
 
 
+def short_labels(varied: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Return the values alone, equal ones once, where all settings are of the same paths.
+
+    Else whole labels.
+    """
+    whole = [_label(settings) for settings in varied]
+    if len({tuple(settings) for settings in varied}) > 1:
+        return whole
+    short = [
+        ", ".join(dict.fromkeys(_shown(value) for value in settings.values()))
+        for settings in varied
+    ]
+    return short if len(set(short)) == len(short) else whole
+
+
 def _values(path: str, text: str) -> tuple[Any, ...]:
     bracketed = text.startswith("[")
     try:

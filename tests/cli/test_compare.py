@@ -1,0 +1,93 @@
+"""`tribo compare`, as a user meets it."""
+
+import json
+
+import pytest
+from click.testing import CliRunner
+
+from tribo.cli.main import tribo
+from tribo.core.errors import CaseError
+from tribo.templates import template
+
+QUICK = ["--set", "grid.cells=24", "--set", "grid.size=0.7 mm", "--set", "kinematics.duration=60"]
+QUICK += ["--set", "output.save_times=[0, 20]"]
+CONTACTS = ["--vary", "contact.type=dcfft,winkler"]
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    path = tmp_path_factory.mktemp("compare")
+    (path / "my.toml").write_text(template("ball_on_disk"), encoding="utf-8")
+    return path
+
+
+def invoke(*args):
+    return CliRunner().invoke(tribo, ["compare", *map(str, args)], catch_exceptions=False)
+
+
+@pytest.fixture(scope="module")
+def compared(folder):
+    return invoke(folder / "my.toml", *CONTACTS, *QUICK)
+
+
+def row(text, label):
+    return next(line for line in text.splitlines() if label in line).split(label)[1].split()
+
+
+def test_the_table_has_a_column_a_variant(compared):
+    assert compared.exit_code == 0
+    text = compared.stdout
+    assert "Varied: contact.type" in text
+    assert row(text, "steps")[0].isdigit()
+    for words in ("time to solution, s", "at 0 s", "at 60 s", "ball depth, µm", "ball wear field"):
+        assert words in text
+    half_space, springs, *percent = row(text, "largest pressure, MPa")
+    assert float(springs) / float(half_space) == pytest.approx(4 / 3, rel=0.05)
+    assert percent == [f"+{100 * (float(springs) / float(half_space) - 1):.1f}", "%"]
+
+
+def test_results_and_pictures_stand_beside_the_case(folder, compared):
+    names = {path.name for path in (folder / "my-compare").iterdir()}
+    assert {"contact.type=dcfft.h5", "contact.type=winkler.h5", "pressure_60s.png"} <= names
+    assert "ball_60s.png" in compared.stdout
+    assert "1 of 2, contact.type=dcfft" in compared.stderr
+
+
+def test_json_is_one_object_and_files_compare_alike(folder, compared):
+    again = invoke(folder / "my.toml", *CONTACTS, *QUICK, "--json", "--no-plots")
+    assert "done already" in again.stderr
+    data = json.loads(again.stdout)
+    assert [save["time_s"] for save in data["saves"]] == [0, 20, 60]
+    assert data["pictures"] == []
+    files = [folder / "my-compare" / f"contact.type={name}.h5" for name in ("dcfft", "winkler")]
+    of_files = json.loads(invoke(*files, "--json", "--no-plots", "--at", "60").stdout)
+    (last,) = of_files["saves"]
+    assert list(last["results"].values()) == list(data["saves"][-1]["results"].values())
+
+
+@pytest.mark.parametrize(
+    ("files", "options", "message"),
+    [
+        (["my.toml"], [], "is a case; say what varies in it with --vary"),
+        (["my.toml", "b.h5"], CONTACTS, "--vary varies one case, 2 files are given"),
+        (["my.toml"], ["--vary", "contact.type=dcfft"], "1 variant; give 2 to 12"),
+        (["my.toml"], ["--vary", "contact.type="], "contact.type: no value is given"),
+        (["my.toml"], ["--vary", "loda.normal=1,2"], "unknown key 'loda'; did you mean 'load'?"),
+        (["a.h5", "b.h5"], ["--force"], "--set and --force are for a case that varies"),
+        (["a.h5", "b.h5"], [], "a.h5 is not a file"),
+    ],
+)
+def test_bad_input_is_told(folder, files, options, message):
+    with pytest.raises(CaseError) as caught:
+        invoke(
+            *(folder / name for name in files), *options, *(QUICK if "--vary" in options else [])
+        )
+    assert message in str(caught.value)
+    assert caught.value.exit_code == 2
+
+
+def test_many_results_go_below_each_other(folder):
+    loads = ["--vary", "load.normal=50,60,70,80,90"]
+    done = invoke(folder / "my.toml", *loads, *QUICK, "-o", folder / "loads", "--no-plots")
+    assert done.stdout.count("contact solves") == 2
+    assert max(map(len, done.stdout.splitlines())) <= 80

@@ -1,0 +1,100 @@
+"""Overlays show what each result holds, under its label."""
+
+import numpy as np
+import pytest
+from made_results import GRID, made
+
+from tribo.core.errors import CaseError
+from tribo.plotting.overlays import (
+    difference_map,
+    pressure_overlay,
+    profile_overlay,
+    save_overlays,
+)
+from tribo.results.export import profile
+
+
+@pytest.fixture(scope="module")
+def results():
+    return {"one": made(), "two": made(power=1.0), "three": made(shape=(1.2, 1.1))}
+
+
+def names(figure):
+    return [text.get_text() for text in figure.legends[0].get_texts()]
+
+
+def test_pressures_lie_over_each_other(results):
+    figure = pressure_overlay(results, 200.0)
+    assert names(figure) == ["one", "two", "three"]
+    for axis, axes in enumerate(figure.axes):
+        assert axes.get_xlabel().endswith("(mm)")
+        for line, result in zip(axes.lines, results.values(), strict=True):
+            x, p = line.get_xydata().T
+            np.testing.assert_allclose(x, 1e3 * (GRID.x, GRID.y)[axis])
+            np.testing.assert_allclose(p, 1e-6 * profile(result.pressure(1), axis))
+    assert figure.axes[0].get_ylabel() == "Pressure (MPa)"
+    assert figure.axes[0].get_title("left") == "t = 200 s"
+    assert figure.axes[0].get_ylim()[1] > 1e-6 * max(r.pressure(1).max() for r in results.values())
+
+
+@pytest.mark.parametrize(("body", "sections"), [("ball", 2), ("disk", 1)])
+def test_profiles_are_those_of_the_surfaces(results, body, sections):
+    figure = profile_overlay(results, body, 3600.0)
+    assert names(figure) == ["one", "two", "three"]
+    assert len(figure.axes) == sections
+    for axis, axes in zip((0, 1)[-sections:], figure.axes, strict=True):
+        for line, result in zip(axes.lines, results.values(), strict=True):
+            y = line.get_ydata()
+            np.testing.assert_allclose(y, 1e6 * profile(result.body(body).surface(-1), axis))
+        assert axes.get_title("right").startswith("height × ")
+    assert figure.axes[0].get_ylabel() == "Height (µm)"
+
+
+def test_lines_differ_without_colour_and_the_first_shows_below(results):
+    first, *others = pressure_overlay(results, 200.0).axes[0].lines
+    assert first.get_linewidth() > 2 * max(line.get_linewidth() for line in others)
+    looks = {(line.get_linestyle(), str(line._unscaled_dash_pattern)) for line in others}
+    assert len(looks) == len(others)
+
+
+def test_a_map_is_the_result_less_the_first(results):
+    figure = difference_map(results, "three", 3600.0)
+    images = [axes.images[0] for axes in figure.axes if axes.images]
+    pressure, wear = (np.asarray(image.get_array()).T for image in images)
+    one, three = results["one"], results["three"]
+    np.testing.assert_allclose(pressure, 1e-6 * (three.pressure(-1) - one.pressure(-1)))
+    depth = three.body("ball").wear_depth[-1] - one.body("ball").wear_depth[-1]
+    assert np.argmax(wear) == np.argmax(depth)
+    for image in images:
+        low, high = image.get_clim()
+        assert low == -high
+    assert figure.get_suptitle() == "three less one, t = 3600 s"
+    assert [axes.get_ylabel() for axes in figure.axes[2:]] == [
+        "Pressure (MPa)",
+        "Wear depth of ball (µm)",
+    ]
+
+
+def test_all_that_makes_sense_is_written(results, tmp_path):
+    written = save_overlays(results, [0.0, 3600.0], tmp_path, "svg")
+    assert {path.name for path in written} == {
+        "pressure_0s.svg",
+        "difference_2_0s.svg",
+        "difference_3_0s.svg",
+        "pressure_3600s.svg",
+        "ball_3600s.svg",
+        "disk_3600s.svg",
+        "difference_2_3600s.svg",
+        "difference_3_3600s.svg",
+    }
+    assert all(path.stat().st_size > 1000 for path in written)
+
+
+def test_results_that_agree_have_no_map_of_differences(tmp_path):
+    written = save_overlays({"one": made(), "same": made()}, [3600.0], tmp_path)
+    assert {path.stem for path in written} == {"pressure_3600s", "ball_3600s", "disk_3600s"}
+
+
+def test_a_time_without_a_save_is_refused(results):
+    with pytest.raises(CaseError, match="no save at 7 s"):
+        pressure_overlay(results, 7.0)

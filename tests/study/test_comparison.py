@@ -1,0 +1,256 @@
+"""Results side by side: what is the same differs by round-off, what is not by what was changed."""
+
+import json
+import tomllib
+import warnings
+
+import numpy as np
+import pytest
+
+from tribo import Registry, Result, Simulation, TriboWarning
+from tribo.core.errors import CaseError, NumericalError
+from tribo.study import Axis, Comparison, compare, compare_files, grid
+from tribo.study.differences import differences
+from tribo.study.runs import file_names
+from tribo.templates import template
+
+K, MU = 3.11e-16, 0.1
+SHORT = {
+    "grid": {"size": "0.9 mm", "cells": 24},
+    "output": {"save_times": [0, 100]},
+}
+
+
+def case(**changes):
+    data = tomllib.loads(template("ball_on_disk")) | SHORT | changes
+    data["kinematics"]["duration"] = 300
+    return data
+
+
+def both(law):
+    return {f"bodies.{name}.wear": law for name in ("ball", "disk")}
+
+
+@pytest.fixture(scope="module")
+def foundations():
+    return compare(case(), grid([Axis("contact.type", ("dcfft", "winkler"))]))
+
+
+def test_energy_wear_with_alpha_k_over_mu_is_archards_to_round_off():
+    data = case(friction={"coefficient": MU}, effects=["energy.friction_traction"])
+    laws = [
+        both({"type": "archard", "k": K}),
+        both({"type": "energy.dissipation", "alpha": K / MU}),
+    ]
+    with compare(data, laws, labels=["archard", "energy"]) as comparison:
+        archard, energy = comparison.results.values()
+        assert energy.case["bodies"]["ball"]["wear"]["type"] == "energy.dissipation"
+        assert comparison.times == [0, 100, 300]
+        for time in comparison.times:
+            for each in differences(energy, archard, time):
+                # α μ is k to the last bit; a hundred steps amplify it.
+                assert each.largest < 1e-12, each
+        # The same number can differ: a tenth more of α shows.
+        more = [laws[0], both({"type": "energy.dissipation", "alpha": 1.1 * K / MU})]
+    with compare(data, more) as comparison:
+        (worn,) = (
+            d
+            for d in differences(*reversed(comparison.results.values()), 300.0)
+            if d.field == "bodies.ball.wear_depth"
+        )
+        assert worn.largest == pytest.approx(0.05, abs=0.02)
+
+
+def test_the_first_contact_on_springs_has_four_thirds_of_the_peak(foundations):
+    half_space, springs = foundations.results
+    assert (half_space, springs) == ("dcfft", "winkler")
+    assert foundations.settings[springs] == {"contact.type": "winkler"}
+    peaks = [foundations.save(label, 0.0)["max_pressure_Pa"] for label in foundations.results]
+    # 24 cells on the window are eight across the contact.
+    assert peaks[1] / peaks[0] == pytest.approx(4 / 3, rel=0.03)
+
+
+def test_norms_are_those_of_the_fields(foundations):
+    half_space, springs = foundations.results.values()
+    (pressure,) = differences(springs, half_space, 0.0)
+    p, q = springs.pressure(0), half_space.pressure(0)
+    assert pressure.field == "pressure"
+    assert pressure.l2 == pytest.approx(np.linalg.norm(p - q) / np.linalg.norm(q))
+    assert pressure.largest == pytest.approx(np.max(np.abs(p - q)) / np.max(q))
+    # Once worn, depths are compared as well.
+    fields = [each.field for each in differences(springs, half_space, 300.0)]
+    assert fields == ["pressure", "bodies.ball.wear_depth", "bodies.disk.wear_depth"]
+
+
+def test_json_has_every_common_save_and_is_json(foundations):
+    data = json.loads(json.dumps(foundations.as_json(), allow_nan=False))
+    assert data["reference"] == "dcfft"
+    assert [each["label"] for each in data["results"]] == ["dcfft", "winkler"]
+    assert data["results"][1]["settings"] == {"contact.type": "winkler"}
+    assert data["results"][0]["totals"]["contact_solves"] > 10
+    assert [save["time_s"] for save in data["saves"]] == [0, 100, 300]
+    last = data["saves"][-1]
+    assert last["results"]["winkler"]["max_pressure_Pa"] > 0
+    assert last["differences"].keys() == {"winkler"}
+    assert last["differences"]["winkler"]["pressure"].keys() == {"l2", "largest"}
+
+
+def test_other_grids_are_compared_in_section_and_told():
+    with compare(case(), grid([Axis("grid.cells", (24, 48))])) as comparison:
+        (note,) = comparison.notes
+        assert note.startswith("48: not on the grid of 24, so that only scalars and sections")
+        coarse, fine = comparison.results.values()
+        worn = {each.field: each for each in differences(fine, coarse, 300.0)}
+        # Twice the cells change a smooth depth by the square of a cell over the scar: (37/270)².
+        assert worn["bodies.disk.wear_depth"].l2 < 0.02
+        assert 0 < worn["bodies.ball.wear_depth"].l2 < 0.05
+
+
+def test_only_common_saves_count():
+    settings = [{"output.save_times": [0, 50, 100]}, {"output.save_times": [0, 100, 150]}]
+    with compare(case(), settings) as comparison:
+        assert comparison.times == [0, 100, 300]
+        assert comparison.chosen_times() == [0, 300]
+        assert comparison.chosen_times([100]) == [100]
+        with pytest.raises(CaseError, match="has no save at 50 s; its saves are at"):
+            comparison.chosen_times([50])
+
+
+def test_what_is_done_is_not_done_again(tmp_path):
+    axes = [Axis("contact.type", ("dcfft", "winkler"))]
+    compare(case(), grid(axes), tmp_path).close()
+    written = {path.name: path.stat().st_mtime_ns for path in tmp_path.glob("*.h5")}
+    assert set(written) == {"contact.type=dcfft.h5", "contact.type=winkler.h5"}
+    told = []
+    more = grid([Axis("contact.type", ("dcfft", "winkler")), Axis("load.normal", (100,))])
+    compare(case(), grid(axes), tmp_path, tell=told.append).close()
+    assert all("done already" in line for line in told)
+    assert {path.name: path.stat().st_mtime_ns for path in tmp_path.glob("*.h5")} == written
+    # Another label is another file, and what it amounts to is the same case.
+    compare(case(), more, tmp_path).close()
+    assert len(list(tmp_path.glob("*.h5"))) == 4
+
+
+def test_a_folder_with_another_case_is_left_alone(tmp_path):
+    axes = [Axis("contact.type", ("dcfft", "winkler"))]
+    compare(case(), grid(axes), tmp_path).close()
+    with pytest.raises(CaseError, match="is the result of another case; choose another folder"):
+        compare(case(load={"normal": 120}), grid(axes), tmp_path)
+    with compare(case(load={"normal": 120}), grid(axes), tmp_path, overwrite=True) as comparison:
+        assert all(r.case["load"]["normal"] == 120 for r in comparison.results.values())
+
+
+def test_a_run_that_was_interrupted_goes_on(tmp_path):
+    from tribo import Interrupted
+    from tribo.interfaces.observer import Observer, ObserverConfig
+
+    class StopAt(Observer[ObserverConfig]):
+        def on_step(self, snapshot):
+            if snapshot.state.steps == 20:
+                raise KeyboardInterrupt
+
+    axes = [Axis("contact.type", ("dcfft", "winkler"))]
+    with pytest.raises(Interrupted, match=r"^contact\.type=dcfft: stopped at"):
+        compare(
+            case(),
+            grid(axes),
+            tmp_path,
+            observers=lambda: [StopAt(ObserverConfig(type="stop_at"))],
+        )
+    with compare(case(), grid(axes), tmp_path) as resumed, compare(case(), grid(axes)) as whole:
+        for a, b in zip(resumed.results.values(), whole.results.values(), strict=True):
+            assert np.array_equal(a.pressure(-1), b.pressure(-1))
+
+
+def test_a_run_that_fails_is_named():
+    data = case(stepping={"type": "explicit", "time_step": 0.25})
+    settings = grid([Axis("stepping.time_step", (0.25, 1e4))])
+    with pytest.raises((CaseError, NumericalError), match=r"^stepping\.time_step=10000\.0: "):
+        compare(data, settings)
+
+
+def test_variants_are_validated_before_any_runs(tmp_path):
+    with pytest.raises(CaseError, match="did you mean 'winkler'"):
+        compare(case(), grid([Axis("contact.type", ("dcfft", "winklr"))]), tmp_path / "new")
+    assert not (tmp_path / "new").exists()
+
+
+@pytest.mark.parametrize("count", [0, 1, 13])
+def test_there_must_be_something_to_compare_and_not_too_much(count):
+    settings = [{"load.normal": 10.0 + i} for i in range(count)]
+    with pytest.raises(CaseError, match=f"^{count} variants?; give 2 to 12"):
+        compare(case(), settings)
+
+
+def test_labels_must_be_different():
+    settings = grid([Axis("load.normal", (50, 100))])
+    with pytest.raises(CaseError, match="2 variants need as many different labels"):
+        compare(case(), settings, labels=["a", "a"])
+
+
+def test_values_alone_are_the_labels_where_the_paths_are_the_same():
+    axes = [Axis("load.normal", ("120 N", 100)), Axis("contact.type", ("winkler",))]
+    with compare(case(), grid(axes)) as comparison:
+        assert list(comparison.results) == ["120 N, winkler", "100, winkler"]
+    with compare(case(), [{"load.normal": 120}, {"contact.type": "winkler"}]) as comparison:
+        assert list(comparison.results) == ["load.normal=120", "contact.type=winkler"]
+
+
+def test_files_are_compared_under_their_names(tmp_path):
+    (tmp_path / "other").mkdir()
+    names = ("a.h5", "b.h5", "other/a.h5")
+    for name, load in zip(names, (100, 120, 140), strict=True):
+        Simulation(case(load={"normal": load})).run(tmp_path / name).close()
+    with compare_files([tmp_path / "a.h5", tmp_path / "b.h5"]) as comparison:
+        assert list(comparison.results) == ["a", "b"]
+        assert comparison.settings == {}
+    with compare_files([tmp_path / name for name in names]) as comparison:
+        assert list(comparison.results) == [str(tmp_path / name) for name in names]
+    with pytest.raises(CaseError, match=r"a\.h5 is given twice"):
+        compare_files([tmp_path / "a.h5", tmp_path / "a.h5"])
+    with pytest.raises(CaseError, match="one result alone has nothing to be compared with"):
+        compare_files([tmp_path / "a.h5"])
+    with pytest.raises(CaseError, match="is not a file"):
+        compare_files([tmp_path / "a.h5", tmp_path / "none.h5"])
+
+
+def test_results_without_a_common_save_are_refused(tmp_path):
+    late = case()
+    Simulation(late).run(tmp_path / "a.h5").close()
+    with Result.open(tmp_path / "a.h5") as a:
+
+        class Later:
+            times = a.times + 1.0
+            body_names = a.body_names
+
+            def __repr__(self):
+                return "later"
+
+        with pytest.raises(CaseError, match="no time of a save in common: a <Result"):
+            Comparison({"a": a, "b": Later()})
+
+
+def test_notices_of_a_run_are_notes():
+    long = case(grid={"size": "1.3 mm", "cells": 24})
+    long["kinematics"] |= {"stroke": "0.6 mm"}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", TriboWarning)
+        with compare(long, grid([Axis("load.normal", (90, 100))])) as comparison:
+            assert any(note.startswith("90: averaging:") for note in comparison.notes)
+
+
+def test_file_names_are_safe_and_different():
+    names = file_names(["load.normal=50 N", "load.normal=50/N", "a" * 200, "a" * 201])
+    assert names[:2] == ["load.normal=50_N.h5", "load.normal=50_N~1.h5"]
+    assert len(set(names)) == 4
+    assert max(map(len, names)) < 120
+
+
+def test_a_registry_of_ones_own_takes_part():
+    from tribo.contact.winkler import Winkler
+
+    registry = Registry.with_plugins()
+    settings = grid([Axis("contact.type", ("winkler", "dcfft"))])
+    with compare(case(), settings, registry=registry) as comparison:
+        assert registry.lookup("contact_solver", "winkler") is Winkler
+        assert list(comparison.results) == ["winkler", "dcfft"]

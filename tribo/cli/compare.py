@@ -1,0 +1,105 @@
+"""`tribo compare`."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from tribo.core.errors import CaseError
+
+if TYPE_CHECKING:
+    from tribo.study.comparison import Comparison
+
+
+@click.command()
+@click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path))
+@click.option("--vary", multiple=True, metavar="PATH=A,B", help="Values that take turns.")
+@click.option("--set", "overrides", multiple=True, metavar="PATH=VALUE", help="Change a value.")
+@click.option("-o", "--output", type=click.Path(path_type=Path), help="Folder; CASE-compare.")
+@click.option("--at", "times", multiple=True, type=float, metavar="S", help="Save to show, in s.")
+@click.option("--force", is_flag=True, help="Run all anew.")
+@click.option("--json", "as_json", is_flag=True, help="One JSON object, in SI units.")
+@click.option("--no-plots", is_flag=True, help="Write no pictures.")
+def compare(
+    files: tuple[Path, ...],
+    vary: tuple[str, ...],
+    overrides: tuple[str, ...],
+    output: Path | None,
+    times: tuple[float, ...],
+    force: bool,
+    as_json: bool,
+    no_plots: bool,
+) -> None:
+    """Run variants of a case, or take result FILES, and set them side by side.
+
+    With --vary FILES is one case. Any of its values can vary: commas stand
+    between what takes turns, or it is a TOML list in brackets. Several --vary
+    multiply. X.type=A,B replaces the table X by the defaults of each type. What
+    is done already in the folder is not run again. The first variant or file is
+    what the others are compared with.
+
+    \b
+    Example:
+      tribo compare my.toml --vary contact.type=dcfft,winkler
+      tribo compare my.toml --vary load.normal='50 N,100 N' --vary grid.cells=64,128
+      tribo compare a.h5 b.h5 --at 0 --at 600
+    """
+    from tribo.cli.side_by_side import print_comparison
+
+    folder = output or files[0].with_name(files[0].stem + "-compare")
+    with _comparison(files, vary, overrides, folder, force) as comparison:
+        chosen = comparison.chosen_times(times)
+        if not as_json:
+            print_comparison(comparison, chosen)
+        pictures = [] if no_plots else _draw(comparison, chosen, folder)
+        if as_json:
+            data = comparison.as_json(times) | {"pictures": [str(path) for path in pictures]}
+            click.echo(json.dumps(data, indent=2, allow_nan=False))
+            return
+    for path in pictures:
+        click.echo(f"Wrote {path}")
+
+
+def _comparison(
+    files: tuple[Path, ...],
+    vary: tuple[str, ...],
+    overrides: tuple[str, ...],
+    folder: Path,
+    force: bool,
+) -> Comparison:
+    from tribo.study.comparison import compare as run
+    from tribo.study.comparison import compare_files
+
+    if vary:
+        from tribo.config.load import read_toml
+        from tribo.config.overrides import apply_overrides
+        from tribo.observers.progress import Progress
+        from tribo.study.variation import Axis, grid
+
+        if len(files) > 1:
+            raise CaseError(f"--vary varies one case, {len(files)} files are given")
+        return run(
+            apply_overrides(read_toml(files[0]), overrides),
+            grid([Axis.parse(text) for text in vary]),
+            folder,
+            observers=lambda: [Progress()],
+            tell=lambda text: click.echo(text, err=True),
+            overwrite=force,
+        )
+    cases = [path for path in files if path.suffix == ".toml"]
+    if cases:
+        raise CaseError(
+            f"{cases[0]} is a case; say what varies in it with --vary, or give result files"
+        )
+    if overrides or force:
+        raise CaseError("--set and --force are for a case that varies, with --vary")
+    return compare_files(files)
+
+
+def _draw(comparison: Comparison, times: list[float], folder: Path) -> list[Path]:
+    from tribo.plotting.overlays import save_overlays
+
+    return save_overlays(comparison.results, times, folder)

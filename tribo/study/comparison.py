@@ -1,0 +1,265 @@
+"""Results of variants of a case, or of any cases, side by side."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
+
+from tribo.config.load import read_toml
+from tribo.core.errors import CaseError
+from tribo.registry.registry import Registry
+from tribo.results.read import Result
+from tribo.study.differences import common_bodies, common_times, differences, same_grid
+from tribo.study.runs import Observers, run_variants
+from tribo.study.variation import short_labels, variants
+
+MOST = 12
+"""Most results that a table or a picture takes side by side."""
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Results side by side; the first is the one that the others are compared with.
+
+    Use it as a context manager, or `close` it.
+
+    Parameters
+    ----------
+    results : Mapping
+        The open results by their labels.
+    settings : Mapping
+        What sets each apart, by label: values by path; empty where not known.
+    """
+
+    results: Mapping[str, Result]
+    settings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if len(self.results) < 2:
+            raise CaseError("one result alone has nothing to be compared with; give two or more")
+        if len(self.results) > MOST:
+            raise CaseError(
+                f"{len(self.results)} results are too many to read side by side; compare at most "
+                f"{MOST}"
+            )
+        if not self.times:
+            raise CaseError(
+                "the results have no time of a save in common: "
+                + "; ".join(f"{label} {result!r}" for label, result in self.results.items())
+            )
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Close the results."""
+        for result in self.results.values():
+            result.close()
+
+    @property
+    def reference(self) -> str:
+        """The label of the first result."""
+        return next(iter(self.results))
+
+    @property
+    def times(self) -> list[float]:
+        """Times at which all results hold a save, in s."""
+        return common_times(list(self.results.values()))
+
+    @property
+    def bodies(self) -> list[str]:
+        """Names of the bodies that all results have."""
+        return common_bodies(list(self.results.values()))
+
+    @property
+    def notes(self) -> list[str]:
+        """What a reader must know of the comparison."""
+        first = self.results[self.reference]
+        notes = []
+        apart = [label for label, result in self.results.items() if not same_grid(result, first)]
+        if apart:
+            notes.append(
+                f"{', '.join(apart)}: not on the grid of {self.reference}, so that only scalars "
+                "and sections are compared, the latter interpolated"
+            )
+        notes += [
+            f"{label} is {result.status}, not done"
+            for label, result in self.results.items()
+            if result.status != "done"
+        ]
+        notes += [
+            f"{label}: {notice}"
+            for label, result in self.results.items()
+            for notice in result.notices
+        ]
+        return notes
+
+    def chosen_times(self, times: Sequence[float] = ()) -> list[float]:
+        """Return the times to show: those given, else the first and the last common one.
+
+        Raises
+        ------
+        CaseError
+            If a result has no save at one of them; the message lists the times.
+        """
+        for time in times:
+            for result in self.results.values():
+                result.save_at(time)
+        return list(times) or sorted({self.times[0], self.times[-1]})
+
+    def save(self, label: str, time: float) -> dict[str, Any]:
+        """Return the scalars of a result at a time, as `Result.saves` gives them."""
+        result = self.results[label]
+        return result.saves()[result.save_at(time)]
+
+    def as_json(self, times: Sequence[float] = ()) -> dict[str, Any]:
+        """Return the comparison as plain data, in SI units.
+
+        Parameters
+        ----------
+        times : sequence of float, optional
+            Which saves, in s; all common ones if left out.
+        """
+        first = self.results[self.reference]
+        return {
+            "reference": self.reference,
+            "notes": self.notes,
+            "results": [
+                {
+                    "label": label,
+                    "file": result.name,
+                    "settings": dict(self.settings.get(label, {})),
+                    "status": result.status,
+                    "totals": dict(result.totals()),
+                }
+                for label, result in self.results.items()
+            ],
+            "saves": [
+                {
+                    "time_s": time,
+                    "results": {label: self.save(label, time) for label in self.results},
+                    "differences": {
+                        label: {
+                            each.field: {"l2": each.l2, "largest": each.largest}
+                            for each in differences(result, first, time)
+                        }
+                        for label, result in self.results.items()
+                        if label != self.reference
+                    },
+                }
+                for time in times or self.times
+            ],
+        }
+
+
+def compare(
+    case: str | Path | Mapping[str, Any],
+    settings: Sequence[Mapping[str, Any]],
+    folder: str | Path | None = None,
+    *,
+    labels: Sequence[str] | None = None,
+    registry: Registry | None = None,
+    observers: Observers = list,
+    tell: Callable[[str], None] = lambda text: None,
+    overwrite: bool = False,
+) -> Comparison:
+    """Run variants of a case and set them side by side.
+
+    Parameters
+    ----------
+    case : str, Path or Mapping
+        A TOML file, or the tables of a case.
+    settings : sequence of Mapping
+        What sets each variant apart: values by path; `tribo.study.grid` makes
+        them from axes. The first variant is what the others are compared with.
+    folder : str or Path, optional
+        Where the result files go; what is done there already is taken from
+        there. In memory if left out.
+    labels : sequence of str, optional
+        What to call the variants; the values that differ if left out.
+    registry : Registry, optional
+        Where to look components up; the installed plugins if left out.
+    observers, tell, overwrite : optional
+        See `tribo.study.runs.run_variants`.
+
+    Returns
+    -------
+    Comparison
+        With the open results.
+
+    Raises
+    ------
+    CaseError
+        If a variant is not valid, before any is run.
+    TriboError
+        What a run raises; the message names the variant.
+
+    Examples
+    --------
+    >>> from tribo.study import Axis, compare, grid
+    >>> axes = [Axis("contact.type", ("winkler", "dcfft"))]
+    >>> compare("examples/ball_on_disk.toml", grid(axes))  # doctest: +SKIP
+    """
+    if not 2 <= len(settings) <= MOST:
+        raise CaseError(
+            f"{len(settings)} variant{'' if len(settings) == 1 else 's'}; give 2 to {MOST} to "
+            "compare"
+        )
+    data = case if isinstance(case, Mapping) else read_toml(case)
+    found = variants(data, settings, registry=registry)
+    names = list(labels or short_labels(settings))
+    if len(set(names)) != len(settings):
+        raise CaseError(f"{len(settings)} variants need as many different labels, not {names}")
+    results = run_variants(
+        found,
+        None if folder is None else Path(folder),
+        registry=registry,
+        observers=observers,
+        tell=tell,
+        overwrite=overwrite,
+    )
+    return Comparison(
+        dict(zip(names, results, strict=True)), dict(zip(names, settings, strict=True))
+    )
+
+
+def compare_files(paths: Sequence[str | Path]) -> Comparison:
+    """Set result files side by side.
+
+    Parameters
+    ----------
+    paths : sequence of str or Path
+        The files, named after their stems, or whole where stems are alike. The
+        first is what the others are compared with.
+
+    Raises
+    ------
+    CaseError
+        If one is not a result file, or they have no save in common.
+    """
+    files = [Path(path) for path in paths]
+    twice = [str(path) for path, count in Counter(files).items() if count > 1]
+    if twice:
+        raise CaseError(f"{twice[0]} is given twice")
+    stems = len({path.stem for path in files}) == len(files)
+    with ExitStack() as unless_kept:
+        results = {
+            path.stem if stems else str(path): unless_kept.enter_context(Result.open(path))
+            for path in files
+        }
+        comparison = Comparison(results)
+        unless_kept.pop_all()
+    return comparison

@@ -1,0 +1,119 @@
+"""Run variants into a folder; what is done already is not done again."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from tribo.core.errors import CaseError, OutputError, TriboError
+from tribo.interfaces.observer import Observer, ObserverConfig
+from tribo.registry.registry import Registry
+from tribo.results.read import Result
+from tribo.simulation.describe import describe
+from tribo.simulation.run import Simulation
+from tribo.study.variation import Variant
+
+Observers = Callable[[], Sequence[Observer[ObserverConfig]]]
+_LONGEST_NAME = 100
+
+
+def run_variants(
+    variants: Sequence[Variant],
+    folder: Path | None,
+    *,
+    registry: Registry | None = None,
+    observers: Observers = list,
+    tell: Callable[[str], None] = lambda text: None,
+    overwrite: bool = False,
+) -> list[Result]:
+    """Run variants one after another, each into a file of a folder.
+
+    A file there that is the finished result of the same case is taken as it
+    is, and a run that was interrupted goes on.
+
+    Parameters
+    ----------
+    variants : sequence of Variant
+        What to run.
+    folder : Path or None
+        Where to; it is made if need be. In memory if None.
+    registry : Registry, optional
+        Where to look components up; the installed plugins if left out.
+    observers : callable, optional
+        Makes the watchers of a run.
+    tell : callable, optional
+        Gets a line on each run before it starts.
+    overwrite : bool, optional
+        Whether to run all anew, whatever is in the folder.
+
+    Returns
+    -------
+    list of Result
+        The open results.
+
+    Raises
+    ------
+    CaseError
+        If the folder holds something else under the name of a variant.
+    OutputError
+        If the folder cannot be made.
+    TriboError
+        What a run raises; the message names the variant.
+    """
+    simulations = [Simulation(variant.case, registry) for variant in variants]
+    paths: list[Path | None] = [None] * len(variants)
+    if folder is not None:
+        _make(folder)
+        paths = [folder / name for name in file_names([variant.label for variant in variants])]
+    # All are looked at before the first one runs.
+    found = [
+        None if path is None or overwrite else _status(path, simulation)
+        for path, simulation in zip(paths, simulations, strict=True)
+    ]
+    results = []
+    for i, (variant, simulation) in enumerate(zip(variants, simulations, strict=True)):
+        path, number = paths[i], f"{i + 1} of {len(variants)}, {variant.label}"
+        if path is not None and found[i] == "done":
+            tell(f"{number}: done already, {path}")
+            results.append(Result.open(path))
+            continue
+        tell(number)
+        try:
+            if path is not None and found[i] == "interrupted":
+                results.append(simulation.resume(path, observers=observers()))
+            else:
+                results.append(simulation.run(path, observers=observers(), overwrite=True))
+        except TriboError as error:
+            raise type(error)(f"{variant.label}: {error}") from error
+    return results
+
+
+def file_names(labels: Sequence[str]) -> list[str]:
+    """Return a file name for each label, all different."""
+    names: list[str] = []
+    for label in labels:
+        stem = re.sub(r"[^\w.,=+×-]+", "_", label)[:_LONGEST_NAME]
+        number = sum(name == stem or name.startswith(f"{stem}~") for name in names)
+        names.append(f"{stem}~{number}" if number else stem)
+    return [f"{name}.h5" for name in names]
+
+
+def _status(path: Path, simulation: Simulation) -> str | None:
+    """Return the status of a result of the same case and components; None if there is none."""
+    if not path.exists():
+        return None
+    with Result.open(path) as result:
+        if result.case != describe(simulation.model):
+            raise CaseError(
+                f"{path} is the result of another case; choose another folder with -o, or run all "
+                "anew with --force"
+            )
+        return result.status if not simulation.changed_since(result) else None
+
+
+def _make(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"cannot make the folder {folder}: {error.strerror}") from error
