@@ -11,7 +11,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from tribo.analysis import lab
+from tribo.analysis import conversion
+from tribo.analysis.ball import ball_cap_depth, cap_diameter
 from tribo.testing.reference.ball_on_track import BallOnTrack, ball_on_track
 
 LOAD = 100.0  # N
@@ -161,14 +162,16 @@ def motion() -> Motion:
 def wear_coefficients() -> WearCoefficients:
     """Work out k from the weighed losses."""
     distance = motion().distance
-    ball = lab.volume_from_mass(BALL_LOSS, DENSITY)
-    disk = lab.volume_from_mass(DISK_LOSS, DENSITY)
+    ball = conversion.volume_from_mass(BALL_LOSS, DENSITY)
+    disk = conversion.volume_from_mass(DISK_LOSS, DENSITY)
     return WearCoefficients(
         volume=ball + disk,
-        from_distance=lab.specific_wear_rate(ball + disk, LOAD, distance),
-        from_multiplied_distance=lab.specific_wear_rate(ball + disk, LOAD, FACTOR * distance),
-        ball=lab.specific_wear_rate(ball, LOAD, distance),
-        disk=lab.specific_wear_rate(disk, LOAD, distance),
+        from_distance=conversion.specific_wear_rate(ball + disk, LOAD, distance),
+        from_multiplied_distance=conversion.specific_wear_rate(
+            ball + disk, LOAD, FACTOR * distance
+        ),
+        ball=conversion.specific_wear_rate(ball, LOAD, distance),
+        disk=conversion.specific_wear_rate(disk, LOAD, distance),
     )
 
 
@@ -214,8 +217,8 @@ def readings() -> tuple[Reading, Reading]:
 
 def flat_cap() -> Cap:
     """Take the ball's weighed loss for a flat cap."""
-    diameter = lab.cap_diameter(lab.volume_from_mass(BALL_LOSS, DENSITY), RADIUS)
-    return Cap(0.5 * diameter, lab.ball_cap_depth(diameter, RADIUS))
+    diameter = cap_diameter(conversion.volume_from_mass(BALL_LOSS, DENSITY), RADIUS)
+    return Cap(0.5 * diameter, ball_cap_depth(diameter, RADIUS))
 
 
 def weighed_split() -> WeighedSplit:
@@ -346,7 +349,7 @@ def _prediction_text() -> str:
 
 
 def _k(value: float) -> str:
-    return f"{value:.3e} 1/Pa = {lab.in_mm3_per_newton_metre(value):.3e} mm³/(N·m)"
+    return f"{value:.3e} 1/Pa = {conversion.in_mm3_per_newton_metre(value):.3e} mm³/(N·m)"
 
 
 def _table(title: str, rows: list[tuple[str, str]]) -> str:
