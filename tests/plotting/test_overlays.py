@@ -5,12 +5,8 @@ import pytest
 from made_results import GRID, made
 
 from tribo.core.errors import CaseError
-from tribo.plotting.overlays import (
-    difference_map,
-    pressure_overlay,
-    profile_overlay,
-    save_overlays,
-)
+from tribo.plotting.difference import difference_map
+from tribo.plotting.overlays import pressure_overlay, profile_overlay, save_overlays
 from tribo.results.export import profile
 
 

@@ -116,6 +116,16 @@ def test_only_common_saves_count():
             comparison.chosen_times([50])
 
 
+def test_a_run_that_goes_on_alone_is_told():
+    settings = [{"kinematics.duration": 300}, {"kinematics.duration": 400}]
+    with compare(case(), settings) as comparison:
+        assert comparison.times == [0, 100]
+        assert comparison.notes == [
+            "300 goes on to 300 s, beyond the last common save",
+            "400 goes on to 400 s, beyond the last common save",
+        ]
+
+
 def test_what_is_done_is_not_done_again(tmp_path):
     axes = [Axis("contact.type", ("dcfft", "winkler"))]
     compare(case(), grid(axes), tmp_path).close()

@@ -95,6 +95,12 @@ class Comparison:
                 f"{', '.join(apart)}: not on the grid of {self.reference}, so that only scalars "
                 "and sections are compared, the latter interpolated"
             )
+        last = self.times[-1]
+        notes += [
+            f"{label} goes on to {result.times[-1]:g} s, beyond the last common save"
+            for label, result in self.results.items()
+            if result.save_at(last) != len(result.times) - 1
+        ]
         notes += [
             f"{label} is {result.status}, not done"
             for label, result in self.results.items()

@@ -23,9 +23,9 @@ class Difference:
     field : str
         ``"pressure"``, or ``"bodies.NAME.wear_depth"``.
     l2 : float
-        √(Σ(f − f₀)²/Σf₀²).
+        √(Σ(f − f₀)²/Σf₀²), f₀ being the reference's.
     largest : float
-        max |f − f₀| over max |f₀|.
+        Largest magnitude of f − f₀ over that of f₀.
     """
 
     field: str
@@ -36,11 +36,11 @@ class Difference:
 def common_times(results: Sequence[Result]) -> list[float]:
     """Return the times, in s, at which all results hold a save."""
     first, *others = (result.times for result in results)
-    return [
-        float(time)
-        for time in first
-        if all(np.any(np.abs(times - time) <= SAME_TIME * times[-1]) for times in others)
-    ]
+    return [float(time) for time in first if all(_has(times, time) for times in others)]
+
+
+def _has(times: Array, time: float) -> bool:
+    return bool(np.any(np.abs(times - time) <= SAME_TIME * np.max(times, initial=0.0)))
 
 
 def common_bodies(results: Sequence[Result]) -> list[str]:
