@@ -145,14 +145,15 @@ def origin(component: Component[ComponentConfig]) -> dict[str, object]:
 @cache
 def _code(package: str) -> str:
     """Return a hash of the source files of a top-level package or module that is imported."""
-    module = sys.modules[package]
+    module = sys.modules.get(package)
     files = [
         path
         for folder in getattr(module, "__path__", ())
         for path in sorted(Path(folder).rglob("*.py"))
     ]
-    if not files and getattr(module, "__file__", None):
-        files = [Path(str(module.__file__))]
+    file = getattr(module, "__file__", None)
+    if not files and file:
+        files = [Path(file)]
     digest = sha256()
     for path in files:
         digest.update(path.read_bytes())
