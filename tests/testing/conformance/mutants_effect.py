@@ -4,6 +4,7 @@ import numpy as np
 from testing.conformance.caught import caught_by
 from testing.conformance.honest import Traction
 
+from tribo.core.errors import PluginError
 from tribo.plugin import Field
 
 
@@ -47,7 +48,7 @@ class HeatsTheContact(Traction):
         return super().fields(contact)
 
 
-@caught_by("runs_in_a_case", RuntimeError)
+@caught_by("runs_in_a_case", PluginError)
 class FailsLater(Traction):
     def fields(self, contact):
         if contact.distance < 0.99:

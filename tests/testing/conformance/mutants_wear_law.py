@@ -6,6 +6,7 @@ import numpy as np
 from testing.conformance.caught import caught_by
 from testing.conformance.honest import Law
 
+from tribo.core.errors import PluginError
 from tribo.plugin import Field
 
 
@@ -93,7 +94,7 @@ class StateInMillimetres(Law):
     state_fields = (Field("rubbed", "mm", "Distance slid under pressure."),)
 
 
-@caught_by("runs_under_implicit_stepping", RuntimeError)
+@caught_by("runs_under_implicit_stepping", PluginError)
 class FailsLaterOn(Law):
     def rate(self, local):
         if local.pressure.shape == (24, 20) and local.state["rubbed"].max() > 0:
