@@ -28,6 +28,7 @@ RANK = {
     "study": 8,
     "testing": 7,
     "templates": 7,
+    "verification": 7,
     "scaffold": 7,
     "cli": 9,
 }

@@ -1,0 +1,105 @@
+"""Flat punches that wear to uniform pressure: the rate of the slowest mode."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from tribo.contact.dcfft import DcFft
+from tribo.contact.periodic import Periodic
+from tribo.core.arrays import Array, Mask
+from tribo.core.grid import Grid
+from tribo.core.state import State
+from tribo.testing.reference.punch_wear import disc_rates, strip_rates
+from tribo.verification.check import Check, Found, Quantity
+from tribo.verification.contacts import square
+from tribo.verification.problems import (
+    MODULUS,
+    WEAR_COEFFICIENT,
+    Shape,
+    half_space,
+    on_flat,
+    periodic,
+    slide,
+)
+
+RADIUS = 0.3e-3
+RATE = "slowest rate, in kE*/a"
+# Short enough a step to tell the modes apart, and enough steps to be rid of the second.
+STEP, STEPS = 0.5, 16
+
+
+def _rate(
+    inside: Mask, grid: Grid, radius: float, contact: DcFft | Periodic, load: float, tilt: Array
+) -> float:
+    shape = Shape(lambda _: np.where(inside, tilt, -1e-3))
+    model = on_flat(shape, grid, contact, load=load)
+    unit = radius / (WEAR_COEFFICIENT * MODULUS)
+    before, after = (
+        _beside_mean(state, inside) for state in slide(model, STEPS * STEP * unit, STEPS)
+    )
+    if tilt.any():
+        before, after = (0.5 * (field - field[::-1]) for field in (before, after))
+    # A mode falls to 1/(1 + λ step) of itself; modes are orthogonal, so what is left of the
+    # second enters as its square.
+    factor = float(np.sum(after * after) / np.sum(before * after))
+    return (1 / factor - 1) / STEP
+
+
+def _beside_mean(state: State, inside: Mask) -> Array:
+    pressure = state.contact.pressure
+    return np.where(inside, pressure - np.mean(pressure[inside]), 0.0)
+
+
+def _disc(cells: int, placement: float) -> Found:
+    grid = square(2.4 * RADIUS, cells, placement)
+    x, y = grid.mesh
+    inside = np.hypot(x, y) < RADIUS
+    drawn = math.sqrt(np.count_nonzero(inside) * grid.cell_area / math.pi)
+    level = np.zeros(grid.cells)
+    return {RATE: (disc_rates()[0], _rate(inside, grid, drawn, half_space(1e-11), 100.0, level))}
+
+
+def _strip(cells: int, odd: bool) -> float:
+    # Images 400 half-widths away change the rate by less than a hundred-thousandth.
+    size = (400 * RADIUS, 4 * RADIUS / cells)
+    grid = Grid(size, (200 * cells, 2))
+    x, y = grid.mesh
+    inside = (np.abs(x) < RADIUS) & (np.abs(y) < size[1])
+    tilt = (1e-8 if odd else 0.0) * np.broadcast_to(x / RADIUS, grid.cells)
+    return _rate(inside, grid, RADIUS, periodic(1e-11), 1e6 * size[1], tilt)
+
+
+def _strips(cells: int, placement: float) -> Found:
+    return {
+        "even, " + RATE: (strip_rates()[0], _strip(cells, odd=False)),
+        "odd, " + RATE: (strip_rates(odd=True)[0], _strip(cells, odd=True)),
+    }
+
+
+# 2 - 1/ln(a/h), with 16 to 100 cells a radius.
+ORDER = 1.75
+NOTE = "h^2 ln(1/h), for the mode's slope is infinite at the edge"
+SOURCE = "Galin (1976); tribo.testing.reference.punch_wear"
+CHECKS = (
+    Check(
+        "flat round punch wears",
+        SOURCE,
+        _disc,
+        (Quantity(RATE, "1", 1e-3, ORDER, NOTE),),
+        levels=(61, 121, 241),
+        cost=1.5,
+    ),
+    Check(
+        "flat strip wears (periodic, 400 half-widths apart)",
+        SOURCE,
+        _strips,
+        (
+            Quantity("even, " + RATE, "1", 1e-3, ORDER, NOTE),
+            Quantity("odd, " + RATE, "1", 1e-3, ORDER, NOTE),
+        ),
+        levels=(32, 64, 128),
+        cost=2.0,
+    ),
+)
