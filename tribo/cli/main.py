@@ -24,6 +24,7 @@ COMMANDS = {
     "export": "Write profiles and history as CSV.",
     "schema": "Print the JSON Schema of a case.",
     "plugins": "List, show, check and begin plugins.",
+    "verify": "Compare with closed forms and other codes; find the errors of a case.",
     "doctor": "Test the installation and every plugin.",
 }
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
@@ -214,6 +215,21 @@ def assemble(
     _check_ends(model)
     _check_effects(model)
     return model
+
+
+def varied(model: Model, **changes: Any) -> Model:
+    """Return `model` with other values of what `assemble` takes, and no observers.
+
+    Raises
+    ------
+    CaseError
+        If the parts no longer fit together.
+    """
+    kept = (
+        "grid load bodies contact kinematics stepping friction_coefficient effects save_times stop "
+        "ends_at_window"
+    )
+    return assemble(**{**{name: getattr(model, name) for name in kept.split()}, **changes})
 
 
 @contextmanager

@@ -16,7 +16,7 @@ from tribo.results.provenance import stated_facts
 from tribo.simulation.calling import calling
 from tribo.simulation.march import FEW_CELLS, MOST_STEPS, begin, march
 from tribo.simulation.measure import measure
-from tribo.simulation.model import Model, assemble
+from tribo.simulation.model import Model, varied
 from tribo.simulation.motion import averaging_limit, path_at
 from tribo.simulation.rates import Moment
 from tribo.simulation.step import first_contact, largest_stable_increment, start_sliding
@@ -93,8 +93,7 @@ def predict(model: Model) -> Prediction:
     NumericalError
         If it cannot be solved.
     """
-    cells = model.grid.cells[0] * model.grid.cells[1]
-    memory = 8.0 * cells * (FIELDS_IN_MEMORY + 4 * PADDED_ARRAYS)
+    memory = memory_needed(model.grid)
     problems = []
     solved = model
     if memory > machine_memory():
@@ -146,6 +145,11 @@ def predict(model: Model) -> Prediction:
         facts={place: stated for place, stated in facts.items() if stated},
         problems=tuple(problems),
     )
+
+
+def memory_needed(grid: Grid) -> float:
+    """Return an upper estimate of the memory that a run on `grid` takes, in bytes."""
+    return 8.0 * grid.cells[0] * grid.cells[1] * (FIELDS_IN_MEMORY + 4 * PADDED_ARRAYS)
 
 
 def machine_memory() -> float:
@@ -252,16 +256,11 @@ def _coarsened(model: Model, margin: float) -> Model:
     largest = max(model.grid.size)
     nx, ny = (max(8, 2 * round(0.5 * COARSE * size / largest)) for size in model.grid.size)
     lx, ly = (margin * size for size in model.grid.size)
-    return assemble(
+    return varied(
+        model,
         grid=Grid((lx, ly), (nx, ny)),
-        load=model.load,
-        bodies=model.bodies,
-        contact=model.contact,
-        kinematics=model.kinematics,
         stepping=LOOSE if model.contact.accepts_wear_compliance else model.stepping,
-        friction_coefficient=model.friction_coefficient,
-        effects=model.effects,
-        stop=model.stop,
+        save_times=(),
         ends_at_window=True,
     )
 

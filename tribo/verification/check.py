@@ -9,6 +9,8 @@ from typing import Literal
 
 import numpy as np
 
+from tribo.core.errors import TriboError
+
 Verdict = Literal["holds", "fails", "not installed"]
 Found = Mapping[str, tuple[float, float]]
 
@@ -99,13 +101,18 @@ class Row:
 
 def run_check(check: Check) -> list[Row]:
     """Compute a check at all its levels and judge its quantities."""
-    missing = [name for name in check.needs if find_spec(name) is None]
-    if missing:
-        return [_absent(check, quantity) for quantity in check.quantities]
-    found = [
-        [check.measure(level, k / check.placements) for k in range(check.placements)]
-        for level in check.levels
-    ]
+    if any(find_spec(name) is None for name in check.needs):
+        return [_without_value(check, quantity, "not installed") for quantity in check.quantities]
+    try:
+        found = [
+            [check.measure(level, k / check.placements) for k in range(check.placements)]
+            for level in check.levels
+        ]
+    except Exception as error:
+        # Another code may have changed, or be broken; tribo itself fails in its own ways only.
+        if not check.needs and not isinstance(error, TriboError):
+            raise
+        return [_without_value(check, q, "fails", str(error)) for q in check.quantities]
     return [_judged(check, quantity, found) for quantity in check.quantities]
 
 
@@ -144,7 +151,7 @@ def _error(pairs: list[tuple[float, float]]) -> float:
     return float(np.sqrt(np.mean(np.square(relative))))
 
 
-def _absent(check: Check, quantity: Quantity) -> Row:
+def _without_value(check: Check, quantity: Quantity, verdict: Verdict, note: str = "") -> Row:
     return Row(
         case=check.case,
         quantity=quantity.name,
@@ -156,6 +163,6 @@ def _absent(check: Check, quantity: Quantity) -> Row:
         order=None,
         theory=quantity.order,
         source=check.source,
-        verdict="not installed",
-        note=quantity.note,
+        verdict=verdict,
+        note=note or quantity.note,
     )
