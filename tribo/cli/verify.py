@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from tribo.verification.refinement import Refinement
 
 NOTHING = "–"
-COLOURS = {"holds": "green", "fails": "red", "not installed": "yellow"}
+COLOURS = {"holds": "green", "fails": "red"}
 
 
 @click.command()
@@ -68,9 +68,10 @@ def _verify_installation(only: str | None, as_json: bool) -> None:
         found = {**environment(), "holds": not failed, "rows": [asdict(row) for row in rows]}
         click.echo(json.dumps(found, indent=2))
     else:
-        _show(_suite_table(rows))
+        _print_suite(rows)
         held = sum(row.verdict == "holds" for row in rows)
-        click.echo(f"{held} of {len(rows)} hold, {len(failed)} fail; the rest is not installed.")
+        absent = len(rows) - held - len(failed)
+        click.echo(f"{held} hold, {len(failed)} fail, {absent} need a code that is not installed.")
     if failed:
         raise NumericalError(
             "these fail: " + "; ".join(f"{row.case}: {row.quantity}" for row in failed)
@@ -88,13 +89,7 @@ def _verify_case(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
     if as_json:
         click.echo(json.dumps(asdict(study), indent=2))
         return
-    _show(_case_table(study))
-    click.echo(
-        f"{_levels(level.cells[0] for level in study.grids)} cells along x, "
-        f"{_levels(level.steps for level in study.steps)} steps. p: observed order. "
-        "GCI: grid convergence index of the finest level (Celik et al. 2008). "
-        "The uncertainty is that of grid and steps together."
-    )
+    _print_study(study)
 
 
 @contextmanager
@@ -116,70 +111,85 @@ def _progress(total: float) -> Iterator[Callable[[str, float], None]]:
         yield tell
 
 
-def _show(table: Table) -> None:
+def _print_suite(rows: Sequence[Row]) -> None:
+    from itertools import groupby
+
     from rich.console import Console
 
-    Console(highlight=False).print(table)
+    console = Console(highlight=False)
+    console.print(_suite_table([], header=True))
+    for (case, source), group in groupby(rows, lambda row: (row.case, row.source)):
+        console.print(f"[bold]{case}[/]  [dim]{source}[/]")
+        console.print(_suite_table(list(group), header=False))
 
 
-def _table(*columns: str, right: Sequence[str]) -> Table:
-    from rich import box
-    from rich.table import Table
-
-    table = Table(box=box.SIMPLE_HEAD)
-    for name in columns:
-        table.add_column(name, justify="right" if name in right else "left", overflow="fold")
-    return table
-
-
-def _suite_table(rows: Sequence[Row]) -> Table:
-    columns = ("case", "quantity", "expected", "got", "error", "order", "verdict", "source")
-    table = _table(*columns, right=columns[2:6])
-    previous = ""
+def _suite_table(rows: Sequence[Row], *, header: bool) -> Table:
+    table = _table(header=header, quantity=0, expected=10, got=10, error=7, order=11, verdict=6)
     for row in rows:
-        first = row.case != previous
-        if first and previous:
-            table.add_section()
-        previous = row.case
+        if row.verdict == "not installed":
+            table.add_row(f"  {row.quantity}", NOTHING, NOTHING, NOTHING, NOTHING, "[dim]absent[/]")
+            continue
         table.add_row(
-            row.case if first else "",
-            row.quantity,
-            _value(row.expected, row.unit),
-            _value(row.got, row.unit),
+            f"  {_named(row.quantity, row.unit)}",
+            NOTHING if row.expected is None else f"{row.expected:.5g}",
+            NOTHING if row.got is None else f"{row.got:.5g}",
             NOTHING if row.error is None else f"{row.error:.1e}",
             NOTHING if row.order is None else f"{row.order:.2f} ({row.theory:g})",
             f"[{COLOURS[row.verdict]}]{row.verdict}[/]",
-            row.source if first else row.note,
         )
+        if row.verdict == "fails" and row.note:
+            table.add_row(f"    [dim]{row.note}[/]")
     return table
 
 
-def _case_table(study: Refinement) -> Table:
-    columns = ("quantity", "value", "uncertainty", "%", "grid", "p", "GCI %", "steps", "p ")
-    table = _table(*columns, right=("value", "uncertainty", "%", "p", "GCI %", "p "))
+def _print_study(study: Refinement) -> None:
+    from rich.console import Console
+
+    widths = {"value": 10, "±": 7, "%": 5, "grid": 10, "GCI %": 5, "steps": 10}
+    table = _table(header=True, quantity=0, **widths)
     for estimate in study.estimates:
         share = 100 * estimate.uncertainty / abs(estimate.value) if estimate.value else 0.0
         table.add_row(
-            estimate.name,
-            _value(estimate.value, estimate.unit),
+            _named(estimate.name, estimate.unit),
+            f"{estimate.value:.5g}",
             f"{estimate.uncertainty:.1e}",
             f"{share:.2g}",
-            *_words(estimate.grid),
+            _order(estimate.grid),
             NOTHING if estimate.grid.gci is None else f"{100 * estimate.grid.gci:.2g}",
-            *_words(estimate.steps),
+            _order(estimate.steps),
         )
+    console = Console(highlight=False)
+    console.print(table)
+    console.print(
+        f"Grids of {_levels(level.cells[0] for level in study.grids)} cells along x, and "
+        f"{_levels(level.steps for level in study.steps)} steps; under each, the observed order. "
+        "±: the uncertainty to quote, of grid and steps together. GCI: grid convergence index of "
+        "the finest grid (Celik et al. 2008)."
+    )
+
+
+def _table(*, header: bool, **widths: int) -> Table:
+    """Return a table of which the first column takes what the others leave."""
+    from rich.table import Table
+
+    table = Table(
+        box=None, expand=True, show_header=header, padding=(0, 0, 0, 1), collapse_padding=True
+    )
+    for name, width in widths.items():
+        if width:
+            table.add_column(name, justify="right", no_wrap=True, width=width)
+        else:
+            table.add_column(name, ratio=1, overflow="fold")
     return table
 
 
-def _words(found: Convergence) -> tuple[str, str]:
-    return found.behaviour, NOTHING if found.order is None else f"{found.order:.2f}"
+def _order(found: Convergence) -> str:
+    return found.behaviour if found.order is None else f"{found.order:.2f}"
 
 
-def _value(value: float | None, unit: str) -> str:
-    if value is None:
-        return NOTHING
-    return f"{value:.5g}" if unit == "1" else f"{value:.5g} {unit}"
+def _named(name: str, unit: str) -> str:
+    return name if unit == "1" else f"{name}, {unit}"
 
 
-def _levels(values: Any) -> str:
+def _levels(values: Iterable[int]) -> str:
     return ", ".join(str(value) for value in values)

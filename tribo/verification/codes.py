@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from functools import partial
 from typing import ClassVar, Literal
@@ -89,9 +90,12 @@ def tamaas_periodic(gap: Array, grid: Grid, load: float) -> Array:
 
 def contact_mechanics(gap: Array, grid: Grid, load: float, *, repeats: bool = False) -> Array:
     """Return ContactMechanics' pressure, in free space or periodic."""
-    from ContactMechanics import FreeFFTElasticHalfSpace, PeriodicFFTElasticHalfSpace
-    from ContactMechanics.Factory import make_system
-    from SurfaceTopography import Topography
+    with warnings.catch_warnings():
+        # It says so where MPI is not installed.
+        warnings.simplefilter("ignore")
+        from ContactMechanics import FreeFFTElasticHalfSpace, PeriodicFFTElasticHalfSpace
+        from ContactMechanics.Factory import make_system
+        from SurfaceTopography import Topography
 
     substrate = PeriodicFFTElasticHalfSpace if repeats else FreeFFTElasticHalfSpace
     system = make_system(

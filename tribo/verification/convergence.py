@@ -18,7 +18,7 @@ from typing import Literal
 
 from scipy.optimize import brentq
 
-Behaviour = Literal["exact", "monotone", "oscillatory", "not converging"]
+Behaviour = Literal["exact", "converges", "oscillates", "diverges"]
 
 SAFETY = 1.25
 UNCONVERGED_SAFETY = 3.0
@@ -34,11 +34,11 @@ class Convergence:
     values : tuple of float
         From coarse to fine.
     behaviour : str
-        "exact" if the values agree to round-off; "monotone" if differences
-        shrink and keep their sign; "oscillatory" if they change it;
-        "not converging" if they grow.
+        "exact" if the values agree to round-off; "converges" if their
+        differences shrink and keep their sign; "oscillates" if those change
+        it; "diverges" if they do not shrink.
     order : float or None
-        Observed order; only of monotone convergence.
+        Observed order; only of what converges.
     limit : float or None
         Value extrapolated with it.
     gci : float or None
@@ -95,15 +95,15 @@ def convergence(
         return Convergence(three, "exact", None, None, 0.0, 0.0)
     rough, close = coarse - middle, middle - fine
     if rough * close < 0 or close == 0:
-        return Convergence(three, "oscillatory", None, None, None, spread)
+        return Convergence(three, "oscillates", None, None, None, spread)
     order = _observed_order(rough, close, sizes)
     if order is None:
-        return Convergence(three, "not converging", None, None, None, UNCONVERGED_SAFETY * spread)
+        return Convergence(three, "diverges", None, None, None, UNCONVERGED_SAFETY * spread)
     gain = (sizes[1] / sizes[2]) ** min(order, formal_order) - 1
     limit = fine - close / gain
     gci = SAFETY * abs(close) / gain / abs(fine) if fine != 0 else None
     uncertainty = SAFETY * abs(values[own] - limit)
-    return Convergence(three, "monotone", order, limit, gci, uncertainty)
+    return Convergence(three, "converges", order, limit, gci, uncertainty)
 
 
 def _observed_order(rough: float, close: float, sizes: Sequence[float]) -> float | None:

@@ -104,7 +104,9 @@ def refine(model: Model, started: Callable[[str], None] = lambda _: None) -> Ref
         try:
             return _run(model, cells, config)
         except (CaseError, NumericalError) as error:
-            raise NumericalError(f"of the five runs of the study, {what}: {error}") from error
+            if (cells, config) == (model.grid.cells, model.stepping):
+                raise
+            raise NumericalError(f"a run of the study, with {what}: {error}") from error
 
     base = run(model.grid.cells, model.stepping)
     grids = (run(cells[0], model.stepping), run(cells[1], model.stepping), base)

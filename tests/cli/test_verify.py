@@ -1,0 +1,100 @@
+"""`tribo verify`, as a user meets it."""
+
+import json
+
+import pytest
+from click.testing import CliRunner
+
+from tribo.cli.main import tribo
+from tribo.core.errors import CaseError, NumericalError
+from tribo.templates import template
+from tribo.verification import suite
+from tribo.verification.check import Check, Quantity
+
+SMALL = ["--set", "grid.cells=24", "--set", "grid.size=0.7 mm", "--set", "kinematics.duration=20"]
+SMALL += ["--set", "output.save_times=[]"]
+
+
+def invoke(*args):
+    return CliRunner().invoke(tribo, ["verify", *map(str, args)])
+
+
+@pytest.fixture
+def case(tmp_path):
+    path = tmp_path / "my.toml"
+    path.write_text(template("ball_on_disk"))
+    return path
+
+
+@pytest.fixture
+def failing(monkeypatch):
+    wrong = Quantity("depth", "m", 1e-3, note="none")
+    checks = (Check("made up", "nowhere", lambda n, _: {"depth": (1.0, 1.1)}, (wrong,), (8,)),)
+    monkeypatch.setattr(suite, "CHECKS", checks)
+
+
+def test_the_table_has_every_column_and_a_verdict():
+    done = invoke("--only", "full contact, one decay length")
+    assert done.exit_code == 0, done.output
+    for word in ("quantity", "expected", "got", "error", "order", "verdict"):
+        assert word in done.stdout
+    assert "tribo.testing.reference.sinusoid" in done.stdout
+    assert "0.99 (1)" in done.stdout
+    assert "4 hold, 0 fail, 0 need" in done.stdout
+    assert max(map(len, done.stdout.splitlines())) <= 80
+
+
+def test_json_has_the_environment_and_a_row_for_each_quantity():
+    data = json.loads(invoke("--only", "Westergaard", "--json").stdout)
+    assert {"python", "platform", "packages", "holds", "rows"} <= data.keys()
+    assert data["holds"] is True
+    assert len(data["rows"]) == 3
+    row = data["rows"][0]
+    assert (row["quantity"], row["unit"], row["theory"]) == ("peak pressure", "Pa", 2.0)
+    assert row["got"] == pytest.approx(row["expected"], rel=1e-4)
+    assert row["order"] == pytest.approx(2.0, abs=0.2)
+    assert "Westergaard (1939)" in row["source"]
+
+
+@pytest.mark.parametrize("form", [[], ["--json"]])
+def test_a_check_that_fails_is_named_and_the_exit_code_3(failing, form):
+    done = invoke(*form)
+    assert isinstance(done.exception, NumericalError)
+    assert done.exception.exit_code == 3
+    assert "made up: depth" in str(done.exception)
+    # The table is printed all the same.
+    assert "made up" in done.stdout
+    if form:
+        assert json.loads(done.stdout)["rows"][0]["verdict"] == "fails"
+
+
+def test_no_such_check_says_which_there_are():
+    done = invoke("--only", "nonsense")
+    assert isinstance(done.exception, CaseError)
+    assert "Hertz, circular" in str(done.exception)
+
+
+def test_a_case_gets_an_uncertainty_for_each_result(case):
+    done = invoke(case, *SMALL, "--json")
+    assert done.exit_code == 0, done.output
+    data = json.loads(done.stdout)
+    assert [level["cells"] for level in data["grids"]] == [[10, 10], [16, 16], [24, 24]]
+    names = [estimate["name"] for estimate in data["estimates"]]
+    assert names[:4] == [
+        "peak pressure",
+        "pressure at the centre",
+        "half-width along",
+        "half-width across",
+    ]
+    assert "ball: largest depth" in names
+    assert "disk: volume" in names
+    for estimate in data["estimates"]:
+        assert 0 <= estimate["uncertainty"] < estimate["value"]
+    shown = invoke(case, *SMALL).stdout
+    for word in ("quantity", "±", "GCI %", "10, 16, 24 cells along x", *names[:1]):
+        assert word in shown
+
+
+def test_options_that_do_not_go_together_are_refused(case):
+    assert invoke(case, "--only", "Hertz").exit_code == 2
+    assert invoke("--set", "grid.cells=8").exit_code == 2

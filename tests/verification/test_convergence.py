@@ -1,0 +1,63 @@
+"""Order, limit and uncertainty from three levels, against made and published numbers."""
+
+import pytest
+
+from tribo.verification.convergence import convergence
+
+
+def made(order, sizes, limit=2.0, scale=0.3):
+    return [limit + scale * h**order for h in sizes]
+
+
+@pytest.mark.parametrize("order", [0.7, 1.0, 1.9])
+@pytest.mark.parametrize("sizes", [(4, 2, 1), (2.25, 1.5, 1), (9 / 4, 128 / 86, 1)])
+def test_order_and_limit_of_a_power_are_found(order, sizes):
+    found = convergence(made(order, sizes), sizes, formal_order=2.0)
+    assert found.behaviour == "converges"
+    assert found.order == pytest.approx(order, rel=1e-8)
+    assert found.limit == pytest.approx(2.0, rel=1e-8)
+    assert found.uncertainty == pytest.approx(1.25 * 0.3, rel=1e-6)
+    assert found.gci == pytest.approx(found.uncertainty / found.values[-1], rel=1e-8)
+
+
+def test_the_example_of_celik_and_others():
+    # Table 1 of the paper, reattachment length on 18000, 8000 and 4500 cells:
+    # r21 = 1.5, r32 = 1.333, p = 1.53, limit 6.1685, GCI 2.2 %.
+    found = convergence([5.863, 5.972, 6.063], [2.0, 1.5, 1.0], formal_order=2.0)
+    assert found.order == pytest.approx(1.53, abs=0.005)
+    assert found.limit == pytest.approx(6.1685, abs=1e-3)
+    assert found.gci == pytest.approx(0.022, abs=5e-4)
+
+
+def test_the_uncertainty_of_a_coarser_level_is_its_own():
+    sizes = (2.25, 1.5, 1)
+    found = convergence(made(1.0, sizes), sizes, formal_order=1.0, own=0)
+    assert found.uncertainty == pytest.approx(1.25 * 0.3 * 2.25, rel=1e-6)
+
+
+def test_an_order_beyond_the_formal_one_is_not_used():
+    sizes = (4, 2, 1)
+    values = made(4.0, sizes)
+    found = convergence(values, sizes, formal_order=2.0)
+    assert found.order == pytest.approx(4.0)
+    assert found.uncertainty == pytest.approx(1.25 * (values[1] - values[2]) / 3)
+
+
+def test_equal_values_are_exact():
+    found = convergence([3.0, 3.0 + 1e-12, 3.0], (4, 2, 1), formal_order=1.0)
+    assert (found.behaviour, found.uncertainty) == ("exact", 0.0)
+    assert convergence([0.0, 0.0, 0.0], (4, 2, 1), formal_order=1.0).behaviour == "exact"
+
+
+@pytest.mark.parametrize("values", [(1.0, 1.2, 1.1), (1.0, 0.8, 0.9), (1.0, 1.2, 1.2)])
+def test_oscillation_has_no_order_and_its_range_as_uncertainty(values):
+    found = convergence(values, (4, 2, 1), formal_order=1.0)
+    assert (found.behaviour, found.order, found.gci) == ("oscillates", None, None)
+    assert found.uncertainty == pytest.approx(0.2)
+
+
+@pytest.mark.parametrize("values", [(1.0, 1.1, 1.3), (1.0, 1.0, 1.1), (1.0, 1.1, 1.2)])
+def test_differences_that_grow_are_no_convergence(values):
+    found = convergence(values, (4, 2, 1), formal_order=1.0)
+    assert (found.behaviour, found.order) == ("diverges", None)
+    assert found.uncertainty == pytest.approx(3 * (values[2] - values[0]))

@@ -1,0 +1,107 @@
+"""The errors that the study of a case states are those that a finer run shows."""
+
+import pytest
+from paper_models import archard, flat, foundation, motion, paraboloid, small, steel
+
+from tribo import Body, Grid
+from tribo.config.stepping import ExplicitConfig, ImplicitConfig
+from tribo.core.errors import CaseError, NumericalError
+from tribo.verification import refinement
+from tribo.verification.refinement import refine
+
+
+def worn(**changes):
+    parts = {
+        "grid": Grid((0.7e-3, 0.7e-3), (49, 49)),
+        "bodies": [Body("ball", paraboloid(), steel(), archard()), Body("disk", flat(), steel())],
+        "contact": foundation(),
+        "kinematics": motion(duration=200),
+    }
+    return small(**{**parts, **changes})
+
+
+def by_name(study):
+    return {estimate.name: estimate for estimate in study.estimates}
+
+
+@pytest.fixture(scope="module")
+def implicit():
+    return refine(worn())
+
+
+def test_levels_are_the_cases_own_and_two_coarser_of_the_same_parity(implicit):
+    assert [level.cells for level in implicit.grids] == [(21, 21), (33, 33), (49, 49)]
+    steps = [level.steps for level in implicit.steps]
+    assert steps[0] < steps[1] < steps[2]
+    assert implicit.grids[2] is implicit.steps[2]
+
+
+def test_stated_uncertainties_cover_a_much_finer_run(implicit):
+    stepping = ImplicitConfig(pressure_tolerance=0.005, depth_tolerance=1e-5, settle=1e-3)
+    fine = refinement._run(worn(), (245, 245), stepping)
+    exact = refinement._quantities(fine.end)
+    for name, estimate in by_name(implicit).items():
+        unit, value = exact[name]
+        assert estimate.unit == unit
+        assert abs(estimate.value - value) <= max(estimate.uncertainty, 1e-9 * value), name
+        assert estimate.uncertainty < 0.1 * value, name
+
+
+def test_the_volume_is_exact_and_a_counted_width_good_to_half_a_cell(implicit):
+    found = by_name(implicit)
+    assert found["ball: volume"].uncertainty == 0
+    width = found["half-width along"]
+    assert width.uncertainty >= width.floor == pytest.approx(0.5 * 0.7e-3 / 49)
+
+
+def test_explicit_steps_are_made_shorter_and_show_first_order():
+    study = refine(worn(stepping=ExplicitConfig(time_step=2.0)))
+    assert [level.steps for level in study.steps] == [100, 150, 225]
+    assert study.grids[2] is study.steps[0]
+    depth = by_name(study)["ball: largest depth"]
+    assert depth.steps.behaviour == "converges"
+    assert depth.steps.order == pytest.approx(1.0, abs=0.1)
+    # The uncertainty is that of the case's own steps, the longest.
+    coarse, _, fine = depth.steps.values
+    assert depth.steps.uncertainty > abs(coarse - fine)
+
+
+def test_a_body_that_does_not_wear_is_left_out(implicit):
+    assert not [name for name in by_name(implicit) if name.startswith("disk")]
+
+
+def test_five_runs_are_announced():
+    told = []
+    refine(worn(kinematics=motion(duration=2)), told.append)
+    assert len(told) == 5
+    assert told[0].startswith("49 × 49 cells")
+
+
+def test_a_grid_beyond_the_memory_is_refused_with_the_estimate(monkeypatch):
+    monkeypatch.setattr(refinement, "machine_memory", lambda: 1e6)
+    with pytest.raises(CaseError, match=r"grid\.cells: .* 0\.00129 GiB .* 0\.000931 GiB"):
+        refine(worn())
+
+
+def test_a_grid_too_coarse_to_be_coarsened_is_refused():
+    with pytest.raises(CaseError, match=r"grid\.cells: 16 × 49 leave no coarser grid"):
+        refine(worn(grid=Grid((0.7e-3, 0.7e-3), (16, 49))))
+
+
+def test_a_case_that_fails_by_itself_says_what_it_says_without_a_study():
+    outgrown = worn(grid=Grid((0.45e-3, 0.45e-3), (49, 49)))
+    with pytest.raises(NumericalError, match=r"^at .* reached the edge of the window"):
+        refine(outgrown)
+
+
+def test_a_run_of_the_study_that_fails_is_named(monkeypatch):
+    run = refinement._run
+
+    def failing(model, cells, config):
+        if cells != model.grid.cells:
+            raise CaseError("the first contact reaches the edge")
+        return run(model, cells, config)
+
+    monkeypatch.setattr(refinement, "_run", failing)
+    with pytest.raises(NumericalError, match=r"the study, with 21 × 21 cells.*: the first contact"):
+        refine(worn(kinematics=motion(duration=2)))
