@@ -124,7 +124,7 @@ def _print_suite(rows: Sequence[Row]) -> None:
 
 
 def _suite_table(rows: Sequence[Row], *, header: bool) -> Table:
-    table = _table(header=header, quantity=0, expected=10, got=10, error=7, order=11, verdict=6)
+    table = _table(header=header, quantity=0, expected=10, got=10, error=7, order=11, verdict=7)
     for row in rows:
         if row.verdict == "not installed":
             table.add_row(f"  {row.quantity}", NOTHING, NOTHING, NOTHING, NOTHING, "[dim]absent[/]")
@@ -172,9 +172,7 @@ def _table(*, header: bool, **widths: int) -> Table:
     """Return a table of which the first column takes what the others leave."""
     from rich.table import Table
 
-    table = Table(
-        box=None, expand=True, show_header=header, padding=(0, 0, 0, 1), collapse_padding=True
-    )
+    table = Table(box=None, expand=True, show_header=header, padding=(0, 0, 0, 1))
     for name, width in widths.items():
         if width:
             table.add_column(name, justify="right", no_wrap=True, width=width)
