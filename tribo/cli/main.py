@@ -22,6 +22,7 @@ COMMANDS = {
     "show": "Print a result as a table or as JSON.",
     "plot": "Draw the pictures of a result.",
     "export": "Write profiles and history as CSV.",
+    "calibrate": "Fit a case to measured wear.",
     "schema": "Print the JSON Schema of a case.",
     "plugins": "List, show, check and begin plugins.",
     "verify": "Compare with closed forms and other codes; find the errors of a case.",

@@ -1,0 +1,281 @@
+"""A calibration gives back what the data were made with, and says what they cannot tell."""
+
+import tomllib
+import warnings
+
+import numpy as np
+import pytest
+from scipy.stats import binom
+
+from tribo.config.load import validate_case
+from tribo.config.overrides import apply_settings
+from tribo.core.errors import NumericalError, TriboWarning
+from tribo.simulation.run import Simulation
+from tribo.study import calibrate_runs
+from tribo.study.calibrate import calibrate
+from tribo.study.calibrate_quantities import QUANTITIES, diameter
+from tribo.templates import template
+from tribo.testing.reference.ball_on_track import ball_on_track
+
+TRUE = {"bodies.ball.wear.k": 3.11e-16, "bodies.disk.wear.k": 1.5e-16}
+CHEAP = {
+    "grid": {"size": "1 mm", "cells": 24},
+    "contact": {"type": "winkler"},
+    "stepping": {"type": "implicit", "depth_tolerance": 1e-2, "pressure_tolerance": 0.3},
+    "kinematics.duration": 300,
+    "output": {},
+    **TRUE,
+}
+CASE = apply_settings(tomllib.loads(template("ball_on_disk")), CHEAP)
+LOAD, DISTANCE, DENSITY = 100.0, 30.0, 7850.0
+BALL, DISK = TRUE.values()
+SPLIT = apply_settings(
+    tomllib.loads(template("weighed_split")),
+    {"grid.cells": 24, "contact": {"type": "winkler"}, "output": {}},
+)
+
+
+def mass(k):
+    """What Archard's law takes off in the cheap case, in kg."""
+    return k * LOAD * DISTANCE * DENSITY
+
+
+def weighed(body, kilograms, part=0.05):
+    return {
+        "body": body,
+        "quantity": "mass",
+        "value": kilograms,
+        "uncertainty": part * abs(kilograms),
+    }
+
+
+def measured(body, quantity, value, part):
+    return {"body": body, "quantity": quantity, "value": value, "uncertainty": part * value}
+
+
+def fitting(*paths, **start):
+    return [{"path": path, **start} for path in paths]
+
+
+@pytest.fixture(scope="module")
+def true_run():
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", TriboWarning)
+        with Simulation(validate_case(CASE)).run() as result:
+            yield result
+
+
+def computed(result, body, quantity, save=-1):
+    return QUANTITIES[quantity].read(result, result.body(body), save)
+
+
+def test_masses_give_each_coefficient_in_four_runs():
+    runs = []
+    found = calibrate(
+        CASE,
+        {
+            "measured": [weighed("ball", mass(BALL)), weighed("disk", mass(DISK))],
+            "fit": [
+                {"path": "bodies.ball.wear.k", "start": 1.5 * BALL},
+                {"path": "bodies.disk.wear.k", "start": "2e-7 mm^3/(N m)"},
+            ],
+        },
+        on_run=lambda run, misfit: runs.append((run, misfit)),
+    )
+    assert found.settings == pytest.approx(TRUE, rel=1e-9)
+    assert found.runs == len(runs) == 4
+    assert [run for run, _ in runs] == [1, 2, 3, 4]
+    assert runs[-1][1] == pytest.approx(0, abs=1e-9)
+    for each in found.parameters:
+        # A volume is k F s, so that its uncertainty is that of k.
+        half = 1.959964 * 0.05 * each.value
+        assert (each.lower, each.upper) == pytest.approx((each.value - half, each.value + half))
+    assert abs(found.correlation[0, 1]) < 1e-6
+    assert found.singular_values == pytest.approx([20, 20])
+
+
+def test_without_fit_the_coefficients_of_what_was_measured_are_fitted():
+    found = calibrate(CASE, {"measured": [weighed("ball", mass(2 * BALL))]})
+    assert found.settings == pytest.approx({"bodies.ball.wear.k": 2 * BALL}, rel=1e-6)
+
+
+def test_the_experiment_gives_the_weighed_coefficients_and_the_crown():
+    """2.0 and 0.2 mg in 360 m at 100 N; the crown is that of the closed rigid limit, within it."""
+    data = {
+        "measured": [
+            {"body": "ball", "quantity": "mass", "value": "2.0 mg", "resolution": "0.1 mg"},
+            {
+                "body": "disk",
+                "quantity": "mass",
+                "before": "27.6445 g",
+                "after": "27.6443 g",
+                "resolution": "0.1 mg",
+            },
+        ],
+        "fit": fitting(*TRUE, start="3.11e-16 1/Pa"),
+    }
+    found = calibrate(SPLIT, data)
+    ball, disk = found.parameters
+    assert ball.value == pytest.approx(7.08e-15, rel=1e-3)
+    assert disk.value == pytest.approx(7.08e-16, rel=1e-3)
+    # Two readings, each off by up to half a step: 0.1 of 2 mg and of 0.2 mg at most.
+    assert ball.resolution_limit == pytest.approx(0.05)
+    assert disk.resolution_limit == pytest.approx(0.5)
+    assert (disk.lower, disk.upper) == pytest.approx(
+        disk.value * np.array([1 - 1.96 * 0.5 / 6**0.5, 1 + 1.96 * 0.5 / 6**0.5]), rel=1e-3
+    )
+    assert any("bodies.disk.wear.k: the balance's resolution dominates" in n for n in found.notes)
+    assert any("±50 % open" in note for note in found.notes)
+    (crown,) = (p for p in found.predictions if (p.body, p.quantity) == ("ball", "crown"))
+
+    def rigid(k_disk):
+        return ball_on_track(
+            [360.0],
+            load=100.0,
+            radius=5e-3,
+            track_length=2e-3,
+            ball_wear_coefficient=ball.value,
+            flat_wear_coefficient=k_disk,
+        ).flat_depth[0]
+
+    # The chord of the crown is drawn between cells of 0.125 mm.
+    assert crown.value == pytest.approx(rigid(disk.value), rel=0.1)
+    assert crown.lower / crown.value == pytest.approx(rigid(disk.lower) / rigid(disk.value), rel=0.1)
+    assert crown.upper / crown.value == pytest.approx(rigid(disk.upper) / rigid(disk.value), rel=0.1)
+
+
+def test_scar_widths_and_the_groove_give_both_coefficients(true_run):
+    data = [
+        measured("ball", "scar_along", computed(true_run, "ball", "scar_along"), 0.02),
+        measured("ball", "scar_across", computed(true_run, "ball", "scar_across"), 0.02),
+        measured("disk", "depth", computed(true_run, "disk", "depth"), 0.05),
+    ]
+    found = calibrate(CASE, {"measured": data, "fit": fitting(*TRUE, start=2.5e-16)})
+    for each in found.parameters:
+        assert each.value == pytest.approx(TRUE[each.path], rel=0.02)
+        assert each.lower < TRUE[each.path] < each.upper
+    assert found.degrees_of_freedom == 1
+    assert found.p_value > 0.5
+    assert found.runs <= 7
+
+
+def test_profiles_are_fitted_where_they_were_measured(true_run):
+    body, y = true_run.body("disk"), true_run.grid.y
+    at = np.linspace(-0.4e-3, 0.4e-3, 9)
+    depths = np.interp(at, y, body.wear_depth[-1, 0])
+    data = {
+        "body": "disk",
+        "quantity": "profile_across",
+        "position": at.tolist(),
+        "value": depths.tolist(),
+        "uncertainty": "0.02 um",
+    }
+    start = fitting("bodies.disk.wear.k", start=2.5e-16)
+    found = calibrate(CASE, {"measured": [data], "fit": start})
+    assert found.settings["bodies.disk.wear.k"] == pytest.approx(DISK, rel=0.01)
+    assert len(found.data) == 9
+    assert [each.position for each in found.data] == at.tolist()
+
+
+def test_other_numbers_of_the_case_can_be_fitted(true_run):
+    half = {"time": 100.0, **measured("ball", "volume", BALL * LOAD * 10, 0.02)}
+    depth = measured("ball", "depth", computed(true_run, "ball", "depth"), 0.02)
+    fit = [{"path": "load.normal", "start": "70 N", "lower": "10 N", "upper": "300 N"}]
+    found = calibrate(CASE, {"measured": [half, depth], "fit": fit})
+    assert found.settings == pytest.approx({"load.normal": 100.0}, rel=1e-3)
+    assert found.parameters[0].unit == "N"
+
+
+def test_two_parameters_that_do_the_same_are_named():
+    data = [weighed("ball", mass(BALL)), measured("ball", "volume", mass(BALL) / DENSITY, 0.05)]
+    fit = fitting("bodies.ball.wear.k", "load.normal")
+    found = calibrate(CASE, {"measured": data, "fit": fit})
+    assert [(each.lower, each.upper) for each in found.parameters] == [(0, np.inf)] * 2
+    assert abs(found.correlation[0, 1]) == pytest.approx(1)
+    (note,) = (n for n in found.notes if "apart" in n)
+    assert note.startswith(
+        "the data cannot tell bodies.ball.wear.k and load.normal apart: raising one and lowering "
+        "the other changes none of the computed values"
+    )
+    assert "load.normal: the data do not bound it from below or above" in found.notes
+    plain = found.as_json()
+    assert plain["parameters"][0]["upper"] is None
+
+
+def test_data_at_odds_with_the_model_are_told():
+    data = [weighed("ball", mass(BALL), 0.01), weighed("ball", 1.2 * mass(BALL), 0.01)]
+    found = calibrate(CASE, {"measured": data})
+    assert found.p_value < 1e-6
+    assert any(note.startswith("data and model disagree: χ² is") for note in found.notes)
+
+
+def test_widths_finer_than_the_grid_are_told(true_run):
+    data = [measured("ball", "scar_across", computed(true_run, "ball", "scar_across"), 0.005)]
+    found = calibrate(CASE, {"measured": data})
+    assert any("raise grid.cells" in note for note in found.notes)
+
+
+def test_a_failing_run_says_with_what():
+    data = [weighed("ball", mass(1000 * BALL))]
+    with pytest.raises(NumericalError) as caught:
+        calibrate(CASE, {"measured": data})
+    assert "with bodies.ball.wear.k = " in str(caught.value)
+    assert "reached the edge of the window" in str(caught.value)
+
+
+def test_intervals_cover_the_truth_at_their_level(monkeypatch):
+    """Of 25 draws of three noisy measurements."""
+    kept = {}
+
+    class Remembered(calibrate_runs.Runs):
+        """Every draw begins with the same runs."""
+
+        def __call__(self, values):
+            key = values.tobytes()
+            if key not in kept:
+                kept[key] = super().__call__(values)
+            return kept[key].copy()
+
+    monkeypatch.setattr("tribo.study.calibrate.Runs", Remembered)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", TriboWarning)
+        with Simulation(validate_case(CASE)).run() as result:
+            exact = np.array(
+                [
+                    computed(result, body, quantity)
+                    for body, quantity in (("ball", "mass"), ("ball", "scar_along"), ("disk", "depth"))
+                ]
+            )
+    parts = np.array([0.2, 0.05, 0.15])
+    draws, level, random = 25, 0.8, np.random.default_rng(5)
+    covered = np.zeros(2, dtype=int)
+    for _ in range(draws):
+        drawn = exact * (1 + parts * random.standard_normal(3))
+        data = [
+            {"body": body, "quantity": quantity, "value": value, "uncertainty": sigma}
+            for (body, quantity), value, sigma in zip(
+                (("ball", "mass"), ("ball", "scar_along"), ("disk", "depth")),
+                drawn,
+                parts * exact,
+                strict=True,
+            )
+        ]
+        found = calibrate(CASE, {"measured": data, "fit": fitting(*TRUE)}, level=level)
+        for i, each in enumerate(found.parameters):
+            covered[i] += each.lower <= TRUE[each.path] <= each.upper
+    low, high = binom.ppf([0.002, 0.998], draws, level)
+    assert np.all((covered >= low) & (covered <= high)), covered
+
+
+@pytest.mark.parametrize("offset", [0.0, 0.17, 0.4, 0.9])
+def test_a_diameter_is_read_to_a_tenth_of_a_cell(offset):
+    """Of a scar a²/2R deep that lies anywhere between the cells."""
+    cell, radius = 20e-6, 5e-3
+    x = (np.arange(40) - 19.5) * cell
+    half = 0.3e-3 + 0.5 * offset * cell
+    depth = np.maximum(half**2 - x[:, None] ** 2 - x[None, :] ** 2, 0) / (2 * radius)
+    assert diameter(depth, 0, cell) == pytest.approx(2 * half, abs=0.1 * cell)
+
+
+def test_an_unworn_scar_has_no_diameter():
+    assert diameter(np.zeros((8, 8)), 0, 1e-5) == 0

@@ -1,0 +1,150 @@
+"""The intervals cover the truth as often as they say, for a model that is a closed form."""
+
+import numpy as np
+import pytest
+from scipy.stats import binom, norm
+
+from tribo.core.errors import CaseError, NumericalError
+from tribo.study.calibrate_fit import Problem, fit, interval
+from tribo.testing.reference.ball_on_track import ball_on_track
+
+TRUE = np.array([7.08e-15, 7.08e-16])
+NAMES = ("ball", "disk")
+
+
+def worn(k):
+    """Scar along and across, depth of the ball and of the groove, volume of the ball."""
+    end = ball_on_track(
+        distance=[360.0],
+        load=100.0,
+        radius=5e-3,
+        track_length=2e-3,
+        ball_wear_coefficient=k[0],
+        flat_wear_coefficient=k[1],
+    )
+    return np.array(
+        [
+            2 * end.half_width_along[0],
+            2 * end.half_width_across[0],
+            end.ball_depth[0],
+            end.flat_depth[0],
+            end.ball_volume[0],
+        ]
+    )
+
+
+def problem(observed, sigma, *, predictions=0, logged=True, names=NAMES, reach=9.0, start=TRUE):
+    """A problem of which the first values are data; the other responses are predictions."""
+    n = len(observed) + predictions
+    return Problem(
+        names, observed, sigma, np.full(n, logged), np.log(start) - reach, np.log(start) + reach
+    )
+
+
+class Counted:
+    def __init__(self, model):
+        self.model, self.runs = model, 0
+
+    def __call__(self, values):
+        self.runs += 1
+        return self.model(values)
+
+
+def test_a_power_law_is_met_in_four_runs_from_anywhere_near():
+    powers = np.array([[1.0, 0.0], [0.2, 0.7]])
+    model = Counted(lambda k: np.exp(powers @ np.log(k / TRUE)))
+    near = 1.5 * TRUE
+    found = fit(model, problem(np.ones(2), np.full(2, 0.01), start=near), near)
+    assert np.exp(found.point) == pytest.approx(TRUE, rel=1e-9)
+    # The start, a difference for each parameter, and the estimate.
+    assert model.runs == 4
+
+
+def test_far_from_the_start_slopes_are_taken_anew():
+    model = Counted(worn)
+    start = TRUE / 20
+    found = fit(model, problem(worn(TRUE), 0.01 * worn(TRUE), start=start), start)
+    assert np.exp(found.point) == pytest.approx(TRUE, rel=1e-3)
+    assert model.runs <= 8
+
+
+@pytest.mark.parametrize(("part", "level"), [(0.03, 0.8), (0.12, 0.95)])
+def test_intervals_cover_the_truth_at_their_level(part, level):
+    """Those of a prediction too; also where the scar is known to 12 % only, and k, its fourth power, to about half."""
+    exact = worn(TRUE)
+    sigma = part * exact
+    draws, random = 100, np.random.default_rng(17)
+    covered = np.zeros(3, dtype=int)
+    for _ in range(draws):
+        drawn = exact + sigma * random.standard_normal(len(exact))
+        found = fit(worn, problem(drawn[:4], sigma[:4], predictions=1), TRUE)
+        for i in range(2):
+            low, high = interval(found, np.eye(2)[i], level)
+            covered[i] += low <= np.log(TRUE[i]) - found.point[i] <= high
+        low, high = interval(found, found.slopes[4], level)
+        covered[2] += low <= np.log(exact[4] / found.responses[4]) <= high
+    low, high = binom.ppf([0.002, 0.998], draws, level)
+    assert np.all((covered >= low) & (covered <= high)), covered
+
+
+def test_the_interval_of_a_volume_is_that_of_the_weighing():
+    """A volume is k F s: its interval, and that of k, is the measured one, though wide."""
+    observed, sigma = np.array([2.0]), np.array([0.5])
+    found = fit(lambda k: k, problem(observed, sigma, names=("k",), start=np.ones(1)), np.ones(1))
+    low, high = interval(found, np.ones(1), 0.9)
+    z = norm.ppf(0.95)
+    assert 2 * np.exp(low) == pytest.approx(2 - 0.5 * z, rel=1e-3)
+    assert 2 * np.exp(high) == pytest.approx(2 + 0.5 * z, rel=1e-3)
+
+
+def test_a_loss_of_the_size_of_its_uncertainty_bounds_from_above_only():
+    made = problem(np.array([1.0]), np.array([0.8]), names=("k",), start=np.ones(1))
+    low, high = interval(fit(lambda k: k, made, np.ones(1)), np.ones(1), 0.95)
+    assert low == -np.inf
+    assert np.exp(high) == pytest.approx(1 + 0.8 * norm.ppf(0.975), rel=1e-3)
+
+
+def test_the_interval_of_a_response_keeps_within_that_of_what_it_depends_on():
+    """Of k² it is the square of that of k."""
+    made = Problem(
+        ("k",), np.array([2.0]), np.array([0.3]), np.full(2, True), np.full(1, -9), np.full(1, 9)
+    )
+    found = fit(lambda k: np.array([k[0], k[0] ** 2]), made, np.ones(1))
+    own, square = interval(found, np.ones(1), 0.95), interval(found, found.slopes[1], 0.95)
+    assert square == pytest.approx(2 * np.array(own), rel=1e-3)
+
+
+def test_an_interval_ends_at_the_bound():
+    made = problem(np.array([1.0]), np.array([0.3]), names=("k",), start=np.ones(1), reach=0.1)
+    low, high = interval(fit(lambda k: k, made, np.ones(1)), np.ones(1), 0.95)
+    assert (low, high) == pytest.approx((-0.1, 0.1), rel=0.01)
+
+
+def test_what_only_a_product_tells_is_left_open():
+    made = problem(np.array([1.0, 2.0]), np.full(2, 0.01), start=np.ones(2))
+    model = lambda k: np.array([1.0, 2.0]) * k[0] * k[1]  # noqa: E731
+    found = fit(model, made, np.array([1.1, 1.0]))
+    assert interval(found, np.eye(2)[0], 0.95) == (-np.inf, np.inf)
+    # The product itself is known.
+    low, high = interval(found, np.ones(2), 0.95)
+    assert high - low == pytest.approx(2 * norm.ppf(0.975) * 0.01 / np.sqrt(1 + 2**2), rel=0.01)
+
+
+def test_linear_responses_may_be_zero():
+    """As the depth of a profile beside the scar."""
+    made = problem(np.array([0.0, 3.0]), np.full(2, 0.1), logged=False, start=np.ones(2))
+    found = fit(lambda k: np.array([0.0, k[0]]) + k[1] - 1, made, np.ones(2))
+    assert np.exp(found.point) == pytest.approx([3.0, 1.0], rel=1e-2)
+
+
+def test_a_parameter_without_effect_is_named():
+    made = problem(np.array([1.0, 2.0]), np.full(2, 0.1), start=np.ones(2))
+    with pytest.raises(CaseError, match="disk changes none of the measured values; leave it out"):
+        fit(lambda k: np.array([k[0], k[0] ** 2]), made, np.ones(2))
+
+
+def test_a_model_that_jumps_about_is_not_settled():
+    random = np.random.default_rng(0)
+    made = problem(np.array([1.0]), np.array([1e-6]), names=("k",), start=np.ones(1))
+    with pytest.raises(NumericalError, match="have not settled after"):
+        fit(lambda k: k * random.uniform(0.5, 2, 1), made, np.ones(1))

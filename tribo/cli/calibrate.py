@@ -1,0 +1,156 @@
+"""`tribo calibrate`."""
+
+from __future__ import annotations
+
+import json
+import math
+import shlex
+from collections.abc import Iterator
+from pathlib import Path
+
+import click
+from rich import box
+from rich.console import Console
+from rich.table import Table
+
+from tribo.study.calibrate_outcome import Calibration, Datum, Expected
+from tribo.study.calibrate_quantities import PROFILES, in_words
+
+
+@click.command()
+@click.argument("case", type=click.Path(path_type=Path))
+@click.option(
+    "--measured",
+    required=True,
+    type=click.Path(path_type=Path),
+    help="What was measured, and what to fit: a TOML file.",
+)
+@click.option("--set", "overrides", multiple=True, metavar="PATH=VALUE", help="Change a value.")
+@click.option(
+    "--level", type=float, default=0.95, show_default=True, help="Probability of the intervals."
+)
+@click.option("--json", "as_json", is_flag=True, help="One JSON object, in SI units.")
+def calibrate(
+    case: Path, measured: Path, overrides: tuple[str, ...], level: float, as_json: bool
+) -> None:
+    """Fit CASE's wear coefficients, or other numbers of it, to measured wear.
+
+    Prints estimates with intervals, how each measured value is met, what the data cannot tell, and
+    what else the fitted case gives.
+
+    \b
+    Example:
+      tribo calibrate my.toml --measured weighed.toml
+    """
+    from tribo.config.load import read_toml
+    from tribo.config.overrides import apply_overrides
+    from tribo.study.calibrate import calibrate
+
+    found = calibrate(
+        apply_overrides(read_toml(case), overrides), measured, level=level, on_run=_tell
+    )
+    if as_json:
+        click.echo(json.dumps(found.as_json(), indent=2, allow_nan=False))
+        return
+    console = Console(highlight=False)
+    console.print(_estimates(found))
+    console.print(_data(found))
+    if found.predictions:
+        console.print(_predictions(found))
+    for line in _judgement(found):
+        console.print(line)
+    settings = [*overrides, *(f"{path}={value:.4g}" for path, value in found.settings.items())]
+    options = " ".join(f"--set {shlex.quote(setting)}" for setting in settings)
+    click.echo(f"Run it: tribo run {shlex.quote(str(case))} {options}")
+
+
+def _tell(run: int, misfit: float) -> None:
+    click.echo(f"run {run}: misfit χ² {misfit:.3g}", err=True)
+
+
+def _table(title: str, columns: tuple[str, ...]) -> Table:
+    table = Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD)
+    table.pad_edge = False
+    table.add_column("", overflow="fold")
+    for column in columns:
+        table.add_column(column, justify="right", no_wrap=True)
+    return table
+
+
+def _estimates(found: Calibration) -> Table:
+    level = f"{100 * found.level:g} % interval"
+    table = _table(f"Fitted in {found.runs} runs", ("estimate", level, "", "resolution"))
+    for each in found.parameters:
+        table.add_row(
+            each.path,
+            f"{each.value:.3g} {'' if each.unit == '1' else each.unit}".rstrip(),
+            f"{_end(each.lower)} to {_end(each.upper)}",
+            _relative(each.value, each.lower, each.upper),
+            f"±{100 * each.resolution_limit:.2g} %" if each.resolution_limit else "",
+        )
+    return table
+
+
+def _data(found: Calibration) -> Table:
+    table = _table("Measured", ("value", "uncertainty", "computed", "residual"))
+    for each in found.data:
+        table.add_row(
+            _name(each),
+            in_words(each.quantity, each.measured),
+            in_words(each.quantity, each.sigma),
+            in_words(each.quantity, each.computed),
+            f"{each.residual:+.1f}",
+        )
+    return table
+
+
+def _predictions(found: Calibration) -> Table:
+    level = f"{100 * found.level:g} % interval"
+    table = _table("Not measured, at the end", ("computed", level, ""))
+    for each in found.predictions:
+        low = in_words(each.quantity, each.lower).split()[0]
+        high = "open" if math.isinf(each.upper) else in_words(each.quantity, each.upper)
+        table.add_row(
+            f"{each.body}, {each.quantity}",
+            in_words(each.quantity, each.value),
+            f"{low} to {high}",
+            _relative(each.value, each.lower, each.upper),
+        )
+    return table
+
+
+def _judgement(found: Calibration) -> Iterator[str]:
+    if found.p_value is not None:
+        yield (
+            f"χ² {found.chi_square:.3g} with {found.degrees_of_freedom} to spare, "
+            f"p = {found.p_value:.2g}."
+        )
+    values = ", ".join(f"{value:.3g}" for value in found.singular_values)
+    yield f"Standard deviations by which a change by a factor e would show: {values}."
+    for i, first in enumerate(found.parameters):
+        for j, second in enumerate(found.parameters[:i]):
+            yield (
+                f"Correlation of {second.path} and {first.path}: "
+                f"{found.correlation[i, j] + 0.0:+.2f}."
+            )
+    for note in found.notes:
+        yield f"[yellow]Note:[/] {note}"
+
+
+def _name(each: Datum | Expected) -> str:
+    text = f"{each.body}, {each.quantity}"
+    if isinstance(each, Datum) and each.time is not None:
+        text += f" at {each.time:g} s"
+    if isinstance(each, Datum) and each.quantity in PROFILES and each.position is not None:
+        text += f" at {1e3 * each.position:g} mm"
+    return text
+
+
+def _end(value: float) -> str:
+    return "open" if math.isinf(value) else f"{value:.3g}"
+
+
+def _relative(value: float, lower: float, upper: float) -> str:
+    if math.isinf(upper):
+        return ""
+    return f"−{100 * (1 - lower / value):.2g} +{100 * (upper / value - 1):.2g} %"

@@ -1,0 +1,146 @@
+"""Fit a case to what was measured: estimates with intervals, and what they predict."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from tribo.config.load import read_toml, validate_case
+from tribo.core.arrays import Array
+from tribo.core.errors import CaseError
+from tribo.core.words import did_you_mean, suggestion
+from tribo.registry.registry import Registry
+from tribo.simulation.model import Model, located
+from tribo.simulation.run import Simulation
+from tribo.study.calibrate_fit import Problem, fit
+from tribo.study.calibrate_judge import outcome
+from tribo.study.calibrate_measured import Measured, Measurements, read_measurements
+from tribo.study.calibrate_outcome import Calibration
+from tribo.study.calibrate_parameters import find_parameters
+from tribo.study.calibrate_quantities import PROFILES, QUANTITIES, check_available, is_available
+from tribo.study.calibrate_runs import Predicted, Runs
+
+
+def calibrate(
+    case: Mapping[str, Any] | str | Path,
+    measured: Measurements | Mapping[str, Any] | str | Path,
+    *,
+    level: float = 0.95,
+    registry: Registry | None = None,
+    on_run: Callable[[int, float], None] | None = None,
+) -> Calibration:
+    """Fit parameters of a case to measured wear.
+
+    Weighted least squares, by Gauss-Newton on a surrogate of power laws: it is
+    exact for volumes under Archard's law, so that few runs are needed. All
+    runs are in memory, without the case's observers.
+
+    Parameters
+    ----------
+    case : Mapping, str or Path
+        The tables of a case, or its TOML file.
+    measured : Measurements, Mapping, str or Path
+        What was measured and what is to be fitted, or its TOML file.
+    level : float, optional
+        Probability with which each interval is to cover the truth.
+    registry : Registry, optional
+        Where to look components up; the installed plugins if left out.
+    on_run : callable, optional
+        Called after each run with its number and its misfit χ².
+
+    Returns
+    -------
+    Calibration
+        Estimates, intervals, residuals, what the data can tell, predictions.
+
+    Raises
+    ------
+    CaseError
+        If the case or the measured values are wrong, do not fit together, or
+        are too few.
+    NumericalError
+        If a run fails or the estimates do not settle.
+    """
+    if not 0 < level < 1:
+        raise CaseError(f"the level, {level:g}, must lie between 0 and 1, as 0.95 does")
+    tables = read_toml(case) if isinstance(case, str | Path) else case
+    asked = read_measurements(measured)
+    base = validate_case(tables, registry=registry)
+    model = Simulation(base, registry).model
+    for i, entry in enumerate(asked.measured):
+        _check_entry(model, entry, f"measured[{i}]")
+    parameters = find_parameters(base, asked.fit, asked.measured)
+    count = sum(len(entry.values) for entry in asked.measured)
+    if count < len(parameters):
+        raise CaseError(
+            f"{len(parameters)} parameters cannot be fitted to {count} measured "
+            f"value{'' if count == 1 else 's'}: measure more, or leave parameters out of fit"
+        )
+    predicted = _predicted(model, asked.measured)
+    runs = Runs(tables, asked.measured, parameters, predicted, registry)
+    problem = Problem(
+        names=tuple(p.path for p in parameters),
+        observed=np.concatenate([entry.values for entry in asked.measured]),
+        sigma=np.concatenate([np.full(len(e.values), e.sigma) for e in asked.measured]),
+        logged=runs.logged,
+        lower=np.log([p.lower for p in parameters]),
+        upper=np.log([p.upper for p in parameters]),
+    )
+
+    def run(values: Array) -> Array:
+        responses = runs(values)
+        if on_run is not None:
+            on_run(runs.count, float(np.sum(problem.residuals(responses) ** 2)))
+        return responses
+
+    fitted = fit(run, problem, np.array([p.start for p in parameters]))
+    return outcome(
+        fitted,
+        parameters,
+        asked.measured,
+        {count + i: which for i, which in enumerate(predicted) if runs.positive[i]},
+        grid=model.grid,
+        level=level,
+        runs=runs.count,
+        notices=runs.notices,
+    )
+
+
+def _check_entry(model: Model, entry: Measured, place: str) -> None:
+    names = [body.name for body in model.bodies]
+    if entry.body not in names:
+        raise CaseError(
+            f"there is no body {entry.body!r}{suggestion(did_you_mean(entry.body, names))} "
+            f"The bodies are {', '.join(names)}",
+            f"{place}.body",
+        )
+    with located(f"{place}.quantity"):
+        check_available(model, entry.body, entry.quantity)
+    if entry.time is not None and entry.time > model.end_time * (1 + 1e-12):
+        raise CaseError(
+            f"{entry.time:g} s is not reached: the run ends at {model.end_time:g} s",
+            f"{place}.time",
+        )
+    if entry.position is not None:
+        half = 0.5 * model.grid.size[PROFILES[entry.quantity]]
+        outside = next((p for p in entry.position if abs(p) > half), None)
+        if outside is not None:
+            raise CaseError(
+                f"{1e3 * outside:g} mm lies outside the window, which reaches "
+                f"{1e3 * half:g} mm from the centre",
+                f"{place}.position",
+            )
+
+
+def _predicted(model: Model, measured: Sequence[Measured]) -> list[Predicted]:
+    """Return all that the runs give at their end and was not measured then."""
+    known = {(entry.body, entry.quantity) for entry in measured if entry.time is None}
+    return [
+        (body.name, quantity)
+        for body in model.bodies
+        for quantity in QUANTITIES
+        if (body.name, quantity) not in known and is_available(model, body.name, quantity)
+    ]

@@ -1,0 +1,120 @@
+"""Read off a fit what it says: estimates, intervals, residuals, predictions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from tribo.core.arrays import Array
+from tribo.core.grid import Grid
+from tribo.study.calibrate_fit import Surrogate, covariance, interval
+from tribo.study.calibrate_measured import Measured
+from tribo.study.calibrate_notes import notes
+from tribo.study.calibrate_outcome import Calibration, Datum, Estimate, Expected
+from tribo.study.calibrate_parameters import Parameter
+from tribo.study.calibrate_quantities import unit_of
+
+
+def outcome(
+    fitted: Surrogate,
+    parameters: Sequence[Parameter],
+    measured: Sequence[Measured],
+    predicted: Mapping[int, tuple[str, str]],
+    *,
+    grid: Grid,
+    level: float,
+    runs: int,
+    notices: Sequence[str],
+) -> Calibration:
+    """Return what a fit says.
+
+    Parameters
+    ----------
+    fitted : Surrogate
+        About the estimate.
+    parameters : sequence of Parameter
+        What was fitted.
+    measured : sequence of Measured
+        What it was fitted to.
+    predicted : Mapping
+        Body and quantity of the responses that are predictions, by their index.
+    grid : Grid
+        The window of the runs.
+    level : float
+        Probability of the intervals.
+    runs : int
+        Simulations made.
+    notices : sequence of str
+        Warnings of the last run.
+    """
+    jacobian = fitted.jacobian(fitted.point)
+    spread = covariance(jacobian)
+    deviations = np.sqrt(np.diag(spread))
+    data = _data(fitted, measured)
+    shares, limits = _resolution(jacobian, measured)
+    estimates = []
+    for i, parameter in enumerate(parameters):
+        value = float(np.exp(fitted.point[i]))
+        ends = _ends(fitted, np.eye(len(parameters))[i], value, level)
+        estimates.append(
+            Estimate(
+                parameter.path, parameter.unit, value, *ends, float(shares[i]), float(limits[i])
+            )
+        )
+    predictions = []
+    for i, (body, quantity) in predicted.items():
+        value = float(fitted.responses[i])
+        ends = _ends(fitted, fitted.slopes[i], value, level)
+        predictions.append(Expected(body, quantity, unit_of(quantity), value, *ends))
+    return Calibration(
+        level=level,
+        runs=runs,
+        parameters=tuple(estimates),
+        data=tuple(data),
+        predictions=tuple(predictions),
+        chi_square=float(sum(each.residual**2 for each in data)),
+        degrees_of_freedom=len(data) - len(parameters),
+        correlation=spread / np.outer(deviations, deviations),
+        singular_values=np.asarray(np.linalg.svd(jacobian, compute_uv=False), dtype=np.float64),
+        notes=(*notes(estimates, data, measured, jacobian, grid), *notices),
+    )
+
+
+def _ends(fitted: Surrogate, direction: Array, value: float, level: float) -> tuple[float, float]:
+    low, high = interval(fitted, direction, level)
+    return value * math.exp(low), value * math.exp(high)
+
+
+def _resolution(jacobian: Array, measured: Sequence[Measured]) -> tuple[Array, Array]:
+    """Return of each parameter the variance's share, and the largest error, from resolution."""
+    effect = np.linalg.pinv(jacobian)
+    parts = [(*entry.from_resolution, entry.sigma, len(entry.values)) for entry in measured]
+    deviation = np.concatenate([np.full(n, own / sigma) for own, _, sigma, n in parts])
+    most = np.concatenate([np.full(n, worst / sigma) for _, worst, sigma, n in parts])
+    share = np.sum((effect * deviation) ** 2, axis=1) / np.sum(effect**2, axis=1)
+    return share, np.sum(np.abs(effect) * most, axis=1)
+
+
+def _data(fitted: Surrogate, measured: Sequence[Measured]) -> list[Datum]:
+    computed = iter(fitted.responses.tolist())
+    found = []
+    for entry in measured:
+        positions = entry.position or (None,)
+        for value, position in zip(entry.values.tolist(), positions, strict=True):
+            own = next(computed)
+            found.append(
+                Datum(
+                    entry.body,
+                    entry.quantity,
+                    entry.time,
+                    position,
+                    unit_of(entry.quantity),
+                    value,
+                    entry.sigma,
+                    own,
+                    (own - value) / entry.sigma,
+                )
+            )
+    return found

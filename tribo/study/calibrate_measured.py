@@ -1,0 +1,170 @@
+"""The file of measured values: what was measured, how well, and what to fit to it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self
+
+import numpy as np
+from pydantic import Field, ValidationError, ValidationInfo, field_validator, model_validator
+
+from tribo.config.explain import case_error
+from tribo.config.load import read_toml
+from tribo.config.table import Table
+from tribo.core.arrays import Array
+from tribo.core.errors import CaseError
+from tribo.core.units import Quantity
+from tribo.study.calibrate_quantities import PROFILES, unit_of
+
+Reading = Annotated[float, Quantity("kg", above=0)]
+Position = Annotated[float, Quantity("m")]
+
+
+class Measured(Table):
+    """One measured quantity of one body."""
+
+    body: str
+    """Name of the body in the case."""
+    quantity: Literal[
+        "mass",
+        "volume",
+        "scar_along",
+        "scar_across",
+        "depth",
+        "crown",
+        "section",
+        "profile_along",
+        "profile_across",
+    ]
+    """What was measured; what a body lost, the diameters of its scar, its largest depth."""
+    value: float | tuple[float, ...] | None = None
+    """The value, with its unit; for a profile a list of depths."""
+    before: Reading | None = None
+    """Instead of the value of a mass: the balance's reading before the test."""
+    after: Reading | None = None
+    """The reading after it."""
+    position: tuple[Position, ...] | None = None
+    """Where a profile's depths were measured, from the centre of the contact."""
+    uncertainty: float | None = None
+    """Standard deviation; of a profile, that of each depth."""
+    resolution: float | None = None
+    """Smallest step that the instrument shows."""
+    time: Annotated[float, Quantity("s", above=0)] | None = None
+    """When it was measured; at the end if left out."""
+
+    @field_validator("value", "uncertainty", "resolution", mode="before")
+    @classmethod
+    def _in_si(cls, value: Any, info: ValidationInfo) -> Any:
+        quantity = info.data.get("quantity")
+        if value is None or quantity is None:
+            return None
+        above = None if info.field_name == "value" and quantity in PROFILES else 0
+        mark = Quantity(unit_of(quantity), above=above)
+        try:
+            if isinstance(value, list | tuple):
+                return tuple(mark.read(part) for part in value)
+            return mark.read(value)
+        except CaseError as error:
+            raise ValueError(str(error)) from None
+
+    @model_validator(mode="after")
+    def _fits_together(self) -> Self:
+        if self.quantity in PROFILES:
+            self._check_profile()
+        elif self.position is not None or isinstance(self.value, tuple):
+            raise ValueError(
+                f"{self.quantity} is one value, without position; a list goes with "
+                f"{' or '.join(PROFILES)}"
+            )
+        self._check_readings()
+        if self.uncertainty is None and self.resolution is None:
+            raise ValueError(
+                "say how well it was measured: uncertainty (a standard deviation), resolution, "
+                "or both"
+            )
+        return self
+
+    def _check_profile(self) -> None:
+        depths = self.value if isinstance(self.value, tuple) else ()
+        if not depths or len(depths) != len(self.position or ()):
+            raise ValueError(
+                f"{self.quantity} needs value and position, two lists of the same length; "
+                f"{len(depths)} values and {len(self.position or ())} positions were given"
+            )
+
+    def _check_readings(self) -> None:
+        readings = self.before is not None, self.after is not None
+        if (self.value is not None) + all(readings) != 1 or any(readings) != all(readings):
+            raise ValueError(
+                "give value" + (", or before and after" if self.quantity == "mass" else "")
+            )
+        if any(readings) and self.quantity != "mass":
+            raise ValueError(f"before and after are readings of a mass; give {self.quantity} value")
+        if self.before is not None and self.after is not None and self.before <= self.after:
+            raise ValueError(
+                f"before, {1e3 * self.before:g} g, is not more than after, {1e3 * self.after:g} g: "
+                "no loss was weighed, so no coefficient can be fitted to it"
+            )
+
+    @property
+    def values(self) -> Array:
+        """What was measured, shape (n,); n = 1 but for a profile."""
+        if self.before is not None and self.after is not None:
+            return np.array([self.before - self.after])
+        return np.atleast_1d(np.array(self.value, dtype=float))
+
+    @property
+    def from_resolution(self) -> tuple[float, float]:
+        """Standard deviation and largest error that follow from the resolution.
+
+        A reading is off by up to half a step, evenly: step/√12. A mass lost is
+        the difference of two: step/√6, and at most a whole step.
+        """
+        step = self.resolution or 0.0
+        readings = 2 if self.quantity == "mass" else 1
+        return step * np.sqrt(readings / 12), step * readings / 2
+
+    @property
+    def sigma(self) -> float:
+        """Standard deviation of each value, from uncertainty and resolution."""
+        return float(np.hypot(self.uncertainty or 0.0, self.from_resolution[0]))
+
+
+class Fitted(Table):
+    """One parameter to fit."""
+
+    path: str
+    """Where it stands in the case, as ``bodies.ball.wear.k``."""
+    start: float | str | None = None
+    """Where to begin; at the case's own value if left out."""
+    lower: float | str | None = None
+    """Smallest value allowed."""
+    upper: float | str | None = None
+    """Largest value allowed."""
+
+
+class Measurements(Table):
+    """What was measured, and what is to be fitted to it."""
+
+    fit: tuple[Fitted, ...] = ()
+    """The parameters; if left out, the k of each body that something was measured of."""
+    measured: tuple[Measured, ...] = Field(min_length=1)
+    """The measured values."""
+
+
+def read_measurements(source: Measurements | Mapping[str, Any] | str | Path) -> Measurements:
+    """Read measured values from a TOML file, or from its tables.
+
+    Raises
+    ------
+    CaseError
+        If the file cannot be read, or what it says is wrong; one line an error.
+    """
+    if isinstance(source, Measurements):
+        return source
+    data = read_toml(source) if isinstance(source, str | Path) else source
+    try:
+        return Measurements.model_validate(data)
+    except ValidationError as error:
+        raise case_error(error, Measurements, data) from None

@@ -1,0 +1,143 @@
+"""In words, how far a calibration can be trusted."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+from scipy.stats import chi2
+
+from tribo.core.arrays import Array
+from tribo.core.grid import Grid
+from tribo.study.calibrate_measured import Measured
+from tribo.study.calibrate_outcome import Datum, Estimate
+from tribo.study.calibrate_quantities import in_words
+
+UNLIKELY = 0.01
+"""Probability of so large a misfit below which data and model are said to disagree."""
+HARDLY, NOT_AT_ALL = 0.2, 0.01
+"""How far apart the effects of parameters are: 1 is at right angles, 0 is the same."""
+EDGES = 0.2
+"""How far, in cells, a computed diameter may be off."""
+_AXES = {"scar_along": 0, "scar_across": 1}
+_TAKES_PART = 0.3
+_MOST = 0.5
+
+
+def notes(
+    estimates: Sequence[Estimate],
+    data: Sequence[Datum],
+    measured: Sequence[Measured],
+    jacobian: Array,
+    grid: Grid,
+) -> list[str]:
+    """Return what to bear in mind, a sentence or two each.
+
+    Parameters
+    ----------
+    estimates : sequence of Estimate
+        The fitted parameters.
+    data : sequence of Datum
+        The measured values beside the computed ones.
+    measured : sequence of Measured
+        The same as they were given.
+    jacobian : ndarray, shape (n, p)
+        Derivatives of the residuals by the logarithms of the parameters.
+    grid : Grid
+        The window of the runs.
+    """
+    return [
+        *_dominated(estimates, measured, jacobian),
+        *_entangled([each.path for each in estimates], jacobian),
+        *_open(estimates),
+        *_misfit(data, len(estimates)),
+        *_too_coarse(measured, grid),
+    ]
+
+
+def _dominated(
+    estimates: Sequence[Estimate], measured: Sequence[Measured], jacobian: Array
+) -> Iterator[str]:
+    """Say where better instruments would help most."""
+    effect = np.linalg.pinv(jacobian)
+    owners = [entry for entry in measured for _ in entry.values]
+    parts = np.array([entry.from_resolution[0] / entry.sigma for entry in owners])
+    for estimate, own in zip(estimates, effect, strict=True):
+        if estimate.resolution_share > _MOST:
+            entry = owners[int(np.argmax(np.abs(own) * parts))]
+            instrument = "balance" if entry.quantity == "mass" else "instrument"
+            step = in_words(entry.quantity, entry.resolution or 0.0)
+            yield (
+                f"{estimate.path}: the {instrument}'s resolution dominates the uncertainty; the "
+                f"{entry.quantity} of {entry.body!r} read to {step} leaves "
+                f"±{100 * estimate.resolution_limit:.2g} % open"
+            )
+
+
+def _entangled(paths: Sequence[str], jacobian: Array) -> Iterator[str]:
+    """Say which parameters change the data in the same way."""
+    scaled = jacobian / np.sqrt(np.sum(jacobian**2, axis=0))
+    _, angles, directions = np.linalg.svd(scaled)
+    for angle, direction in zip(angles, directions, strict=True):
+        if angle > HARDLY:
+            continue
+        taking = [i for i in range(len(paths)) if abs(direction[i]) > _TAKES_PART]
+        names = [paths[i] for i in taking]
+        how = "changing them together"
+        if len(taking) == 2:
+            opposed = direction[taking[0]] * direction[taking[1]] < 0
+            how = "raising one and lowering the other" if opposed else "raising both"
+        cannot = angle <= NOT_AT_ALL
+        yield (
+            f"the data {'cannot' if cannot else 'can hardly'} tell {_listed(names)} apart: {how} "
+            f"changes {'none' if cannot else 'little'} of the computed values; measure something "
+            "that only one of them changes, or leave one out of fit"
+        )
+
+
+def _open(estimates: Sequence[Estimate]) -> Iterator[str]:
+    for each in estimates:
+        sides = [
+            side
+            for side, is_open in (
+                ("below", each.lower == 0),
+                ("above", math.isinf(each.upper)),
+            )
+            if is_open
+        ]
+        if sides:
+            yield f"{each.path}: the data do not bound it from {' or '.join(sides)}"
+
+
+def _misfit(data: Sequence[Datum], parameters: int) -> Iterator[str]:
+    spare = len(data) - parameters
+    if spare == 0:
+        yield (
+            "there are as many data as parameters: they are met exactly, and nothing is left to "
+            "test the model with"
+        )
+        return
+    chi_square = sum(each.residual**2 for each in data)
+    if chi2.sf(chi_square, spare) < UNLIKELY:
+        yield (
+            f"data and model disagree: χ² is {chi_square:.3g} where about {spare} is expected. "
+            "The model leaves something out, or uncertainties are larger than stated; the "
+            "intervals are then too narrow"
+        )
+
+
+def _too_coarse(measured: Sequence[Measured], grid: Grid) -> Iterator[str]:
+    for entry in measured:
+        if entry.quantity in _AXES:
+            blur = EDGES * grid.spacing[_AXES[entry.quantity]]
+            if entry.sigma < blur:
+                yield (
+                    f"the {entry.quantity} of {entry.body!r} is measured to "
+                    f"{in_words(entry.quantity, entry.sigma)}, the grid is good to about "
+                    f"{in_words(entry.quantity, blur)}: raise grid.cells"
+                )
+
+
+def _listed(names: Sequence[str]) -> str:
+    return f"{', '.join(names[:-1])} and {names[-1]}"

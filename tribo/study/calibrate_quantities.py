@@ -1,0 +1,182 @@
+"""What a lab measures of a worn body, as a run gives it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from tribo.analysis.conversion import mass_from_volume
+from tribo.analysis.inferred import track_section
+from tribo.analysis.scar import VISIBLE_DEPTH, crown
+from tribo.core.arrays import Array
+from tribo.core.errors import CaseError
+from tribo.results.export import profile
+from tribo.results.read import BodyResult, Result
+from tribo.simulation.model import Model
+
+
+@dataclass(frozen=True)
+class WornQuantity:
+    """One number that is measured of a worn body.
+
+    Parameters
+    ----------
+    words : str
+        What it is called in a table.
+    unit : str
+        Its SI unit.
+    shown : str
+        The unit it is shown in.
+    per_unit : float
+        How many of those make one in SI.
+    of : str
+        Which bodies have it: those that stay in the contact, those swept
+        through it, or both.
+    read : callable
+        Reads it off a result, for a body at a save.
+    """
+
+    words: str
+    unit: str
+    shown: str
+    per_unit: float
+    of: Literal["both", "stationary", "swept"]
+    read: Callable[[Result, BodyResult, int], float]
+
+
+def diameter(depth: Array, axis: int, spacing: float) -> float:
+    """Extent along `axis` of what is worn visibly, to a fraction of a cell.
+
+    The edges of `tribo.analysis.scar`, which lie between cells, are put where
+    the depth would come to the visible one as it falls towards them. So the
+    diameter grows evenly with the scar, where counted cells jump.
+
+    Parameters
+    ----------
+    depth : ndarray, shape (nx, ny)
+        Worn depth, in m.
+    axis : int
+        0 along the sliding direction, 1 across it.
+    spacing : float
+        Edge length of a cell along `axis`, in m.
+
+    Returns
+    -------
+    float
+        In m; 0 where nothing is worn visibly.
+    """
+    line = np.max(depth, axis=1 - axis)
+    worn = np.flatnonzero(line > VISIBLE_DEPTH)
+    if worn.size < 2:
+        return float(worn.size) * spacing
+    first, last = int(worn[0]), int(worn[-1])
+    rims = (line[first], line[first + 1]), (line[last], line[last - 1])
+    return float(last - first + sum(_beyond(rim, inside) for rim, inside in rims)) * spacing
+
+
+def _beyond(rim: float, inside: float) -> float:
+    """Return how far the edge lies beyond the centre of the outermost worn cell, in cells."""
+    fall = inside - rim
+    return min((rim - VISIBLE_DEPTH) / fall, 1.0) if fall > 0 else 0.5
+
+
+def _volume(result: Result, body: BodyResult, save: int) -> float:
+    return float(result.table("saves")[f"bodies.{body.name}.wear_volume_m3"][save])
+
+
+def _mass(result: Result, body: BodyResult, save: int) -> float:
+    assert body.density is not None
+    return mass_from_volume(_volume(result, body, save), body.density)
+
+
+def _diameter(axis: int) -> Callable[[Result, BodyResult, int], float]:
+    return lambda result, body, save: diameter(
+        body.wear_depth[save], axis, result.grid.spacing[axis]
+    )
+
+
+def _crown(result: Result, body: BodyResult, save: int) -> float:
+    return crown(profile(body.surface(save), 1), profile(body.wear_depth[save], 1))
+
+
+def _section(result: Result, body: BodyResult, save: int) -> float:
+    area = track_section(result, body, save)
+    assert area is not None
+    return area
+
+
+QUANTITIES = {
+    "mass": WornQuantity("mass lost", "kg", "mg", 1e6, "both", _mass),
+    "volume": WornQuantity("volume lost", "m^3", "mm³", 1e9, "both", _volume),
+    "scar_along": WornQuantity("scar along", "m", "mm", 1e3, "stationary", _diameter(0)),
+    "scar_across": WornQuantity("scar across", "m", "mm", 1e3, "both", _diameter(1)),
+    "depth": WornQuantity(
+        "largest depth",
+        "m",
+        "µm",
+        1e6,
+        "both",
+        lambda _, body, i: float(np.max(body.wear_depth[i])),
+    ),
+    "crown": WornQuantity("crown", "m", "µm", 1e6, "stationary", _crown),
+    "section": WornQuantity("section of the track", "m^2", "mm²", 1e6, "swept", _section),
+}
+"""What is one number, by its name in a file of measured values; diameters for the scar's sizes."""
+PROFILES = {"profile_along": 0, "profile_across": 1}
+"""Depths along a line through the centre of the contact, with the axis that it follows."""
+DEPTH = QUANTITIES["depth"]
+
+
+def unit_of(name: str) -> str:
+    """Return the SI unit of a quantity or of a profile's depths."""
+    return QUANTITIES.get(name, DEPTH).unit
+
+
+def in_words(name: str, value: float) -> str:
+    """Return a value of a quantity in the unit it is shown in, as ``"2.05 mg"``."""
+    quantity = QUANTITIES.get(name, DEPTH)
+    return f"{quantity.per_unit * value:.3g} {quantity.shown}"
+
+
+def read_profile(result: Result, body: BodyResult, save: int, name: str, at: Array) -> Array:
+    """Return a profile's depths at positions, in m."""
+    axis = PROFILES[name]
+    known = (result.grid.x, result.grid.y)[axis]
+    return np.asarray(np.interp(at, known, profile(body.wear_depth[save], axis)))
+
+
+def check_available(model: Model, body: str, name: str) -> None:
+    """Check that runs of a model give a quantity of a body.
+
+    Raises
+    ------
+    CaseError
+        If they do not; the message says why.
+    """
+    (found,) = (b for b in model.bodies if b.name == body)
+    if found.wear is None:
+        raise CaseError(
+            f"body {body!r} does not wear in this case; give it a wear law, bodies.{body}.wear"
+        )
+    if name == "mass" and found.material.density is None:
+        raise CaseError(f"a mass needs a density; add bodies.{body}.material.density to the case")
+    swept = model.is_swept(body)
+    of = "stationary" if name == "profile_along" else QUANTITIES.get(name, DEPTH).of
+    if of == "stationary" and swept:
+        raise CaseError(
+            f"body {body!r} is swept: its scar is a track, the same all along, and has no {name}"
+        )
+    if of == "swept" and not swept:
+        raise CaseError(f"body {body!r} stays in the contact: it has no track, and so no {name}")
+
+
+def is_available(model: Model, body: str, name: str) -> bool:
+    """Return whether runs of a model give a quantity of a body; see `check_available`."""
+    try:
+        check_available(model, body, name)
+    except CaseError:
+        return False
+    return True

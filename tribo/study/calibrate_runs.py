@@ -1,0 +1,109 @@
+"""Runs of a case with other parameters, and what they give for the measured values."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from tribo.config.load import validate_case
+from tribo.config.overrides import apply_settings
+from tribo.core.arrays import Array
+from tribo.core.errors import CaseError, NumericalError, TriboWarning
+from tribo.registry.registry import Registry
+from tribo.results.read import Result
+from tribo.simulation.model import located
+from tribo.simulation.run import Simulation
+from tribo.study.calibrate_measured import Measured
+from tribo.study.calibrate_parameters import Parameter
+from tribo.study.calibrate_quantities import PROFILES, QUANTITIES, read_profile
+
+Predicted = tuple[str, str]
+"""A body and a quantity of it, at the end of the run."""
+
+
+class Runs:
+    """Runs the case with other parameters, and reads off what was measured.
+
+    `count` is the number of runs so far, `notices` are those of the last one,
+    and `positive` tells which predictions were above 0 in all of them. `logged`
+    marks the responses that go as powers of the parameters; see
+    `tribo.study.calibrate_fit.Problem`.
+
+    Parameters
+    ----------
+    tables : Mapping
+        The case.
+    measured : sequence of Measured
+        What is read off, first.
+    parameters : sequence of Parameter
+        What is changed.
+    predicted : sequence of Predicted
+        What is read off after it.
+    registry : Registry, optional
+        Where to look components up.
+    """
+
+    def __init__(
+        self,
+        tables: Mapping[str, Any],
+        measured: Sequence[Measured],
+        parameters: Sequence[Parameter],
+        predicted: Sequence[Predicted],
+        registry: Registry | None,
+    ) -> None:
+        times = sorted({entry.time for entry in measured if entry.time is not None})
+        self._tables = apply_settings(tables, {"output.save_times": times, "observers": []})
+        self._measured = measured
+        self._parameters = parameters
+        self._registry = registry
+        self._predicted = predicted
+        self.count = 0
+        self.notices: tuple[str, ...] = ()
+        self.positive = np.ones(len(predicted), dtype=bool)
+        plain = [np.full(len(e.values), e.quantity not in PROFILES) for e in measured]
+        self.logged = np.concatenate([*plain, self.positive])
+
+    def __call__(self, values: Array) -> Array:
+        """Return the computed values of the data, and then those of the predictions."""
+        settings = {p.path: float(v) for p, v in zip(self._parameters, values, strict=True)}
+        case = validate_case(apply_settings(self._tables, settings), registry=self._registry)
+        self.count += 1
+        with warnings.catch_warnings():
+            # The notices of the last run say the same, once.
+            warnings.simplefilter("ignore", TriboWarning)
+            try:
+                result = Simulation(case, self._registry).run()
+            except NumericalError as error:
+                named = ", ".join(f"{path} = {value:.4g}" for path, value in settings.items())
+                raise NumericalError(f"run {self.count}, with {named}: {error}") from error
+        with result:
+            self.notices = result.notices
+            data = [
+                _read(result, entry, f"measured[{i}]") for i, entry in enumerate(self._measured)
+            ]
+            others = np.array(
+                [QUANTITIES[q].read(result, result.body(body), -1) for body, q in self._predicted]
+            )
+        self.positive &= others > 0
+        return np.concatenate([*data, np.where(others > 0, others, 1.0)])
+
+
+def _read(result: Result, entry: Measured, place: str) -> Array:
+    body, save = result.body(entry.body), -1
+    if entry.time is not None:
+        with located(f"{place}.time"):
+            save = result.save_at(entry.time)
+    if entry.quantity in PROFILES:
+        assert entry.position is not None
+        return read_profile(result, body, save, entry.quantity, np.array(entry.position))
+    value = QUANTITIES[entry.quantity].read(result, body, save)
+    if value <= 0:
+        raise CaseError(
+            f"the {entry.quantity} of {entry.body!r} comes out as 0 in the case; begin with more "
+            "wear: give start in fit",
+            place,
+        )
+    return np.array([value])
