@@ -140,8 +140,12 @@ def test_the_experiment_gives_the_weighed_coefficients_and_the_crown():
 
     # The chord of the crown is drawn between cells of 0.125 mm.
     assert crown.value == pytest.approx(rigid(disk.value), rel=0.1)
-    assert crown.lower / crown.value == pytest.approx(rigid(disk.lower) / rigid(disk.value), rel=0.1)
-    assert crown.upper / crown.value == pytest.approx(rigid(disk.upper) / rigid(disk.value), rel=0.1)
+    assert crown.lower / crown.value == pytest.approx(
+        rigid(disk.lower) / rigid(disk.value), rel=0.1
+    )
+    assert crown.upper / crown.value == pytest.approx(
+        rigid(disk.upper) / rigid(disk.value), rel=0.1
+    )
 
 
 def test_scar_widths_and_the_groove_give_both_coefficients(true_run):
@@ -243,7 +247,11 @@ def test_intervals_cover_the_truth_at_their_level(monkeypatch):
             exact = np.array(
                 [
                     computed(result, body, quantity)
-                    for body, quantity in (("ball", "mass"), ("ball", "scar_along"), ("disk", "depth"))
+                    for body, quantity in (
+                        ("ball", "mass"),
+                        ("ball", "scar_along"),
+                        ("disk", "depth"),
+                    )
                 ]
             )
     parts = np.array([0.2, 0.05, 0.15])

@@ -70,7 +70,10 @@ def test_far_from_the_start_slopes_are_taken_anew():
 
 @pytest.mark.parametrize(("part", "level"), [(0.03, 0.8), (0.12, 0.95)])
 def test_intervals_cover_the_truth_at_their_level(part, level):
-    """Those of a prediction too; also where the scar is known to 12 % only, and k, its fourth power, to about half."""
+    """Those of a prediction too.
+
+    Also where a scar is known to 12 % only, so that k, its fourth power, is known to half.
+    """
     exact = worn(TRUE)
     sigma = part * exact
     draws, random = 100, np.random.default_rng(17)

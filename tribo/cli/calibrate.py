@@ -13,7 +13,7 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
-from tribo.study.calibrate_outcome import Calibration, Datum, Expected
+from tribo.study.calibrate_outcome import Calibration, Datum, Estimate, Expected
 from tribo.study.calibrate_quantities import PROFILES, in_words
 
 
@@ -86,7 +86,7 @@ def _estimates(found: Calibration) -> Table:
             f"{each.value:.3g} {'' if each.unit == '1' else each.unit}".rstrip(),
             f"{_end(each.lower)} to {_end(each.upper)}",
             _relative(each.value, each.lower, each.upper),
-            f"±{100 * each.resolution_limit:.2g} %" if each.resolution_limit else "",
+            _resolution(each),
         )
     return table
 
@@ -99,7 +99,7 @@ def _data(found: Calibration) -> Table:
             in_words(each.quantity, each.measured),
             in_words(each.quantity, each.sigma),
             in_words(each.quantity, each.computed),
-            f"{each.residual:+.1f}",
+            f"{round(each.residual, 1) + 0.0:+.1f}",
         )
     return table
 
@@ -131,7 +131,7 @@ def _judgement(found: Calibration) -> Iterator[str]:
         for j, second in enumerate(found.parameters[:i]):
             yield (
                 f"Correlation of {second.path} and {first.path}: "
-                f"{found.correlation[i, j] + 0.0:+.2f}."
+                f"{round(found.correlation[i, j], 2) + 0.0:+.2f}."
             )
     for note in found.notes:
         yield f"[yellow]Note:[/] {note}"
@@ -148,6 +148,12 @@ def _name(each: Datum | Expected) -> str:
 
 def _end(value: float) -> str:
     return "open" if math.isinf(value) else f"{value:.3g}"
+
+
+def _resolution(each: Estimate) -> str:
+    if not each.resolution_limit or math.isinf(each.upper):
+        return ""
+    return f"±{100 * each.resolution_limit:.2g} %"
 
 
 def _relative(value: float, lower: float, upper: float) -> str:

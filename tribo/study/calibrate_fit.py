@@ -143,7 +143,7 @@ def fit(model: Callable[[Array], Array], problem: Problem, start: Array) -> Surr
     """Fit the parameters by Gauss-Newton on a surrogate, a run of the model a round.
 
     Slopes come from differences about the first run, then from Broyden's
-    formula, and from differences again once the point has moved far.
+    formula, and from differences again about an estimate that lies far off.
 
     Parameters
     ----------
@@ -181,17 +181,17 @@ def fit(model: Callable[[Array], Array], problem: Problem, start: Array) -> Surr
     known = point
     for _ in range(MOST_ROUNDS):
         point = here.closest().x
-        shift = (here.at(point) - here.responses)[: len(problem.observed)] / problem.sigma
-        if np.max(np.abs(shift)) <= SETTLED:
-            return here
-        responses = run(point)
-        if np.max(np.abs(point - known)) > FAR:
-            here, known = _differenced(run, problem, point, responses), point
+        shift = np.max(np.abs(here.residuals(point) - here.residuals(here.point)))
+        if shift > SETTLED:
+            here = here.updated(point, run(point))
+        elif np.max(np.abs(here.point - known)) > FAR:
+            known = here.point
+            here = _differenced(run, problem, known, here.responses)
         else:
-            here = here.updated(point, responses)
+            return here
     raise NumericalError(
         f"the estimates have not settled after {MOST_ROUNDS} rounds: a computed value still "
-        f"changes by {np.max(np.abs(shift)):.2g} of its uncertainty; refine grid.cells, start "
+        f"changes by {shift:.2g} of its uncertainty; refine grid.cells, start "
         "nearer, or state the uncertainties larger"
     )
 
@@ -227,7 +227,8 @@ def interval(here: Surrogate, direction: Array, level: float) -> tuple[float, fl
         Probability with which it covers the truth.
     """
     best = here.closest()
-    allowed = 2 * best.cost + chi2.ppf(level, 1)
+    rise = chi2.ppf(level, 1)
+    allowed = 2 * best.cost + rise
     centre = float(np.sum(direction * best.x))
     moved = np.sum(direction[:, None] * _root(here.jacobian(best.x)), axis=0)
     spread = float(np.sqrt(np.sum(moved**2)))
@@ -242,11 +243,12 @@ def interval(here: Surrogate, direction: Array, level: float) -> tuple[float, fl
 
     ends = []
     for sign in (-1.0, 1.0):
-        far = sign * spread
+        # Just beyond where the end is if the surrogate is linear.
+        far = sign * 1.1 * np.sqrt(rise) * spread
         while excess(far) < 0 and abs(far) < REACH:
             far *= 2
         ends.append(
-            sign * np.inf if abs(far) >= REACH else brentq(excess, 0.0, far, xtol=1e-4 * spread)
+            sign * np.inf if abs(far) >= REACH else brentq(excess, 0.0, far, xtol=1e-3 * spread)
         )
     offset = centre - float(np.sum(direction * here.point))
     return offset + ends[0], offset + ends[1]

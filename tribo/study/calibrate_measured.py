@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
 import numpy as np
-from pydantic import Field, ValidationError, ValidationInfo, field_validator, model_validator
+from pydantic import ValidationError, ValidationInfo, field_validator, model_validator
 
 from tribo.config.explain import case_error
 from tribo.config.load import read_toml
@@ -149,8 +149,15 @@ class Measurements(Table):
 
     fit: tuple[Fitted, ...] = ()
     """The parameters; if left out, the k of each body that something was measured of."""
-    measured: tuple[Measured, ...] = Field(min_length=1)
+    measured: tuple[Measured, ...]
     """The measured values."""
+
+    @field_validator("measured")
+    @classmethod
+    def _some(cls, measured: tuple[Measured, ...]) -> tuple[Measured, ...]:
+        if not measured:
+            raise ValueError("nothing is measured; give each value as [[measured]]")
+        return measured
 
 
 def read_measurements(source: Measurements | Mapping[str, Any] | str | Path) -> Measurements:

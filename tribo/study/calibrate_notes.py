@@ -64,7 +64,7 @@ def _dominated(
     owners = [entry for entry in measured for _ in entry.values]
     parts = np.array([entry.from_resolution[0] / entry.sigma for entry in owners])
     for estimate, own in zip(estimates, effect, strict=True):
-        if estimate.resolution_share > _MOST:
+        if estimate.resolution_share > _MOST and math.isfinite(estimate.upper):
             entry = owners[int(np.argmax(np.abs(own) * parts))]
             instrument = "balance" if entry.quantity == "mass" else "instrument"
             step = in_words(entry.quantity, entry.resolution or 0.0)
@@ -114,8 +114,7 @@ def _misfit(data: Sequence[Datum], parameters: int) -> Iterator[str]:
     spare = len(data) - parameters
     if spare == 0:
         yield (
-            "there are as many data as parameters: they are met exactly, and nothing is left to "
-            "test the model with"
+            "there are no more data than parameters, so that nothing is left to test the model with"
         )
         return
     chi_square = sum(each.residual**2 for each in data)

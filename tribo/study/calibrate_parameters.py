@@ -117,6 +117,8 @@ def _number(case: Case, keys: Sequence[str]) -> tuple[float, Quantity]:
 
 
 def _kind(value: object) -> str:
+    if value is None:
+        return "not given"
     return "a table" if isinstance(value, BaseModel) else shown(value)
 
 
