@@ -13,8 +13,8 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
-from tribo.study.calibrate_outcome import Calibration, Datum, Estimate, Expected
-from tribo.study.calibrate_quantities import PROFILES, in_words
+from tribo.study.calibration_outcome import Calibration, Datum, Estimate, Expected
+from tribo.study.calibration_quantities import PROFILES, in_words
 
 
 @click.command()
@@ -44,7 +44,7 @@ def calibrate(
     """
     from tribo.config.load import read_toml
     from tribo.config.overrides import apply_overrides
-    from tribo.study.calibrate import calibrate
+    from tribo.study import calibrate
 
     found = calibrate(
         apply_overrides(read_toml(case), overrides), measured, level=level, on_run=_tell

@@ -11,9 +11,8 @@ from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
 from tribo.core.errors import NumericalError, TriboWarning
 from tribo.simulation.run import Simulation
-from tribo.study import calibrate_runs
-from tribo.study.calibrate import calibrate
-from tribo.study.calibrate_quantities import QUANTITIES, diameter
+from tribo.study import calibrate, calibration_runs
+from tribo.study.calibration_quantities import QUANTITIES, diameter
 from tribo.templates import template
 from tribo.testing.reference.ball_on_track import ball_on_track
 
@@ -231,7 +230,7 @@ def test_intervals_cover_the_truth_at_their_level(monkeypatch):
     """Of 25 draws of three noisy measurements."""
     kept = {}
 
-    class Remembered(calibrate_runs.Runs):
+    class Remembered(calibration_runs.Runs):
         """Every draw begins with the same runs."""
 
         def __call__(self, values):
@@ -240,7 +239,7 @@ def test_intervals_cover_the_truth_at_their_level(monkeypatch):
                 kept[key] = super().__call__(values)
             return kept[key].copy()
 
-    monkeypatch.setattr("tribo.study.calibrate.Runs", Remembered)
+    monkeypatch.setattr("tribo.study.calibration.Runs", Remembered)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", TriboWarning)
         with Simulation(validate_case(CASE)).run() as result:

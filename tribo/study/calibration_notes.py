@@ -6,13 +6,13 @@ import math
 from collections.abc import Iterator, Sequence
 
 import numpy as np
-from scipy.stats import chi2
+from scipy.special import chdtrc
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
-from tribo.study.calibrate_measured import Measured
-from tribo.study.calibrate_outcome import Datum, Estimate
-from tribo.study.calibrate_quantities import in_words
+from tribo.study.calibration_measured import Measured
+from tribo.study.calibration_outcome import Datum, Estimate
+from tribo.study.calibration_quantities import in_words
 
 UNLIKELY = 0.01
 """Probability of so large a misfit below which data and model are said to disagree."""
@@ -118,7 +118,7 @@ def _misfit(data: Sequence[Datum], parameters: int) -> Iterator[str]:
         )
         return
     chi_square = sum(each.residual**2 for each in data)
-    if chi2.sf(chi_square, spare) < UNLIKELY:
+    if chdtrc(spare, chi_square) < UNLIKELY:
         yield (
             f"data and model disagree: χ² is {chi_square:.3g} where about {spare} is expected. "
             "The model leaves something out, or uncertainties are larger than stated; the "

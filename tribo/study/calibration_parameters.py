@@ -14,7 +14,7 @@ from tribo.core.errors import CaseError
 from tribo.core.units import Quantity
 from tribo.core.words import did_you_mean, shown, suggestion
 from tribo.simulation.model import located
-from tribo.study.calibrate_measured import Fitted, Measured
+from tribo.study.calibration_measured import Fitted, Measured
 
 RANGE = 1e4
 """How far from its start a parameter without bounds is looked for, as a factor."""

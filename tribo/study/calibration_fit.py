@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import OptimizeResult, brentq, least_squares
-from scipy.stats import chi2
+from scipy.special import chdtri
 
 from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError, NumericalError
@@ -227,7 +227,7 @@ def interval(here: Surrogate, direction: Array, level: float) -> tuple[float, fl
         Probability with which it covers the truth.
     """
     best = here.closest()
-    rise = chi2.ppf(level, 1)
+    rise = float(chdtri(1, 1 - level))
     allowed = 2 * best.cost + rise
     centre = float(np.sum(direction * best.x))
     moved = np.sum(direction[:, None] * _root(here.jacobian(best.x)), axis=0)

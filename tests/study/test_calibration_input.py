@@ -7,9 +7,9 @@ import pytest
 
 from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError
-from tribo.study.calibrate import calibrate
-from tribo.study.calibrate_measured import Measured, read_measurements
-from tribo.study.calibrate_quantities import PROFILES, QUANTITIES
+from tribo.study import calibrate
+from tribo.study.calibration_measured import Measured, read_measurements
+from tribo.study.calibration_quantities import PROFILES, QUANTITIES
 from tribo.templates import template
 
 CASE = apply_settings(

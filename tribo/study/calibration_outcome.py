@@ -6,7 +6,7 @@ import math
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from scipy.stats import chi2
+from scipy.special import chdtrc
 
 from tribo.core.arrays import Array
 
@@ -123,7 +123,7 @@ class Calibration:
         """Probability of a misfit at least as large by chance; None without data to spare."""
         if self.degrees_of_freedom == 0:
             return None
-        return float(chi2.sf(self.chi_square, self.degrees_of_freedom))
+        return float(chdtrc(self.degrees_of_freedom, self.chi_square))
 
     def as_json(self) -> dict[str, Any]:
         """Return it as plain data in SI units; an end that is open is None."""
