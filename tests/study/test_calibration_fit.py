@@ -33,7 +33,7 @@ def worn(k):
     )
 
 
-def problem(observed, sigma, *, predictions=0, logged=True, names=NAMES, reach=9.0, start=TRUE):
+def problem(observed, sigma, *, predictions=0, logged=True, names=NAMES, reach=np.inf, start=TRUE):
     """A problem of which the first values are data; the other responses are predictions."""
     n = len(observed) + predictions
     return Problem(
@@ -102,15 +102,25 @@ def test_the_interval_of_a_volume_is_that_of_the_weighing():
 
 def test_a_loss_of_the_size_of_its_uncertainty_bounds_from_above_only():
     made = problem(np.array([1.0]), np.array([0.8]), names=("k",), start=np.ones(1))
-    low, high = interval(fit(lambda k: k, made, np.ones(1)), np.ones(1), 0.95)
+    found = fit(lambda k: k, made, np.ones(1))
+    low, high = interval(found, np.ones(1), 0.95)
     assert low == -np.inf
     assert np.exp(high) == pytest.approx(1 + 0.8 * norm.ppf(0.975), rel=1e-3)
+    # And so for a diameter that goes as the fourth root.
+    low, high = interval(found, np.array([0.25]), 0.95)
+    assert low == -np.inf
+    assert np.exp(high) == pytest.approx((1 + 0.8 * norm.ppf(0.975)) ** 0.25, rel=1e-3)
 
 
 def test_the_interval_of_a_response_keeps_within_that_of_what_it_depends_on():
     """Of k² it is the square of that of k."""
     made = Problem(
-        ("k",), np.array([2.0]), np.array([0.3]), np.full(2, True), np.full(1, -9), np.full(1, 9)
+        ("k",),
+        np.array([2.0]),
+        np.array([0.3]),
+        np.full(2, True),
+        np.full(1, -np.inf),
+        np.full(1, np.inf),
     )
     found = fit(lambda k: np.array([k[0], k[0] ** 2]), made, np.ones(1))
     own, square = interval(found, np.ones(1), 0.95), interval(found, found.slopes[1], 0.95)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -86,12 +87,15 @@ def calibrate(
         observed=np.concatenate([entry.values for entry in asked.measured]),
         sigma=np.concatenate([np.full(len(e.values), e.sigma) for e in asked.measured]),
         logged=runs.logged,
-        lower=np.log([p.lower for p in parameters]),
-        upper=np.log([p.upper for p in parameters]),
+        lower=np.array([math.log(p.lower) if p.lower > 0 else -math.inf for p in parameters]),
+        upper=np.array([math.log(p.upper) for p in parameters]),
     )
+
+    notices: dict[bytes, tuple[str, ...]] = {}
 
     def run(values: Array) -> Array:
         responses = runs(values)
+        notices[values.tobytes()] = runs.notices
         if on_run is not None:
             on_run(runs.count, float(np.sum(problem.residuals(responses) ** 2)))
         return responses
@@ -105,7 +109,7 @@ def calibrate(
         grid=model.grid,
         level=level,
         runs=runs.count,
-        notices=runs.notices,
+        notices=notices[np.exp(fitted.point).tobytes()],
     )
 
 

@@ -45,7 +45,7 @@ class Problem:
         Which of the model's responses are positive and near to power laws of
         the parameters. The first n responses answer to `observed`.
     lower, upper : ndarray, shape (p,)
-        Bounds of the logarithms of the parameters.
+        Bounds of the logarithms of the parameters; infinite for none.
     """
 
     names: tuple[str, ...]
@@ -109,7 +109,10 @@ class Surrogate:
         `target` = (direction, value, width) also draws direction · point to a
         value.
         """
-        reach = LEAP if target is None else 2 * REACH
+        reach = LEAP
+        if target is not None:
+            # Wide enough that only true bounds stop what follows the direction.
+            reach = 2 * REACH / np.clip(np.max(np.abs(target[0])), 0.05, 1.0)
         lower = np.maximum(self.problem.lower, self.point - reach)
         upper = np.minimum(self.problem.upper, self.point + reach)
 
@@ -241,17 +244,17 @@ def interval(here: Surrogate, direction: Array, level: float) -> tuple[float, fl
         found = here.closest((direction, centre + distance, _PULL * spread))
         return float(2 * found.cost - allowed)
 
-    ends = []
-    for sign in (-1.0, 1.0):
-        # Just beyond where the end is if the surrogate is linear.
-        far = sign * 1.1 * np.sqrt(rise) * spread
-        while excess(far) < 0 and abs(far) < REACH:
+    def end(sign: float) -> float:
+        # Just beyond where it is if the surrogate is linear.
+        far = float(sign * 1.1 * np.sqrt(rise) * spread)
+        while excess(far) < 0:
+            if abs(far) > REACH:
+                return sign * np.inf
             far *= 2
-        ends.append(
-            sign * np.inf if abs(far) >= REACH else brentq(excess, 0.0, far, xtol=1e-3 * spread)
-        )
+        return float(brentq(excess, 0.0, far, xtol=1e-3 * spread))
+
     offset = centre - float(np.sum(direction * here.point))
-    return offset + ends[0], offset + ends[1]
+    return offset + end(-1.0), offset + end(1.0)
 
 
 def _differenced(

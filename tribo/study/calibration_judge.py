@@ -47,7 +47,7 @@ def outcome(
     runs : int
         Simulations made.
     notices : sequence of str
-        Warnings of the last run.
+        Warnings of the run with the estimates.
     """
     jacobian = fitted.jacobian(fitted.point)
     spread = covariance(jacobian)

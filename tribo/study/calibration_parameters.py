@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, get_args
@@ -16,9 +17,6 @@ from tribo.core.words import did_you_mean, shown, suggestion
 from tribo.simulation.model import located
 from tribo.study.calibration_measured import Fitted, Measured
 
-RANGE = 1e4
-"""How far from its start a parameter without bounds is looked for, as a factor."""
-
 
 @dataclass(frozen=True)
 class Parameter:
@@ -31,7 +29,7 @@ class Parameter:
     unit : str
         Its SI unit; ``"1"`` for none.
     start, lower, upper : float
-        Where the fit begins, and its bounds, in SI.
+        Where the fit begins, and its bounds, in SI; 0 and infinity for none.
     """
 
     path: str
@@ -146,8 +144,8 @@ def _bounded(place: str, entry: Fitted, value: float, mark: Quantity) -> Paramet
             "scale, so give a start above 0",
             f"{place}.start",
         )
-    least = max(b for b in (mark.above, mark.at_least, start / RANGE) if b is not None)
-    most = min(b for b in (mark.below, mark.at_most, start * RANGE) if b is not None)
+    least = max(b for b in (mark.above, mark.at_least, 0.0) if b is not None)
+    most = min(b for b in (mark.below, mark.at_most, math.inf) if b is not None)
     lower, upper = read("lower", entry.lower, least), read("upper", entry.upper, most)
     if not (lower <= start <= upper and lower < upper):
         raise CaseError(
