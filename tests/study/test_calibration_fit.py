@@ -5,7 +5,7 @@ import pytest
 from scipy.stats import binom, norm
 
 from tribo.core.errors import CaseError, NumericalError
-from tribo.study.calibration_fit import Problem, fit, interval
+from tribo.study.calibration.fit import Problem, fit, interval
 from tribo.testing.reference.ball_on_track import ball_on_track
 
 TRUE = np.array([7.08e-15, 7.08e-16])

@@ -8,8 +8,8 @@ import pytest
 from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError
 from tribo.study import calibrate
-from tribo.study.calibration_measured import Measured, read_measurements
-from tribo.study.calibration_quantities import PROFILES, QUANTITIES
+from tribo.study.calibration.measured import Measured, read_measurements
+from tribo.study.calibration.quantities import PROFILES, QUANTITIES
 from tribo.templates import template
 
 CASE = apply_settings(

@@ -12,7 +12,7 @@ from tribo.config.overrides import apply_settings
 from tribo.core.errors import NumericalError, TriboWarning
 from tribo.simulation.run import Simulation
 from tribo.study import calibrate, calibration_runs
-from tribo.study.calibration_quantities import QUANTITIES, diameter
+from tribo.study.calibration.quantities import QUANTITIES, diameter
 from tribo.templates import template
 from tribo.testing.reference.ball_on_track import ball_on_track
 
@@ -239,7 +239,7 @@ def test_intervals_cover_the_truth_at_their_level(monkeypatch):
                 kept[key] = super().__call__(values)
             return kept[key].copy()
 
-    monkeypatch.setattr("tribo.study.calibration.Runs", Remembered)
+    monkeypatch.setattr("tribo.study.calibration.calibrate.Runs", Remembered)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", TriboWarning)
         with Simulation(validate_case(CASE)).run() as result:

@@ -13,8 +13,8 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
-from tribo.study.calibration_outcome import Calibration, Datum, Estimate, Expected
-from tribo.study.calibration_quantities import PROFILES, in_words
+from tribo.study.calibration.outcome import Calibration, Datum, Estimate, Expected
+from tribo.study.calibration.quantities import PROFILES, in_words
 
 
 @click.command()

@@ -16,13 +16,13 @@ from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.registry import Registry
 from tribo.simulation.model import Model, located
 from tribo.simulation.run import Simulation
-from tribo.study.calibration_fit import Problem, fit
-from tribo.study.calibration_judge import outcome
-from tribo.study.calibration_measured import Measured, Measurements, read_measurements
-from tribo.study.calibration_outcome import Calibration
-from tribo.study.calibration_parameters import find_parameters
-from tribo.study.calibration_quantities import PROFILES, QUANTITIES, check_available, is_available
-from tribo.study.calibration_runs import Predicted, Runs
+from tribo.study.calibration.fit import Problem, fit
+from tribo.study.calibration.judge import outcome
+from tribo.study.calibration.measured import Measured, Measurements, read_measurements
+from tribo.study.calibration.outcome import Calibration
+from tribo.study.calibration.parameters import find_parameters
+from tribo.study.calibration.quantities import PROFILES, QUANTITIES, check_available, is_available
+from tribo.study.calibration.runs import Predicted, Runs
 
 
 def calibrate(

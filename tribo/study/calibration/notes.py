@@ -10,9 +10,9 @@ from scipy.special import chdtrc
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
-from tribo.study.calibration_measured import Measured
-from tribo.study.calibration_outcome import Datum, Estimate
-from tribo.study.calibration_quantities import in_words
+from tribo.study.calibration.measured import Measured
+from tribo.study.calibration.outcome import Datum, Estimate
+from tribo.study.calibration.quantities import in_words
 
 UNLIKELY = 0.01
 """Probability of so large a misfit below which data and model are said to disagree."""

@@ -15,7 +15,7 @@ from tribo.core.errors import CaseError
 from tribo.core.units import Quantity
 from tribo.core.words import did_you_mean, shown, suggestion
 from tribo.simulation.model import located
-from tribo.study.calibration_measured import Fitted, Measured
+from tribo.study.calibration.measured import Fitted, Measured
 
 
 @dataclass(frozen=True)

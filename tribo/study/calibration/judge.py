@@ -9,12 +9,12 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
-from tribo.study.calibration_fit import Surrogate, covariance, interval
-from tribo.study.calibration_measured import Measured
-from tribo.study.calibration_notes import notes
-from tribo.study.calibration_outcome import Calibration, Datum, Estimate, Expected
-from tribo.study.calibration_parameters import Parameter
-from tribo.study.calibration_quantities import unit_of
+from tribo.study.calibration.fit import Surrogate, covariance, interval
+from tribo.study.calibration.measured import Measured
+from tribo.study.calibration.notes import notes
+from tribo.study.calibration.outcome import Calibration, Datum, Estimate, Expected
+from tribo.study.calibration.parameters import Parameter
+from tribo.study.calibration.quantities import unit_of
 
 
 def outcome(

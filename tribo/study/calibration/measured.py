@@ -15,7 +15,7 @@ from tribo.config.table import Table
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.units import Quantity
-from tribo.study.calibration_quantities import PROFILES, unit_of
+from tribo.study.calibration.quantities import PROFILES, unit_of
 
 Reading = Annotated[float, Quantity("kg", above=0)]
 Position = Annotated[float, Quantity("m")]

@@ -16,9 +16,9 @@ from tribo.registry.registry import Registry
 from tribo.results.read import Result
 from tribo.simulation.model import located
 from tribo.simulation.run import Simulation
-from tribo.study.calibration_measured import Measured
-from tribo.study.calibration_parameters import Parameter
-from tribo.study.calibration_quantities import PROFILES, QUANTITIES, read_profile
+from tribo.study.calibration.measured import Measured
+from tribo.study.calibration.parameters import Parameter
+from tribo.study.calibration.quantities import PROFILES, QUANTITIES, read_profile
 
 Predicted = tuple[str, str]
 """A body and a quantity of it, at the end of the run."""
@@ -30,7 +30,7 @@ class Runs:
     `count` is the number of runs so far, `notices` are those of the last one,
     and `positive` tells which predictions were above 0 in all of them. `logged`
     marks the responses that go as powers of the parameters; see
-    `tribo.study.calibration_fit.Problem`.
+    `tribo.study.calibration.fit.Problem`.
 
     Parameters
     ----------
