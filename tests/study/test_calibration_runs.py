@@ -11,7 +11,8 @@ from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
 from tribo.core.errors import NumericalError, TriboWarning
 from tribo.simulation.run import Simulation
-from tribo.study import calibrate, calibration_runs
+from tribo.study import calibrate
+from tribo.study.calibration import runs as calibration_runs
 from tribo.study.calibration.quantities import QUANTITIES, diameter
 from tribo.templates import template
 from tribo.testing.reference.ball_on_track import ball_on_track
