@@ -5,6 +5,7 @@ import json
 from copy import deepcopy
 
 import pytest
+from edited import edited
 from paper_models import archard, flat, small, steel
 from rich.console import Console
 
@@ -106,9 +107,7 @@ def test_a_run_does_not_go_on_with_another_file_behind_its_surface(tmp_path, mon
     path = tmp_path / "stopped.h5"
     Simulation(model()).run(path).close()
     # As if it had been stopped.
-    import h5py
-
-    with h5py.File(path, "r+") as file:
+    with edited(path) as file:
         file.attrs["status"] = "interrupted"
     monkeypatch.setattr(Stated, "serial", "8")
     with pytest.raises(CaseError, match=r"was .*\(with serial number 7\), is .*number 8\)"):

@@ -22,6 +22,7 @@ def show(output: Path, as_json: bool) -> None:
     from tribo.results.read import Result
 
     with Result.open(output) as result:
+        result.check()
         if as_json:
             from tribo.analysis.report import lab_report
 

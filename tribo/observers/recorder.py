@@ -16,6 +16,10 @@ from tribo.results.checkpoint import remove_checkpoint, write_checkpoint
 from tribo.results.read import Result
 from tribo.results.store import ResultWriter
 
+SYNC_EVERY = 1.0
+"""Wall time between waits for the disk, in s. A kill loses nothing in between, a power failure
+may."""
+
 
 class RecorderConfig(ObserverConfig):
     """Configuration of `Recorder`."""
@@ -40,6 +44,7 @@ class Recorder(Observer[RecorderConfig]):
         self._clock = 0.0
         self._spent_before = 0.0
         self._last_checkpoint = 0.0
+        self._synced = 0.0
         self._saved = -1.0
         self._case: Mapping[str, object] = {}
 
@@ -65,7 +70,7 @@ class Recorder(Observer[RecorderConfig]):
             self._checkpoint(snapshot)
 
     def on_save(self, snapshot: Snapshot) -> None:
-        """Write the fields, then a checkpoint."""
+        """Write the fields and a checkpoint; when this returns the save is safe."""
         with self._writing():
             self.writer.append_save(snapshot)
         self._saved = snapshot.state.time
@@ -73,18 +78,20 @@ class Recorder(Observer[RecorderConfig]):
 
     def on_finish(self, snapshot: Snapshot | None, reason: str) -> None:
         """Write what is left; keep the checkpoint unless the run is done."""
-        with self._writing():
-            if snapshot is not None and reason != "done":
-                self._checkpoint(snapshot)
-                if snapshot.state.time != self._saved:
-                    # For the user to see; resuming drops it again.
-                    self.writer.append_save(snapshot)
-                self.writer.note(snapshot.state.notices)
-            self.writer.finish(reason, self._spent())
-        if self.config.path is not None:
-            self.writer.close()
-            if reason == "done":
-                remove_checkpoint(self.config.path)
+        try:
+            with self._writing():
+                if snapshot is not None and reason != "done":
+                    self._checkpoint(snapshot)
+                    if snapshot.state.time != self._saved:
+                        # For the user to see; resuming drops it again.
+                        self.writer.append_save(snapshot)
+                    self.writer.note(snapshot.state.notices)
+                self.writer.finish(reason, self._spent())
+        finally:
+            if self.config.path is not None:
+                self.writer.close()
+        if self.config.path is not None and reason == "done":
+            remove_checkpoint(self.config.path)
 
     def result(self) -> Result:
         """Return what was recorded, for reading."""
@@ -104,11 +111,15 @@ class Recorder(Observer[RecorderConfig]):
     def _checkpoint(self, snapshot: Snapshot) -> None:
         if self.config.path is None:
             return
+        now = time.monotonic()
+        sync = now - self._synced > SYNC_EVERY
         with self._writing():
             # The file must hold every row that the checkpoint counts.
-            self.writer.flush()
-            write_checkpoint(self.config.path, snapshot.state, self._spent(), self._case)
-        self._last_checkpoint = time.monotonic()
+            self.writer.commit(sync=sync)
+            write_checkpoint(self.config.path, snapshot.state, self._spent(), self._case, sync=sync)
+        self._last_checkpoint = now
+        if sync:
+            self._synced = now
 
     def _spent(self) -> float:
         return self._spent_before + time.monotonic() - self._clock

@@ -1,23 +1,28 @@
 """Keep the whole state of a run beside its results, so that it can go on.
 
-A checkpoint is written to a new file, forced to disk and renamed; the one
-before is kept. It holds every bit of the state.
+A checkpoint is a sealed file that takes the place of the one before at once;
+that one is kept. It holds every bit of the state.
 """
 
 from __future__ import annotations
 
+import io
 import json
-import os
+import warnings
 from collections.abc import Mapping
+from contextlib import closing
 from hashlib import sha256
 from pathlib import Path
+from uuid import uuid4
 
 import h5py
 
 from tribo.core.contact import ContactSolution, Residuals
-from tribo.core.errors import CaseError
+from tribo.core.errors import CaseError, TriboWarning
 from tribo.core.fields import WearRate
 from tribo.core.state import BodyState, State
+from tribo.results.seal import write_sealed
+from tribo.results.sealed_file import SealedFile
 from tribo.results.store import read_text, write_array, write_text
 
 
@@ -37,7 +42,12 @@ def fingerprint(case: Mapping[str, object]) -> str:
 
 
 def write_checkpoint(
-    result: Path, state: State, wall_time: float, case: Mapping[str, object]
+    result: Path,
+    state: State,
+    wall_time: float,
+    case: Mapping[str, object],
+    *,
+    sync: bool = True,
 ) -> None:
     """Replace the checkpoint of `result` by `state`, keeping the one before.
 
@@ -51,21 +61,17 @@ def write_checkpoint(
         Time spent so far, in s.
     case : Mapping
         The configuration of the run, as plain data.
+    sync : bool, optional
+        Whether to wait until it would outlive a power failure.
     """
+    image = io.BytesIO()
+    with h5py.File(image, "w", libver="earliest") as file:
+        file.attrs["case"] = fingerprint(case)
+        _write_state(file, state, wall_time)
     path = checkpoint_path(result)
-    fresh = path.with_name(path.name + ".new")
-    try:
-        with h5py.File(fresh, "w", libver="earliest") as file:
-            file.attrs["case"] = fingerprint(case)
-            _write_state(file, state, wall_time)
-        with fresh.open("rb") as handle:
-            os.fsync(handle.fileno())
-    except BaseException:
-        fresh.unlink(missing_ok=True)
-        raise
     if path.exists():
         path.replace(previous_path(result))
-    fresh.replace(path)
+    write_sealed(path, image.getvalue(), identity=uuid4().bytes, sync=sync)
 
 
 def read_checkpoint(result: Path, case: Mapping[str, object]) -> tuple[State, float]:
@@ -88,12 +94,21 @@ def read_checkpoint(result: Path, case: Mapping[str, object]) -> tuple[State, fl
         if not path.exists():
             continue
         try:
-            with h5py.File(path, "r") as file:
-                if file.attrs["case"] == fingerprint(case):
-                    return _read_state(file)
-                reasons.append(f"{path.name} belongs to another case")
+            with closing(SealedFile(path)) as sealed, h5py.File(sealed, "r") as file:
+                if file.attrs["case"] != fingerprint(case):
+                    reasons.append(f"{path.name} belongs to another case")
+                    continue
+                state, wall_time = _read_state(file)
         except (OSError, KeyError, ValueError) as error:
-            reasons.append(f"{path.name} cannot be read ({error})")
+            reasons.append(f"{path.name} is damaged ({error})")
+            continue
+        if reasons:
+            warnings.warn(
+                f"{'; '.join(reasons)}: going on from {path.name}, at {state.time:.6g} s",
+                TriboWarning,
+                stacklevel=2,
+            )
+        return state, wall_time
     raise CaseError(
         f"{result} has no checkpoint to resume from"
         + (f": {'; '.join(reasons)}" if reasons else "")
@@ -102,8 +117,10 @@ def read_checkpoint(result: Path, case: Mapping[str, object]) -> tuple[State, fl
 
 
 def remove_checkpoint(result: Path) -> None:
-    """Delete the checkpoints of a run that is done."""
-    checkpoint_path(result).unlink(missing_ok=True)
+    """Delete the checkpoints of a run that is done, one that was not finished too."""
+    path = checkpoint_path(result)
+    path.with_name(path.name + ".new").unlink(missing_ok=True)
+    path.unlink(missing_ok=True)
     previous_path(result).unlink(missing_ok=True)
 
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+import weakref
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import TracebackType
@@ -18,10 +20,15 @@ from tribo.core.errors import CaseError
 from tribo.core.fields import Field
 from tribo.core.grid import Grid
 from tribo.results.columns import BODY_COLUMNS, COLUMNS
+from tribo.results.damage import unreadable
+from tribo.results.seal import NotSealedError
+from tribo.results.sealed_file import SealedFile, close_sealed
 from tribo.results.store import FORMAT, read_text
 
 SAME_TIME = 1e-9
 """How far a time may be off that of a save, relative to the last one."""
+MOST_PACKED = 1100
+"""Bytes that a byte of a file may stand for; deflate comes to 1032."""
 _LISTED = 8
 
 
@@ -81,36 +88,57 @@ class Result:
         The open file; most users call `Result.open`.
     name : str
         What to call it in messages.
+    sealed : SealedFile, optional
+        What the file is read through; closed with it.
     """
 
-    def __init__(self, file: h5py.File, name: str) -> None:
+    def __init__(self, file: h5py.File, name: str, sealed: SealedFile | None = None) -> None:
         self._file = file
+        self._sealed = sealed
         self.name = name
+        if sealed is not None:
+            # HDF5 must not be left to close it when Python is gone.
+            self._close = weakref.finalize(self, close_sealed, file, sealed)
 
     @classmethod
     def open(cls, path: str | Path) -> Self:
         """Open a result file.
 
+        What is read from it is held against its checksums when it is read.
+
         Raises
         ------
         CaseError
-            If there is no such file, or it is not a tribo result.
+            If there is no such file, it is not a tribo result, or it is
+            damaged at its root.
         """
         path = Path(path)
         if not path.is_file():
             raise CaseError(f"{path} is not a file; give the .h5 file that 'tribo run' wrote")
         try:
-            file = h5py.File(path, "r")
-        except OSError as error:
-            raise CaseError(f"{path} cannot be read as a result file: {error}") from error
-        if file.attrs.get("tribo_format") != FORMAT:
-            found = file.attrs.get("tribo_format")
-            file.close()
+            sealed = SealedFile(path)
+        except NotSealedError as error:
             raise CaseError(
-                f"{path} is not a tribo result of format {FORMAT}"
-                + (f" but of format {found}" if found is not None else "")
-            )
-        return cls(file, str(path))
+                f"{path} is not a whole tribo result ({error}): it was cut short, or another "
+                "program has written to it"
+            ) from error
+        except OSError as error:
+            raise CaseError(f"{path} cannot be read: {error.strerror}") from error
+        if sealed.size == 0:
+            sealed.close()
+            raise CaseError(f"{path} holds nothing yet: its run was stopped as it began")
+        try:
+            file = h5py.File(sealed, "r")
+        except OSError as error:
+            sealed.close()
+            raise CaseError(f"{path} is damaged at its root: {error}") from error
+        result = cls(file, str(path), sealed)
+        with result._reading("its root"):
+            found = file.attrs.get("tribo_format")
+        if found != FORMAT:
+            result.close()
+            raise CaseError(f"{path} is a tribo result of format {found}, not {FORMAT}")
+        return result
 
     def __repr__(self) -> str:
         if not self._file:
@@ -136,17 +164,36 @@ class Result:
 
     def close(self) -> None:
         """Close the file."""
-        self._file.close()
+        if self._sealed is None:
+            self._file.close()
+        else:
+            self._close()
+
+    def check(self) -> None:
+        """Hold the whole file against its checksums.
+
+        Raises
+        ------
+        CaseError
+            If it is damaged, with what of it cannot be read.
+        """
+        if self._sealed is None or not self._sealed.bad_pages():
+            return
+        lost = unreadable(self._file)
+        raise CaseError(
+            f"{self.name} is damaged: "
+            + (f"{', '.join(lost)} cannot be read" if lost else "nothing in use is lost")
+        )
 
     @property
     def status(self) -> str:
         """``"done"``, ``"running"``, ``"interrupted"`` or ``"failed"``."""
-        return str(self._file.attrs["status"])
+        return str(self._attribute("status"))
 
     @property
     def wall_time(self) -> float:
         """Time the run took, in s."""
-        return float(self._file.attrs["wall_time_s"])
+        return float(self._attribute("wall_time_s"))
 
     @property
     def case(self) -> dict[str, Any]:
@@ -161,18 +208,17 @@ class Result:
     @property
     def notices(self) -> tuple[str, ...]:
         """Warnings given during the run."""
-        return tuple(json.loads(str(self._file.attrs.get("notices", "[]"))))
+        return tuple(json.loads(str(self._attribute("notices", "[]"))))
 
     @property
     def system(self) -> ContactSystem:
         """Window, load, contact modulus, pressure cap and initial curvature."""
-        attrs = self._file.attrs
-        lx, ly = (float(size) for size in attrs["window_m"])
-        cap, curvature = attrs.get("cap_Pa"), attrs.get("curvature_1_m")
+        lx, ly = (float(size) for size in self._attribute("window_m"))
+        cap, curvature = self._attribute("cap_Pa", None), self._attribute("curvature_1_m", None)
         return ContactSystem(
-            grid=Grid((lx, ly), (self._file["x"].shape[0], self._file["y"].shape[0])),
-            modulus=float(attrs["modulus_Pa"]),
-            load=float(attrs["load_N"]),
+            grid=Grid((lx, ly), (len(self._read("x")), len(self._read("y")))),
+            modulus=float(self._attribute("modulus_Pa")),
+            load=float(self._attribute("load_N")),
             cap=None if cap is None else float(cap),
             curvature=None if curvature is None else (float(curvature[0]), float(curvature[1])),
         )
@@ -242,15 +288,16 @@ class Result:
             raise CaseError(
                 f"{self.name} has no body {name!r}; its bodies are {', '.join(self.body_names)}"
             )
-        group = self._file[f"bodies/{name}"]
-        density = group.attrs.get("density_kg_m3")
-        kept = [
-            Field(field, str(values.attrs["units"]), str(values.attrs["long_name"]))
-            for field, values in group.get("state", {}).items()
-        ]
+        with self._reading(f"'bodies/{name}'"):
+            group = self._file[f"bodies/{name}"]
+            swept, density = bool(group.attrs["swept"]), group.attrs.get("density_kg_m3")
+            kept = [
+                Field(field, str(values.attrs["units"]), str(values.attrs["long_name"]))
+                for field, values in group.get("state", {}).items()
+            ]
         return BodyResult(
             name=name,
-            swept=bool(group.attrs["swept"]),
+            swept=swept,
             density=None if density is None else float(density),
             height=self._read(f"bodies/{name}/height"),
             wear_depth=self._on_window(f"bodies/{name}/wear_depth"),
@@ -321,16 +368,29 @@ class Result:
         return values
 
     def _read(self, name: str, index: int | slice = slice(None)) -> Array:
-        try:
-            return np.asarray(self._file[name][index])
-        except (OSError, KeyError) as error:
-            raise CaseError(f"{self.name} is damaged: {name!r} cannot be read ({error})") from error
+        save = f" of save {index}" if isinstance(index, int) else ""
+        with self._reading(f"{name!r}{save}"):
+            dataset = self._file[name]
+            if self._sealed is not None and dataset.nbytes > MOST_PACKED * self._sealed.size:
+                raise ValueError(f"it claims {dataset.nbytes:.3g} bytes, more than the file holds")
+            return np.asarray(dataset[index])
 
     def _text(self, name: str) -> str:
-        try:
+        with self._reading(repr(name)):
             return read_text(self._file, name)
-        except (OSError, KeyError, UnicodeDecodeError) as error:
-            raise CaseError(f"{self.name} is damaged: {name!r} cannot be read ({error})") from error
+
+    def _attribute(self, name: str, *default: object) -> Any:
+        with self._reading(repr(name)):
+            attributes = self._file.attrs
+            return attributes.get(name, *default) if default else attributes[name]
+
+    @contextmanager
+    def _reading(self, what: str) -> Iterator[None]:
+        """Say what of the file is damaged, whatever HDF5 raises of it."""
+        try:
+            yield
+        except (OSError, KeyError, RuntimeError, ValueError, TypeError) as error:
+            raise CaseError(f"{self.name} is damaged: {what} cannot be read ({error})") from error
 
 
 def _checked(save: int, count: int, who: str) -> int:

@@ -1,13 +1,15 @@
 """Write a result file as the run proceeds.
 
-HDF5 in its earliest format, flushed at every save, with a checksum on every
-dataset: it survives the death of the process, and a flipped byte is noticed.
-Names and units follow the CF conventions; dimensions are (time, x, y).
+HDF5 in its earliest format, in a sealed file that is committed at every save:
+it survives the death of the process, and a flipped bit is noticed. Every
+dataset has HDF5's own checksum too, for other programs. Names and units follow
+the CF conventions; dimensions are (time, x, y).
 """
 
 from __future__ import annotations
 
 import json
+import weakref
 from collections.abc import Mapping, Sequence
 from itertools import count
 from pathlib import Path
@@ -20,6 +22,8 @@ from tribo.core.errors import CaseError
 from tribo.core.measures import Measures
 from tribo.core.state import RunInfo, Snapshot, State
 from tribo.results.columns import BODY_COLUMNS, COLUMNS
+from tribo.results.sealed_file import close_sealed
+from tribo.results.sealed_writer import SealedWriter
 
 FORMAT = 1
 ROWS = 256
@@ -40,6 +44,7 @@ class ResultWriter:
         self._path = path
         self._rows: list[Measures] = []
         self._file: h5py.File
+        self._sealed: SealedWriter | None = None
 
     @property
     def file(self) -> h5py.File:
@@ -57,7 +62,7 @@ class ResultWriter:
                 libver="earliest",
             )
         else:
-            self._file = h5py.File(self._path, "w", libver="earliest")
+            self._open(SealedWriter.create(self._path), "w")
         f = self._file
         f.attrs["Conventions"] = "CF-1.11"
         f.attrs["title"] = "tribo wear simulation"
@@ -111,7 +116,7 @@ class ResultWriter:
         """Go on with the file of an earlier process, dropping what came after `state`."""
         if self._path is None:
             raise CaseError("a result that was kept in memory cannot be gone on with")
-        self._file = h5py.File(self._path, "r+", libver="earliest")
+        self._open(SealedWriter(self._path), "r+")
         self._file.attrs["status"] = "running"
         _truncate(self._file, state.saves, state.steps + 1)
         _record_change(self._file, run.provenance)
@@ -125,7 +130,7 @@ class ResultWriter:
         self._rows.append(measures)
 
     def append_save(self, snapshot: Snapshot) -> None:
-        """Write the fields of a save, and flush."""
+        """Write the fields of a save; they reach the disk with the next commit."""
         f, state = self._file, snapshot.state
         _append(f["time"], [state.time])
         _append(f["pressure"], [state.contact.pressure])
@@ -139,14 +144,19 @@ class ResultWriter:
                 _append(kept, [values if kept.ndim == 3 else values[0]])
         self._append_rows("saves", [snapshot.measures])
         self.note(state.notices)
-        self.flush()
 
     def note(self, notices: Sequence[str]) -> None:
         """Write the warnings of the run so far."""
         self._file.attrs["notices"] = json.dumps(notices)
 
-    def flush(self) -> None:
-        """Write the remembered rows and hand everything to the operating system."""
+    def commit(self, *, sync: bool = False) -> None:
+        """Write the remembered rows, and put all that was written on disk, or none of it.
+
+        Parameters
+        ----------
+        sync : bool, optional
+            Whether to wait until it would outlive a power failure.
+        """
         if self._rows:
             steps = self._file["history/step"]
             first = steps.shape[0]
@@ -154,17 +164,24 @@ class ResultWriter:
             self._append_rows("history", self._rows)
             self._rows = []
         self._file.flush()
+        if self._sealed is not None:
+            self._sealed.commit(sync=sync)
 
     def finish(self, status: str, wall_time: float) -> None:
         """Write what is left and how the run ended."""
-        self.flush()
         self._file.attrs["status"] = status
         self._file.attrs["wall_time_s"] = wall_time
-        self._file.flush()
+        self.commit(sync=True)
 
     def close(self) -> None:
-        """Close the file."""
-        self._file.close()
+        """Close the file, without what was not committed."""
+        self._close()
+
+    def _open(self, sealed: SealedWriter, mode: str) -> None:
+        self._file = h5py.File(sealed, mode, libver="earliest")
+        self._sealed = sealed
+        # HDF5 must not be left to close it when Python is gone.
+        self._close = weakref.finalize(self, close_sealed, self._file, sealed)
 
     def _append_rows(self, table: str, rows: list[Measures]) -> None:
         for column in COLUMNS:

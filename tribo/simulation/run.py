@@ -130,6 +130,7 @@ class Simulation:
         with Result.open(path) as result:
             if result.status == "done":
                 raise CaseError(f"{path} is done; there is nothing to resume")
+            result.check()
             changes = self.changed_since(result)
             case = result.case
         if changes and not allow_changed:

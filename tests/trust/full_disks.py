@@ -1,0 +1,123 @@
+"""Let runs meet a full disk, make room, and go on with them.
+
+PYTHONPATH=tests python -m trust.full_disks --count 40 --seed 1
+"""
+
+import argparse
+import random
+import resource
+import subprocess
+import sys
+from contextlib import contextmanager, nullcontext
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from trust.trial import contents, resume, run, same, start, whole
+
+from tribo import Result
+
+OUTPUT_ERROR = 3
+
+
+@dataclass
+class FullDisks:
+    """What became of the runs that met a full disk."""
+
+    stopped: int = 0
+    finished: int = 0
+    """There was room enough."""
+    not_begun: int = 0
+    """There was no room for the first save."""
+    identical: int = 0
+    other_exits: int = 0
+    lost_saves: int = 0
+    different: int = 0
+
+    @property
+    def good(self):
+        return self.stopped == self.identical and not self.other_exits
+
+
+def fill_and_resume(count, seed, *, tmpfs=False):
+    """Give `count` runs less room than they need: by a limit on file size, or a small tmpfs."""
+    disks = FullDisks()
+    chance = random.Random(seed)
+    with TemporaryDirectory() as folder:
+        path = whole(folder)
+        undisturbed, most = contents(path), path.stat().st_size
+        for _ in range(count):
+            # The first save takes two thirds of it; checkpoints and the journal take room too.
+            room = chance.randrange(3 * most // 4, 3 * most if tmpfs else most)
+            _one(Path(folder), room, tmpfs, undisturbed, disks)
+    return disks
+
+
+def _one(folder, room, tmpfs, undisturbed, disks):
+    with small_disk(folder / "disk", room) if tmpfs else nullcontext(folder) as place:
+        path = place / "run.h5"
+        path.unlink(missing_ok=True)
+        work = run if tmpfs else limited(room)
+        code, told = start(work, path).wait()
+        if code == 0:
+            disks.finished += 1
+            return
+        if code != OUTPUT_ERROR:
+            disks.other_exits += 1
+            return
+        if len(told) == 0:
+            disks.not_begun += 1
+            return
+        disks.stopped += 1
+        with Result.open(path) as result:
+            result.check()
+            disks.lost_saves += len(set(told) - set(result.times))
+        if tmpfs:
+            subprocess.run(["mount", "-o", "remount,size=64m", str(place)], check=True)
+        code, _ = start(resume, path).wait()
+        if code == 0 and same(contents(path), undisturbed):
+            disks.identical += 1
+        else:
+            disks.different += 1
+
+
+def limited(room):
+    """Return `run` in which no file may grow beyond `room` bytes."""
+
+    def worked(path, pipe):
+        hard = resource.getrlimit(resource.RLIMIT_FSIZE)[1]
+        resource.setrlimit(resource.RLIMIT_FSIZE, (room, hard))
+        run(path, pipe)
+
+    return worked
+
+
+@contextmanager
+def small_disk(folder, room):
+    """Mount a tmpfs of so many bytes; OSError where that is not allowed."""
+    folder.mkdir(exist_ok=True)
+    options = f"size={max(1, room // 4096) * 4096}"
+    mount = ["mount", "-t", "tmpfs", "-o", options, "tmpfs", str(folder)]
+    try:
+        subprocess.run(mount, check=True, capture_output=True)
+    except (OSError, subprocess.CalledProcessError) as error:
+        raise PermissionError(f"no tmpfs can be mounted: {error}") from error
+    try:
+        yield folder
+    finally:
+        subprocess.run(["umount", str(folder)], check=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--count", type=int, default=40)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--tmpfs", action="store_true", help="on a small tmpfs, as root")
+    given = parser.parse_args()
+    disks = fill_and_resume(given.count, given.seed, tmpfs=given.tmpfs)
+    print(disks)
+    sys.exit(not disks.good)
+
+
+if __name__ == "__main__":
+    main()

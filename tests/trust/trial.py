@@ -1,0 +1,173 @@
+"""The run that the trials are made with, and how one of them is watched."""
+
+import os
+import signal
+import sys
+import time
+import traceback
+import warnings
+from functools import partial
+from pathlib import Path
+
+import h5py
+import numpy as np
+from paper_models import flat, half_space, motion, small, sphere, steel
+from strangers.running_in import RunningIn, RunningInConfig
+
+import tribo.simulation.run
+from tribo import Body, Grid, Simulation
+from tribo.core.errors import TriboError
+from tribo.interfaces.observer import Observer, ObserverConfig
+from tribo.observers.recorder import RecorderConfig
+from tribo.results import sealed_writer
+
+SAVES = tuple(range(10, 100, 10))
+TIME_LIMIT = 120.0
+CHECKPOINTS = 0.1
+"""Wall time between checkpoints, in s, so that many fall between the saves."""
+
+
+def simulation():
+    """A hundred seconds of a ball on a disk, whose laws remember."""
+    law = RunningIn(RunningInConfig(k_first=9e-16, k_last=3e-16, length=5.0))
+    model = small(
+        grid=Grid((0.7e-3, 0.7e-3), (24, 24)),
+        contact=half_space(),
+        bodies=[Body("ball", sphere(), steel(), law), Body("disk", flat(), steel(), law)],
+        kinematics=motion(duration=100),
+        save_times=SAVES,
+    )
+    return Simulation(model)
+
+
+class Acknowledge(Observer[ObserverConfig]):
+    """Writes the time of each save to a pipe once the recorder has it."""
+
+    def __init__(self, pipe):
+        super().__init__(ObserverConfig(type="trust.acknowledge"))
+        self.pipe = pipe
+
+    def on_save(self, snapshot):
+        os.write(self.pipe, np.float64(snapshot.state.time).tobytes())
+
+
+def run(path, pipe):
+    simulation().run(path, observers=[Acknowledge(pipe)], overwrite=True).close()
+
+
+def resume(path, pipe):
+    simulation().resume(path, observers=[Acknowledge(pipe)]).close()
+
+
+def dying(work, at):
+    """Return `work` that kills itself half-way through its write number `at`."""
+    left = [at]
+    write_all, replace, unlink = sealed_writer._write_all, Path.replace, Path.unlink
+
+    def die():
+        left[0] -= 1
+        if left[0] < 0:
+            os.kill(os.getpid(), signal.SIGKILL)
+
+    def half(fd, data, position):
+        if left[0] == 0:
+            write_all(fd, data[: len(data) // 2], position)
+        die()
+        write_all(fd, data, position)
+
+    def first(function):
+        def then(*args, **options):
+            die()
+            return function(*args, **options)
+
+        return then
+
+    def worked(*args):
+        sealed_writer._write_all = half
+        Path.replace, Path.unlink = first(replace), first(unlink)
+        work(*args)
+
+    return worked
+
+
+def start(work, *args):
+    """Fork a process that does `work` and return it, with what it acknowledges.
+
+    It exits as the command line would: 0, or the exit code of the error, which goes to stderr.
+    """
+    reading, writing = os.pipe()
+    pid = os.fork()
+    if pid:
+        os.close(writing)
+        return Child(pid, reading)
+    code = 70
+    try:
+        os.close(reading)
+        warnings.simplefilter("ignore")
+        tribo.simulation.run.RecorderConfig = partial(RecorderConfig, checkpoint_every=CHECKPOINTS)
+        work(*args, writing)
+        code = 0
+    except TriboError as error:
+        code = error.exit_code
+        print(f"error: {error}", file=sys.stderr)
+    except BaseException:
+        traceback.print_exc()
+    finally:
+        sys.stderr.flush()
+        os._exit(code)
+
+
+class Child:
+    """A forked process."""
+
+    def __init__(self, pid, pipe):
+        self.pid, self._pipe = pid, pipe
+
+    def kill(self):
+        os.kill(self.pid, signal.SIGKILL)
+
+    def wait(self):
+        """Return how it ended, as `subprocess` has it, and the times of the saves it told of."""
+        told = b""
+        end = time.monotonic() + TIME_LIMIT
+        status = 0
+        while True:
+            done, status = os.waitpid(self.pid, os.WNOHANG)
+            if done:
+                break
+            if time.monotonic() > end:
+                self.kill()
+                os.waitpid(self.pid, 0)
+                raise TimeoutError(f"a process took more than {TIME_LIMIT:g} s")
+            time.sleep(0.002)
+        while part := os.read(self._pipe, 4096):
+            told += part
+        os.close(self._pipe)
+        return os.waitstatus_to_exitcode(status), np.frombuffer(told)
+
+
+def contents(path):
+    """Every dataset of a result, read without tribo."""
+    found = {}
+    with h5py.File(path) as file:
+        file.visititems(
+            lambda name, item: (
+                found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None
+            )
+        )
+    return found
+
+
+def same(first, second):
+    """Whether two results hold the same bits."""
+    return first.keys() == second.keys() and all(
+        np.array_equal(first[name], second[name]) for name in first
+    )
+
+
+def whole(folder):
+    """Make the run that nothing disturbs."""
+    path = Path(folder) / "whole.h5"
+    code, _ = start(run, path).wait()
+    assert code == 0
+    return path

@@ -1,0 +1,162 @@
+"""A sealed file as HDF5 writes it: all that was written since the last commit, or none of it."""
+
+from __future__ import annotations
+
+import fcntl
+import io
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING
+from uuid import uuid4
+
+from tribo.core.errors import CaseError
+from tribo.results.journal import journal_path, write_journal
+from tribo.results.seal import PAGE, Seal, digest, page_count, write_sealed
+from tribo.results.sealed_file import SealedFile
+
+if TYPE_CHECKING:
+    from _typeshed import ReadableBuffer
+
+
+class SealedWriter(SealedFile):
+    """A sealed file, open for writing. What is written stays in memory until `commit`.
+
+    A commit writes a journal, then the file. It counts from the moment the
+    journal is complete, so the process may be killed at any moment, or the
+    disk be full.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Raises
+    ------
+    CaseError
+        If another process is writing it.
+    """
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(path)
+        # Of a commit that was cut short there is still something to do.
+        self._dirty = {index: bytearray(page) for index, page in self._journal.items()}
+        self._floor = self._size
+
+    @classmethod
+    def create(cls, path: Path) -> SealedWriter:
+        """Begin a new file, in the place of what is there."""
+        if path.exists():
+            with path.open("rb") as there:
+                _lock(there, path)
+        journal_path(path).unlink(missing_ok=True)
+        write_sealed(path, b"", identity=uuid4().bytes, sync=False)
+        return cls(path)
+
+    def commit(self, *, sync: bool) -> None:
+        """Make what was written so far what the file holds.
+
+        Parameters
+        ----------
+        sync : bool
+            Whether to wait until it would outlive a power failure.
+        """
+        count = page_count(self._size)
+        if self._size != self._seal.size or self._floor < self._size:
+            for index in range(self._floor // PAGE, count):
+                self._own(index)
+        if not self._dirty and self._size == self._seal.size:
+            return
+        pages = {index: bytes(self._dirty[index]) for index in sorted(self._dirty)}
+        digests = list(self._seal.digests[:count])
+        digests += [b""] * (count - len(digests))
+        for index, page in pages.items():
+            digests[index] = digest(page[: self._size - index * PAGE])
+        seal = Seal(self._seal.identity, self._seal.commit + 1, self._size, tuple(digests))
+        write_journal(self.path, pages, seal, sync=sync)
+        self._carry_out(pages, seal, sync=sync)
+        self._seal, self._journal, self._floor = seal, {}, seal.size
+        self._dirty.clear()
+        self._kept.clear()
+
+    def _carry_out(self, pages: dict[int, bytes], seal: Seal, *, sync: bool) -> None:
+        fd = self._file.fileno()
+        encoded = seal.encode()
+        for index, page in pages.items():
+            _write_all(fd, page, index * PAGE)
+        _write_all(fd, encoded, seal.size)
+        os.ftruncate(fd, seal.size + len(encoded))
+        if sync:
+            os.fsync(fd)
+        journal_path(self.path).unlink()
+
+    def _open(self, path: Path) -> io.FileIO:
+        file = io.FileIO(path, "r+")
+        try:
+            _lock(file, path)
+        except BaseException:
+            file.close()
+            raise
+        return file
+
+    def _page(self, index: int) -> bytes | bytearray:
+        if index in self._dirty or (index + 1) * PAGE > self._floor:
+            return self._own(index)
+        return self._sealed_page(index)
+
+    def _own(self, index: int) -> bytearray:
+        """Return a page as it is to be written."""
+        page = self._dirty.get(index)
+        if page is None:
+            page = bytearray(PAGE)
+            kept = min(PAGE, self._floor - index * PAGE)
+            if kept > 0:
+                page[:kept] = self._sealed_page(index)[:kept]
+            self._dirty[index] = page
+        return page
+
+    def writable(self) -> bool:
+        """Return True."""
+        return True
+
+    def write(self, data: ReadableBuffer) -> int:
+        """Write at the current position; nothing reaches the disk yet."""
+        view = memoryview(data).cast("B")
+        done = 0
+        while done < len(view):
+            index, offset = divmod(self._position, PAGE)
+            length = min(PAGE - offset, len(view) - done)
+            self._own(index)[offset : offset + length] = view[done : done + length]
+            done += length
+            self._position += length
+        self._size = max(self._size, self._position)
+        return done
+
+    def truncate(self, size: int | None = None) -> int:
+        """Let the file end at `size`; what it gains is zero."""
+        size = self._position if size is None else size
+        if size < self._size:
+            last, kept = divmod(size, PAGE)
+            if last in self._dirty:
+                self._dirty[last][kept:] = bytes(PAGE - kept)
+            for index in [index for index in self._dirty if index >= page_count(size)]:
+                del self._dirty[index]
+            self._floor = min(self._floor, size)
+        self._size = size
+        return size
+
+
+def _write_all(fd: int, data: bytes, position: int) -> None:
+    view = memoryview(data)
+    while view:
+        written = os.pwrite(fd, view, position)
+        view, position = view[written:], position + written
+
+
+def _lock(file: io.IOBase, path: Path) -> None:
+    try:
+        fcntl.flock(file.fileno(), fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError as error:
+        raise CaseError(f"{path} is in use: another process has it open") from error
+    except OSError:
+        # Some network file systems have no locks.
+        pass
