@@ -1,5 +1,6 @@
 """A damaged result says what of it is lost, and gives the rest."""
 
+import os
 import subprocess
 import sys
 
@@ -10,7 +11,7 @@ from edited import edited
 from paper_models import archard, flat, motion, small, sphere, steel
 
 from tribo import Body, CaseError, Grid, Interrupted, Result, Simulation
-from tribo.core.errors import TriboWarning
+from tribo.core.errors import OutputError, TriboWarning
 from tribo.interfaces.observer import Observer, ObserverConfig
 from tribo.results.checkpoint import checkpoint_path, previous_path
 from tribo.results.columns import COLUMNS
@@ -162,3 +163,29 @@ def test_a_damaged_result_is_not_gone_on_with(stopped):
     flip(stopped, offset + size // 2)
     with pytest.raises(CaseError, match="'pressure' of save 0 cannot be read"):
         Simulation(model()).resume(stopped)
+
+
+@pytest.mark.parametrize(
+    "name", ["a" * 300 + ".h5", "a" * 253 + ".h5", "a" * 250 + ".h5"], ids=["300", "256", "253"]
+)
+def test_an_output_that_cannot_be_written_is_one_message(tmp_path, name):
+    with pytest.raises(OutputError, match=r"cannot write .*too long.*choose another place"):
+        Simulation(model()).run(tmp_path / name)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_device_is_not_replaced(tmp_path):
+    link = tmp_path / "pipe"
+    os.mkfifo(link)
+    with pytest.raises(CaseError, match="not a file that could be replaced"):
+        Simulation(model()).run(link, overwrite=True)
+
+
+def test_a_result_may_be_a_link(sound, tmp_path):
+    link, there = tmp_path / "link.h5", tmp_path / "there.h5"
+    there.write_text("old")
+    link.symlink_to(there)
+    Simulation(model()).run(link, overwrite=True).close()
+    assert link.is_symlink()
+    with Result.open(there) as result, Result.open(sound) as whole:
+        np.testing.assert_array_equal(result.pressure(-1), whole.pressure(-1))

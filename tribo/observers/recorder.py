@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -104,7 +105,7 @@ class Recorder(Observer[RecorderConfig]):
         path = self.config.path
         if path is None:
             return
-        if path.exists() and not self.config.overwrite:
+        if os.path.exists(path) and not self.config.overwrite:
             raise CaseError(f"{path} exists; choose another path, or set overwrite = true")
         remove_checkpoint(path)
 

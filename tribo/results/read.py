@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import weakref
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -113,7 +114,7 @@ class Result:
             damaged at its root.
         """
         path = Path(path)
-        if not path.is_file():
+        if not os.path.isfile(path):
             raise CaseError(f"{path} is not a file; give the .h5 file that 'tribo run' wrote")
         try:
             sealed = SealedFile(path)

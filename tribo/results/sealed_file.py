@@ -45,7 +45,8 @@ class SealedFile(io.RawIOBase):
 
     def __init__(self, path: Path) -> None:
         super().__init__()
-        self.path = path
+        # The journal lies beside the file itself, by whatever link it was found.
+        self.path = path.resolve()
         self._file = self._open(path)
         self._position = 0
         self._kept: dict[int, bytes] = {}

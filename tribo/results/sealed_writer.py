@@ -45,7 +45,10 @@ class SealedWriter(SealedFile):
     @classmethod
     def create(cls, path: Path) -> SealedWriter:
         """Begin a new file, in the place of what is there."""
+        path = path.resolve()
         if path.exists():
+            if not path.is_file():
+                raise CaseError(f"{path} is not a file that could be replaced; choose another")
             with path.open("rb") as there:
                 _lock(there, path)
         journal_path(path).unlink(missing_ok=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, replace
@@ -259,10 +260,11 @@ def _checked_output(output: str | Path | None, overwrite: bool) -> Path | None:
     if output is None:
         return None
     path = Path(output)
-    if path.exists() and not overwrite:
+    # Unlike Path.exists it does not raise where a name is too long.
+    if os.path.exists(path) and not overwrite:
         raise CaseError(f"{path} exists; choose another with -o, or replace it with --force")
-    if path.is_dir():
+    if os.path.isdir(path):
         raise CaseError(f"{path} is a folder; give a file name, as {path / 'result.h5'}")
-    if not path.parent.is_dir():
+    if not os.path.isdir(path.parent):
         raise CaseError(f"there is no folder {path.parent}; make it first")
     return path
