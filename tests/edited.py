@@ -13,4 +13,4 @@ def edited(path):
     with closing(SealedWriter(path)) as sealed:
         with h5py.File(sealed, "r+", libver="earliest") as file:
             yield file
-        sealed.commit(sync=False)
+        sealed.commit(sync=True)

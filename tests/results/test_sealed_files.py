@@ -50,10 +50,13 @@ def test_it_reads_as_any_file_would(tmp_path, seed):
             scribble(file, chance)
             scribble_plain(plain, again)
             assert whole(file) == plain.getvalue()
-            file.commit(sync=False)
+            file.commit(sync=chance.random() < 0.5)
+            again.random()
             assert content(path) == plain.getvalue()
     with closing(SealedWriter(path)) as file:
         assert whole(file) == plain.getvalue()
+        file.commit(sync=True)
+    assert content(path) == plain.getvalue()
     assert [p.name for p in tmp_path.iterdir()] == ["file"]
 
 
@@ -89,7 +92,7 @@ def test_killed_at_any_write_it_holds_one_commit_or_the_next(tmp_path, monkeypat
         path = tmp_path / f"file{at}"
         with closing(SealedWriter.create(path)) as file:
             file.write(first)
-            file.commit(sync=False)
+            file.commit(sync=at % 2 == 0)
             file.seek(100)
             file.write(second)
             with monkeypatch.context() as patch:
@@ -103,7 +106,7 @@ def test_killed_at_any_write_it_holds_one_commit_or_the_next(tmp_path, monkeypat
             with closing(SealedWriter(path)) as file:
                 file.seek(0, io.SEEK_END)
                 file.write(b"more")
-                file.commit(sync=False)
+                file.commit(sync=True)
                 assert not journal_path(path).exists()
         found = content(path)
         expected = (first, first[:100] + second)
@@ -138,6 +141,20 @@ def countdown(patch, at):
         patch.setattr(owner, name, first(getattr(owner, name)))
 
 
+def test_after_a_power_failure_it_holds_the_last_commit_that_waited(tmp_path):
+    path = tmp_path / "file"
+    with closing(SealedWriter.create(path)) as file:
+        file.write(bytes(3 * PAGE))
+        file.commit(sync=True)
+        for _ in range(3):
+            file.write(b"later")
+            file.seek(0)
+            file.commit(sync=False)
+    journal = journal_path(path)
+    journal.write_bytes(journal.read_bytes()[:-100])
+    assert content(path) == bytes(3 * PAGE)
+
+
 def test_every_bit_counts(tmp_path):
     path = tmp_path / "file"
     write_sealed(path, bytes(range(256)) * 20, identity=bytes(16), sync=False)
@@ -168,12 +185,12 @@ def test_the_journal_of_another_file_is_left_alone(tmp_path, monkeypatch):
     for each in (path, other):
         with closing(SealedWriter.create(each)) as file:
             file.write(each.name.encode())
-            file.commit(sync=False)
+            file.commit(sync=True)
             if each == other:
                 file.write(b" more")
                 monkeypatch.setattr(sealed_writer, "_write_all", killed)
                 with pytest.raises(KilledError):
-                    file.commit(sync=False)
+                    file.commit(sync=True)
     journal_path(other).rename(journal_path(path))
     assert content(path) == b"file"
 
@@ -195,10 +212,10 @@ def test_a_reader_is_told_when_the_file_has_gone_on(tmp_path):
     path = tmp_path / "file"
     with closing(SealedWriter.create(path)) as writer:
         writer.write(bytes(2 * PAGE))
-        writer.commit(sync=False)
+        writer.commit(sync=True)
         with closing(SealedFile(path)) as reader:
             writer.seek(0)
             writer.write(b"new")
-            writer.commit(sync=False)
+            writer.commit(sync=True)
             with pytest.raises(DamagedError, match="since the file was opened; open it again"):
                 reader.read()

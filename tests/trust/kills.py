@@ -4,9 +4,11 @@ PYTHONPATH=tests python -m trust.kills --count 100 --seed 1
 """
 
 import argparse
+import os
 import random
 import sys
 import time
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -14,6 +16,10 @@ from tempfile import TemporaryDirectory
 from trust.trial import contents, dying, resume, run, same, start, whole
 
 from tribo import CaseError, Result
+from tribo.results.checkpoint import checkpoint_path, previous_path
+from tribo.results.journal import journal_path
+from tribo.results.seal import NotSealedError
+from tribo.results.sealed_file import SealedFile
 
 WRITES = 700
 """About as many writes as a run makes."""
@@ -26,21 +32,27 @@ class Kills:
     killed: int = 0
     finished: int = 0
     """Done before the signal came."""
+    power_cuts: int = 0
+    """Of those killed, how often what had not waited for the disk was torn besides."""
     identical: int = 0
     lost_saves: int = 0
     unreadable: int = 0
     not_resumed: int = 0
     different: int = 0
+    left_over: int = 0
+    """Files that a finished run leaves behind."""
 
     @property
     def good(self):
-        return self.killed == self.identical
+        bad = self.lost_saves + self.unreadable + self.left_over
+        return self.killed == self.identical and not bad
 
 
 def kill_and_resume(count, seed):
     """Kill `count` runs, each at a moment of its own, and resume each.
 
-    Every other one dies in the middle of a write, and half of them once more as they go on.
+    Every other one dies in the middle of a write, half of them once more as they go on, and now
+    and then the power fails too.
     """
     kills = Kills()
     chance = random.Random(seed)
@@ -63,6 +75,11 @@ def _one(path, chance, duration, undisturbed, kills):
         return
     kills.killed += 1
     while code != 0:
+        if chance.random() < 0.25 and previous_path(path).exists():
+            kills.power_cuts += 1
+            _cut_power(path, chance)
+            # What came after the last wait for the disk is made again.
+            acknowledged = []
         kills.unreadable += not _readable(path)
         kills.lost_saves += len(set(acknowledged) - set(_times(path)))
         if code > 0:
@@ -73,6 +90,7 @@ def _one(path, chance, duration, undisturbed, kills):
         else:
             code, told = start(resume, path).wait()
         acknowledged += list(told)
+    kills.left_over += len(list(path.parent.glob(path.name + ".*")))
     if same(contents(path), undisturbed):
         kills.identical += 1
     else:
@@ -85,10 +103,33 @@ def _killed(work, path, chance, duration, writing):
         child = start(dying(work, chance.randrange(WRITES)), path)
     else:
         child = start(work, path)
-        time.sleep(chance.uniform(0, duration))
+        time.sleep(chance.uniform(0, 0.7 * duration))
         child.kill()
     code, told = child.wait()
     return list(told), code
+
+
+def _cut_power(path, chance):
+    """Tear what did not wait for the disk."""
+    unwaited = [checkpoint_path(path)]
+    if _whole_without_journal(path):
+        unwaited.append(journal_path(path))
+    for torn in unwaited:
+        if torn.exists():
+            os.truncate(torn, chance.randrange(torn.stat().st_size))
+
+
+def _whole_without_journal(path):
+    """Whether the journal is not being carried out, for which it would have waited."""
+    alone = path.with_name("alone.h5")
+    alone.write_bytes(path.read_bytes())
+    try:
+        with closing(SealedFile(alone)) as file:
+            return not file.bad_pages()
+    except NotSealedError:
+        return False
+    finally:
+        alone.unlink()
 
 
 def _times(path):

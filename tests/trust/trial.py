@@ -18,6 +18,7 @@ import tribo.simulation.run
 from tribo import Body, Grid, Simulation
 from tribo.core.errors import TriboError
 from tribo.interfaces.observer import Observer, ObserverConfig
+from tribo.observers import recorder
 from tribo.observers.recorder import RecorderConfig
 from tribo.results import sealed_writer
 
@@ -25,6 +26,8 @@ SAVES = tuple(range(10, 100, 10))
 TIME_LIMIT = 120.0
 CHECKPOINTS = 0.1
 """Wall time between checkpoints, in s, so that many fall between the saves."""
+WAITS = 0.2
+"""Wall time between waits for the disk, in s."""
 
 
 def simulation():
@@ -104,6 +107,7 @@ def start(work, *args):
     try:
         os.close(reading)
         warnings.simplefilter("ignore")
+        recorder.SYNC_EVERY = WAITS
         tribo.simulation.run.RecorderConfig = partial(RecorderConfig, checkpoint_every=CHECKPOINTS)
         work(*args, writing)
         code = 0

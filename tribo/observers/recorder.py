@@ -18,8 +18,8 @@ from tribo.results.read import Result
 from tribo.results.store import ResultWriter
 
 SYNC_EVERY = 1.0
-"""Wall time between waits for the disk, in s. A kill loses nothing in between, a power failure
-may."""
+"""Wall time between waits for the disk, in s. A power failure may lose what came in between, a
+kill does not."""
 
 
 class RecorderConfig(ObserverConfig):
@@ -46,7 +46,9 @@ class Recorder(Observer[RecorderConfig]):
         self._spent_before = 0.0
         self._last_checkpoint = 0.0
         self._synced = 0.0
+        self._kept_synced = True
         self._saved = -1.0
+        self._saves = 0
         self._case: Mapping[str, object] = {}
 
     def on_start(self, run: RunInfo) -> None:
@@ -60,6 +62,7 @@ class Recorder(Observer[RecorderConfig]):
             else:
                 self._spent_before = run.wall_time
                 self._saved = run.resumed_from.state.time
+                self._saves = run.resumed_from.state.saves
                 self.writer.reopen(run, run.resumed_from.state)
                 # Gone on with other versions, the file keeps the case it was begun with.
                 self._case = self.writer.case()
@@ -67,6 +70,9 @@ class Recorder(Observer[RecorderConfig]):
     def on_step(self, snapshot: Snapshot) -> None:
         """Add to the history; now and then write a checkpoint."""
         self.writer.append_step(snapshot.measures)
+        # A state that counts a save still to be written has its checkpoint with that.
+        if snapshot.state.saves > self._saves:
+            return
         if time.monotonic() - self._last_checkpoint > self.config.checkpoint_every:
             self._checkpoint(snapshot)
 
@@ -74,7 +80,7 @@ class Recorder(Observer[RecorderConfig]):
         """Write the fields and a checkpoint; when this returns the save is safe."""
         with self._writing():
             self.writer.append_save(snapshot)
-        self._saved = snapshot.state.time
+        self._saved, self._saves = snapshot.state.time, snapshot.state.saves
         self._checkpoint(snapshot)
 
     def on_finish(self, snapshot: Snapshot | None, reason: str) -> None:
@@ -117,8 +123,17 @@ class Recorder(Observer[RecorderConfig]):
         with self._writing():
             # The file must hold every row that the checkpoint counts.
             self.writer.commit(sync=sync)
-            write_checkpoint(self.config.path, snapshot.state, self._spent(), self._case, sync=sync)
+            # The one before is one that would outlive a power failure.
+            write_checkpoint(
+                self.config.path,
+                snapshot.state,
+                self._spent(),
+                self._case,
+                sync=sync,
+                keep=self._kept_synced,
+            )
         self._last_checkpoint = now
+        self._kept_synced = sync
         if sync:
             self._synced = now
 

@@ -1,7 +1,7 @@
 """Keep the whole state of a run beside its results, so that it can go on.
 
 A checkpoint is a sealed file that takes the place of the one before at once;
-that one is kept. It holds every bit of the state.
+one before it is kept. It holds every bit of the state.
 """
 
 from __future__ import annotations
@@ -18,11 +18,14 @@ from uuid import uuid4
 import h5py
 
 from tribo.core.contact import ContactSolution, Residuals
-from tribo.core.errors import CaseError, TriboWarning
+from tribo.core.errors import CaseError, OutputError, TriboWarning
 from tribo.core.fields import WearRate
 from tribo.core.state import BodyState, State
+from tribo.results.journal import journal_path
+from tribo.results.read import Result
 from tribo.results.seal import write_sealed
 from tribo.results.sealed_file import SealedFile
+from tribo.results.sealed_writer import SealedWriter
 from tribo.results.store import read_text, write_array, write_text
 
 
@@ -48,8 +51,9 @@ def write_checkpoint(
     case: Mapping[str, object],
     *,
     sync: bool = True,
+    keep: bool = True,
 ) -> None:
-    """Replace the checkpoint of `result` by `state`, keeping the one before.
+    """Replace the checkpoint of `result` by `state`.
 
     Parameters
     ----------
@@ -63,13 +67,15 @@ def write_checkpoint(
         The configuration of the run, as plain data.
     sync : bool, optional
         Whether to wait until it would outlive a power failure.
+    keep : bool, optional
+        Whether the one that it replaces becomes the one before; else that stays.
     """
     image = io.BytesIO()
     with h5py.File(image, "w", libver="earliest") as file:
         file.attrs["case"] = fingerprint(case)
         _write_state(file, state, wall_time)
     path = checkpoint_path(result)
-    if path.exists():
+    if keep and path.exists():
         path.replace(previous_path(result))
     write_sealed(path, image.getvalue(), identity=uuid4().bytes, sync=sync)
 
@@ -89,6 +95,8 @@ def read_checkpoint(result: Path, case: Mapping[str, object]) -> tuple[State, fl
     CaseError
         If there is no readable checkpoint.
     """
+    with Result.open(result) as kept:
+        saves, steps = len(kept.times), kept.totals()["steps"]
     reasons = []
     for path in (checkpoint_path(result), previous_path(result)):
         if not path.exists():
@@ -101,6 +109,9 @@ def read_checkpoint(result: Path, case: Mapping[str, object]) -> tuple[State, fl
                 state, wall_time = _read_state(file)
         except (OSError, KeyError, ValueError) as error:
             reasons.append(f"{path.name} is damaged ({error})")
+            continue
+        if state.saves > saves or state.steps > steps:
+            reasons.append(f"{path.name} counts rows that {result.name} lacks")
             continue
         if reasons:
             warnings.warn(
@@ -120,8 +131,32 @@ def remove_checkpoint(result: Path) -> None:
     """Delete the checkpoints of a run that is done, one that was not finished too."""
     path = checkpoint_path(result)
     path.with_name(path.name + ".new").unlink(missing_ok=True)
-    path.unlink(missing_ok=True)
     previous_path(result).unlink(missing_ok=True)
+    path.unlink(missing_ok=True)
+
+
+def tidied(result: Path) -> bool:
+    """Put away what a run that was killed as it ended left beside its result.
+
+    Returns
+    -------
+    bool
+        Whether there was anything.
+
+    Raises
+    ------
+    OutputError
+        If the result cannot be written.
+    """
+    if not (checkpoint_path(result).exists() or journal_path(result).exists()):
+        return False
+    try:
+        with closing(SealedWriter(result)) as file:
+            file.commit(sync=True)
+    except OSError as error:
+        raise OutputError(f"cannot write {result}: {error}") from error
+    remove_checkpoint(result)
+    return True
 
 
 _SCALARS = (

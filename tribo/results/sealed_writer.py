@@ -21,9 +21,10 @@ if TYPE_CHECKING:
 class SealedWriter(SealedFile):
     """A sealed file, open for writing. What is written stays in memory until `commit`.
 
-    A commit writes a journal, then the file. It counts from the moment the
-    journal is complete, so the process may be killed at any moment, or the
-    disk be full.
+    A commit writes a journal, and one that waits for the disk then the file.
+    It counts from the moment the journal is complete, so the process may be
+    killed at any moment, or the disk be full. After a power failure the file
+    holds the last commit that waited, or a later one.
 
     Parameters
     ----------
@@ -41,6 +42,8 @@ class SealedWriter(SealedFile):
         # Of a commit that was cut short there is still something to do.
         self._dirty = {index: bytearray(page) for index, page in self._journal.items()}
         self._floor = self._size
+        self._commits = self._seal.commit
+        self._changed = False
 
     @classmethod
     def create(cls, path: Path) -> SealedWriter:
@@ -63,34 +66,35 @@ class SealedWriter(SealedFile):
         sync : bool
             Whether to wait until it would outlive a power failure.
         """
+        if not self._changed and not (sync and self._dirty):
+            return
         count = page_count(self._size)
         if self._size != self._seal.size or self._floor < self._size:
             for index in range(self._floor // PAGE, count):
                 self._own(index)
-        if not self._dirty and self._size == self._seal.size:
-            return
         pages = {index: bytes(self._dirty[index]) for index in sorted(self._dirty)}
         digests = list(self._seal.digests[:count])
         digests += [b""] * (count - len(digests))
         for index, page in pages.items():
             digests[index] = digest(page[: self._size - index * PAGE])
-        seal = Seal(self._seal.identity, self._seal.commit + 1, self._size, tuple(digests))
+        seal = Seal(self._seal.identity, self._commits + 1, self._size, tuple(digests))
         write_journal(self.path, pages, seal, sync=sync)
-        self._carry_out(pages, seal, sync=sync)
-        self._seal, self._journal, self._floor = seal, {}, seal.size
-        self._dirty.clear()
-        self._kept.clear()
+        self._commits, self._changed = seal.commit, False
+        if sync:
+            self._carry_out(pages, seal)
 
-    def _carry_out(self, pages: dict[int, bytes], seal: Seal, *, sync: bool) -> None:
+    def _carry_out(self, pages: dict[int, bytes], seal: Seal) -> None:
         fd = self._file.fileno()
         encoded = seal.encode()
         for index, page in pages.items():
             _write_all(fd, page, index * PAGE)
         _write_all(fd, encoded, seal.size)
         os.ftruncate(fd, seal.size + len(encoded))
-        if sync:
-            os.fsync(fd)
+        os.fsync(fd)
         journal_path(self.path).unlink()
+        self._seal, self._journal, self._floor = seal, {}, seal.size
+        self._dirty.clear()
+        self._kept.clear()
 
     def _open(self, path: Path) -> io.FileIO:
         file = io.FileIO(path, "r+")
@@ -131,12 +135,14 @@ class SealedWriter(SealedFile):
             self._own(index)[offset : offset + length] = view[done : done + length]
             done += length
             self._position += length
+        self._changed = True
         self._size = max(self._size, self._position)
         return done
 
     def truncate(self, size: int | None = None) -> int:
         """Let the file end at `size`; what it gains is zero."""
         size = self._position if size is None else size
+        self._changed = self._changed or size != self._size
         if size < self._size:
             last, kept = divmod(size, PAGE)
             if last in self._dirty:

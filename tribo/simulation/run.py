@@ -17,7 +17,7 @@ from tribo.interfaces.observer import Observer, ObserverConfig
 from tribo.observers.recorder import Recorder, RecorderConfig
 from tribo.registry.records import PluginRecord
 from tribo.registry.registry import Registry, default_registry
-from tribo.results.checkpoint import read_checkpoint
+from tribo.results.checkpoint import read_checkpoint, tidied
 from tribo.results.provenance import changed_components, origin, provenance
 from tribo.results.read import Result
 from tribo.simulation.calling import calling
@@ -129,11 +129,14 @@ class Simulation:
         """
         path = Path(output)
         with Result.open(path) as result:
-            if result.status == "done":
-                raise CaseError(f"{path} is done; there is nothing to resume")
+            done = result.status == "done"
             result.check()
             changes = self.changed_since(result)
             case = result.case
+        if done:
+            if not tidied(path):
+                raise CaseError(f"{path} is done; there is nothing to resume")
+            return Result.open(path)
         if changes and not allow_changed:
             listed = "; ".join(f"{place} was {old}, is {new}" for place, old, new in changes)
             raise CaseError(
