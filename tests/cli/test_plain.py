@@ -7,13 +7,16 @@ import sys
 import pytest
 from made_results import made
 
+from tribo.results.seal import write_sealed
+
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("plain")
     file = made()._file
     file.flush()
-    (folder / "x.h5").write_bytes(file.id.get_file_image())
+    image = file.id.get_file_image()
+    write_sealed(folder / "x.h5", image, identity=bytes(16), sync=False)
     return folder
 
 
