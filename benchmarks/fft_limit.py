@@ -14,12 +14,12 @@ import statistics
 from collections import Counter
 from collections.abc import Callable
 
+from boxes import own_box, padded, round_trip, traced
 from common import Row, Tables, interleaved, main
 from contact_solve import WINDOWS
 from hour import CASE
 from peers import Tribo, meet
 from problems import ball
-from boxes import own_box, padded, round_trip, traced
 
 from tribo import Simulation, load_case
 

@@ -67,8 +67,7 @@ class Verdict:
     load_error : float
         \\|sum(p) * cell area / load − 1\\|.
     complementarity : float
-        sum(p * \\|g\\|) / (sum(p) * depth), without the cells at the cap, where
-        the bodies overlap.
+        sum(p * \\|g\\|) / (sum(p) * depth); at the cap only an open gap counts.
     penetration : float
         Largest overlap where there is no pressure, over the depth.
     """
@@ -133,12 +132,13 @@ def judge(contact: Contact, pressure: Array) -> Verdict:
     gap = contact.gap + _displacement(contact, pressure)
     loaded = pressure > 0
     limit = np.inf if contact.cap is None else contact.cap
-    free = loaded & (pressure < limit * (1 - 1e-9))
-    gap -= gap[free].mean()
+    full = pressure >= limit * (1 - 1e-9)
+    gap -= gap[loaded & ~full].mean()
+    opening = np.where(full, np.maximum(gap, 0.0), np.abs(gap))
     weight = float(pressure.sum()) * contact.depth
     return Verdict(
         load_error=float(abs(pressure.sum() * area / contact.load - 1)),
-        complementarity=float((pressure * np.abs(gap))[free].sum()) / weight,
+        complementarity=float((pressure * opening).sum()) / weight,
         penetration=max(0.0, -float(gap[~loaded].min(initial=0.0))) / contact.depth,
     )
 

@@ -1,0 +1,52 @@
+"""Run the benchmarks one after another and keep their figures in one file.
+
+The page on speed is made from it. Benchmarks that are not named stay as they are
+in the file. On a quiet machine; it takes about half an hour.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import subprocess
+import sys
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from common import write
+
+HERE = Path(__file__).parent
+FIGURES = HERE.parent / "docs" / "_data" / "speed.json"
+OPTIONS = {
+    "contact_solve": ["--peers-up-to", "1024"],
+    "hour": [],
+    "fft_limit": [],
+    "growth": [],
+    "plastic_and_rough": [],
+    "profile_run": [],
+}
+
+
+def main() -> None:
+    """Run what was named, or all."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(OPTIONS))
+    parser.add_argument(
+        "--json", type=Path, default=FIGURES, help="docs/_data/speed.json if left out"
+    )
+    chosen = parser.parse_args()
+    unknown = set(chosen.names) - set(OPTIONS)
+    if unknown:
+        parser.error(f"no benchmark {', '.join(sorted(unknown))}; there are {', '.join(OPTIONS)}")
+    found = json.loads(chosen.json.read_text(encoding="utf-8")) if chosen.json.exists() else {}
+    for name in chosen.names or OPTIONS:
+        with TemporaryDirectory() as folder:
+            figures = Path(folder) / "figures.json"
+            command = [sys.executable, HERE / f"{name}.py", "--json", figures, *OPTIONS[name]]
+            subprocess.run(command, check=True)
+            found[name] = json.loads(figures.read_text(encoding="utf-8"))
+        write(chosen.json, found)
+
+
+if __name__ == "__main__":
+    main()
