@@ -48,6 +48,9 @@ def main(
     found = {"machine": machine(options.threads), "options": chosen, "tables": tables}
     for title, rows in tables.items():
         show(title, rows)
+    for name in PACKAGES:
+        if found["machine"]["packages"][name] is None:
+            print(f"{name} is not installed and took no part: see benchmarks/requirements.txt")
     if options.json:
         write(options.json, found)
 
