@@ -18,11 +18,11 @@ from common import write
 HERE = Path(__file__).parent
 FIGURES = HERE.parent / "docs" / "_data" / "speed.json"
 OPTIONS = {
-    "contact_solve": ["--peers-up-to", "1024"],
+    "contact_solve": ["--peers-up-to", "1024", "--repeats", "3"],
     "hour": [],
     "fft_limit": [],
     "growth": [],
-    "plastic_and_rough": [],
+    "plastic_and_rough": ["--repeats", "3"],
     "profile_run": [],
 }
 

@@ -28,15 +28,15 @@ def table(
 
 
 def machine() -> Markdown:
-    """Return what the figures were measured on, in a sentence for each kind found."""
-    kinds = {_sentence(benchmark["machine"]) for benchmark in _measured().values()}
-    return Markdown("\n\n".join(sorted(kinds)))
-
-
-def _sentence(found: Row) -> str:
-    versions = {"Python": found["python"], **found["packages"]}
-    listed = ", ".join(f"{name} {version}" for name, version in versions.items() if version)
-    return f"Measured on: {found['cpu']}, {found['cores']} cores, {found['system']}; {listed}."
+    """Return what the figures were measured on, and how busy it was, in a sentence for each."""
+    loads: dict[str, float] = {}
+    for benchmark in _measured().values():
+        found = benchmark["machine"]
+        versions = {"Python": found["python"], **found["packages"]}
+        listed = ", ".join(f"{name} {version}" for name, version in versions.items() if version)
+        kind = f"Measured on: {found['cpu']}, {found['cores']} cores, {found['system']}; {listed}"
+        loads[kind] = max(loads.get(kind, 0.0), found["load_average"])
+    return Markdown("\n\n".join(f"{kind}; load average {x:.1f}." for kind, x in loads.items()))
 
 
 def _measured() -> dict[str, Any]:

@@ -90,7 +90,8 @@ def test_fft_limit(tmp_path):
 
 
 def test_growth(tmp_path):
-    options = ("--cells", "32", "64", "--run-cells", "32", "--distances", "3.6", "7.2")
+    cells = ("--cells", "32", "64", "--iteration-cells", "32", "64", "--run-cells", "32")
+    options = (*cells, "--distances", "3.6", "7.2")
     iterations, times, memory, distance = figures("growth", tmp_path, *options).values()
     assert [row["cells"] for row in iterations] == [32, 64]
     assert all(0 < row["nested"] <= row["without_nesting"] for row in iterations)
