@@ -98,9 +98,9 @@ class HalfSpace:
         self._self_compliance = float(kernel[0, 0]) / modulus
         # An even kernel has a real spectrum.
         self._spectrum = scipy.fft.rfft2(kernel).real / modulus
-        periodic = scipy.fft.rfft2(wrapped_kernel(shape, spacing)).real
-        # Cutting 1/r off at the box makes its spectrum oscillate, least of all near
-        # its minimum; the bound keeps the preconditioner definite on any box.
+        periodic = scipy.fft.rfft2(_folded(kernel, shape, spacing)).real
+        # A kernel that is cut off has a spectrum that oscillates, least of all near its
+        # minimum; the bound keeps the preconditioner definite on any box.
         self._symbol = np.maximum(periodic, 0.5 * nyquist_compliance(spacing)) / modulus
         # Fresh memory costs as much as the transforms; whoever applies takes one of these.
         self._buffers: list[NDArray[np.complex128]] = []
@@ -134,6 +134,15 @@ class HalfSpace:
     def diag(self) -> Array:
         """Return displacement of each cell per pressure on itself; see `Operator.diag`."""
         return np.full(self.shape, self._self_compliance)
+
+
+def _folded(kernel: Array, shape: tuple[int, int], spacing: tuple[float, float]) -> Array:
+    """Return the kernel on a box with its nearest images, each counted once."""
+    nx, ny = shape
+    if kernel.shape != (2 * nx, 2 * ny):
+        kernel = wrapped_kernel((2 * nx, 2 * ny), spacing)
+    folded: Array = kernel.reshape(2, nx, 2, ny).sum(axis=(0, 2))
+    return folded
 
 
 @dataclass(frozen=True)
