@@ -24,6 +24,7 @@ OPTIONS = {
     "growth": [],
     "plastic_and_rough": ["--repeats", "3"],
     "profile_run": [],
+    "time_schemes": [],
 }
 
 

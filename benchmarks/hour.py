@@ -48,7 +48,11 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--loose",
         nargs="+",
-        default=["stepping.depth_tolerance=0.02", "stepping.pressure_tolerance=0.3"],
+        default=[
+            "stepping.depth_tolerance=0.03",
+            "stepping.pressure_tolerance=0.6",
+            "stepping.settle=0.3",
+        ],
         help="settings of the loose run, as for tribo run --set",
     )
     parser.add_argument("--time-step", type=float, default=0.25, help="of explicit steps, in s")

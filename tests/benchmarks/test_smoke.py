@@ -126,3 +126,12 @@ def test_the_cost_of_the_plugin_layer_is_measured():
     assert found["cells"] == 32
     assert 0 < found["ratio_min"] <= found["ratio_median"] <= found["ratio_max"]
     assert found["making_added_ratio"] * found["making_added_s"] >= 0
+
+
+def test_time_schemes(tmp_path):
+    options = ("--cells", "32", "--duration", "200", "--growth", "0.4")
+    (rows,) = figures("time_schemes", tmp_path, *options).values()
+    schemes = {row["scheme"]: row for row in rows}
+    euler, second = schemes["backward Euler"], schemes["TR-BDF2"]
+    assert second["contact_solves"] == 2 * euler["contact_solves"] - 1
+    assert second["depth_error_percent"] < 0.5 * euler["depth_error_percent"]
