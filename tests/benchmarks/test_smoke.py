@@ -135,3 +135,12 @@ def test_time_schemes(tmp_path):
     euler, second = schemes["backward Euler"], schemes["TR-BDF2"]
     assert second["contact_solves"] == 2 * euler["contact_solves"] - 1
     assert second["depth_error_percent"] < 0.5 * euler["depth_error_percent"]
+
+
+def test_the_efficiency_of_a_sweep_is_measured():
+    command = [sys.executable, BENCHMARKS / "sweep.py", "--runs", "2", "--cells", "32"]
+    done = subprocess.run([*command, "--json"], capture_output=True, text=True, check=True)
+    found = json.loads(done.stdout)
+    assert (found["runs"], found["jobs"]) == (2, 2)
+    assert found["efficiency"] == found["speedup"] / 2 > 0
+    assert 0 < found["inside_runs"] < 1

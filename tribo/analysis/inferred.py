@@ -72,6 +72,8 @@ def inferred_volumes(result: Result, save: int = -1) -> list[InferredVolume]:
     ball, flat, radius = pair
     widths = {b.name: scar(b.wear_depth[save], result.grid) for b in (ball, flat)}
     section = track_section(result, flat, save)
+    bodies = result.saves()[save]["bodies"]
+    worn = {name: body["wear_volume_m3"] for name, body in bodies.items()}
     found: list[tuple[str, str, str | None, float]] = []
     seen = widths[ball.name]
     if not ball.swept and 0 < seen.mean_diameter < 2 * radius:
@@ -85,12 +87,10 @@ def inferred_volumes(result: Result, save: int = -1) -> list[InferredVolume]:
         found.append((ball.name, "scar flat along sliding only", None, volume))
     width = widths[flat.name].across
     if section and 0 < width < 2 * radius:
-        length = _worn(result, flat.name, save) / section
+        length = worn[flat.name] / section
         volume = length * circular_groove_area(width, radius)
         found.append((flat.name, "groove of an unworn ball", "ASTM G99", volume))
-    return [
-        InferredVolume(*entry, entry[3] / _worn(result, entry[0], save) - 1.0) for entry in found
-    ]
+    return [InferredVolume(*entry, entry[3] / worn[entry[0]] - 1.0) for entry in found]
 
 
 def track_section(result: Result, body: BodyResult, save: int = -1) -> float | None:
@@ -98,11 +98,6 @@ def track_section(result: Result, body: BodyResult, save: int = -1) -> float | N
     if not body.swept:
         return None
     return planimetric_area(body.wear_depth[save, 0], result.grid.spacing[1])
-
-
-def _worn(result: Result, name: str, save: int) -> float:
-    volume: float = result.saves()[save]["bodies"][name]["wear_volume_m3"]
-    return volume
 
 
 def _ball_and_flat(result: Result) -> tuple[BodyResult, BodyResult, float] | None:

@@ -17,6 +17,7 @@ COMMANDS = {
     "new": "Write a case file to start from.",
     "check": "Validate a case and predict what it will do.",
     "run": "Run a case.",
+    "sweep": "Run many cases of a study in parallel.",
     "resume": "Go on with a run that was stopped.",
     "compare": "Run variants of a case, or take results, side by side.",
     "calibrate": "Fit a case to measured wear.",

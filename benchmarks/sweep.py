@@ -1,0 +1,81 @@
+"""How well a sweep uses the cores: the time of one process over that of several.
+
+The same runs are made twice in new folders, by one worker process and by
+`--jobs` of them; starting the processes, validating the runs and writing the
+tables count. The parallel efficiency is t(1) / (jobs t(jobs)); what else the
+machine does meanwhile enters. It hardly enters the part of their time that the
+workers spend inside runs, which is the efficiency but for what runs side by
+side cost each other.
+
+Run it with ``python benchmarks/sweep.py [--runs 64] [--cells 64] [--jobs 2] [--json]``.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import time
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from tribo.study import sweep
+from tribo.templates import template
+
+STUDY = """
+case = "case.toml"
+
+[settings]
+grid.cells = {cells}
+
+[sample]
+method = "latin_hypercube"
+count = {runs}
+
+[sample.ranges]
+load.normal = {{ low = "60 N", high = "100 N" }}
+"bodies.ball.wear.k" = {{ low = 1e-16, high = 3e-16, scale = "log" }}
+"""
+
+
+def timed(study: Path, jobs: int) -> tuple[float, float]:
+    """Return how long a sweep takes from nothing, and which part its workers spend inside runs."""
+    begun = time.perf_counter()
+    swept = sweep(study, study.with_name(f"jobs-{jobs}"), jobs=jobs)
+    taken = time.perf_counter() - begun
+    assert not swept.failures()
+    return taken, sum(row["wall_time_s"] for row in swept.rows) / (jobs * taken)
+
+
+def main() -> None:
+    """Print the parallel efficiency."""
+    parser = argparse.ArgumentParser(description="How well a sweep uses the cores.")
+    parser.add_argument("--runs", type=int, default=64)
+    parser.add_argument("--cells", type=int, default=64)
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--json", action="store_true")
+    chosen = parser.parse_args()
+    with TemporaryDirectory() as folder:
+        study = Path(folder) / "study.toml"
+        study.with_name("case.toml").write_text(template("ball_on_disk"))
+        study.write_text(STUDY.format(runs=chosen.runs, cells=chosen.cells))
+        (one, _), (several, inside) = timed(study, 1), timed(study, chosen.jobs)
+    found = {
+        "runs": chosen.runs,
+        "cells": chosen.cells,
+        "jobs": chosen.jobs,
+        "speedup": one / several,
+        "efficiency": one / (chosen.jobs * several),
+        "inside_runs": inside,
+    }
+    if chosen.json:
+        print(json.dumps(found, indent=2))
+    else:
+        print(
+            f"{chosen.runs} runs on {chosen.cells}² cells: {chosen.jobs} processes are "
+            f"{found['speedup']:.2f} times as fast as one (efficiency {found['efficiency']:.0%}); "
+            f"{inside:.0%} of the workers' time is inside runs"
+        )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,218 @@
+"""What is killed, parent or worker, goes on; nothing is lost, nothing done twice."""
+
+import json
+import os
+import signal
+import time
+from concurrent.futures.process import BrokenProcessPool
+from pathlib import Path
+
+import pandas
+import pytest
+import sweeps
+
+from tribo import Result
+from tribo.core.errors import CaseError
+from tribo.study.sweeping.cluster import on_scheduler
+from tribo.study.sweeping.processes import THREADS, Processes
+
+PATIENCE = 120.0
+LOADS = '[grid]\nload.normal = ["50 N", "60 N", "70 N", "80 N"]'
+
+
+def until(found, what):
+    """Wait for a function to return something true, and return that."""
+    end = time.monotonic() + PATIENCE
+    while time.monotonic() < end:
+        value = found()
+        if value:
+            return value
+        time.sleep(0.05)
+    raise AssertionError(f"no {what} within {PATIENCE:g} s")
+
+
+def finished(process):
+    out, err = process.communicate(timeout=PATIENCE)
+    assert "Traceback" not in err
+    return process.returncode, out, err
+
+
+def workers(parent):
+    """Return the worker processes of a process."""
+    threads = Path(f"/proc/{parent.pid}/task").glob("*/children")
+    children = [int(child) for thread in threads for child in thread.read_text().split()]
+    return [c for c in children if "spawn_main" in Path(f"/proc/{c}/cmdline").read_text()]
+
+
+def alive(process):
+    status = Path(f"/proc/{process}/stat")
+    return status.exists() and status.read_text().rsplit(")", 1)[1].split()[0] != "Z"
+
+
+def results(folder):
+    return folder / "study-sweep" / "results"
+
+
+def half_done(folder):
+    return list(results(folder).glob("*.ckpt"))
+
+
+def is_done(path):
+    try:
+        with Result.open(path) as result:
+            return result.status == "done"
+    except CaseError:
+        # HDF5 lets nobody read what another process writes.
+        return False
+
+
+def done(folder):
+    """Return the finished results, each with what changes when a file is written."""
+    files = filter(is_done, results(folder).glob("*.h5"))
+    return {path: (path.stat().st_ino, path.stat().st_mtime_ns) for path in files}
+
+
+def table(folder):
+    return pandas.read_csv(folder / "study-sweep" / "runs.csv").drop(
+        columns="wall_time_s", errors="ignore"
+    )
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    """Return the table of a sweep that nothing disturbed."""
+    folder = tmp_path_factory.mktemp("whole")
+    process = sweeps.tribo("sweep", sweeps.study(folder, sweeps.SLOW + LOADS), cwd=folder)
+    assert finished(process)[0] == 0
+    return table(folder)
+
+
+def test_a_killed_parent_takes_its_workers_along_and_the_command_goes_on(tmp_path, whole):
+    command = ("sweep", sweeps.study(tmp_path, sweeps.SLOW + LOADS), "--jobs", 2)
+    killed = sweeps.tribo(*command, cwd=tmp_path)
+    until(lambda: done(tmp_path) and half_done(tmp_path), "run that is done, and one that is not")
+    children = workers(killed)
+    assert len(children) == 2
+    killed.kill()
+    killed.communicate()
+    until(lambda: not any(map(alive, children)), "end of the workers")
+    before = done(tmp_path)
+    assert 0 < len(before) < 4
+    assert half_done(tmp_path)
+    assert not (tmp_path / "study-sweep" / "runs.csv").exists()
+    assert finished(sweeps.tribo(*command, cwd=tmp_path))[0] == 0
+    assert before.items() <= done(tmp_path).items()
+    pandas.testing.assert_frame_equal(table(tmp_path), whole)
+
+
+def test_a_killed_worker_is_replaced_and_its_run_goes_on(tmp_path, whole):
+    command = ("sweep", sweeps.study(tmp_path, sweeps.SLOW + LOADS), "--jobs", 2)
+    process = sweeps.tribo(*command, cwd=tmp_path)
+    until(lambda: half_done(tmp_path), "run in progress")
+    os.kill(workers(process)[0], signal.SIGKILL)
+    code, _, err = finished(process)
+    assert code == 0, err
+    pandas.testing.assert_frame_equal(table(tmp_path), whole)
+
+
+def test_ctrl_c_stops_between_two_steps_and_the_command_goes_on(tmp_path, whole):
+    command = ("sweep", sweeps.study(tmp_path, sweeps.SLOW + LOADS), "--jobs", 2)
+    process = sweeps.tribo(*command, cwd=tmp_path)
+    until(lambda: half_done(tmp_path), "run in progress")
+    # As a terminal does, to the parent and to its workers.
+    os.killpg(process.pid, signal.SIGINT)
+    code, _, err = finished(process)
+    assert code == 130
+    assert err.endswith("error: stopped; the same command goes on\n")
+    assert set(table(tmp_path)["status"]) >= {"interrupted", "waiting"}
+    assert finished(sweeps.tribo(*command, cwd=tmp_path))[0] == 0
+    pandas.testing.assert_frame_equal(table(tmp_path), whole)
+
+
+def test_the_death_of_a_worker_costs_no_other_run():
+    processes = Processes(2)
+    fatal, slow = processes.submit(os._exit, 1), processes.submit(time.sleep, 1)
+    with pytest.raises(BrokenProcessPool):
+        fatal.result(PATIENCE)
+    assert slow.result(PATIENCE) is None
+    assert processes.submit(abs, -1).result(PATIENCE) == 1
+    processes.shutdown()
+
+
+def test_a_worker_has_one_thread_and_leaves_those_of_its_parent(monkeypatch):
+    monkeypatch.setenv(THREADS[0], "7")
+    monkeypatch.delenv(THREADS[1], raising=False)
+    with Processes(1) as processes:
+        found = [processes.submit(os.getenv, name).result(PATIENCE) for name in THREADS]
+    assert found == ["1"] * len(THREADS)
+    assert os.environ[THREADS[0]] == "7"
+    assert THREADS[1] not in os.environ
+
+
+def dask(*arguments, cwd):
+    return sweeps.start(["-m", "distributed.cli." + arguments[0], *arguments[1:]], cwd=cwd)
+
+
+@pytest.fixture
+def cluster(tmp_path):
+    """Yield the address of a scheduler, then its process and those of its two workers."""
+    pytest.importorskip("distributed", reason="dask.distributed is not installed")
+    where = tmp_path / "scheduler.json"
+    common = ("--scheduler-file", where)
+    processes = [
+        dask("dask_scheduler", *common, "--port", 0, "--no-dashboard", cwd=tmp_path),
+        *(
+            dask("dask_worker", *common, "--nthreads", 1, "--no-nanny", cwd=tmp_path)
+            for _ in range(2)
+        ),
+    ]
+    until(where.exists, "scheduler")
+    yield json.loads(where.read_text())["address"], *processes
+    for process in processes:
+        process.kill()
+        process.communicate()
+
+
+def test_a_killed_worker_of_dask_costs_nothing(tmp_path, whole, cluster):
+    address, _, first, _ = cluster
+    study = sweeps.study(tmp_path, sweeps.SLOW + LOADS)
+    process = sweeps.tribo("sweep", study, "--scheduler", address, cwd=tmp_path)
+    until(lambda: half_done(tmp_path), "run in progress")
+    first.kill()
+    code, _, err = finished(process)
+    assert code == 0, err
+    pandas.testing.assert_frame_equal(table(tmp_path), whole)
+
+
+def test_ctrl_c_also_stops_the_workers_of_dask(tmp_path, whole, cluster):
+    command = ("sweep", sweeps.study(tmp_path, sweeps.SLOW + LOADS), "--scheduler", cluster[0])
+    process = sweeps.tribo(*command, cwd=tmp_path)
+    until(lambda: half_done(tmp_path), "run in progress")
+    process.send_signal(signal.SIGINT)
+    assert finished(process)[0] == 130
+    assert not list(results(tmp_path).glob("*.lock"))
+    assert set(table(tmp_path)["status"]) >= {"interrupted", "waiting"}
+    assert finished(sweeps.tribo(*command, cwd=tmp_path))[0] == 0
+    pandas.testing.assert_frame_equal(table(tmp_path), whole)
+
+
+def test_a_scheduler_that_ends_is_told_of_and_the_command_goes_on(tmp_path, whole, cluster):
+    address, scheduler, *_ = cluster
+    study = sweeps.study(tmp_path, sweeps.SLOW + LOADS)
+    process = sweeps.tribo("sweep", study, "--scheduler", address, cwd=tmp_path)
+    until(lambda: half_done(tmp_path), "run in progress")
+    scheduler.kill()
+    code, _, err = finished(process)
+    assert code == 3
+    assert "the same command goes on" in err
+    assert finished(sweeps.tribo("sweep", study, cwd=tmp_path))[0] == 0
+    pandas.testing.assert_frame_equal(table(tmp_path), whole)
+
+
+def test_a_scheduler_that_does_not_answer_is_named():
+    pytest.importorskip("distributed", reason="dask.distributed is not installed")
+    with (
+        pytest.raises(CaseError, match=r"no scheduler answers at tcp://127.0.0.1:1 within 1 s"),
+        on_scheduler("tcp://127.0.0.1:1", patience=1),
+    ):
+        pass

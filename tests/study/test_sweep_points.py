@@ -1,0 +1,172 @@
+"""A study says which points are run; what is wrong with it is said before anything runs."""
+
+import math
+import tomllib
+
+import numpy as np
+import pytest
+import sweeps
+
+from tribo.core.errors import CaseError, TriboWarning
+from tribo.study.sweeping.points import count, points
+from tribo.study.sweeping.study_file import load_study, validate_study
+from tribo.study.sweeping.sweep import plan
+
+RANGES = """
+[sample]
+method = "{method}"
+count = {count}
+seed = {seed}
+
+[sample.ranges]
+load.normal = {{ low = "50 N", high = "0.2 kN" }}
+"bodies.ball.wear.k" = {{ low = 1e-17, high = "1e-15 1/Pa", scale = "log" }}
+"""
+
+
+def made(tmp_path, text):
+    study, data = load_study(sweeps.study(tmp_path, sweeps.QUICK + text))
+    found = points(study, data)
+    assert len(found) == count(study)
+    return found
+
+
+def sampled(tmp_path, method="latin_hypercube", count=16, seed=1):
+    return made(tmp_path, RANGES.format(method=method, count=count, seed=seed))
+
+
+def test_grid_zip_and_list_multiply(tmp_path):
+    text = """
+    [grid]
+    load.normal = [50, 60]
+    [zip]
+    "bodies.ball.wear.k" = [1e-16, 2e-16]
+    "bodies.disk.wear.k" = [3e-16, 4e-16]
+    [[list]]
+    kinematics.frequency = "25 Hz"
+    [[list]]
+    kinematics.stroke = "1 mm"
+    """
+    found = made(tmp_path, text)
+    assert len(found) == 8
+    ball, disk = "bodies.ball.wear.k", "bodies.disk.wear.k"
+    assert found[0] == {
+        "kinematics.frequency": "25 Hz",
+        ball: 1e-16,
+        disk: 3e-16,
+        "load.normal": 50,
+    }
+    assert {(point[ball], point[disk]) for point in found} == {(1e-16, 3e-16), (2e-16, 4e-16)}
+    assert [point["load.normal"] for point in found] == [50, 60] * 4
+
+
+@pytest.mark.parametrize("method", ["latin_hypercube", "sobol"])
+def test_a_sample_has_one_point_in_every_slice_of_every_range(tmp_path, method):
+    found = sampled(tmp_path, method)
+    loads = (np.array([point["load.normal"] for point in found]) - 50) / 150
+    logs = np.log10([point["bodies.ball.wear.k"] for point in found])
+    for part in (loads, (logs + 17) / 2):
+        assert sorted(np.floor(16 * part)) == list(range(16))
+
+
+@pytest.mark.parametrize("method", ["latin_hypercube", "sobol"])
+def test_a_seed_gives_the_same_points_again(tmp_path, method):
+    assert sampled(tmp_path, method) == sampled(tmp_path, method)
+    assert sampled(tmp_path, method) != sampled(tmp_path, method, seed=2)
+
+
+def test_sobol_points_that_are_no_power_of_two_are_noted(tmp_path):
+    with pytest.warns(TriboWarning, match="power of two, as 8 or 16; 12 are asked for"):
+        twelve = sampled(tmp_path, "sobol", count=12)
+    assert twelve == sampled(tmp_path, "sobol")[:12]
+
+
+def test_a_sample_multiplies_what_is_listed_and_reads_its_ranges_there(tmp_path):
+    # `layer` is a key of winkler alone, which only the list chooses.
+    text = """
+    [[list]]
+    contact.type = "winkler"
+    contact.match = "approach"
+    [sample]
+    method = "sobol"
+    count = 1
+    ranges."kinematics.stroke" = { low = "1 mm", high = "3 mm" }
+    """
+    (point,) = made(tmp_path, text)
+    assert 1e-3 <= point["kinematics.stroke"] < 3e-3
+    assert math.isfinite(point["kinematics.stroke"])
+
+
+def test_a_path_may_be_quoted_or_lie_in_tables():
+    nested = tomllib.loads("case = 'a'\n[grid]\nload.normal = [1]\n[grid.contact]\ntype = ['x']")
+    quoted = tomllib.loads('case = "a"\n[grid]\n"load.normal" = [1]\n"contact.type" = ["x"]')
+    assert validate_study(nested) == validate_study(quoted)
+
+
+SAMPLE = '[sample]\nmethod = "sobol"\ncount = 2\n[sample.ranges]\n'
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", "nothing varies; give [grid], [zip], [[list]] or [sample]"),
+        ("[grid]\nload.normal = []", 'grid."load.normal": at least 1 values are needed'),
+        ("[grid]\nload.normal = 3", 'grid."load.normal": a list is needed, 3 was given'),
+        ("[gird]\nload.normal = [1]", "gird: unknown key 'gird'; did you mean 'grid'?"),
+        ("[grid]\nloda.normal = [1]", "loda: unknown key 'loda'; did you mean 'load'?"),
+        ("[grid]\nload.normla = [1]", "unknown key 'normla'; did you mean 'normal'?"),
+        ("[grid]\n'bodies.bal.wear.k' = [1]", "no body 'bal'; did you mean 'ball'?"),
+        ("[grid]\nload.normal = ['1 Pa']", "load.normal: '1 Pa' is a pressure [Pa]; a force"),
+        ("[grid]\nload.normal = [1, '1 N']", "are the same case; leave one of them out"),
+        ("[grid]\nload.normal=[1]\n'load.normal'=[2]", "grid: 'load.normal' is given twice"),
+        (
+            "[grid]\nload.normal = [1]\n[zip]\nload.normal = [2]",
+            "load.normal: varies in zip and in grid; leave it out of one",
+        ),
+        (
+            "[zip]\nload.normal = [1, 2]\nkinematics.stroke = [1e-3]",
+            "zip: values that go together must be equally many: load.normal has 2, "
+            "kinematics.stroke has 1",
+        ),
+        (SAMPLE.replace("sobol", "sobl"), "did you mean 'sobol'?"),
+        (SAMPLE, "sample.ranges: at least 1"),
+        (SAMPLE + "load.normal = {low = 1}", 'sample.ranges."load.normal".high: missing'),
+        (
+            SAMPLE + "load.normal = {low = '1 Pa', high = 2}",
+            "sample.ranges: the low ends cannot be used: ",
+        ),
+        (
+            SAMPLE + "load.normal = {low = '2 N', high = 1}",
+            "sample.ranges.load.normal: low must be less than high; 2 N and 1 are given",
+        ),
+        (
+            SAMPLE + "grid.cells = {low = 16, high = 32}",
+            "grid.cells: is no quantity that could be sampled; list its values in [grid]",
+        ),
+        (
+            SAMPLE + "'friction.coefficient' = {low = 0, high = 1, scale = 'log'}",
+            "low must be greater than 0 on a log scale; 0 is given",
+        ),
+    ],
+)
+def test_what_is_wrong_is_said_before_anything_runs(tmp_path, text, message):
+    with pytest.raises(CaseError) as caught:
+        plan(sweeps.study(tmp_path, sweeps.QUICK + text), tmp_path / "out")
+    assert message in str(caught.value)
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_missing_base_case_is_named(tmp_path):
+    path = sweeps.study(tmp_path)
+    (tmp_path / "case.toml").unlink()
+    with pytest.raises(CaseError, match=r"^case: .*case\.toml: there is no such file"):
+        plan(path, tmp_path / "out")
+
+
+def test_too_many_runs_must_be_meant(tmp_path):
+    path = sweeps.study(tmp_path, sweeps.QUICK + RANGES.format(method="sobol", count=1024, seed=0))
+    with pytest.raises(CaseError, match="asks for 1024 runs; if that is meant, give --yes"):
+        plan(path, tmp_path / "out")
+    runs, paths = plan(path, tmp_path / "out", many=True)
+    assert len(runs) == 1024
+    assert paths == ["load.normal", "bodies.ball.wear.k"]

@@ -1,0 +1,247 @@
+"""A sweep does every run once, records what fails, and its tables agree with its results."""
+
+import os
+import signal
+import time
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from multiprocessing import get_context
+from pathlib import Path
+
+import numpy as np
+import pandas
+import pytest
+import sweeps
+
+from tribo import Interrupted, Result, Simulation
+from tribo.core.errors import CaseError, OutputError, TriboWarning
+from tribo.study import sweep
+from tribo.study.sweeping.locks import locked
+from tribo.study.sweeping.study_file import load_study
+from tribo.study.sweeping.sweep import plan
+
+
+def statuses(swept):
+    return [row["status"] for row in swept.rows]
+
+
+@pytest.fixture(scope="module")
+def swept(tmp_path_factory):
+    return sweep(sweeps.study(tmp_path_factory.mktemp("sweep")), executor=sweeps.Inline())
+
+
+def test_a_result_has_the_bits_of_the_run_alone(swept):
+    study, data = load_study(swept.folder.parent / "study.toml")
+    data["load"]["normal"] = study.grid["load.normal"][2]
+    with Simulation(data).run() as alone, Result.open(swept.runs[2].path) as result:
+        assert np.array_equal(alone.pressure(-1), result.pressure(-1))
+        assert np.array_equal(alone.body("disk").wear_depth, result.body("disk").wear_depth)
+
+
+def test_the_tables_load_in_pandas_with_units_in_the_column_names(swept):
+    runs = pandas.read_csv(swept.folder / "runs.csv")
+    assert list(runs["run"]) == [1, 2, 3, 4]
+    assert list(runs["load.normal_N"]) == [50, 60, 70, 80]
+    assert list(runs["time_s"]) == [10] * 4
+    # Archard: the volume is k F s.
+    worn = 3.11e-16 * runs["load.normal_N"] * runs["distance_m"]
+    assert runs["bodies.ball.wear_volume_m3"].to_numpy() == pytest.approx(worn.to_numpy())
+    assert {"bodies.ball.scar_across_m", "bodies.ball.mass_kg", "wall_time_s"} <= set(runs)
+    saves = pandas.read_csv(swept.folder / "saves.csv")
+    assert list(saves["time_s"]) == [0, 1, 2, 10] * 4
+    assert list(saves["load.normal_N"].unique()) == [50, 60, 70, 80]
+
+
+def test_what_a_run_warned_of_is_in_the_table(tmp_path):
+    path = sweeps.study(tmp_path, sweeps.QUICK + "[grid]\ngrid.cells = [12, 24]")
+    with pytest.warns(TriboWarning, match="resolution"):
+        coarse, fine = sweep(path, executor=sweeps.Inline()).rows
+    assert coarse["message"].startswith("resolution: the first contact is only")
+    assert (coarse["status"], fine["message"]) == ("done", "")
+
+
+def test_tables_and_lists_that_vary_have_a_column_each_with_its_unit(tmp_path):
+    text = """
+    [[list]]
+    contact = "winkler"
+    grid.size = "0.8 mm"
+    [[list]]
+    contact = "dcfft"
+    grid.size = ["0.8 mm", "0.9 mm"]
+    """
+    path = sweeps.study(tmp_path, sweeps.QUICK + text)
+    runs = pandas.read_csv(sweep(path, executor=sweeps.Inline()).folder / "runs.csv")
+    assert list(runs["contact.type"]) == ["winkler", "dcfft"]
+    assert list(runs["grid.size.0_m"]) == [8e-4, 8e-4]
+    assert list(runs["grid.size.1_m"]) == [8e-4, 9e-4]
+
+
+def test_what_is_done_is_not_done_again_and_a_study_may_grow(tmp_path):
+    path = sweeps.study(tmp_path)
+    first, second = sweeps.Inline(), sweeps.Inline()
+    done = sweep(path, executor=first)
+    before = {run.path: run.path.stat() for run in done.runs}
+    again = sweep(path, executor=second)
+    assert again.rows == done.rows
+    assert second.calls == []
+    path.write_text(path.read_text().replace('["50 N",', '["55 N", "50 N",'))
+    grown = sweep(path, executor=second)
+    assert statuses(grown) == ["done"] * 5
+    assert second.calls == [str(grown.runs[0].path)]
+    assert {run.path: run.path.stat() for run in done.runs} == before
+
+
+def test_another_executor_than_processes_can_carry_it(tmp_path):
+    with ThreadPoolExecutor(2) as executor:
+        assert statuses(sweep(sweeps.study(tmp_path), executor=executor)) == ["done"] * 4
+        assert executor.submit(len, "ab").result() == 2
+
+
+FAILING = """
+[[list]]
+load.normal = "50 N"
+[[list]]
+grid.size = "0.2 mm"
+[[list]]
+grid.size = "0.21 mm"
+stop.distance = "1 m"
+"""
+
+
+def test_a_failing_run_is_recorded_and_the_others_go_on(tmp_path):
+    path = sweeps.study(tmp_path, sweeps.QUICK + FAILING)
+    swept = sweep(path, executor=sweeps.Inline())
+    assert statuses(swept) == ["done", "failed", "failed"]
+    (message, *_) = swept.failures()
+    assert "grid.size" in message
+    table = pandas.read_csv(swept.folder / "runs.csv")
+    assert table["message"][1] == message
+    assert np.isnan(table["max_pressure_Pa"][1])
+    executor = sweeps.Inline()
+    assert sweep(path, executor=executor).rows == swept.rows
+    assert executor.calls == []
+    assert statuses(sweep(path, executor=executor, retry=True)) == statuses(swept)
+    assert executor.calls == [str(run.path) for run in swept.runs[1:]]
+
+
+def test_a_run_whose_worker_always_dies_fails_after_three(tmp_path):
+    executor = sweeps.Inline(sweeps.dies_at(60.0))
+    swept = sweep(sweeps.study(tmp_path), executor=executor)
+    assert statuses(swept) == ["done", "failed", "done", "done"]
+    assert "begun 3 times, and each time its worker process died" in swept.rows[1]["message"]
+    assert executor.calls.count(str(swept.runs[1].path)) == 3
+
+
+def test_a_worker_with_a_folder_of_its_own_is_told_of(tmp_path):
+    swept = sweep(sweeps.study(tmp_path), executor=sweeps.Inline(lambda task: "done"))
+    assert statuses(swept) == ["failed"] * 4
+    assert "must be one that all share" in swept.rows[0]["message"]
+
+
+def test_an_executor_that_takes_no_runs_ends_the_sweep(tmp_path):
+    executor = ThreadPoolExecutor(1)
+    executor.shutdown()
+    with pytest.raises(OutputError, match=r"takes no more runs .* the same command goes on"):
+        sweep(sweeps.study(tmp_path), executor=executor)
+
+
+ENERGY = """
+[[list]]
+load.normal = "60 N"
+[[list]]
+bodies.ball.wear = { type = "energy.dissipation", alpha = "1e-6 mm^3/J" }
+effects = ["energy.friction_traction"]
+friction.coefficient = 0.3
+"""
+
+
+def test_a_worker_that_lacks_a_plugin_says_so(tmp_path):
+    pytest.importorskip("tribo_energy")
+    path = sweeps.study(tmp_path, sweeps.QUICK + ENERGY)
+    with ProcessPoolExecutor(
+        1, mp_context=get_context("spawn"), initializer=sweeps.turn_off_energy
+    ) as executor:
+        swept = sweep(path, executor=executor)
+    assert statuses(swept) == ["done", "failed"]
+    message = swept.rows[1]["message"]
+    assert (
+        "cannot compose this case: bodies.ball.wear.type: unknown wear law 'energy.dissipation'"
+        in message
+    )
+    assert "validated with tribo 0.1.0, tribo-energy" in message
+    assert statuses(sweep(path, executor=sweeps.Inline(), retry=True)) == ["done", "done"]
+
+
+def test_a_stopped_run_goes_on_from_its_checkpoint(tmp_path, monkeypatch):
+    monkeypatch.setattr("tribo.study.sweeping.worker.GLANCE", 0.0)
+    slow = sweeps.SLOW.replace('"0.04 s"', '"0.01 s"')
+    path = sweeps.study(tmp_path, slow + '[grid]\nload.normal = ["50 N"]')
+    folder = tmp_path / "study-sweep"
+
+    def stop_at_first_checkpoint():
+        while not list((folder / "results").glob("*.ckpt")):
+            time.sleep(0.01)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    with ThreadPoolExecutor(2) as executor:
+        executor.submit(stop_at_first_checkpoint)
+        with pytest.raises(Interrupted, match="same command"):
+            sweep(path, executor=executor)
+    table = pandas.read_csv(folder / "runs.csv")
+    assert list(table["status"]) == ["interrupted"]
+    assert not (folder / "sweep.stop").exists()
+    with monkeypatch.context() as patch:
+        # From now on no run can begin anew.
+        patch.delattr(Simulation, "run")
+        assert statuses(sweep(path, executor=sweeps.Inline())) == ["done"]
+    with Result.open(folder / "results" / table["file"][0]) as result:
+        assert np.array_equal(Simulation(result.case).run().pressure(-1), result.pressure(-1))
+
+
+def test_a_damaged_result_is_done_again(tmp_path):
+    path = sweeps.study(tmp_path)
+    swept = sweep(path, executor=sweeps.Inline())
+    swept.runs[1].path.write_bytes(b"no result")
+    executor = sweeps.Inline()
+    assert statuses(sweep(path, executor=executor)) == ["done"] * 4
+    assert executor.calls == [str(swept.runs[1].path)]
+
+
+def test_results_of_other_components_are_made_anew(tmp_path, monkeypatch):
+    path = sweeps.study(tmp_path)
+    sweep(path, executor=sweeps.Inline())
+    monkeypatch.setattr("tribo.results.provenance._code", lambda package: "edited")
+    executor = sweeps.Inline()
+    assert statuses(sweep(path, executor=executor)) == ["done"] * 4
+    assert len(executor.calls) == 4
+
+
+def test_two_sweeps_do_not_share_a_folder(tmp_path):
+    path = sweeps.study(tmp_path)
+    (tmp_path / "out").mkdir()
+    with (
+        locked(tmp_path / "out" / "sweep.lock"),
+        pytest.raises(CaseError, match=r"another sweep is writing to .*out"),
+    ):
+        sweep(path, tmp_path / "out", executor=sweeps.Inline())
+
+
+def test_a_folder_that_cannot_be_written_to_is_named(tmp_path):
+    path = sweeps.study(tmp_path)
+    (tmp_path / "out").write_text("")
+    # Nobody writes to /proc, not even root.
+    for out in (tmp_path / "out", Path("/proc/out")):
+        with pytest.raises(OutputError, match=f"cannot write to {out}: "):
+            sweep(path, out, executor=sweeps.Inline())
+
+
+def test_a_run_waits_for_another_worker_that_is_at_it(tmp_path):
+    path = sweeps.study(tmp_path)
+    results = tmp_path / "study-sweep" / "results"
+    results.mkdir(parents=True)
+    (first, *_), _ = plan(path, results.parent)
+    with ThreadPoolExecutor(1) as thread:
+        with locked(first.path.with_suffix(".lock")):
+            swept = thread.submit(sweep, path, executor=sweeps.Inline())
+            time.sleep(1)
+            assert not first.path.exists()
+        assert statuses(swept.result(60)) == ["done"] * 4

@@ -1,0 +1,90 @@
+"""Studies of small, short runs, and executors that misbehave."""
+
+import os
+import subprocess
+import sys
+from concurrent.futures import Executor, Future
+from concurrent.futures.process import BrokenProcessPool
+
+from tribo.templates import template
+
+QUICK = """
+case = "case.toml"
+
+[settings]
+grid = { cells = 24, size = "0.6 mm" }
+contact.type = "winkler"
+kinematics.duration = "10 s"
+output.save_times = [1, 2]
+"""
+LOADS = """
+[grid]
+load.normal = ["50 N", "60 N", "70 N", "80 N"]
+"""
+# Some seconds a run, with a checkpoint in between.
+SLOW = """
+case = "case.toml"
+
+[settings]
+grid = { cells = 32, size = "0.7 mm" }
+contact.type = "winkler"
+kinematics.duration = "20 s"
+stepping = { type = "explicit", time_step = "0.04 s" }
+output.save_times = [0.1, 0.5, 1, 2, 4, 6, 8, 10, 12, 14, 16, 18]
+"""
+
+
+def study(folder, text=QUICK + LOADS):
+    """Write a study and its base case; return the file."""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "case.toml").write_text(template("ball_on_disk"))
+    path = folder / "study.toml"
+    path.write_text(text)
+    return path
+
+
+def start(arguments, cwd):
+    """Start Python in a process group of its own."""
+    return subprocess.Popen(
+        [sys.executable, *map(str, arguments)],
+        cwd=cwd,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+
+
+def tribo(*arguments, cwd):
+    """Start the command line."""
+    return start(["-m", "tribo", *arguments], cwd)
+
+
+def turn_off_energy():
+    """Prepare a worker that lacks a plugin."""
+    os.environ["TRIBO_DISABLE_PLUGINS"] = "tribo-energy"
+
+
+class Inline(Executor):
+    """Calls at once; what `instead` returns for a case replaces the call."""
+
+    def __init__(self, instead=lambda task: None):
+        self.calls = []
+        self._instead = instead
+
+    def submit(self, fn, /, *args, **kwargs):
+        future = Future()
+        self.calls.append(args[0]["path"])
+        given = self._instead(args[0])
+        if isinstance(given, Exception):
+            future.set_exception(given)
+        else:
+            future.set_result(given or fn(*args, **kwargs))
+        return future
+
+
+def dies_at(load):
+    """Return what an executor does whose worker dies at a load."""
+    return lambda task: (
+        BrokenProcessPool("killed") if task["case"]["load"]["normal"] == load else None
+    )

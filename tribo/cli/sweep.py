@@ -1,0 +1,132 @@
+"""`tribo sweep`."""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from tribo.core.errors import CaseError, NumericalError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from concurrent.futures import Executor
+
+    from tribo.study.sweeping.sweep import Progress, Sweep
+
+NAMED = 5
+EVERY = 10.0
+"""Time between two lines where stderr is no terminal, in s."""
+
+
+@click.command()
+@click.argument("study", type=click.Path(path_type=Path))
+@click.option("-o", "--output", type=click.Path(path_type=Path), help="Folder; STUDY-sweep.")
+@click.option("-j", "--jobs", type=click.IntRange(1), help="Runs at once; a core each.")
+@click.option("--scheduler", metavar="ADDRESS", help="Run on this dask scheduler's workers.")
+@click.option("--dask", is_flag=True, help="Run on a dask cluster on this machine.")
+@click.option("--retry", is_flag=True, help="Run again what failed before.")
+@click.option("--yes", is_flag=True, help="More than 1000 runs are meant.")
+@click.option("--json", "as_json", is_flag=True, help="One JSON object, in SI units.")
+def sweep(
+    study: Path,
+    output: Path | None,
+    jobs: int | None,
+    scheduler: str | None,
+    dask: bool,
+    retry: bool,
+    yes: bool,
+    as_json: bool,
+) -> None:
+    """Run the cases of STUDY, a TOML file that says what varies, in parallel.
+
+    Every case is validated before any is run. Afterwards the folder holds
+    runs.csv (a row a run), saves.csv (a row a save) and the folder results. A
+    failing run is recorded and the others go on. A sweep that was stopped, or
+    whose study has grown, goes on with the same command.
+
+    \b
+    Example:
+      tribo sweep study.toml --jobs 4
+
+    Exit codes: 0 all done, 2 bad input, 3 runs have failed, 130 interrupted.
+    """
+    from tribo.study.sweeping.sweep import sweep as run
+
+    with _executor(scheduler, dask, jobs) as executor, _shown() as tell:
+        swept = run(study, output, executor=executor, jobs=jobs, retry=retry, many=yes, tell=tell)
+    failures = swept.failures()
+    failed = sum(map(len, failures.values()))
+    if as_json:
+        data = {"folder": str(swept.folder), "runs": list(swept.rows)}
+        click.echo(json.dumps(data, indent=2, allow_nan=False, default=str))
+    else:
+        click.echo(f"{len(swept.runs) - failed} of {len(swept.runs)} runs are done.")
+        click.echo(f"Wrote {swept.folder / 'runs.csv'} and {swept.folder / 'saves.csv'}")
+    if failed:
+        raise NumericalError(_told(swept, failed))
+
+
+def _executor(
+    scheduler: str | None, dask: bool, jobs: int | None
+) -> AbstractContextManager[Executor | None]:
+    if scheduler and (dask or jobs):
+        raise CaseError(
+            "--scheduler has workers of its own; leave out --dask and --jobs, which start some here"
+        )
+    if scheduler:
+        from tribo.study.sweeping.cluster import on_scheduler
+
+        return on_scheduler(scheduler)
+    if dask:
+        from tribo.study.sweeping.cluster import on_local_cluster
+
+        return on_local_cluster(jobs)
+    return nullcontext()
+
+
+@contextmanager
+def _shown() -> Iterator[Callable[[Progress], None]]:
+    """Show on stderr how many runs have ended, and how long the others will take."""
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeRemainingColumn
+    from rich.progress import Progress as Bar
+
+    live = sys.stderr.isatty()
+    columns = (
+        BarColumn(),
+        MofNCompleteColumn(),
+        TextColumn("runs{task.description}"),
+        TimeRemainingColumn(),
+        TextColumn("left"),
+    )
+    with Bar(*columns, console=Console(file=sys.stderr), transient=True, disable=not live) as bar:
+        shown, told = bar.add_task("", total=None), time.monotonic()
+
+        def tell(progress: Progress) -> None:
+            failed = f", {progress.failed} failed" if progress.failed else ""
+            ended = progress.done + progress.failed
+            bar.update(shown, total=progress.total, completed=ended, description=failed)
+            nonlocal told
+            now = time.monotonic()
+            if not live and (now - told > EVERY or ended == progress.total):
+                told = now
+                click.echo(f"{ended} of {progress.total} runs{failed}", err=True)
+
+        yield tell
+
+
+def _told(swept: Sweep, failed: int) -> str:
+    lines = [f"{failed} of {len(swept.runs)} runs failed; --retry runs them again:"]
+    for message, runs in list(swept.failures().items())[:NAMED]:
+        more = f" and {len(runs) - 1} more" if len(runs) > 1 else ""
+        lines.append(f"  run {runs[0].number} ({runs[0].label}){more}: {message}")
+    if len(swept.failures()) > NAMED:
+        lines.append(f"  for other reasons see {swept.folder / 'runs.csv'}")
+    return "\n".join(lines)

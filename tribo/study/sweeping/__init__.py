@@ -1,0 +1,1 @@
+"""Many runs of a case whose values vary, in parallel and each once."""

@@ -1,0 +1,89 @@
+"""Runs on the workers of dask.distributed."""
+
+from __future__ import annotations
+
+import logging
+import os
+import warnings
+from collections.abc import Iterator
+from concurrent.futures import Executor
+from contextlib import contextmanager
+from typing import Any
+
+from tribo.core.errors import CaseError, TriboWarning
+
+PATIENCE = 15.0
+"""How long a scheduler may take to answer, in s."""
+
+
+@contextmanager
+def on_scheduler(address: str, patience: float = PATIENCE) -> Iterator[Executor]:
+    """Connect to a scheduler that runs already.
+
+    Parameters
+    ----------
+    address : str
+        As ``"tcp://host:8786"``.
+    patience : float, optional
+        Time it may take to answer, in s.
+
+    Raises
+    ------
+    CaseError
+        If dask is not installed, or the scheduler does not answer.
+    """
+    distributed = _distributed()
+    try:
+        client = distributed.Client(address, timeout=patience)
+    except (OSError, TimeoutError, ValueError) as error:
+        raise CaseError(
+            f"no scheduler answers at {address} within {patience:g} s ({_reason(error)}); start "
+            "one with 'dask scheduler', and give the address that it prints"
+        ) from None
+    with client:
+        if not client.scheduler_info(n_workers=-1)["workers"]:
+            warnings.warn(
+                f"the scheduler at {address} has no workers yet; the runs wait for some",
+                TriboWarning,
+                stacklevel=3,
+            )
+        yield client.get_executor(pure=False)
+
+
+@contextmanager
+def on_local_cluster(workers: int | None) -> Iterator[Executor]:
+    """Start a scheduler and single-threaded workers on this machine, one a core if not told.
+
+    Raises
+    ------
+    CaseError
+        If dask is not installed.
+    """
+    distributed = _distributed()
+    with (
+        distributed.LocalCluster(
+            n_workers=workers or len(os.sched_getaffinity(0)),
+            threads_per_worker=1,
+            dashboard_address=None,
+        ) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        yield client.get_executor(pure=False)
+
+
+def _distributed() -> Any:
+    try:
+        import distributed
+    except ImportError:
+        raise CaseError(
+            "dask.distributed is not installed; install it with: pip install 'tribo[dask]'"
+        ) from None
+    # What it logs, tracebacks among it, is told by the errors that follow.
+    for name in list(logging.root.manager.loggerDict):
+        if name.split(".")[0] == "distributed":
+            logging.getLogger(name).setLevel(logging.CRITICAL + 1)
+    return distributed
+
+
+def _reason(error: Exception) -> str:
+    return str(error).splitlines()[0] if str(error) else type(error).__name__
