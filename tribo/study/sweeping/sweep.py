@@ -12,7 +12,7 @@ from pathlib import Path
 
 from tribo.core.errors import CaseError, OutputError
 from tribo.results.checkpoint import fingerprint
-from tribo.results.provenance import provenance
+from tribo.results.provenance import origin
 from tribo.simulation.run import Simulation
 from tribo.study.sweeping.carrying import carry
 from tribo.study.sweeping.locks import BusyError, locked
@@ -225,7 +225,6 @@ def _task(run: Run, stop: Path) -> Task:
 
 def _makers(run: Run) -> str:
     """Return the distributions that the components of a run come from."""
-    made = provenance(Simulation(run.case).model.components())["components"]
-    assert isinstance(made, dict)
-    origins = {f"{origin['distribution']} {origin['version']}": None for origin in made.values()}
+    made = [origin(component) for _, component in Simulation(run.case).model.components()]
+    origins = {f"{each['distribution']} {each['version']}" for each in made}
     return ", ".join(sorted(origins))
