@@ -97,8 +97,8 @@ def test_a_killed_parent_takes_its_workers_along_and_the_command_goes_on(tmp_pat
     killed.communicate()
     until(lambda: not any(map(alive, children)), "end of the workers")
     before = done(tmp_path)
+    # A worker may still have ended its run.
     assert 0 < len(before) < 4
-    assert half_done(tmp_path)
     assert not (tmp_path / "study-sweep" / "runs.csv").exists()
     assert finished(sweeps.tribo(*command, cwd=tmp_path))[0] == 0
     assert before.items() <= done(tmp_path).items()
