@@ -62,7 +62,7 @@ def is_done(path):
         with Result.open(path) as result:
             return result.status == "done"
     except CaseError:
-        # HDF5 lets nobody read what another process writes.
+        # What another process is writing cannot always be read.
         return False
 
 

@@ -197,10 +197,15 @@ def test_a_stopped_run_goes_on_from_its_checkpoint(tmp_path, monkeypatch):
         assert np.array_equal(Simulation(result.case).run().pressure(-1), result.pressure(-1))
 
 
-def test_a_damaged_result_is_done_again(tmp_path):
+@pytest.mark.parametrize("damage", ["no result", "a flipped bit", "cut short"])
+def test_a_damaged_result_is_done_again(tmp_path, damage):
     path = sweeps.study(tmp_path)
     swept = sweep(path, executor=sweeps.Inline())
-    swept.runs[1].path.write_bytes(b"no result")
+    damaged = swept.runs[1].path
+    content = bytearray(damaged.read_bytes())
+    content[len(content) // 2] ^= 1
+    spoilt = {"no result": b"no", "a flipped bit": content, "cut short": content[:-5000]}
+    damaged.write_bytes(spoilt[damage])
     executor = sweeps.Inline()
     assert statuses(sweep(path, executor=executor)) == ["done"] * 4
     assert executor.calls == [str(swept.runs[1].path)]

@@ -72,10 +72,11 @@ def outcome(run: Run) -> Outcome:
         return Outcome("waiting")
     try:
         with Result.open(run.path) as result:
+            result.check()
             status = "done" if result.status == "done" else "interrupted"
             return Outcome(status, "; ".join(result.notices))
-    except CaseError:
-        return Outcome("interrupted")
+    except CaseError as error:
+        return Outcome("interrupted", str(error))
 
 
 def varied(run: Run, paths: Sequence[str]) -> Row:

@@ -92,11 +92,12 @@ def write_failure(result: Path, message: str) -> None:
 
 
 def is_done(path: Path, simulation: Simulation) -> bool:
-    """Return whether a file is the finished result of a simulation as it is now."""
+    """Return whether a file is the sound, finished result of a simulation as it is now."""
     if not path.exists():
         return False
     try:
         with Result.open(path) as result:
+            result.check()
             return (
                 result.status == "done"
                 and result.case == describe(simulation.model)
