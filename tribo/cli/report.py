@@ -34,10 +34,15 @@ def print_report(result: Result, console: Console | None = None) -> None:
         console.print(_inferred(lab.inferred))
     console.print(_first_contact(lab.first_contact))
     totals = result.totals()
-    worst = max(float(max(result.table("history")["force_error"])), 0.0)
+    worst = result.worst()
     console.print(
         f"{totals['steps']} steps, {totals['contact_solves']} contact solves, "
-        f"{totals['wall_time_s']:.1f} s; load balance within {worst:.0e}."
+        f"{totals['wall_time_s']:.1f} s."
+    )
+    console.print(
+        f"At worst: load off by {worst['force_error']:.0e}, worn volume by "
+        f"{worst['volume_error']:.0e}, gap under pressure {worst['complementarity_error']:.0e}, "
+        f"overlap {worst['penetration_error']:.0e}, chattering {worst['chattering']:.0e}."
     )
     if result.status != "done":
         console.print(f"[yellow]This run is {result.status}, not done.[/]")

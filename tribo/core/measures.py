@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -26,6 +26,26 @@ class BodyMeasures:
 
 
 @dataclass(frozen=True)
+class Invariants:
+    """How far a step is from what must hold; all are 0 if it does.
+
+    Parameters
+    ----------
+    volume : float
+        What a body has lost in the step against what its law asked for, relative to that;
+        the worst body's.
+    regrowth : float
+        Depth by which a point has grown back, in m.
+    chattering : float
+        Share of the load that the step hands back to where the one before took it from.
+    """
+
+    volume: float = 0.0
+    regrowth: float = 0.0
+    chattering: float = 0.0
+
+
+@dataclass(frozen=True)
 class Measures:
     """Scalars of one moment, in SI units."""
 
@@ -41,6 +61,7 @@ class Measures:
     contact_solves: int
     solver_iterations: int
     bodies: Mapping[str, BodyMeasures]
+    invariants: Invariants = field(default_factory=Invariants)
 
 
 def centre(field: Array) -> float:
@@ -67,10 +88,8 @@ def contact_area(pressure: Array, grid: Grid) -> float:
 
 def reaches_border(pressure: Array) -> bool:
     """Whether the contact reaches the border of the window."""
-    touching = pressure > 0
-    return bool(
-        touching[0].any() or touching[-1].any() or touching[:, 0].any() or touching[:, -1].any()
-    )
+    edges = pressure[0], pressure[-1], pressure[:, 0], pressure[:, -1]
+    return any(bool((edge > 0).any()) for edge in edges)
 
 
 def extent(touching: Mask) -> int:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution, ContactSystem
 from tribo.core.fields import Field, WearRate
-from tribo.core.measures import Measures
+from tribo.core.measures import Invariants, Measures
 
 
 @dataclass(frozen=True)
@@ -58,6 +58,10 @@ class State:
         frame: where the next one begins. Empty where there are none.
     notices : tuple of str
         Warnings given so far, each given once.
+    invariants : Invariants
+        How well they hold in the step that led here.
+    previous : ndarray of shape (nx, ny) or None
+        Pressure a step ago, in Pa, by which chattering is told; None before the first.
     """
 
     time: float
@@ -73,6 +77,8 @@ class State:
     saves: int = 0
     rates: Mapping[str, WearRate] = field(default_factory=dict)
     notices: tuple[str, ...] = ()
+    invariants: Invariants = field(default_factory=Invariants)
+    previous: Array | None = None
 
 
 @dataclass(frozen=True)

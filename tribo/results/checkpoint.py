@@ -20,6 +20,7 @@ import h5py
 from tribo.core.contact import ContactSolution, Residuals
 from tribo.core.errors import CaseError, OutputError, TriboWarning
 from tribo.core.fields import WearRate
+from tribo.core.measures import Invariants
 from tribo.core.state import BodyState, State
 from tribo.results.journal import journal_path
 from tribo.results.read import Result
@@ -179,6 +180,7 @@ def _write_state(file: h5py.File, state: State, wall_time: float) -> None:
     scalars["approach"] = contact.approach
     scalars["iterations"] = contact.iterations
     scalars["residuals"] = vars(contact.residuals)
+    scalars["invariants"] = vars(state.invariants)
     scalars["wall_time"] = wall_time
     scalars["bodies"] = {name: sorted(body.law) for name, body in state.bodies.items()}
     scalars["rates"] = {name: sorted(rate.state) for name, rate in state.rates.items()}
@@ -186,6 +188,8 @@ def _write_state(file: h5py.File, state: State, wall_time: float) -> None:
     write_text(file, "scalars", json.dumps(scalars))
     write_array(file, "pressure", contact.pressure)
     write_array(file, "overlap", contact.overlap)
+    if state.previous is not None:
+        write_array(file, "previous", state.previous)
     for name, body in state.bodies.items():
         write_array(file, f"bodies/{name}/wear", body.wear)
         write_array(file, f"bodies/{name}/plastic", body.plastic)
@@ -229,5 +233,7 @@ def _read_state(file: h5py.File) -> tuple[State, float]:
         contact=contact,
         rates=rates,
         notices=tuple(scalars["notices"]),
+        invariants=Invariants(**scalars["invariants"]),
+        previous=file["previous"][:] if "previous" in file else None,
     )
     return state, scalars["wall_time"]

@@ -59,6 +59,19 @@ COLUMNS: tuple[Column[Measures], ...] = (
         "Relative overlap outside the contact",
         lambda m: m.residuals.penetration,
     ),
+    Column(
+        "volume_error",
+        "1",
+        "Volume worn in the step against that of the laws, relative",
+        lambda m: m.invariants.volume,
+    ),
+    Column("regrowth", "m", "Depth that grew back in the step", lambda m: m.invariants.regrowth),
+    Column(
+        "chattering",
+        "1",
+        "Share of the load that goes back and forth between steps",
+        lambda m: m.invariants.chattering,
+    ),
     Column("contact_solves", "1", "Contact solves so far", lambda m: m.contact_solves),
     Column("solver_iterations", "1", "Solver iterations so far", lambda m: m.solver_iterations),
 )
@@ -71,3 +84,13 @@ BODY_COLUMNS: tuple[Column[BodyMeasures], ...] = (
         "max_plastic_depth", "m", "Largest permanent displacement", lambda m: m.max_plastic_depth
     ),
 )
+
+INVARIANTS = (
+    "force_error",
+    "complementarity_error",
+    "penetration_error",
+    "volume_error",
+    "regrowth",
+    "chattering",
+)
+"""The columns that are 0 where all that must hold holds exactly."""

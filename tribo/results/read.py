@@ -20,7 +20,7 @@ from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError
 from tribo.core.fields import Field
 from tribo.core.grid import Grid
-from tribo.results.columns import BODY_COLUMNS, COLUMNS
+from tribo.results.columns import BODY_COLUMNS, COLUMNS, INVARIANTS
 from tribo.results.damage import unreadable
 from tribo.results.seal import NotSealedError
 from tribo.results.sealed_file import SealedFile, close_sealed
@@ -346,6 +346,7 @@ class Result:
             "provenance": self.provenance,
             "notices": list(self.notices),
             "totals": dict(self.totals()),
+            "invariants": dict(self.worst()),
             "saves": self.saves(),
         }
 
@@ -360,6 +361,11 @@ class Result:
             "solver_iterations": int(np.sum(history["solver_iterations"][last])),
             "wall_time_s": self.wall_time,
         }
+
+    def worst(self) -> Mapping[str, float]:
+        """Return the worst value, over all steps, of each invariant that the run was held to."""
+        columns = [column for column in COLUMNS if column.name in INVARIANTS]
+        return {c.label: float(np.max(self._read(f"history/{c.name}"), initial=0)) for c in columns}
 
     def _on_window(self, name: str) -> Array:
         """Return a body's own field at every save, spread along x where the body is swept."""

@@ -13,6 +13,7 @@ from tribo.core.measures import half_widths, reaches_border
 from tribo.core.state import State
 from tribo.simulation.calling import named
 from tribo.simulation.control import SHRINK, first_increment, fitted, next_factor, step_error
+from tribo.simulation.invariants import chattering_words, chatters, hold
 from tribo.simulation.model import Model
 from tribo.simulation.motion import averaging_limit, path_at, time_at
 from tribo.simulation.rates import Moment
@@ -54,7 +55,7 @@ def begin(model: Model) -> State:
     NumericalError
         If the contact cannot be solved.
     """
-    state = first_contact(model)
+    state = hold(model, None, first_contact(model))
     if isinstance(model.stepping, ExplicitConfig):
         _check_time_step(model, model.stepping, state)
     return _noticed(model, replace(state, saves=1))
@@ -75,10 +76,10 @@ def march(model: Model, state: State) -> Iterator[Accepted]:
     stops = [t for t in model.save_times if 0 < t < model.end_time]
     for stop in [*stops, model.end_time]:
         while state.time < stop:
-            state = _step_towards(model, state, stop)
+            state = hold(model, state, _step_towards(model, state, stop))
             _check_window(model, state)
             state = _noticed(model, state)
-            worn_out = _depth(model, state) >= _depth_limit(model)
+            worn_out = model.stop.depth is not None and _depth(model, state) >= model.stop.depth
             last = worn_out or state.time >= model.end_time
             if worn_out and state.time < model.end_time:
                 text = (
@@ -143,7 +144,7 @@ def _implicit(model: Model, config: ImplicitConfig, state: State, stop: float) -
     # A step cut short to meet a save says little about the next: keep the longer of the two.
     proposal = max(factor * increment, natural if increment < natural else 0.0)
     after = replace(taken.state, increment=proposal, rejected_steps=state.rejected_steps + rejected)
-    if _depth(model, after) > _depth_limit(model):
+    if model.stop.depth is not None and _depth(model, after) > model.stop.depth:
 
         def step(model: Model, state: State, increment: float, time: float) -> State:
             return implicit_step(model, state, increment, time, config=config).state
@@ -283,6 +284,13 @@ def _noticed(model: Model, state: State) -> State:
                 "resolution",
                 f"the first contact is only {cells:.0f} cells wide; its pressure is inaccurate "
                 f"until it has grown: aim for {FEW_CELLS} or more (grid.cells)",
+            )
+        )
+    if chatters(state):
+        due.append(
+            (
+                "chattering",
+                f"at {state.time:.6g} s ({state.distance:.6g} m) {chattering_words(state)}",
             )
         )
     given = {notice.split(":", 1)[0] for notice in state.notices}

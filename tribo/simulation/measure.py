@@ -35,4 +35,5 @@ def measure(model: Model, state: State) -> Measures:
         contact_solves=state.contact_solves,
         solver_iterations=state.solver_iterations,
         bodies=bodies,
+        invariants=state.invariants,
     )

@@ -71,16 +71,16 @@ def _checked(who: str, problem: ContactProblem, answer: object) -> ContactSoluti
         )
     if not isinstance(answer.residuals, Residuals):
         raise PluginError(f"{who} gave a {type(answer.residuals).__name__} instead of Residuals")
-    residuals = (
+    claimed = (
         number(who, f"a residual of {what}", getattr(answer.residuals, what))
-        for what in ("force", "complementarity", "penetration")
+        for what in ("complementarity", "penetration")
     )
     return ContactSolution(
         pressure=_kept(pressure),
         approach=number(who, "an approach", answer.approach),
         overlap=_kept(overlap),
         iterations=int(number(who, "a number of iterations", answer.iterations)),
-        residuals=Residuals(*residuals),
+        residuals=Residuals(abs(carried / problem.load - 1), *claimed),
     )
 
 

@@ -14,6 +14,7 @@ from tribo.core.errors import CaseError, NumericalError, PluginError
 from tribo.core.fields import WearRate
 from tribo.core.measures import reaches_border
 from tribo.core.state import BodyState, State
+from tribo.simulation.invariants import wear_balance
 from tribo.simulation.model import Model
 from tribo.simulation.rates import LawStates, Moment, law_states, wear_rates
 from tribo.simulation.solving import smallest_compliance, solve
@@ -164,8 +165,12 @@ def implicit_step(
         iterations += solution.iterations
     worn_state = _with_wear(state, worn, settled)
     # Set first: settling a groove leaves the pressure that these rates belong to.
-    before_it = replace(state, rates=rates)
-    after = _accept(model, before_it, worn_state, solution, moment, solves, iterations)
+    kept = replace(
+        state,
+        rates=rates,
+        invariants=wear_balance(model, worn, rates, increment, state),
+    )
+    after = _accept(model, kept, worn_state, solution, moment, solves, iterations)
     return ImplicitStep(after, forward)
 
 
@@ -173,13 +178,16 @@ def explicit_step(model: Model, state: State, increment: float, time: float) -> 
     """Return the state after one forward Euler step; parameters as `implicit_step`."""
     moment = _moment(state, increment, time)
     rates = rated(model, state, moment).rates
-    law = law_states(state)
-    worn_state = _with_wear(
-        state, _worn(model, rates, increment), _advanced(model, law, rates, increment)
-    )
+    worn = _worn(model, rates, increment)
+    settled = _advanced(model, law_states(state), rates, increment)
+    worn_state = _with_wear(state, worn, settled)
     solution = _solve(model, geometry(model, worn_state), None, state.contact)
-    before = replace(state, rates={})
-    return _accept(model, before, worn_state, solution, moment, 1, solution.iterations)
+    kept = replace(
+        state,
+        rates={},
+        invariants=wear_balance(model, worn, rates, increment, state),
+    )
+    return _accept(model, kept, worn_state, solution, moment, 1, solution.iterations)
 
 
 def rated(model: Model, state: State, moment: Moment) -> State:

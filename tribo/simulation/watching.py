@@ -94,8 +94,9 @@ def _view(snapshot: Snapshot) -> Snapshot:
         pressure=readonly(state.contact.pressure),
         overlap=readonly(state.contact.overlap),
     )
+    previous = None if state.previous is None else readonly(state.previous)
     return Snapshot(
-        replace(state, bodies=bodies, rates=rates, contact=contact),
+        replace(state, bodies=bodies, rates=rates, contact=contact, previous=previous),
         replace(measures, bodies=dict(measures.bodies)),
     )
 

@@ -1,0 +1,179 @@
+"""What must hold at every step: that a run keeps it, and stops where a part does not."""
+
+import json
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from paper_models import K, archard, flat, half_space, last, motion, small, sphere, states, steel
+
+from tribo import Result, Simulation
+from tribo.cli.show import show
+from tribo.config.stepping import ExplicitConfig, ImplicitConfig
+from tribo.contact.dcfft import DcFft, DcFftConfig
+from tribo.contact.periodic import Periodic, PeriodicConfig
+from tribo.core.errors import NumericalError, TriboWarning
+from tribo.core.grid import Grid
+from tribo.interfaces.surface import Surface, SurfaceConfig
+from tribo.simulation.invariants import CHATTERING, VOLUME, handed_back
+from tribo.simulation.model import Body
+
+
+class Rough(Surface[SurfaceConfig]):
+    """White noise of 1 µm, down to single cells, on a ball or on nothing."""
+
+    Config = SurfaceConfig
+
+    def __init__(self, radius=np.inf):
+        super().__init__(SurfaceConfig(type="test.rough"))
+        self.radius = radius
+
+    def height(self, grid):
+        x, y = grid.mesh
+        noise = np.random.default_rng(1).normal(scale=1e-6, size=grid.cells)
+        return noise - (x**2 + y**2) / (2 * self.radius)
+
+
+def one_body(surface=None, law=None, **changes):
+    ball = Body("ball", surface or sphere(), steel(), law or archard())
+    return small(bodies=[ball, Body("disk", flat(), steel())], **changes)
+
+
+def time_step(factor):
+    """A part of the largest stable one of `one_body`."""
+    model = one_body()
+    return factor * 2 * 0.58069 * model.grid.spacing[0] / (K * model.system.modulus) / 0.1
+
+
+def unstable(factor):
+    return ExplicitConfig(time_step=time_step(factor), allow_unstable=True)
+
+
+def test_half_of_a_chequerboard_is_handed_back():
+    # From p ± p to p ∓ p and back: half of the load changes places, twice.
+    board = (-1.0) ** np.add.outer(np.arange(6), np.arange(8))
+    assert handed_back(1 + board, 1 - board, 1 + board) == 1.0
+    assert handed_back(1 + 0.1 * board, 1 - 0.1 * board, 1 + 0.1 * board) == pytest.approx(0.1)
+
+
+def test_what_only_grows_or_fades_is_not_handed_back():
+    p = np.random.default_rng(1).random((6, 8))
+    q = np.random.default_rng(2).random((6, 8))
+    assert handed_back(p, 0.7 * p + 0.3 * q, 0.2 * p + 0.8 * q) == pytest.approx(0, abs=1e-15)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {},
+        {"stepping": ImplicitConfig(pressure_tolerance=1.0, depth_tolerance=0.1)},
+        {"stepping": ExplicitConfig(time_step=0.9 * time_step(1.0))},
+        {"contact": Periodic(PeriodicConfig()), "load": 500.0, "surface": Rough()},
+        {"surface": Rough(5e-3), "grid": Grid((1.2e-3, 1.2e-3), (64, 64))},
+        {"surface": Rough(5e-3), "stepping": ExplicitConfig(time_step=0.9 * time_step(1.0))},
+    ],
+    ids=["ball", "long steps", "explicit", "periodic", "rough ball", "rough, explicit"],
+)
+def test_nothing_is_held_against_a_sound_run(changes):
+    held = [state.invariants for state in states(one_body(**changes))]
+    assert len(held) > 5
+    assert max(each.regrowth for each in held) == 0
+    assert max(each.volume for each in held) < 1e-3 * VOLUME
+    assert max(each.chattering for each in held) < 0.6 * CHATTERING
+
+
+def test_chattering_stops_a_run_whose_solver_overstates_its_stability():
+    contact = half_space()
+    contact.smallest_compliance = lambda system: 1.0
+    model = one_body(contact=contact, stepping=ExplicitConfig(time_step=time_step(1.5)))
+    with pytest.raises(NumericalError, match=r"^step \d+, at .* s .*pressure chatters: \d+ %.*'im"):
+        last(model)
+
+
+def test_chattering_is_told_of_where_it_is_allowed(tmp_path):
+    with pytest.warns(TriboWarning, match="the pressure chatters"):
+        result = Simulation(one_body(stepping=unstable(1.5))).run()
+    assert result.worst()["chattering"] > CHATTERING
+
+
+@pytest.mark.parametrize(
+    ("exposure", "words"),
+    [
+        (lambda e: setattr(e, "volume", lambda depth: 0.99 * type(e).volume(e, depth)), "0.01"),
+        (lambda e: setattr(e, "volume", lambda depth: np.nan), "wear depth is not finite"),
+        (lambda e: setattr(e, "average", lambda rate: rate - 0.01 * rate.max()), "grows back by"),
+        (lambda e: setattr(e, "average", lambda rate: 1.01 * rate), "wear volume is off"),
+    ],
+    ids=["volume", "nan", "regrowth", "average"],
+)
+def test_a_motion_that_miscounts_wear_stops_the_run(exposure, words):
+    model = one_body()
+    exposure(model.exposures["ball"])
+    with pytest.raises(NumericalError, match=rf"^step 1, at .*{words}.*; .*kinematics"):
+        last(model)
+
+
+@pytest.mark.parametrize("what", ["complementarity", "penetration"])
+def test_a_solver_that_owns_to_a_poor_contact_stops_the_run(what, tmp_path):
+    class Sloppy(DcFft):
+        calls = 0
+
+        def solve(self, problem, start=None):
+            self.calls += 1
+            solution = super().solve(problem, start)
+            poor = replace(solution.residuals, **{what: 0.05})
+            return solution if self.calls < 6 else replace(solution, residuals=poor)
+
+    simulation = Simulation(one_body(contact=Sloppy(DcFftConfig())))
+    path = tmp_path / "run.h5"
+    with pytest.raises(NumericalError, match=r"^step 3, at .*0\.05, and 0\.01 is allowed; .*toler"):
+        simulation.run(path)
+    with Result.open(path) as result:
+        assert result.status == "failed"
+        assert len(result.table("history")["time_s"]) == 3
+
+
+def test_the_load_balance_is_measured_and_not_taken_on_trust():
+    class Boasts(DcFft):
+        def solve(self, problem, start=None):
+            solution = super().solve(problem, start)
+            best = replace(solution.residuals, force=0.0)
+            return replace(solution, pressure=(1 + 3e-7) * solution.pressure, residuals=best)
+
+    result = Simulation(one_body(contact=Boasts(DcFftConfig()))).run()
+    assert result.worst()["force_error"] == pytest.approx(3e-7, rel=1e-3)
+
+
+def test_the_worst_of_each_is_shown(tmp_path):
+    path = tmp_path / "run.h5"
+    with Simulation(one_body()).run(path) as result:
+        history = result.table("history")
+    shown = CliRunner().invoke(show, [str(path), "--json"], catch_exceptions=False)
+    worst = json.loads(shown.stdout)["invariants"]
+    assert set(worst) == {
+        "force_error",
+        "complementarity_error",
+        "penetration_error",
+        "volume_error",
+        "regrowth_m",
+        "chattering",
+    }
+    assert worst == {name: max(history[name]) for name in worst}
+    assert worst["volume_error"] > 0
+    assert worst["chattering"] > 0
+    text = CliRunner().invoke(show, [str(path)], catch_exceptions=False).stdout
+    assert "At worst: load off by" in text
+
+
+def test_what_a_track_loses_is_what_its_law_asks_for():
+    # V = kFΔs in every step, on a window that is not the track.
+    model = small(kinematics=motion(stroke="3 mm", duration=100))
+    assert model.is_swept("disk")
+    run = states(model)
+    for before, after in pairwise(run):
+        lost = model.exposures["disk"].volume(after.bodies["disk"].wear)
+        lost -= model.exposures["disk"].volume(before.bodies["disk"].wear)
+        assert lost == pytest.approx(K * 100 * (after.distance - before.distance), rel=1e-6)
+        assert after.invariants.volume < 1e-3 * VOLUME

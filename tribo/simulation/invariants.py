@@ -1,0 +1,175 @@
+"""What must hold at every step, whoever wrote the parts: held at every step, always.
+
+The load balance, the sign and the cap of a pressure are held at every solve,
+in `tribo.simulation.solving`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from math import isfinite
+
+import numpy as np
+
+from tribo.config.stepping import ExplicitConfig
+from tribo.core.arrays import Array
+from tribo.core.errors import NumericalError
+from tribo.core.fields import WearRate
+from tribo.core.measures import Invariants
+from tribo.core.state import State
+from tribo.simulation.model import Model
+
+LOAD = 1e-6
+CONDITIONS = 1e-2
+"""Looser than any tolerance that a solver of tribo can be given."""
+VOLUME = 1e-6
+SMALL = 1e-9
+"""Part of the volume worn so far below which that of a step drowns in rounding."""
+CHATTERING = 0.5
+"""On smooth and rough balls implicit steps were seen to hand back up to 0.012 of the load, stable
+explicit ones, as they begin, 0.28; unstable ones come to between 0.6 and 0.9."""
+
+_SOLVER = "tighten the tolerance of the contact solver, or choose another (contact.type)"
+_MOTION = "that is a fault of the kinematics; 'tribo plugins check' tests it"
+
+
+def wear_balance(
+    model: Model,
+    worn: Mapping[str, Array],
+    rates: Mapping[str, WearRate],
+    increment: float,
+    before: State,
+) -> Invariants:
+    """Hold what a step wears away against what the laws ask for.
+
+    The volume that leaves a body is the integral over the contact of the depth
+    per metre times the increment, however the body meets the contact.
+
+    Parameters
+    ----------
+    model : Model
+        The composed case.
+    worn : Mapping[str, ndarray]
+        Depth that each body loses in the step, on its surface, in m.
+    rates : Mapping[str, WearRate]
+        What its law asks for.
+    increment : float
+        Sliding increment, in m.
+    before : State
+        Where the step begins.
+    """
+    volume = regrowth = 0.0
+    for name, depth in worn.items():
+        exposure = model.exposures[name]
+        asked = increment * float(np.sum(rates[name].depth)) * model.grid.cell_area
+        error = abs(exposure.volume(depth) - asked)
+        if not error <= VOLUME * asked:
+            asked = max(asked, SMALL * exposure.volume(before.bodies[name].wear))
+        volume = _worst(volume, error / asked if asked != 0 else error)
+        regrowth = _worst(regrowth, -float(np.min(depth)))
+    return Invariants(volume=volume, regrowth=regrowth)
+
+
+def hold(model: Model, before: State | None, after: State) -> State:
+    """Return `after` with how well the invariants hold.
+
+    Parameters
+    ----------
+    model : Model
+        The composed case.
+    before, after : State
+        The accepted states at both ends of a step; none is before the first contact.
+
+    Raises
+    ------
+    NumericalError
+        If one does not hold, with the step, by how much, and a remedy. That the pressure chatters
+        is left to a notice where the case allows unstable steps.
+    """
+    if before is not None:
+        after = replace(after, previous=before.contact.pressure)
+        if before.previous is not None:
+            pressures = before.previous, before.contact.pressure, after.contact.pressure
+            share = handed_back(*pressures)
+            after = replace(after, invariants=replace(after.invariants, chattering=share))
+    broken = broken_by(after)
+    if broken is None and chatters(after) and not _may_chatter(model):
+        broken = chattering_words(after)
+    if broken is not None:
+        raise NumericalError(
+            f"step {after.steps}, at {after.time:.6g} s ({after.distance:.6g} m): {broken}"
+        )
+    return after
+
+
+def broken_by(state: State) -> str | None:
+    """Say what does not hold in `state`, by how much, and what to do; chattering apart."""
+    lost = _not_finite(state)
+    if lost is not None:
+        return f"the {lost} is not finite; find what diverges: a wear law, or the kinematics"
+    contact, step = state.contact.residuals, state.invariants
+    limits = (
+        ("the load is missed by {:.3g} of it", contact.force, LOAD, _SOLVER),
+        ("a gap is under pressure, by {:.3g}", contact.complementarity, CONDITIONS, _SOLVER),
+        ("bodies overlap out of contact, by {:.3g}", contact.penetration, CONDITIONS, _SOLVER),
+        ("a body grows back by {:.3g} m", step.regrowth, 0.0, _MOTION),
+        ("the wear volume is off its law's by {:.3g} of it", step.volume, VOLUME, _MOTION),
+    )
+    for words, value, most, remedy in limits:
+        # Neither is a NaN allowed.
+        if not value <= most:
+            return f"{words.format(value)}, and {most:g} is allowed; {remedy}"
+    return None
+
+
+def handed_back(first: Array, second: Array, third: Array) -> float:
+    """Return the share of the load that goes to other cells in one step and back in the next.
+
+    An unstable mode changes its sign at every step; roughness, however fine, wears off one way.
+
+    Parameters
+    ----------
+    first, second, third : ndarray, shape (nx, ny)
+        Pressures one step apart, under one load.
+    """
+    low, high = np.minimum(first, third), np.maximum(first, third)
+    # What `second` lies outside the range of the two others; each share leaves one cell for
+    # another, and so is counted twice.
+    np.clip(second, low, high, out=low)
+    low -= second
+    np.abs(low, out=low)
+    return 0.5 * float(np.sum(low)) / float(np.sum(second))
+
+
+def chatters(state: State) -> bool:
+    """Whether the pressure chatters at the scale of the grid."""
+    return state.invariants.chattering > CHATTERING
+
+
+def chattering_words(state: State) -> str:
+    """Say how much it does, and what to do."""
+    return (
+        f"the pressure chatters: {100 * state.invariants.chattering:.0f} % of the load goes back "
+        f"and forth between cells from step to step, and {100 * CHATTERING:.0f} % are allowed; "
+        "shorten the steps (stepping.time_step), or use stepping.type = 'implicit'"
+    )
+
+
+def _may_chatter(model: Model) -> bool:
+    return isinstance(model.stepping, ExplicitConfig) and model.stepping.allow_unstable
+
+
+def _not_finite(state: State) -> str | None:
+    if not isfinite(state.invariants.volume):
+        return "wear depth"
+    for name, body in state.bodies.items():
+        for what, values in (("plastic depth", body.plastic), *body.law.items()):
+            if not isfinite(np.sum(values)):
+                return f"{what} of {name}"
+    return None
+
+
+def _worst(first: float, second: float) -> float:
+    """Return the larger of two, or NaN if the second is."""
+    return second if not second <= first else first
