@@ -7,7 +7,6 @@ from paper_models import K, archard, flat, half_space, motion, small, sphere, st
 
 from tribo import Body, CaseError, Grid, NumericalError, Simulation
 from tribo.config.stepping import ExplicitConfig
-from tribo.simulation import predict as module
 from tribo.simulation import step
 from tribo.simulation.predict import predict
 
@@ -64,19 +63,6 @@ def test_a_wear_coefficient_in_the_wrong_unit_is_suspected():
     deep = [problem for problem in problems if "unit that was meant" in problem]
     assert {problem.split()[0] for problem in deep} == {"ball", "disk"}
     assert all("radius of curvature of 5 mm" in problem for problem in deep)
-
-
-def test_more_memory_than_the_machine_has_is_foreseen(monkeypatch):
-    monkeypatch.setattr(module, "machine_memory", lambda: 2.0**20)
-    prediction = predict(small())
-    assert prediction.memory > 2.0**20
-    assert any("memory" in p and "lower grid.cells" in p for p in prediction.problems)
-    # The first contact is then solved on a grid that fits.
-    assert prediction.first.max_pressure == pytest.approx(2.155e9, rel=0.05)
-
-
-def test_the_memory_of_this_machine_is_known():
-    assert 2**28 < module.machine_memory() < 2**50
 
 
 def test_the_largest_stable_step_is_the_one_the_run_takes():

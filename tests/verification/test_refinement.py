@@ -77,12 +77,6 @@ def test_five_runs_are_announced():
     assert told[0].startswith("49 × 49 cells")
 
 
-def test_a_grid_beyond_the_memory_is_refused_with_the_estimate(monkeypatch):
-    monkeypatch.setattr(refinement, "machine_memory", lambda: 1e6)
-    with pytest.raises(CaseError, match=r"grid\.cells: .* 0\.00129 GiB .* 0\.000931 GiB"):
-        refine(worn())
-
-
 def test_a_grid_too_coarse_to_be_coarsened_is_refused():
     with pytest.raises(CaseError, match=r"grid\.cells: 16 × 49 leave no coarser grid"):
         refine(worn(grid=Grid((0.7e-3, 0.7e-3), (16, 49))))

@@ -37,7 +37,7 @@ def calling(component: Called, body: str | None = None) -> Iterator[None]:
     PluginError
         If it raises what nobody expects, or an error without a message.
     NumericalError
-        If it raises one.
+        If it raises one, or there is no more memory.
     """
     try:
         yield
@@ -49,6 +49,8 @@ def calling(component: Called, body: str | None = None) -> Iterator[None]:
             if isinstance(error, NumericalError):
                 raise NumericalError(f"{who}: {error}") from error
             raise
+        if isinstance(error, MemoryError):
+            raise NumericalError(f"{who} ran out of memory; lower grid.cells") from error
         raise PluginError(
             f"{who} raised {said(error)}; this is a fault of that component (TRIBO_DEBUG=1 shows "
             "where)"

@@ -29,6 +29,7 @@ from tribo.interfaces.surface import Surface, SurfaceConfig
 from tribo.interfaces.wear import WearLaw, WearLawConfig
 from tribo.simulation import answers, motion
 from tribo.simulation.calling import calling, named
+from tribo.simulation.memory import check_memory, memory_needed
 
 
 @dataclass(frozen=True)
@@ -163,6 +164,9 @@ def assemble(
     names = [body.name for body in bodies]
     with located("kinematics"):
         exposures = motion.exposures(kinematics, grid, names)
+    cap, share = _plastic(bodies, contact)
+    # Before the first array is made.
+    check_memory(grid, memory_needed(grid, laws_of(bodies), effects, plastic=cap is not None))
     gap = np.zeros(grid.cells)
     for body in bodies:
         with located(f"bodies.{body.name}.surface"):
@@ -173,7 +177,6 @@ def assemble(
             with located(f"bodies.{body.name}.wear"):
                 _check_law(body.wear, body)
     gap -= float(np.min(gap))
-    cap, share = _plastic(bodies, contact)
     system = ContactSystem(
         grid=grid,
         modulus=contact_modulus([body.material for body in bodies]),
@@ -288,6 +291,11 @@ def _curvature_of(body: Body) -> tuple[float, float] | None:
     who = named(body.surface, body.name)
     along, across = answers.field(who, "a curvature", answer, (2,))[0]
     return float(along), float(across)
+
+
+def laws_of(bodies: Sequence[Body]) -> list[WearLaw[WearLawConfig]]:
+    """Return the wear laws of those that wear."""
+    return [body.wear for body in bodies if body.wear is not None]
 
 
 def _plastic(

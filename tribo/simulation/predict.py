@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -16,7 +15,8 @@ from tribo.results.provenance import stated_facts
 from tribo.simulation.calling import calling
 from tribo.simulation.march import FEW_CELLS, MOST_STEPS, begin, march
 from tribo.simulation.measure import measure
-from tribo.simulation.model import Model, varied
+from tribo.simulation.memory import memory_needed
+from tribo.simulation.model import Model, laws_of, varied
 from tribo.simulation.motion import averaging_limit, path_at
 from tribo.simulation.rates import Moment
 from tribo.simulation.step import first_contact, largest_stable_increment, start_sliding
@@ -24,8 +24,6 @@ from tribo.simulation.step import first_contact, largest_stable_increment, start
 COARSE = 72
 MARGINS = (1.5, 1.0)
 LOOSE = ImplicitConfig(depth_tolerance=2e-2, pressure_tolerance=0.5, settle=0.1)
-FIELDS_IN_MEMORY = 24
-PADDED_ARRAYS = 12
 BARE_FILE = 1e6
 DEEP = 0.1
 """Wear depth, relative to the radius of curvature, that is more likely a slip of units."""
@@ -38,8 +36,7 @@ class Prediction:
     Parameters
     ----------
     first : Measures
-        The first contact, on the case's own grid; on a coarse one where the
-        case's own is too large for this machine's memory.
+        The first contact.
     hertz : HertzContact or None
         The same by Hertz's theory.
     cells_across : tuple of float or None
@@ -93,17 +90,8 @@ def predict(model: Model) -> Prediction:
     NumericalError
         If it cannot be solved.
     """
-    memory = memory_needed(model.grid)
-    problems = []
-    solved = model
-    if memory > machine_memory():
-        problems.append(
-            f"it needs about {memory / 2**30:.3g} GiB of memory, and this machine has "
-            f"{machine_memory() / 2**30:.3g} GiB: lower grid.cells"
-        )
-        solved = _coarsened(model, 1.0)
-    state = first_contact(solved)
-    first = measure(solved, state)
+    state = first_contact(model)
+    first = measure(model, state)
     hertz = hertz_contact(model.system)
     dx, dy = model.grid.spacing
     coarse = _coarse_run(model)
@@ -115,12 +103,12 @@ def predict(model: Model) -> Prediction:
     across = None
     if hertz is not None:
         across = (2 * hertz.half_width_x / dx, 2 * hertz.half_width_y / dy)
-    problems += [
+    problems = [
         problem
         for problem in (
             _few_cells(across or (2 * first.half_width_x / dx, 2 * first.half_width_y / dy)),
-            _unsettled(solved, state),
-            _unstable(model, solved, state),
+            _unsettled(model, state),
+            _unstable(model, state),
             _outgrown(model, coarse) if holds is False else None,
             *_deep(model, last),
             limitation,
@@ -140,21 +128,13 @@ def predict(model: Model) -> Prediction:
         last=last,
         window_holds=holds,
         limitation=limitation,
-        memory=memory,
+        memory=memory_needed(
+            model.grid, laws_of(model.bodies), model.effects, plastic=model.system.cap is not None
+        ),
         file_size=_file_size(model),
         facts={place: stated for place, stated in facts.items() if stated},
         problems=tuple(problems),
     )
-
-
-def memory_needed(grid: Grid) -> float:
-    """Return an upper estimate of the memory that a run on `grid` takes, in bytes."""
-    return 8.0 * grid.cells[0] * grid.cells[1] * (FIELDS_IN_MEMORY + 4 * PADDED_ARRAYS)
-
-
-def machine_memory() -> float:
-    """Return the memory of this machine, in bytes."""
-    return float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
 
 
 def _file_size(model: Model) -> float:
@@ -189,7 +169,7 @@ def _unsettled(model: Model, state: State) -> str | None:
     return None
 
 
-def _unstable(model: Model, solved: Model, state: State) -> str | None:
+def _unstable(model: Model, state: State) -> str | None:
     config = model.stepping
     if not isinstance(config, ExplicitConfig):
         return None
@@ -202,7 +182,7 @@ def _unstable(model: Model, solved: Model, state: State) -> str | None:
             "'implicit'"
         )
     increment = path_at(model.kinematics, time)
-    limit = largest_stable_increment(solved, state, Moment(time, increment, increment / time))
+    limit = largest_stable_increment(model, state, Moment(time, increment, increment / time))
     if limit is None:
         return None if config.allow_unstable else _unknown_stability(model)
     if increment < limit:

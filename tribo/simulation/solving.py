@@ -71,9 +71,9 @@ def _checked(who: str, problem: ContactProblem, answer: object) -> ContactSoluti
         )
     if not isinstance(answer.residuals, Residuals):
         raise PluginError(f"{who} gave a {type(answer.residuals).__name__} instead of Residuals")
-    claimed = (
+    _, *claimed = (
         number(who, f"a residual of {what}", getattr(answer.residuals, what))
-        for what in ("complementarity", "penetration")
+        for what in ("force", "complementarity", "penetration")
     )
     return ContactSolution(
         pressure=_kept(pressure),

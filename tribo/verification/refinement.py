@@ -12,7 +12,6 @@ from tribo.core.measures import Measures
 from tribo.simulation.march import begin, march
 from tribo.simulation.measure import measure
 from tribo.simulation.model import Model, varied
-from tribo.simulation.predict import machine_memory, memory_needed
 from tribo.verification.convergence import Convergence, convergence
 
 # Above the 1.3 that Celik et al. (2008) ask for, and mild on cases that are coarse already.
@@ -88,8 +87,7 @@ def refine(model: Model, started: Callable[[str], None] = lambda _: None) -> Ref
     Raises
     ------
     CaseError
-        If the grid is too large for this machine, or too coarse to be made
-        coarser.
+        If the grid is too coarse to be made coarser.
     NumericalError
         If one of the runs fails.
     """
@@ -116,13 +114,6 @@ def refine(model: Model, started: Callable[[str], None] = lambda _: None) -> Ref
 
 
 def _check(model: Model) -> None:
-    needed, there = memory_needed(model.grid), machine_memory()
-    if needed > there:
-        raise CaseError(
-            f"the study's finest grid is the case's own, which needs about {needed / 2**30:.3g} "
-            f"GiB of memory; this machine has {there / 2**30:.3g} GiB: lower it",
-            "grid.cells",
-        )
     if min(model.grid.cells) < FEWEST_CELLS:
         raise CaseError(
             f"{model.grid.cells[0]} × {model.grid.cells[1]} leave no coarser grid to compare "

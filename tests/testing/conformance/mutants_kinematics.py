@@ -55,7 +55,7 @@ class DropsAnAxis(Motion):
 
 
 @caught_by("worn_volume_is_conserved")
-@caught_by("runs_a_case")
+@caught_by("runs_a_case", NumericalError)
 class MeanOverTheWindow(Motion):
     class track(Track):  # noqa: N801
         def average(self, rate):

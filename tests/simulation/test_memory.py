@@ -1,0 +1,122 @@
+"""What a run takes of memory, and that too large a case is refused before it takes any."""
+
+import json
+import subprocess
+import sys
+import textwrap
+from pathlib import Path
+
+import pytest
+from paper_models import archard, flat, small, sphere, steel
+
+from tribo.core.errors import CaseError
+from tribo.core.grid import Grid
+from tribo.simulation import memory
+from tribo.simulation.model import Body
+from tribo.simulation.predict import predict
+from tribo.templates import template
+
+TESTS = Path(__file__).parents[1]
+MEASURE = """
+    import json, resource, sys, warnings
+    from paper_models import *
+    from tribo.contact.periodic import Periodic, PeriodicConfig
+    from tribo.simulation.memory import memory_needed, memory_left
+    from tribo.simulation.model import laws_of
+    from tribo.simulation.run import Simulation
+    warnings.simplefilter("ignore")
+    case, cells = sys.argv[1], int(sys.argv[2])
+    parts = dict(grid=Grid((1.3e-3, 1.3e-3), (cells, cells)), kinematics=motion(duration=5))
+    if case == "periodic":
+        parts |= dict(contact=Periodic(PeriodicConfig()), load=5000.0)
+    if case == "plastic":
+        bodies = [Body(n, s(), steel("4 GPa"), archard()) for n, s in (("a", sphere), ("b", flat))]
+        parts |= dict(bodies=bodies, load=900.0)
+    if case == "flat punch":
+        bodies = [Body(n, flat(), steel(), archard()) for n in "ab"]
+        parts |= dict(bodies=bodies, ends_at_window=True)
+    first = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    model = small(**parts)
+    Simulation(model).run(sys.argv[3]).close()
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    plastic = model.system.cap is not None
+    needed = memory_needed(model.grid, laws_of(model.bodies), model.effects, plastic=plastic)
+    print(json.dumps([1024 * (peak - first), needed]))
+"""
+
+
+@pytest.mark.parametrize("case", ["ball", "periodic", "plastic", "flat punch"])
+def test_the_estimate_is_above_the_peak_and_not_far(case, tmp_path):
+    script = [sys.executable, "-c", textwrap.dedent(MEASURE), case, "320", str(tmp_path / "r.h5")]
+    done = subprocess.run(script, cwd=TESTS, capture_output=True, text=True, check=True)
+    peak, needed = json.loads(done.stdout)
+    # A contact that fills the window comes near; one that does not may still grow to.
+    assert (0.5 if case == "flat punch" else 0.25) * needed < peak < needed
+
+
+@pytest.fixture
+def tight(monkeypatch):
+    monkeypatch.setattr(memory, "memory_left", lambda: (2.0**26, "this machine"))
+
+
+def test_more_than_there_is_is_refused_with_the_estimate(tight):
+    small(grid=Grid((0.7e-3, 0.7e-3), (64, 64)))
+    with pytest.raises(CaseError) as caught:
+        small(grid=Grid((0.7e-3, 0.7e-3), (4000, 4000)))
+    assert str(caught.value) == (
+        "grid.cells: 4000 × 4000 cells take up to 7.17 GiB of memory, and this machine leaves "
+        "64 MiB: use fewer cells"
+    )
+
+
+def test_yielding_takes_more(tight):
+    bodies = [Body("ball", sphere(), steel("4 GPa"), archard()), Body("disk", flat(), steel())]
+    assert predict(small(bodies=bodies)).memory > predict(small()).memory
+
+
+@pytest.mark.parametrize("command", ["check", "run"])
+def test_commands_refuse_it_under_a_limit_of_the_process(command, tmp_path):
+    case = tmp_path / "big.toml"
+    case.write_text(template("ball_on_disk"))
+    limited = (
+        "import resource, sys; resource.setrlimit(resource.RLIMIT_AS, (2**31, 2**31));"
+        "from tribo.cli.main import main; main()"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", limited, command, str(case), "--set", "grid.cells=4096"],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
+    )
+    assert done.returncode == 2
+    assert done.stderr.startswith("error: grid.cells: 4096 × 4096 cells take up to ")
+    assert "the limit of this process (ulimit -v) leaves" in done.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["big.toml"]
+
+
+def test_the_limits_of_control_groups_are_read(tmp_path):
+    first, second = tmp_path / "sys/fs/cgroup/a/b", tmp_path / "sys/fs/cgroup/memory/c"
+    for folder in (first, second, tmp_path / "proc/self"):
+        folder.mkdir(parents=True)
+    (tmp_path / "proc/self/cgroup").write_text("2:cpu:/x\n1:memory,x:/c\n0::/a/b\n")
+    (first / "memory.max").write_text("max\n")
+    (first.parent / "memory.max").write_text("1000\n")
+    (second / "memory.limit_in_bytes").write_text("2000\n")
+    assert sorted(memory._control_groups(tmp_path)) == [1000, 2000]
+    assert list(memory._control_groups(tmp_path / "nothing")) == []
+
+
+def test_running_out_of_memory_all_the_same_is_one_message():
+    def height(grid):
+        raise MemoryError
+
+    surface = sphere()
+    surface.height = height
+    with pytest.raises(Exception, match=r"surface 'sphere' .*ran out of memory; lower grid\.cells"):
+        small(bodies=[Body("ball", surface, steel(), archard()), Body("disk", flat(), steel())])
+
+
+def test_what_this_process_may_take_is_known():
+    left, _ = memory.memory_left()
+    assert 2**26 < left < 2**50

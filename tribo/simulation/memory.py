@@ -1,0 +1,113 @@
+"""How much memory a case takes, and how much there is."""
+
+from __future__ import annotations
+
+import os
+import resource
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from tribo.core.errors import CaseError
+from tribo.core.grid import Grid
+from tribo.interfaces.effect import Effect, EffectConfig
+from tribo.interfaces.wear import WearLaw, WearLawConfig
+
+Law = WearLaw[WearLawConfig]
+AnyEffect = Effect[EffectConfig]
+
+FIELDS = 60
+"""Arrays of the window's size that a run holds at its peak; 56 were measured."""
+FIELDS_IF_PLASTIC = 16
+"""What yielding takes besides; 14 were measured."""
+FIELDS_PER_FIELD = 8
+"""What each state field of a law, or each field of an effect, takes besides; 7 were measured."""
+BODIES = 2
+BESIDES = 16 * 2.0**20
+"""What does not grow with the grid, in bytes; 10 MiB were measured."""
+
+
+def memory_needed(
+    grid: Grid, laws: Sequence[Law], effects: Sequence[AnyEffect], *, plastic: bool
+) -> float:
+    """Return the most memory that a run takes beyond what the process has, in bytes.
+
+    Parameters
+    ----------
+    grid : Grid
+        The window.
+    laws : sequence of WearLaw
+        Those of the bodies.
+    effects : sequence of Effect
+        Of the case.
+    plastic : bool
+        Whether a body may yield.
+    """
+    fields = sum(len(law.state_fields) for law in laws)
+    fields += BODIES * sum(len(effect.provides) for effect in effects)
+    arrays = FIELDS + FIELDS_IF_PLASTIC * plastic + FIELDS_PER_FIELD * fields
+    return BESIDES + 8.0 * grid.cells[0] * grid.cells[1] * arrays
+
+
+def memory_left() -> tuple[float, str]:
+    """Return the bytes that this process may still take, and what sets the limit."""
+    resident, address_space = _sizes()
+    least = _physical() - resident, "this machine"
+    for limit in _control_groups():
+        least = min(least, (limit - resident, "the control group of this process"))
+    soft, _ = resource.getrlimit(resource.RLIMIT_AS)
+    if soft != resource.RLIM_INFINITY:
+        least = min(least, (soft - address_space, "the limit of this process (ulimit -v)"))
+    return least
+
+
+def check_memory(grid: Grid, needed: float) -> None:
+    """Raise `CaseError` where a run on `grid` would need more bytes than there are."""
+    left, limit = memory_left()
+    if needed > left:
+        nx, ny = grid.cells
+        raise CaseError(
+            f"{nx} × {ny} cells take up to {_size(needed)} of memory, and {limit} leaves "
+            f"{_size(max(left, 0.0))}: use fewer cells",
+            "grid.cells",
+        )
+
+
+def _size(memory: float) -> str:
+    return f"{memory / 2**30:.3g} GiB" if memory >= 2**30 else f"{memory / 2**20:.0f} MiB"
+
+
+def _physical() -> float:
+    return float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
+
+
+def _sizes() -> tuple[int, int]:
+    """Return the memory and the address space that the process has, in bytes."""
+    try:
+        space, resident = Path("/proc/self/statm").read_text(encoding="ascii").split()[:2]
+    except OSError:
+        return 0, 0
+    page = os.sysconf("SC_PAGE_SIZE")
+    return page * int(resident), page * int(space)
+
+
+def _control_groups(root: Path = Path("/")) -> Iterator[int]:
+    """Yield the limits of the groups that the process is in, of either version, in bytes."""
+    try:
+        lines = (root / "proc/self/cgroup").read_text(encoding="utf-8").splitlines()
+    except OSError:
+        return
+    for line in lines:
+        _, controllers, path = line.split(":", 2)
+        if controllers == "":
+            top, name = root / "sys/fs/cgroup", "memory.max"
+        elif "memory" in controllers.split(","):
+            top, name = root / "sys/fs/cgroup/memory", "memory.limit_in_bytes"
+        else:
+            continue
+        group = top / path.lstrip("/")
+        # A limit of a group above holds too; in a container the path may begin outside of it.
+        for folder in (group, *group.parents):
+            try:
+                yield int((folder / name).read_text(encoding="ascii"))
+            except (OSError, ValueError):
+                continue
