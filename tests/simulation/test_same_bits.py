@@ -1,0 +1,120 @@
+"""The same case gives the same bits: with any number of threads, from the shell, from Python, in
+a fresh process and in one that goes on."""
+
+import os
+import subprocess
+import sys
+from hashlib import sha256
+
+import h5py
+import pytest
+
+from tribo.templates import template
+
+SETTINGS = {
+    "grid.cells": "96",
+    "kinematics.duration": "60",
+    "output.save_times": "[20]",
+    "load.normal": "900",  # beyond the hardness: plastic flow takes part
+}
+SHELL = "from tribo.cli.main import main; main()"
+PYTHON = """
+import sys, warnings
+from tribo import Simulation
+from tribo.config.load import load_case
+warnings.simplefilter("ignore")
+Simulation(load_case(sys.argv[1], overrides=sys.argv[2].split("|"))).run(sys.argv[3]).close()
+"""
+STOPPED = """
+import sys, warnings
+from tribo import Simulation
+from tribo.config.load import load_case
+from tribo.interfaces.observer import Observer, ObserverConfig
+warnings.simplefilter("ignore")
+class Stop(Observer[ObserverConfig]):
+    def on_step(self, snapshot):
+        if snapshot.state.steps == 7:
+            raise KeyboardInterrupt
+simulation = Simulation(load_case(sys.argv[1], overrides=sys.argv[2].split("|")))
+try:
+    simulation.run(sys.argv[3], observers=[Stop(ObserverConfig(type="stop"))])
+except BaseException:
+    pass
+"""
+
+
+def process(script, *arguments, threads):
+    names = ("OMP", "OPENBLAS", "MKL", "NUMEXPR")
+    limits = {f"{name}_NUM_THREADS": str(threads) for name in names}
+    script = f"import scipy.fft\nwith scipy.fft.set_workers({threads}):\n" + "".join(
+        f"    {line}\n" for line in script.strip().splitlines()
+    )
+    subprocess.run(
+        [sys.executable, "-c", script, *map(str, arguments)],
+        env={**os.environ, **limits},
+        check=True,
+        capture_output=True,
+        timeout=120,
+    )
+
+
+def bits(path):
+    """A hash of every dataset, its name and the bytes of its values, but for the provenance."""
+    found = {}
+
+    def add(name, item):
+        if isinstance(item, h5py.Dataset) and not name.startswith("provenance"):
+            found[name] = sha256(item[()].tobytes()).hexdigest()
+
+    with h5py.File(path) as file:
+        file.visititems(add)
+    return found
+
+
+@pytest.fixture(scope="module")
+def case(tmp_path_factory):
+    path = tmp_path_factory.mktemp("bits") / "case.toml"
+    path.write_text(template("ball_on_disk"))
+    return path
+
+
+@pytest.fixture(scope="module")
+def first(case):
+    path = case.with_name("first.h5")
+    process(SHELL, "run", case, "-o", path, *_options(), threads=1)
+    return bits(path)
+
+
+def _options():
+    return [part for item in SETTINGS.items() for part in ("--set", "=".join(item))]
+
+
+def _words():
+    return "|".join("=".join(item) for item in SETTINGS.items())
+
+
+def test_enough_is_compared(first):
+    assert {"pressure", "bodies/ball/wear_depth", "history/chattering", "case"} <= set(first)
+    assert len(first) > 50
+
+
+def test_two_threads(case, first, tmp_path):
+    path = tmp_path / "two.h5"
+    process(SHELL, "run", case, "-o", path, *_options(), threads=2)
+    assert bits(path) == first
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_python(case, first, tmp_path, threads):
+    path = tmp_path / "python.h5"
+    process(PYTHON, case, _words(), path, threads=threads)
+    assert bits(path) == first
+
+
+@pytest.mark.parametrize("threads", [(1, 2), (2, 1)])
+def test_resumed_with_another_number_of_threads(case, first, tmp_path, threads):
+    path = tmp_path / "resumed.h5"
+    process(STOPPED, case, _words(), path, threads=threads[0])
+    assert path.with_name("resumed.h5.ckpt").exists()
+    process(SHELL, "resume", path, threads=threads[1])
+    assert bits(path) == first
