@@ -9,7 +9,7 @@ from importlib import import_module
 import click
 
 from tribo.cli.plain import make_plain
-from tribo.cli.running import warnings_on_stderr
+from tribo.cli.running import no_interrupt_lost, warnings_on_stderr
 from tribo.core.errors import TriboError
 
 COMMANDS = {
@@ -99,7 +99,7 @@ def main() -> None:
     make_plain(sys.stdout)
     make_plain(sys.stderr)
     try:
-        with warnings_on_stderr():
+        with warnings_on_stderr(), no_interrupt_lost():
             tribo.main(standalone_mode=False)
     except click.exceptions.Abort:
         _fail("interrupted", 130)

@@ -2,14 +2,23 @@
 
 from __future__ import annotations
 
+import signal
+import sys
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TextIO
+from threading import Timer
+from typing import TYPE_CHECKING, TextIO
 
 import click
 
 from tribo.core.errors import TriboWarning
+
+if TYPE_CHECKING:
+    from sys import UnraisableHookArgs
+
+AGAIN = 0.01
+"""In s."""
 
 
 @contextmanager
@@ -32,3 +41,25 @@ def warnings_on_stderr() -> Iterator[None]:
         warnings.simplefilter("always", TriboWarning)
         warnings.showwarning = show
         yield
+
+
+@contextmanager
+def no_interrupt_lost() -> Iterator[None]:
+    """Ask again for an interrupt that comes while Python tidies up, where it is only printed."""
+
+    def hook(unraisable: UnraisableHookArgs) -> None:
+        if unraisable.exc_type is KeyboardInterrupt:
+            # Later: here it would be lost again.
+            waiting.append(Timer(AGAIN, signal.raise_signal, [signal.SIGINT]))
+            waiting[-1].start()
+        else:
+            before(unraisable)
+
+    waiting: list[Timer] = []
+    before, sys.unraisablehook = sys.unraisablehook, hook
+    try:
+        yield
+    finally:
+        sys.unraisablehook = before
+        for timer in waiting:
+            timer.cancel()

@@ -1,0 +1,285 @@
+"""Cases made at random: from the JSON schema, and by mutating valid ones."""
+
+import json
+import tomllib
+from copy import deepcopy
+from math import inf, nan
+from pathlib import Path
+
+import tribo.templates
+from tribo.config.case import Case
+from tribo.config.schema import json_schema
+
+ROOT = Path(__file__).parents[2]
+NUMBERS = (0, 1, -1, 2, 0.3, 0.5, 1e-16, 1e-9, 1e-6, 1e-3, 10, 25, 1e3, 1e9, 2e11, 1e300, 1e-320)
+STRINGS = ("", " ", "5 mm", "4 GPa", "1 h", "25 Hz", "0.3", "3 parsec", "nan Pa", "-1 m", "1e999 m")
+STRINGS += (
+    "ball",
+    "disk",
+    "dcfft",
+    "wnkler",
+    "flat",
+    "archard",
+    "µ",
+    "a\tb",
+    "x" * 300,
+    "/dev/null",
+)
+ODD = (True, False, nan, inf, -inf, [], {}, [1, "a"], {"type": "x"}, 10**30, [[]], {"": 1})
+DEEPEST = 8
+PARTS = {
+    "contact": (
+        {"type": "winkler", "modulus": 1.3e15},
+        {"type": "winkler", "match": "contact_radius"},
+        {"type": "tamaas.half_space"},
+        {"type": "periodic"},
+        {"type": "dcfft", "tolerance": 1e-3},
+        {"type": "dcfft", "plasticity": False},
+    ),
+    "stepping": (
+        {"type": "explicit", "time_step": 0.5},
+        {"type": "explicit", "time_step": 5, "allow_unstable": True},
+        {"type": "explicit", "time_step": 60, "allow_unstable": True},
+        {"type": "implicit", "depth_tolerance": 0.1, "pressure_tolerance": 1.0},
+        {"type": "implicit", "depth_tolerance": 1e-4},
+    ),
+    "effects": ([{"type": "thermal.flash", "ambient": "90 degC"}], ["energy.friction_traction"]),
+    "friction": ({"coefficient": 0.1}, {"coefficient": 0.6}),
+    "stop": ({"depth": "0.1 µm"}, {"distance": "0.5 m"}, {"depth": "1 nm", "body": "ball"}),
+}
+LAWS = (
+    {"type": "archard", "k": 1e-14},
+    {"type": "archard", "k": 0},
+    {"type": "archard", "K": 1e-6, "hardness": "2 GPa"},
+    {"type": "power", "k": 3e-16, "p_exponent": 1.5, "reference_pressure": 1e9},
+    {"type": "energy.dissipation", "alpha": 3e-15, "threshold_energy": "1 MJ/m^2"},
+    {"type": "thermal.softening"},
+    {"type": "power", "k": 3e-16, "p_exponent": 4, "reference_pressure": 1e9},
+)
+SURFACES = (
+    {"type": "flat"},
+    {"type": "paraboloid", "radius": "5 mm"},
+    {"type": "sphere", "radius": "20 mm"},
+    {"type": "cylinder", "radius": "5 mm"},
+)
+
+
+class Schema:
+    """Values that the schema of a case allows, or nearly."""
+
+    def __init__(self):
+        self.whole = json_schema(Case)
+
+    def case(self, chance):
+        return self.value(self.whole, chance)
+
+    def value(self, schema, chance, depth=0):
+        """Return a value of `schema`; rarely one that breaks it."""
+        if "$ref" in schema:
+            schema = self.whole["$defs"][schema["$ref"].rsplit("/", 1)[-1]]
+        if chance.random() < 0.01 or depth > DEEPEST:
+            return odd(chance)
+        for several in ("anyOf", "oneOf"):
+            if several in schema:
+                return self.value(chance.choice(schema[several]), chance, depth)
+        if "const" in schema:
+            return schema["const"]
+        if "enum" in schema:
+            return chance.choice(schema["enum"])
+        if schema.get("examples") and chance.random() < 0.5:
+            example = deepcopy(chance.choice(schema["examples"]))
+            fixed = schema.get("properties", {}).get("type", {}).get("const")
+            return {"type": fixed, **example} if fixed and isinstance(example, dict) else example
+        make = getattr(self, f"_{schema.get('type')}", lambda *_: odd(chance))
+        return make(schema, chance, depth)
+
+    def _object(self, schema, chance, depth):
+        needed = schema.get("required", [])
+        properties = schema.get("properties", {})
+        made = {
+            key: self.value(each, chance, depth + 1)
+            for key, each in properties.items()
+            if key in needed or chance.random() < 0.3
+        }
+        others = schema.get("additionalProperties")
+        if isinstance(others, dict):
+            names = chance.sample(("ball", "disk", "pin", "a b"), chance.choice((2, 2, 2, 1, 3)))
+            made |= {name: self.value(others, chance, depth + 1) for name in names}
+        return made
+
+    def _array(self, schema, chance, depth):
+        if "prefixItems" in schema:
+            return [self.value(each, chance, depth + 1) for each in schema["prefixItems"]]
+        each = schema.get("items", {})
+        return [self.value(each, chance, depth + 1) for _ in range(chance.randrange(4))]
+
+    def _number(self, schema, chance, depth):
+        low = schema.get("minimum", schema.get("exclusiveMinimum", -1e3))
+        high = schema.get("maximum", schema.get("exclusiveMaximum", 1e12))
+        fitting = [value for value in NUMBERS if low <= value <= high]
+        return chance.choice(fitting) if fitting else chance.uniform(low, high)
+
+    def _integer(self, schema, chance, depth):
+        return int(self._number(schema, chance, depth))
+
+    def _string(self, schema, chance, depth):
+        return chance.choice(STRINGS)
+
+    def _boolean(self, schema, chance, depth):
+        return chance.random() < 0.5
+
+    def _null(self, schema, chance, depth):
+        return None
+
+
+def odd(chance):
+    """Return what nobody expects."""
+    return deepcopy(chance.choice((*NUMBERS, *STRINGS, *ODD)))
+
+
+def valid_cases():
+    """All cases that come with tribo, and small ones of every contact and stepping."""
+    texts = [tribo.templates.template(name) for name in tribo.templates.TEMPLATES]
+    texts += [path.read_text() for path in sorted(ROOT.glob("examples/*.toml"))]
+    cases = [tomllib.loads(text) for text in texts]
+    for contact in ("winkler", "periodic"):
+        other = deepcopy(cases[0])
+        other["contact"] = {"type": contact}
+        if contact == "winkler":
+            other["contact"]["modulus"] = 1.3e15
+        cases.append(other)
+    stepped = deepcopy(cases[0])
+    stepped["stepping"] = {"type": "explicit", "time_step": "2 s"}
+    return [*cases, stepped]
+
+
+def small(case, chance):
+    """Make a case one that runs in a moment, where it has the tables for that."""
+    if isinstance(case.get("grid"), dict):
+        case["grid"]["cells"] = chance.choice((8, 16, 24, 32, [24, 16], [32, 8]))
+        case["grid"]["size"] = chance.choice(("0.7 mm", "1 mm", "2 mm"))
+    if isinstance(case.get("kinematics"), dict):
+        for key in ("revolutions", "distance"):
+            case["kinematics"].pop(key, None)
+        case["kinematics"]["duration"] = chance.choice((10, 60, 300))
+        if isinstance(case.get("output"), dict):
+            case["output"]["save_times"] = chance.choice(([], [1, 5], [0, 2.5, 9]))
+    return case
+
+
+def plausible(case, chance):
+    """Return a copy of `case` with numbers and parts that could be meant."""
+    case = small(deepcopy(case), chance)
+    paths = [path for path in places(case) if path[0] != "grid" and path[-1] != "type"]
+    for *above, key in chance.sample(paths, min(len(paths), chance.choice((1, 2, 4)))):
+        parent = case
+        for each in above:
+            parent = parent[each]
+        value, factor = (
+            parent[key],
+            10.0 ** chance.choice((chance.uniform(-1, 1), chance.randint(-4, 4))),
+        )
+        if isinstance(value, float | int) and not isinstance(value, bool):
+            parent[key] = value * factor
+        elif isinstance(value, str) and value[:1].isdigit():
+            number, _, unit = value.partition(" ")
+            parent[key] = f"{float(number) * factor!r} {unit}".strip()
+    for name, choices in PARTS.items():
+        if chance.random() < 0.3:
+            case[name] = deepcopy(chance.choice(choices))
+    for body in case["bodies"].values():
+        if chance.random() < 0.3:
+            body["wear"] = deepcopy(chance.choice(LAWS))
+        if chance.random() < 0.2:
+            body["surface"] = deepcopy(chance.choice(SURFACES))
+        if chance.random() < 0.3:
+            body["material"]["hardness"] = chance.choice((5e8, 1e9, 2e9, 4e9))
+    return case
+
+
+def places(value, path=()):
+    """Yield the path of every value within a case."""
+    items = value.items() if isinstance(value, dict) else enumerate(value)
+    for key, each in items:
+        yield (*path, key)
+        if isinstance(each, dict | list):
+            yield from places(each, (*path, key))
+
+
+def mutated(case, schema, chance):
+    """Return a copy of `case` changed in a few places."""
+    case = deepcopy(case)
+    for _ in range(chance.choice((1, 1, 1, 2, 3, 5))):
+        paths = list(places(case))
+        if not paths:
+            return case
+        *above, key = chance.choice(paths)
+        parent = case
+        for each in above:
+            parent = parent[each]
+        _change(parent, key, case, paths, schema, chance)
+    return case
+
+
+def _change(parent, key, case, paths, schema, chance):
+    value = parent[key]
+    kind = chance.randrange(7)
+    if kind == 0:
+        del parent[key]
+    elif kind == 1 and isinstance(parent, dict):
+        parent[_misspelt(str(key), chance)] = parent.pop(key)
+    elif kind == 2 and isinstance(value, int | float) and not isinstance(value, bool):
+        parent[key] = value * 10.0 ** chance.randint(-6, 6) * chance.choice((1, 1, -1))
+    elif kind == 3 and isinstance(value, str) and value[:1].isdigit():
+        number, _, unit = value.partition(" ")
+        parent[key] = f"{number}e{chance.randint(-6, 6)} {chance.choice((unit, 'GPa', 'µm', ''))}"
+    elif kind == 4:
+        other = case
+        for each in chance.choice(paths):
+            other = other[each]
+        parent[key] = deepcopy(other)
+    elif kind == 5:
+        parent[key] = schema.value(chance.choice(list(schema.whole["$defs"].values())), chance)
+    else:
+        parent[key] = odd(chance)
+
+
+def _misspelt(key, chance):
+    at = chance.randrange(len(key) + 1)
+    return key[:at] + chance.choice(("", "s", "_", "-", "X")) + key[at + 1 :]
+
+
+def toml(case):
+    """Write a case as TOML, a table a line; what TOML lacks is left out."""
+    return "".join(f"{json.dumps(str(k))} = {_toml(v)}\n" for k, v in case.items() if v is not None)
+
+
+def _toml(value):
+    if isinstance(value, dict):
+        inner = (f"{json.dumps(str(k))} = {_toml(v)}" for k, v in value.items() if v is not None)
+        return "{" + ", ".join(inner) + "}"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(_toml(each) for each in value if each is not None) + "]"
+    if isinstance(value, float):
+        return repr(value)
+    return json.dumps(value, ensure_ascii=False).replace("\x7f", "")
+
+
+def damaged(data, chance):
+    """Return bytes with a few flipped, cut out, doubled or put in."""
+    data = bytearray(data)
+    for _ in range(chance.choice((1, 2, 5))):
+        at = chance.randrange(len(data) + 1)
+        length = min(chance.choice((1, 1, 4, 50)), len(data) - at)
+        kind = chance.randrange(5)
+        if kind == 0 and at < len(data):
+            data[at] ^= 1 << chance.randrange(8)
+        elif kind == 1:
+            del data[at : at + length]
+        elif kind == 2:
+            data[at:at] = data[at : at + length]
+        elif kind == 3:
+            data[at:at] = chance.randbytes(length)
+        elif chance.random() < 0.2:
+            del data[at:]
+    return bytes(data)

@@ -1,0 +1,264 @@
+"""One fuzzed case, as a user would meet it: a command line, and what came of it."""
+
+import io
+import os
+import random
+import resource
+import runpy
+import shutil
+import signal
+import sys
+import time
+import warnings
+from contextlib import redirect_stderr, redirect_stdout
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+from fuzz.generate import ROOT, Schema, damaged, mutated, plausible, small, toml, valid_cases
+
+from tribo import Result
+from tribo.cli.main import main
+from tribo.simulation.invariants import CHATTERING, CONDITIONS, LOAD, VOLUME
+
+DOCUMENTED = {0, 2, 3, 130}
+LIMITS = {
+    "force_error": LOAD,
+    "complementarity_error": CONDITIONS,
+    "penetration_error": CONDITIONS,
+    "volume_error": VOLUME,
+    "regrowth_m": 0.0,
+}
+PATIENCE = 3.0
+"""Time after which a command is told to stop, in s, as Ctrl-C does; that it runs on is no fault."""
+MEMORY = 2**30
+"""What a case may take, in bytes, beyond what the process has."""
+KINDS = (
+    *("schema", "mutated", "mutated", "plausible", "plausible", "plausible"),
+    *("text", "override", "surface", "result", "stop"),
+)
+FORMATS = ("opd", "sur", "x3p", "asc", "npy")
+
+
+def prepare():
+    """Get ready in a new process: modules, a memory limit, no warnings as errors."""
+    warnings.simplefilter("ignore")
+    # Not while a case is told to stop, which would leave half a module.
+    import SurfaceTopography  # noqa: F401
+
+    address_space = int(Path("/proc/self/statm").read_text().split()[0]) * os.sysconf(
+        "SC_PAGE_SIZE"
+    )
+    limit = address_space + MEMORY
+    resource.setrlimit(resource.RLIMIT_AS, (limit, resource.getrlimit(resource.RLIMIT_AS)[1]))
+
+
+def trial(number, seed, folder):
+    """Make case `number` of `seed` in `folder`, try it, and return its kind, exit code and fault.
+
+    The fault is None, or says what must not be.
+    """
+    chance = random.Random(f"{seed}/{number}")
+    kind = KINDS[number % len(KINDS)]
+    os.chdir(folder)
+    code, fault = globals()[f"_{kind}"](Path("case.toml"), chance)
+    return kind, code, fault
+
+
+@cache
+def schema():
+    return Schema()
+
+
+@cache
+def sound(name):
+    """Return the bytes of a valid file: a surface by its format, or a result."""
+    if name == "result":
+        path = Path("sound.toml")
+        path.write_text(toml(_tiny(random.Random(1))))
+        _command("run", str(path), "-o", "sound.h5", "--force")
+        return Path("sound.h5").read_bytes()
+    made = runpy.run_path(str(ROOT / "plugins/tribo-topography/tests/conftest.py"))
+    heights = 1e-7 * np.random.default_rng(1).standard_normal((24, 20))
+    path = Path(f"sound.{name}")
+    made["WRITERS"][name](path, heights, (1e-3, 1e-3))
+    return path.read_bytes()
+
+
+def _schema(path, chance):
+    case = schema().case(chance)
+    path.write_text(toml(small(case, chance)) if isinstance(case, dict) else repr(case))
+    return _tried(path, chance)
+
+
+def _plausible(path, chance):
+    path.write_text(toml(plausible(chance.choice(valid_cases()), chance)))
+    return _tried(path, chance)
+
+
+def _mutated(path, chance):
+    case = small(chance.choice(valid_cases()), chance)
+    path.write_text(toml(mutated(case, schema(), chance)))
+    return _tried(path, chance)
+
+
+def _text(path, chance):
+    case = small(chance.choice(valid_cases()), chance)
+    path.write_bytes(damaged(toml(case).encode(), chance))
+    return _tried(path, chance)
+
+
+def _override(path, chance):
+    path.write_text(toml(small(chance.choice(valid_cases()), chance)))
+    words = ("load.normal", "grid", "bodies.ball.wear.k", "contact.type", "stop.depth", "a.b", "")
+    values = ("1", "-1 N", "winkler", "nan", "[1", "{a=1}", '"', "1e3 µm", "")
+    sets = [f"{chance.choice(words)}{chance.choice('==. ')}{chance.choice(values)}" for _ in "ab"]
+    return _tried(path, chance, "--set", sets[0], "--set", sets[1])
+
+
+def _surface(path, chance):
+    form = chance.choice(FORMATS)
+    scan = path.with_name(f"scan.{form}")
+    scan.write_bytes(damaged(sound(form), chance))
+    case = _tiny(chance)
+    case["bodies"]["ball"]["surface"] = {"type": "topography.file", "path": scan.name}
+    if form in ("npy", "asc"):
+        case["bodies"]["ball"]["surface"] |= {"size": [1e-3, 1e-3], "unit": "m"}
+    case["grid"] |= {"size": 0.5e-3, "ends_at_window": True}
+    path.write_text(toml(case))
+    return _tried(path, chance)
+
+
+def _result(path, chance):
+    damaged_file = path.with_name("damaged.h5")
+    damaged_file.write_bytes(damaged(sound("result"), chance))
+    command = chance.choice((["show"], ["show", "--json"], ["export"], ["resume"], ["compare"]))
+    return _judged(*_command(command[0], str(damaged_file), *command[1:]))
+
+
+def _stop(path, chance):
+    """Stop a run at any moment, and go on to the bits of one that was not stopped."""
+    case = _tiny(chance)
+    case["grid"]["cells"], case["kinematics"]["duration"] = 24, 300
+    path.write_text(toml(case))
+    code, text = _command("run", str(path), "-o", "whole.h5", "--force")
+    if code != 0:
+        return _judged(code, text)
+    output = path.with_name("stopped.h5")
+    code, text = _command(
+        "run", str(path), "-o", str(output), "--force", patience=chance.uniform(1e-3, 0.3)
+    )
+    patience = 0.05
+    while code == 130 and output.exists():
+        patience *= chance.uniform(1, 2)
+        code, text = _command("resume", str(output), patience=patience)
+    code, fault = _judged(code, text)
+    if code == 0 and not same("whole.h5", output):
+        fault = "what was stopped and gone on with has other bits"
+    return code, fault
+
+
+def _tiny(chance):
+    case = small(valid_cases()[0], chance)
+    case["grid"] |= {"size": 0.7e-3, "cells": 16}
+    case["kinematics"]["duration"], case["output"] = 20, {"save_times": [5]}
+    return case
+
+
+def _tried(path, chance, *options):
+    """Check a case, or run it and hold the result to what must be true of it."""
+    if chance.random() < 0.05:
+        return _judged(*_command("check", str(path), *options))
+    output = path.with_suffix(".h5")
+    output.unlink(missing_ok=True)
+    code, fault = _judged(*_command("run", str(path), *options))
+    if fault is None and code in (0, 130) and output.exists():
+        fault = broken(output, code)
+    return code, fault
+
+
+def _command(*arguments, patience=PATIENCE):
+    """Run a command as from the shell; return its exit code and what it wrote to stderr."""
+    out, err = io.StringIO(), io.StringIO()
+    signal.signal(signal.SIGALRM, lambda *_: os.kill(os.getpid(), signal.SIGINT))
+    before, sys.argv = sys.argv, ["tribo", *arguments]
+    signal.setitimer(signal.ITIMER_REAL, patience, 1.0)
+    try:
+        with redirect_stdout(out), redirect_stderr(err):
+            main()
+        code = 0
+    except SystemExit as left:
+        code = left.code or 0
+    except KeyboardInterrupt:
+        code = 130
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        sys.argv = before
+    return code, err.getvalue()
+
+
+def _judged(code, text):
+    if code not in DOCUMENTED:
+        return code, f"exit code {code}: {text.strip()[:400]}"
+    if "Traceback" in text or "internal error" in text:
+        return code, f"traceback: {text.strip()[:400]}"
+    if code in (2, 3) and not any(word in text for word in ("error: ", "Error: ")):
+        return code, f"no message: {text.strip()[:400]}"
+    return code, None
+
+
+def broken(path, code):
+    """Say what is not as it must be in a result, read back from its file."""
+    with Result.open(path) as result:
+        if code == 0 and result.status != "done":
+            return f"status {result.status!r} after success"
+        worst, system = result.worst(), result.system
+        for name, most in LIMITS.items():
+            if not worst[name] <= most:
+                return f"{name} is {worst[name]:g}"
+        told = any(notice.startswith("chattering") for notice in result.notices)
+        if worst["chattering"] > CHATTERING and not told:
+            return f"chattering is {worst['chattering']:g}"
+        for save in range(len(result.times)):
+            carried = float(result.pressure(save).sum()) * system.grid.cell_area
+            if not abs(carried / system.load - 1) <= LOAD or result.pressure(save).min() < 0:
+                return f"the pressure of save {save} carries {carried:g} N of {system.load:g} N"
+        for name in result.body_names:
+            body = result.body(name)
+            fields = (body.height, body.wear_depth, body.plastic_depth, *body.state.values())
+            if not all(np.isfinite(values).all() for values in fields):
+                return f"a field of {name} is not finite"
+            if np.diff(body.wear_depth, axis=0).min(initial=0) < 0:
+                return f"{name} grows back between saves"
+    return None
+
+
+def same(first, second):
+    """Whether two results hold the same, but for the wall time."""
+    found = []
+    for path in (first, second):
+        with Result.open(path) as result:
+            history = result.table("history")
+            fields = [result.pressure(i) for i in range(len(result.times))]
+            for name in result.body_names:
+                body = result.body(name)
+                fields += [body.wear_depth, body.plastic_depth, *body.state.values()]
+            found.append([v.tobytes() for v in (*history.values(), *fields)])
+    return found[0] == found[1]
+
+
+def clean(folder):
+    """Empty a folder."""
+    for path in Path(folder).iterdir():
+        shutil.rmtree(path) if path.is_dir() else path.unlink()
+
+
+def timed(number, seed, folder):
+    """As `trial`, with the time that it took, in s; whatever comes out is a fault."""
+    begun = time.monotonic()
+    try:
+        kind, code, fault = trial(number, seed, folder)
+    except BaseException as error:
+        kind, code = KINDS[number % len(KINDS)], -1
+        fault = f"traceback: {type(error).__name__}: {error}"
+    return kind, code, fault, time.monotonic() - begun
