@@ -118,3 +118,14 @@ def test_resumed_with_another_number_of_threads(case, first, tmp_path, threads):
     assert path.with_name("resumed.h5.ckpt").exists()
     process(SHELL, "resume", path, threads=threads[1])
     assert bits(path) == first
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_sweep(case, first, tmp_path, threads):
+    settings = "".join(f"{name} = {value}\n" for name, value in SETTINGS.items())
+    study = tmp_path / "study.toml"
+    study.write_text(f'case = "{case}"\n[settings]\n{settings}[grid]\nload.normal = [900, 100]\n')
+    process(SHELL, "sweep", study, "-o", tmp_path / "sweep", threads=threads)
+    found = [bits(path) for path in (tmp_path / "sweep").rglob("*.h5")]
+    assert len(found) == 2
+    assert first in found
