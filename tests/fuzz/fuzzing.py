@@ -131,6 +131,8 @@ def fuzz(count, seed, *, workers=None, numbers=None):
                 _add(fuzz, worker.number, *answer)
                 if not _next(worker, waiting):
                     busy.remove(worker)
+    except KeyboardInterrupt:
+        print("stopped; what was tried so far:", file=sys.stderr)
     finally:
         for worker in pool:
             worker.stop()

@@ -18,7 +18,7 @@ from tribo.templates import template
 
 TESTS = Path(__file__).parents[1]
 MEASURE = """
-    import json, resource, sys, warnings
+    import json, sys, warnings
     from paper_models import *
     from tribo.contact.periodic import Periodic, PeriodicConfig
     from tribo.simulation.memory import memory_needed, memory_left
@@ -35,10 +35,14 @@ MEASURE = """
     if case == "flat punch":
         bodies = [Body(n, flat(), steel(), archard()) for n in "ab"]
         parts |= dict(bodies=bodies, ends_at_window=True)
-    first = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    def most():
+        # Not ru_maxrss, which begins with that of the process this one was forked from.
+        lines = open("/proc/self/status").read().splitlines()
+        return next(int(line.split()[1]) for line in lines if line.startswith("VmHWM"))
+    first = most()
     model = small(**parts)
     Simulation(model).run(sys.argv[3]).close()
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    peak = most()
     plastic = model.system.cap is not None
     needed = memory_needed(model.grid, laws_of(model.bodies), model.effects, plastic=plastic)
     print(json.dumps([1024 * (peak - first), needed]))
