@@ -43,6 +43,8 @@ FORMATS = ("opd", "sur", "x3p", "asc", "npy")
 def prepare():
     """Get ready in a new process: modules, a memory limit, no warnings as errors."""
     warnings.simplefilter("ignore")
+    # A shell may have set it to be ignored.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     # Not while a case is told to stop, which would leave half a module.
     import SurfaceTopography  # noqa: F401
 
