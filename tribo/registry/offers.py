@@ -102,22 +102,22 @@ def _name(cls: Any, kind: Kind) -> str:
     config = getattr(cls, "Config", None)
     if not (inspect.isclass(config) and issubclass(config, ComponentConfig)):
         raise TypeError(f"{shown}.Config is not a subclass of {_of(ComponentConfig)}")
-    _check_declarations(cls, shown)
+    _check_declarations(cls, kind, shown)
     name = config.model_fields["type"].default
     if not (isinstance(name, str) and name):
         raise TypeError(f'{config.__qualname__} needs a line: type: Literal["NAME"] = "NAME"')
     return name
 
 
-def _check_declarations(cls: type, shown: str) -> None:
+def _check_declarations(cls: type, kind: Kind, shown: str) -> None:
     """Raise TypeError unless what a class declares of fields is declared as it must be."""
+    needed = 'a tuple of Field, as in (Field("name", "m", "What it means."),)'
     for attribute in ("state_fields", "provides"):
+        if attribute in kind.interface.__annotations__ and not hasattr(cls, attribute):
+            raise TypeError(f"{shown} does not define {attribute}, {needed}")
         fields = getattr(cls, attribute, ())
         if not (isinstance(fields, tuple | list) and all(isinstance(f, Field) for f in fields)):
-            raise TypeError(
-                f"{shown}.{attribute} is {fields!r}; it must be a tuple of Field, as in "
-                '(Field("name", "m", "What it means."),)'
-            )
+            raise TypeError(f"{shown}.{attribute} is {fields!r}; it must be {needed}")
     names = getattr(cls, "requires", ())
     if not (isinstance(names, tuple | list) and all(isinstance(name, str) for name in names)):
         raise TypeError(
