@@ -4,13 +4,16 @@ import os
 import subprocess
 import sys
 import tomllib
+import warnings
 from pathlib import Path
 
+import numpy as np
 import pytest
 from fake_distributions import distribute
 
 import tribo
 from tribo import Result
+from tribo.registry.loader import installed, load
 
 LAW = """
 from typing import Literal
@@ -138,6 +141,51 @@ def test_the_doctor_finds_what_ails(tmp_path):
     assert seen.returncode == 3
     assert "SIGSEGV" in seen.stdout
     assert "zoo-tribo 1.0" in seen.stderr
+
+
+MEDDLING = """
+import os, warnings
+import numpy as np
+os.chdir({elsewhere!r})
+warnings.filterwarnings({filters!r})
+np.seterr(all="raise")
+"""
+
+
+def meddler(tmp_path, filters):
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    keep(tmp_path, MEDDLING.format(elsewhere=str(elsewhere), filters=filters) + law(GOOD))
+    return elsewhere
+
+
+def test_an_import_moves_no_result(tmp_path):
+    elsewhere = meddler(tmp_path, "ignore")
+    done = command(tmp_path, "run", "named.toml", "-o", "out.h5")
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "out.h5").exists()
+    assert list(elsewhere.iterdir()) == []
+
+
+def test_an_import_changes_neither_warnings_nor_numpy(tmp_path, monkeypatch):
+    meddler(tmp_path, "ignore")
+    monkeypatch.syspath_prepend(str(tmp_path / "site"))
+    (source,) = [s for s in installed() if s.record.distribution == "zoo-tribo"]
+    here, filters, errors = Path.cwd(), list(warnings.filters), np.geterr()
+    record, (offer,) = load(source)
+    monkeypatch.delitem(sys.modules, "zoo_bad")
+    assert (record.status, offer.name) == ("loaded", "zoo.bad")
+    assert (Path.cwd(), list(warnings.filters), np.geterr()) == (here, filters, errors)
+
+
+def test_a_plugin_that_makes_warnings_errors_does_not_end_an_unrelated_command(tmp_path):
+    meddler(tmp_path, "error")
+    # A second plugin that is left out of the schema with a warning.
+    points = {"tribo.v1.wear_law": {"zzz.law": "zoo_broken"}}
+    distribute(tmp_path / "site", "zzz-broken", "1.0", points, zoo_broken="1/0")
+    done = command(tmp_path, "schema")
+    assert done.returncode == 0, done.stderr
+    assert "zzz-broken 1.0 is left out" in done.stderr
 
 
 def test_the_schema_leaves_out_what_cannot_be_imported(tmp_path):

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import os
 import re
 import sys
+import warnings
 from collections.abc import Callable, Iterator
-from contextlib import redirect_stdout
+from contextlib import ExitStack, contextmanager, redirect_stdout, suppress
 from dataclasses import dataclass, replace
 from importlib import import_module, metadata
+
+import numpy as np
 
 from tribo.core.distributions import with_entry_points
 from tribo.core.words import said
@@ -101,16 +105,27 @@ def load(source: Source) -> tuple[PluginRecord, tuple[ComponentRecord, ...]]:
     Whatever it raises, `SystemExit` included, marks it as broken; a broken
     plugin offers nothing. So does a hook that tribo does not know, and a
     difference between what the entry points declare and the hooks offer.
-    What it prints goes to stderr: stdout belongs to the command.
+    What it prints goes to stderr: stdout belongs to the command. The working
+    directory, the warning filters and numpy's treatment of errors stay as
+    they are, whatever it sets.
     """
     record = replace(source.record, status="loaded")
     try:
-        with redirect_stdout(sys.stderr):
+        with _process_kept():
             return record, offers(source.load(), record, source.declared)
     except KeyboardInterrupt:
         raise
     except BaseException as error:
         return replace(record, status="broken", reason=said(error)), ()
+
+
+@contextmanager
+def _process_kept() -> Iterator[None]:
+    with ExitStack() as kept, redirect_stdout(sys.stderr), warnings.catch_warnings(), np.errstate():
+        # A directory that was deleted cannot be gone back to.
+        with suppress(FileNotFoundError):
+            kept.callback(os.chdir, os.getcwd())
+        yield
 
 
 def _sources(
