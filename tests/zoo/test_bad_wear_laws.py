@@ -72,6 +72,12 @@ class Grows(Law):
         return WearRate(-good.depth, good.derivative)
 
 
+@bad_later("gave a depth per metre that is not 0 in")
+class WearsUntouched(Law):
+    def spoilt(self, good, local):
+        return WearRate(3e-16 * (local.pressure + 1e8), good.derivative)
+
+
 @bad_later("read-only")
 class WritesIntoThePressure(Law):
     def spoilt(self, good, local):

@@ -65,7 +65,8 @@ def wear_rates(
     ------
     PluginError
         If an effect or a law answers with anything but finite arrays of the
-        right shape, or a negative depth.
+        right shape, or a law with a depth that is negative, or not 0 where
+        the pressure is.
     """
     pressure = readonly(pressure)
     fields = _effect_fields(model, pressure, moment)
@@ -90,7 +91,7 @@ def wear_rates(
         )
         with calling(body.wear, body.name):
             answer = body.wear.rate(local)
-        rate = _checked(named(body.wear, body.name), body.wear, answer, box.shape, moment)
+        rate = _checked(named(body.wear, body.name), body.wear, answer, local.pressure, moment)
         if not box.is_window:
             rate = WearRate(box.embed(rate.depth), box.embed(rate.derivative))
         rates[body.name] = rate
@@ -133,15 +134,21 @@ def _effect_fields(model: Model, pressure: Array, moment: Moment) -> dict[str, d
     return fields
 
 
-def _checked(who: str, law: Law, rate: object, shape: tuple[int, int], moment: Moment) -> WearRate:
+def _checked(who: str, law: Law, rate: object, pressure: Array, moment: Moment) -> WearRate:
     if not isinstance(rate, WearRate):
         raise PluginError(f"{who} gave a {type(rate).__name__} instead of a WearRate")
-    when = moment.words
+    when, shape = moment.words, pressure.shape
     depth, least, _ = spread(who, "a depth per metre", rate.depth, shape, when)
     slope, flattest, _ = spread(who, "a derivative", rate.derivative, shape, when)
     if least < 0:
         raise PluginError(
             f"{who} gave a negative depth per metre ({least:.3g}){when}; wear only removes"
+        )
+    bare = np.count_nonzero(depth[pressure == 0])
+    if bare:
+        raise PluginError(
+            f"{who} gave a depth per metre that is not 0 in {bare} cells where the pressure is 0"
+            f"{when}; what is not touched does not wear"
         )
     if not isinstance(rate.state, Mapping):
         raise PluginError(f"{who} gave a {type(rate.state).__name__} as rates of its state")
