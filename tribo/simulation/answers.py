@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from contextlib import suppress
 from numbers import Number
 from typing import Any
@@ -13,13 +14,13 @@ from tribo.core.arrays import Array
 from tribo.core.errors import PluginError
 
 
-def number(who: str, what: str, value: object) -> float:
+def number(who: object, what: str, value: object) -> float:
     """Return `value` as a finite float.
 
     Parameters
     ----------
-    who : str
-        Who gave it, for the message; see `tribo.simulation.calling.named`.
+    who : object
+        Who gave it, as its text stands in the message; see `tribo.simulation.calling.named`.
     what : str
         What it is meant to be, as ``"an approach"``.
     value : object
@@ -30,6 +31,8 @@ def number(who: str, what: str, value: object) -> float:
     PluginError
         If it is anything else.
     """
+    if type(value) is float and math.isfinite(value):
+        return value
     plain = _plain(value)
     if plain is None or plain.shape != () or not np.isfinite(plain):
         raise PluginError(f"{who} gave {what} that is not a finite number: {_shown(value)}")
@@ -37,13 +40,13 @@ def number(who: str, what: str, value: object) -> float:
 
 
 def field(
-    who: str, what: str, values: object, shape: tuple[int, ...], when: str = ""
+    who: object, what: str, values: object, shape: tuple[int, ...], when: str = ""
 ) -> tuple[Array, float, float]:
     """Return `values` as finite floats of just this shape, the smallest and the largest of them.
 
     Parameters
     ----------
-    who, what : str
+    who, what
         As in `number`.
     values : object
         What was given.
@@ -63,7 +66,10 @@ def field(
             f"{who} gave {what} that is not an array of shape {shape}: {_shown(values)}"
         )
     array = plain.astype(np.float64, copy=False)
-    low, high = float(array.min()), float(array.max())
+    low, high = (
+        float(np.minimum.reduce(array, axis=None)),
+        float(np.maximum.reduce(array, axis=None)),
+    )
     # Both are NaN if any value is.
     if not -np.inf < low <= high < np.inf:
         bad = np.count_nonzero(~np.isfinite(array))
@@ -72,11 +78,11 @@ def field(
 
 
 def spread(
-    who: str, what: str, values: object, shape: tuple[int, ...], when: str = ""
+    who: object, what: str, values: object, shape: tuple[int, ...], when: str = ""
 ) -> tuple[Array, float, float]:
     """Return what `field` does, for values that need only broadcast to `shape`."""
     plain = _plain(values)
-    if plain is not None:
+    if plain is not None and plain.shape != shape:
         with suppress(ValueError):
             values = np.broadcast_to(plain, shape)
     return field(who, what, values, shape, when)

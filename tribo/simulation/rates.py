@@ -134,7 +134,7 @@ def _effect_fields(model: Model, pressure: Array, moment: Moment) -> dict[str, d
     return fields
 
 
-def _checked(who: str, law: Law, rate: object, pressure: Array, moment: Moment) -> WearRate:
+def _checked(who: object, law: Law, rate: object, pressure: Array, moment: Moment) -> WearRate:
     if not isinstance(rate, WearRate):
         raise PluginError(f"{who} gave a {type(rate).__name__} instead of a WearRate")
     when, shape = moment.words, pressure.shape
@@ -144,7 +144,7 @@ def _checked(who: str, law: Law, rate: object, pressure: Array, moment: Moment) 
         raise PluginError(
             f"{who} gave a negative depth per metre ({least:.3g}){when}; wear only removes"
         )
-    bare = np.count_nonzero(depth[pressure == 0])
+    bare = np.count_nonzero((depth != 0) & (pressure == 0))
     if bare:
         raise PluginError(
             f"{who} gave a depth per metre that is not 0 in {bare} cells where the pressure is 0"

@@ -50,7 +50,7 @@ def smallest_compliance(solver: Solver, system: ContactSystem) -> float | None:
     return None if answer is None else number(named(solver), "a smallest compliance", answer)
 
 
-def _checked(who: str, problem: ContactProblem, answer: object) -> ContactSolution:
+def _checked(who: object, problem: ContactProblem, answer: object) -> ContactSolution:
     if not isinstance(answer, ContactSolution):
         raise PluginError(f"{who} gave a {type(answer).__name__} instead of a ContactSolution")
     grid, cap = problem.system.grid, problem.system.cap
