@@ -1,11 +1,23 @@
-"""What the plugin layer adds to a run, as a ratio against direct calls.
+"""What the plugin layer adds to a run, as ratios against direct calls.
 
-The same run is timed twice, by turns: composed from its case, with the
-registry made anew (entry points read, hooks called, the configuration
-validated, names looked up), and from objects that are made directly and joined
-with `assemble`. Both solve the same steps with the same code, so that all the
-layer adds lies in making the simulation, which is timed apart too: two equal
-runs differ by more, as the spread of the ratios shows.
+The same run is made in three ways, by turns:
+
+composed
+    from its case, with the registry made anew: entry points read, hooks
+    called, the configuration validated, names looked up;
+joined
+    from objects that are made directly and joined with `assemble`;
+unchecked
+    as joined, but every component is called as it is: nothing holds its
+    answers to the contract, names it where it raises, or keeps its arrays
+    from being written to.
+
+*Composition* is composed over joined, *checks* is joined over unchecked, and
+*all* is composed over unchecked. All three solve the same steps. What counts
+is the processor time of the process, all threads together: each ratio is the
+median of those of single turns, with their smallest and largest. Two equal runs
+differ by some per cent on a busy machine; what the spread does not tell apart
+from 1 is not measured. What takes place before the run, composing, is timed apart too.
 
 Run it with ``python benchmarks/plugin_cost.py [--case CASE] [--cells 256] [--repeats 7] [--json]``.
 A case that names an installed plugin shows what that costs: once in a process of
@@ -20,25 +32,30 @@ import json
 import statistics
 import time
 import tomllib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager, nullcontext
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
+from unittest.mock import patch
+
+import numpy as np
 
 from tribo import Simulation
 from tribo.interfaces.component import Component
 from tribo.registry.registry import default_registry
+from tribo.simulation import exposed, motion, rates, solving, watching
 from tribo.simulation.model import Body, Model, assemble
 from tribo.templates import template
 
 
-def composed(data: dict[str, Any]) -> Simulation:
+def composed(data: dict[str, Any], model: Model) -> Simulation:
     """Return the case, composed through a new registry."""
     default_registry.cache_clear()
     return Simulation(data)
 
 
-def direct(model: Model) -> Simulation:
+def joined(data: dict[str, Any], model: Model) -> Simulation:
     """Return the same case, made of objects of the classes that `model` is made of."""
     return Simulation(
         assemble(
@@ -67,38 +84,74 @@ def _new(component: Component[Any]) -> Any:
     return type(component)(component.config)
 
 
-def seconds(make: Callable[[], Simulation]) -> tuple[float, float]:
-    """Return how long it takes to make a simulation, and to make and run it."""
-    begun = time.perf_counter()
+UNGUARDED = nullcontext()
+UNCHECKED: list[tuple[Any, str, Callable[..., Any]]] = [
+    *[(m, "calling", lambda *_: UNGUARDED) for m in (exposed, motion, rates, solving, watching)],
+    *[(m, "named", lambda *_: "") for m in (motion, rates, solving)],
+    *[(m, "readonly", lambda array: array) for m in (rates, solving)],
+    (motion, "CheckedExposure", lambda exposure, *_: exposure),
+    (motion, "number", lambda who, what, value: value),
+    (rates, "spread", lambda who, what, values, shape, *_: (np.broadcast_to(values, shape), 0, 0)),
+    (rates, "_checked", lambda who, law, rate, *_: rate),
+    (solving, "_checked", lambda who, problem, answer: answer),
+    (watching, "_view", lambda snapshot: snapshot),
+]
+"""What stands between a run and its components: where, its name, and nothing in its place."""
+
+
+@contextmanager
+def unchecked() -> Iterator[None]:
+    """Let components be called directly."""
+    with ExitStack() as patches:
+        for module, name, plain in UNCHECKED:
+            patches.enter_context(patch.object(module, name, plain))
+        yield
+
+
+def seconds(make: Callable[[], Simulation]) -> tuple[float, float, int]:
+    """Return how long it takes to make a simulation, to make and run it, and its steps."""
+    begun = time.process_time()
     simulation = make()
-    made = time.perf_counter() - begun
-    simulation.run().close()
-    return made, time.perf_counter() - begun
+    made = time.process_time() - begun
+    with simulation.run() as result:
+        return made, time.process_time() - begun, result.totals()["steps"]
 
 
 def measure(data: dict[str, Any], repeats: int) -> dict[str, Any]:
-    """Return the ratios of the repeats, and what the two ways to make a simulation take."""
+    """Return the ratios of the repeats, and what the ways to make a simulation take."""
     model = Simulation(data).model
-    ways = [lambda: composed(data), lambda: direct(model)]
-    times: list[list[tuple[float, float]]] = [[], []]
+    times: dict[str, list[tuple[float, float, int]]] = {
+        "composed": [],
+        "joined": [],
+        "unchecked": [],
+    }
     for repeat in range(repeats):
-        # Each goes first as often as the other: what warms up in between favours neither.
-        for way in (0, 1) if repeat % 2 == 0 else (1, 0):
-            times[way].append(seconds(ways[way]))
-    pairs = list(zip(*times, strict=True))
-    ratios = [layered[1] / plain[1] for layered, plain in pairs]
-    added = statistics.median(layered[0] - plain[0] for layered, plain in pairs)
+        # Each goes first as often as the others: what warms up in between favours none.
+        for turn in range(3):
+            way = list(times)[(repeat + turn) % 3]
+            with unchecked() if way == "unchecked" else UNGUARDED:
+                make = composed if way == "composed" else joined
+                times[way].append(seconds(lambda make=make: make(data, model)))
+    (steps,) = {steps for runs in times.values() for _, _, steps in runs}
+    whole = {way: [run for _, run, _ in runs] for way, runs in times.items()}
+    making = {way: statistics.median(made for made, _, _ in runs) for way, runs in times.items()}
     return {
-        "ratio_min": min(ratios),
-        "ratio_median": statistics.median(ratios),
-        "ratio_max": max(ratios),
-        "making_added_s": added,
-        "making_added_ratio": added / statistics.median(plain[1] for _, plain in pairs),
+        "steps": steps,
+        "run_s": statistics.median(whole["unchecked"]),
+        "composition": _spread(whole["composed"], whole["joined"]),
+        "checks": _spread(whole["joined"], whole["unchecked"]),
+        "all": _spread(whole["composed"], whole["unchecked"]),
+        "making_added_s": making["composed"] - making["unchecked"],
     }
 
 
+def _spread(dividends: list[float], divisors: list[float]) -> dict[str, float]:
+    ratios = [a / b for a, b in zip(dividends, divisors, strict=True)]
+    return {"min": min(ratios), "median": statistics.median(ratios), "max": max(ratios)}
+
+
 def main() -> None:
-    """Print the median ratio and its spread."""
+    """Print the median ratios and their spread."""
     parser = argparse.ArgumentParser(description="What the plugin layer adds to a run.")
     parser.add_argument("--case", type=Path, help="a case file; the paper's if left out")
     parser.add_argument("--cells", type=int, default=256)
@@ -115,13 +168,13 @@ def main() -> None:
     if chosen.json:
         print(json.dumps(found, indent=2))
         return
-    low, middle, high = (100 * (found[f"ratio_{end}"] - 1) for end in ("min", "median", "max"))
-    print(f"the plugin layer adds {middle:.2f} % to the run")
-    print(f"({low:.2f} to {high:.2f} % in {chosen.repeats} pairs on {chosen.cells}² cells)")
-    added, share = 1e3 * found["making_added_s"], 100 * found["making_added_ratio"]
-    print(
-        f"composing it takes {added:.1f} ms more than making it directly, {share:.2f} % of the run"
-    )
+    words = {"composition": "composing the run", "checks": "checking answers", "all": "both"}
+    for part, what in words.items():
+        low, middle, high = (100 * (found[part][end] - 1) for end in ("min", "median", "max"))
+        print(f"{what:18} {middle:6.2f} % ({low:.2f} to {high:.2f} %)")
+    print(f"of {found['run_s']:.2f} s, {found['steps']} steps on {chosen.cells}² cells")
+    added = found["making_added_s"]
+    print(f"composing takes {1e3 * added:.1f} ms, {100 * added / found['run_s']:.2f} % of the run")
 
 
 if __name__ == "__main__":
