@@ -1,4 +1,8 @@
-"""Tell the observers of a run what happens, in views that they cannot change it by."""
+"""Tell the observers of a run what happens, in views that no slip of theirs changes it by.
+
+The arrays are read-only. That does not stop one that means to: numpy gives access to the
+array behind a view, as its `base`, and a plugin runs in this very process.
+"""
 
 from __future__ import annotations
 
