@@ -11,7 +11,7 @@ class ObserverConfig(ComponentConfig):
 
 
 class Observer(Component[C_co]):
-    """Watches a run through read-only views; it cannot change the answer.
+    """Watches a run through read-only views; it has no say in the answer.
 
     An exception that an observer raises stops the run; one raised in `on_finish`
     is only warned of where the run did not come to its end.

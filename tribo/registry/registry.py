@@ -139,6 +139,9 @@ class Registry:
         if len(claims) > 1:
             raise CaseError(self.conflicts()[kind, name])
         if not claims:
+            refused = self._refused(name, declared=True)
+            if refused:
+                raise CaseError(f"{words} {name!r} cannot be used: {'; '.join(refused)}")
             raise CaseError(f"unknown {words} {name!r}{self._instead(kind, name)}")
         for offer in self._load(claims[0]):
             if (offer.kind, offer.name) == (kind, name):
@@ -186,12 +189,19 @@ class Registry:
         return self._offers[number]
 
     def refusals(self, name: str) -> list[str]:
-        """Return why plugins that may offer a component called `name` cannot be used."""
+        """Return why plugins that may offer a component called `name` cannot be used.
+
+        Those of the plugins that declare this very name, if there are any.
+        """
+        return self._refused(name, declared=True) or self._refused(name, declared=False)
+
+    def _refused(self, name: str, *, declared: bool) -> list[str]:
+        """Return why plugins that declare `name`, or do not say what they offer, are unusable."""
         return [
             f"{plugin} is {plugin.status}: {plugin.reason}"
             for source, plugin in zip(self._sources, self._records, strict=True)
             if plugin.status in _UNUSABLE
-            and (not source.declared or name in [declared for _, declared in source.declared])
+            and (name in [n for _, n in source.declared or ()] if declared else not source.declared)
         ]
 
     def _instead(self, kind: str, name: str) -> str:
