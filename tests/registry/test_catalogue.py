@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Annotated, Literal
 
 import pytest
 from fake_distributions import distribute, observer, sources
+from pydantic import BaseModel, ConfigDict, Field
 
 from tribo.core.errors import CaseError
-from tribo.registry.catalogue import catalogue, find
+from tribo.core.units import Quantity
+from tribo.interfaces.observer import Observer, ObserverConfig
+from tribo.registry.catalogue import catalogue, describe, find
+from tribo.registry.records import ComponentRecord, PluginRecord
 from tribo.registry.registry import Registry
 
 
@@ -58,3 +63,48 @@ def test_who_asks_for_what_cannot_be_used_is_told_why(registry: Registry, name: 
         CaseError, match=r"cat_c 1\.0 is incompatible: made for interface version 2"
     ):
         find(registry, name)
+
+
+class Place(BaseModel):
+    model_config = ConfigDict(use_attribute_docstrings=True)
+
+    depth: Annotated[float, Quantity("m")]
+    """How deep."""
+    below: Place | None = None
+    """The next one."""
+
+
+class SensorConfig(ObserverConfig):
+    type: Literal["cat.sensor"] = "cat.sensor"
+    names: list[str] = Field(default_factory=list)
+    """What to call them."""
+    places: dict[str, Place] | None = None
+    """Where they sit."""
+
+
+class Sensor(Observer[SensorConfig]):
+    Config = SensorConfig
+
+
+def sensor() -> ComponentRecord:
+    return ComponentRecord(
+        "observer", "cat.sensor", Sensor, PluginRecord("cat", "1", "cat", "given")
+    )
+
+
+def test_a_description_has_keys_and_units_of_nested_tables_and_says_where_the_code_is() -> None:
+    lines = describe(sensor()).splitlines()
+    first = lines.index("names (optional): What to call them.")
+    assert lines[first : first + 4] == [
+        "names (optional): What to call them.",
+        "places (optional): Where they sit.",
+        "    depth [m] (needed): How deep.",
+        "    below (optional): The next one.",
+    ]
+    assert lines[-1] == f"File: {__file__}"
+
+
+@pytest.mark.parametrize("text", [None, 7, "", b"bytes"])
+def test_a_docstring_that_is_no_text_is_none(monkeypatch: pytest.MonkeyPatch, text: object) -> None:
+    monkeypatch.setattr(Sensor, "__doc__", text)
+    assert "(it has no description)" in describe(sensor())

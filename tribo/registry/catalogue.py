@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any, get_args
 
+from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from tribo.core.errors import CaseError
@@ -87,14 +89,14 @@ def describe(component: ComponentRecord) -> str:
     cls = component.cls
     words = KINDS[component.kind].words
     lines = [f"{component.name}: {words} from {component.plugin}", ""]
-    lines += [inspect.cleandoc(cls.__doc__ or "(it has no description)"), ""]
-    parameters = [
-        _parameter(name, field) for name, field in cls.Config.model_fields.items() if name != "type"
-    ]
+    lines += [component.description or "(it has no description)", ""]
+    parameters = [line for line in _parameters(cls.Config) if not line.startswith("type ")]
     if parameters:
         lines += ["Parameters", "----------", *parameters, ""]
     lines += _facts(cls)
     lines.append(f"Class: {cls.__module__}.{cls.__qualname__}")
+    with suppress(TypeError, OSError):
+        lines.append(f"File: {inspect.getfile(cls)}")
     return "\n".join(lines)
 
 
@@ -110,21 +112,30 @@ def _row(name: str, kind: str, plugin: PluginRecord, summary: str) -> dict[str, 
     }
 
 
+def _parameters(table: type[BaseModel], within: tuple[type[BaseModel], ...] = ()) -> Iterator[str]:
+    """Yield a line for each key of a table, and indented below it those of the tables it holds."""
+    within = (*within, table)
+    for name, field in table.model_fields.items():
+        yield _parameter(name, field)
+        for part in _parts(field):
+            if inspect.isclass(part) and issubclass(part, BaseModel) and part not in within:
+                yield from (f"    {line}" for line in _parameters(part, within))
+
+
 def _parameter(name: str, field: FieldInfo) -> str:
-    unit = next((f" [{q.unit}]" for q in _quantities(field)), "")
+    unit = next((f" [{q.unit}]" for q in _parts(field) if isinstance(q, Quantity)), "")
     needed = "needed" if field.is_required() else f"default {field.default!r}"
-    if field.default is None:
+    if field.default is None or field.default_factory is not None:
         needed = "optional"
     return f"{name}{unit} ({needed}): {field.description or 'no description'}"
 
 
-def _quantities(field: FieldInfo) -> Iterator[Quantity]:
-    """Yield the quantities in a field's annotation, however deep."""
+def _parts(field: FieldInfo) -> Iterator[Any]:
+    """Yield the types in a field's annotation and what annotates them, however deep."""
     waiting = [*field.metadata, field.annotation]
     while waiting:
         part = waiting.pop(0)
-        if isinstance(part, Quantity):
-            yield part
+        yield part
         waiting += [*get_args(part), *getattr(part, "__metadata__", ())]
 
 

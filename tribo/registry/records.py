@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from inspect import cleandoc
 from typing import Any, Literal
 
 from tribo.interfaces.component import Component
@@ -67,3 +68,9 @@ class ComponentRecord:
     name: str
     cls: type[Component[Any]]
     plugin: PluginRecord
+
+    @property
+    def description(self) -> str:
+        """The docstring of the class; empty where it has none, or one that is no text."""
+        text = self.cls.__doc__
+        return cleandoc(text) if isinstance(text, str) else ""

@@ -105,7 +105,7 @@ class Registry:
         number = self._claims[kind, name][0]
         for offer in self._offers.get(number, ()):
             if (offer.kind, offer.name) == (kind, name):
-                return (offer.cls.__doc__ or "").strip().split("\n")[0]
+                return offer.description.split("\n")[0]
         plugin = self._records[number]
         return f"(all of {plugin.distribution}) {distribution_summary(plugin)}".rstrip()
 
