@@ -252,6 +252,16 @@ def test_a_case_may_require_versions(tmp_path):
         assert words in done.stderr
 
 
+def test_a_requirement_counts_where_its_marker_holds(tmp_path):
+    keep(tmp_path, law(GOOD))
+    case = tmp_path / "plain.toml"
+    text = case.read_text()
+    for sign, code in (("<", 0), (">=", 2)):
+        case.write_text(f"requires = ['zoo-more; python_version {sign} \"3\"']\n{text}")
+        done = command(tmp_path, "check", "plain.toml")
+        assert done.returncode == code, done.stderr
+
+
 def test_a_law_that_fails_in_the_middle_leaves_the_last_good_state(tmp_path):
     counting = "self.n = getattr(self, 'n', 0) + 1\n        "
     keep(tmp_path, law(counting + "return WearRate(k * p * (np.nan if self.n > 80 else 1), k)"))

@@ -11,9 +11,14 @@ from tribo.core.errors import CaseError
 
 
 def check_requirements(requires: Iterable[str]) -> None:
-    """Raise `CaseError` unless every requirement, as ``"acme-tribo>=1.2"``, is met."""
+    """Raise `CaseError` unless every requirement, as ``"acme-tribo>=1.2"``, is met.
+
+    One whose marker, as ``; python_version < "3.12"``, does not hold here is none.
+    """
     for text in requires:
         requirement = Requirement(text)
+        if requirement.marker is not None and not requirement.marker.evaluate({"extra": ""}):
+            continue
         try:
             version = metadata.version(requirement.name)
         except metadata.PackageNotFoundError:
