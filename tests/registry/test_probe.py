@@ -18,6 +18,11 @@ if os.fork() == 0:
     os._exit(0)
 """
 
+THREAD = """
+import threading, time
+threading.Thread(target=time.sleep, args=(600,)).start()
+"""
+
 
 def source(folder: Path, module: str, code: str) -> Source:
     points = {"tribo.v1.observer": {"probe.calm": module}}
@@ -43,6 +48,12 @@ def test_a_time_limit_that_is_none_is_one_clear_error(
         ("forks", FORKS + observer("probe.calm"), "loaded", ""),
         ("forks_and_crashes", FORKS + "os.abort()", "broken", "SIGABRT"),
         ("forks_and_hangs", FORKS + "time.sleep(600)", "broken", "did not end within 3 s"),
+        (
+            "threads_and_hangs",
+            THREAD + observer("probe.calm"),
+            "broken",
+            "left a thread running that did not end within 3 s",
+        ),
         ("leaves", "import os; os._exit(7)", "broken", "exit code 7"),
         ("asks", "input()" + observer("probe.calm"), "broken", "EOFError"),
     ],
