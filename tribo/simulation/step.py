@@ -181,13 +181,21 @@ def explicit_step(model: Model, state: State, increment: float, time: float) -> 
     worn = _worn(model, rates, increment)
     settled = _advanced(model, law_states(state), rates, increment)
     worn_state = _with_wear(state, worn, settled)
-    solution = _solve(model, geometry(model, worn_state), None, state.contact)
+    solution = _solve(model, geometry(model, worn_state), None, _continued(state))
     kept = replace(
         state,
         rates={},
         invariants=wear_balance(model, worn, rates, increment, state),
     )
     return _accept(model, kept, worn_state, solution, moment, 1, solution.iterations)
+
+
+def _continued(state: State) -> ContactSolution:
+    """Return the contact as it would be if it went on to change by as much as in the last step."""
+    if state.previous is None:
+        return state.contact
+    pressure = np.maximum(2 * state.contact.pressure - state.previous, 0.0)
+    return replace(state.contact, pressure=pressure)
 
 
 def rated(model: Model, state: State, moment: Moment) -> State:
