@@ -43,6 +43,11 @@ class Damages:
     def good(self):
         return set(self.ends()) <= {"refused", "read right"}
 
+    def figures(self):
+        """Return how many files there were, and how many ended how."""
+        ends = self.ends()
+        return {"files": sum(ends.values()), **{name: ends[name] for name in NAMES.values()}}
+
     def __str__(self):
         lines = [f"{kind:12}{end:16}{n}" for (kind, end), n in sorted(self.counts.items())]
         return "\n".join([*lines, f"{'all':12}{dict(self.ends())}"])
