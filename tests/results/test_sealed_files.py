@@ -5,9 +5,12 @@ import random
 from contextlib import closing
 
 import pytest
+from paper_models import small
 
-from tribo import CaseError
+from tribo import CaseError, Simulation
+from tribo.core.errors import TriboWarning
 from tribo.results import sealed_writer
+from tribo.results.checkpoint import checkpoint_path
 from tribo.results.journal import journal_path
 from tribo.results.seal import PAGE, NotSealedError, write_sealed
 from tribo.results.sealed_file import DamagedError, SealedFile
@@ -152,7 +155,8 @@ def test_after_a_power_failure_it_holds_the_last_commit_that_waited(tmp_path):
             file.commit(sync=False)
     journal = journal_path(path)
     journal.write_bytes(journal.read_bytes()[:-100])
-    assert content(path) == bytes(3 * PAGE)
+    with pytest.warns(TriboWarning, match="its journal is damaged"):
+        assert content(path) == bytes(3 * PAGE)
 
 
 def test_every_bit_counts(tmp_path):
@@ -219,3 +223,43 @@ def test_a_reader_is_told_when_the_file_has_gone_on(tmp_path):
             writer.commit(sync=True)
             with pytest.raises(DamagedError, match="since the file was opened; open it again"):
                 reader.read()
+
+
+def test_a_damaged_journal_is_noticed(tmp_path):
+    path = tmp_path / "file"
+    with closing(SealedWriter.create(path)) as file:
+        file.write(b"first")
+        file.commit(sync=True)
+        file.seek(0)
+        file.write(b"other")
+        file.commit(sync=False)
+    assert content(path) == b"other"
+    journal = bytearray(journal_path(path).read_bytes())
+    journal[100] ^= 1
+    journal_path(path).write_bytes(journal)
+    with pytest.warns(TriboWarning, match="its journal is damaged"):
+        assert content(path) == b"first"
+
+
+def test_a_journal_older_than_the_file_is_not_read(tmp_path):
+    path = tmp_path / "file"
+    with closing(SealedWriter.create(path)) as file:
+        file.write(b"first")
+        file.commit(sync=False)
+        old = journal_path(path).read_bytes()
+        file.seek(0)
+        file.write(b"other")
+        file.commit(sync=True)
+    journal_path(path).write_bytes(old)
+    assert content(path) == b"other"
+
+
+def test_what_another_process_is_writing_keeps_its_checkpoint(tmp_path):
+    path = tmp_path / "run.h5"
+    checkpoint_path(path).write_bytes(b"of the other process")
+    with (
+        closing(SealedWriter.create(path)),
+        pytest.raises(CaseError, match="in use"),
+    ):
+        Simulation(small()).run(path, overwrite=True)
+    assert checkpoint_path(path).exists()

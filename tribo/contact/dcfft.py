@@ -183,16 +183,15 @@ def _overlapping_outside(problem: ContactProblem, box: Box, solution: ContactSol
 
 def _displacement_bound(pressure: Array, spacing: tuple[float, float], strength: float) -> Array:
     """Return a lower bound of the displacement, of which `strength` is load over modulus."""
-    # Concentrating the load at the farthest point of the contact's bounding box
-    # can only lessen the displacement: 1/r is subharmonic in the plane, so a
-    # uniformly loaded cell displaces more than a point force at its centre.
+    # A load spread over a cell displaces more than one at the root mean square of its
+    # distances, for 1/√ is convex; and the farthest point of the contact's bounding box
+    # is farther than any cell's centre.
     touching = pressure > 0
     reach = []
     for axis in (0, 1):
         line = np.arange(pressure.shape[axis]) * spacing[axis]
         loaded = line[touching.any(axis=1 - axis)]
         reach.append(np.maximum(np.abs(line - loaded[0]), np.abs(line - loaded[-1])))
-    # Within half a cell a uniform load displaces more than the bound at its edge.
-    distance = np.maximum(np.hypot(reach[0][:, None], reach[1]), 0.5 * min(spacing))
+    distance = np.hypot(np.hypot(reach[0][:, None], reach[1]), np.hypot(*spacing) / np.sqrt(12))
     bound: Array = strength / (np.pi * distance)
     return bound

@@ -59,6 +59,9 @@ class Recorder(Observer[RecorderConfig]):
             if run.resumed_from is None or self.config.path is None:
                 self._make_room()
                 self.writer.create(run)
+                # Not before the file is ours: another process may be writing it.
+                if self.config.path is not None:
+                    remove_checkpoint(self.config.path)
             else:
                 self._spent_before = run.wall_time
                 self._saved = run.resumed_from.state.time
@@ -107,13 +110,12 @@ class Recorder(Observer[RecorderConfig]):
         return Result(self.writer.file, "the result")
 
     def _make_room(self) -> None:
-        """Refuse to replace a file unasked; drop the checkpoints of what is replaced."""
+        """Refuse to replace a file unasked."""
         path = self.config.path
         if path is None:
             return
         if os.path.exists(path) and not self.config.overwrite:
             raise CaseError(f"{path} exists; choose another path, or set overwrite = true")
-        remove_checkpoint(path)
 
     def _checkpoint(self, snapshot: Snapshot) -> None:
         if self.config.path is None:

@@ -35,23 +35,26 @@ def write_journal(path: Path, pages: Mapping[int, bytes], seal: Seal, *, sync: b
 
 
 def read_journal(path: Path) -> tuple[Mapping[int, bytes], Seal] | None:
-    """Return what `write_journal` wrote for the file at `path`; None unless it is all there."""
+    """Return what `write_journal` wrote for the file at `path`; None if there is no journal.
+
+    Raises
+    ------
+    NotSealedError
+        If it is damaged: it took its place whole.
+    """
     try:
         data = journal_path(path).read_bytes()
     except FileNotFoundError:
         return None
     body, check = data[:-_DIGEST], data[-_DIGEST:]
     if len(body) < _HEAD.size or sha256(body).digest() != check:
-        return None
+        raise NotSealedError("its journal is damaged")
     magic, count = _HEAD.unpack_from(body)
     if magic != _MAGIC:
-        return None
+        raise NotSealedError("its journal is not one of tribo's")
     step = _INDEX.size + PAGE
     pages = {}
     for at in range(_HEAD.size, _HEAD.size + count * step, step):
         (index,) = _INDEX.unpack_from(body, at)
         pages[index] = body[at + _INDEX.size : at + step]
-    try:
-        return pages, decode(body[_HEAD.size + count * step :])
-    except NotSealedError:
-        return None
+    return pages, decode(body[_HEAD.size + count * step :])

@@ -127,6 +127,17 @@ def put(path: Path, parts: tuple[bytes | bytearray, ...], *, sync: bool) -> None
                 file.flush()
                 os.fsync(file.fileno())
         fresh.replace(path)
+        if sync:
+            _sync_folder(path.parent)
     except BaseException:
         fresh.unlink(missing_ok=True)
         raise
+
+
+def _sync_folder(folder: Path) -> None:
+    """Wait until the names in a folder would outlive a power failure."""
+    opened = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(opened)
+    finally:
+        os.close(opened)

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import io
 import os
+import warnings
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import h5py
 
+from tribo.core.errors import TriboWarning
 from tribo.results.journal import read_journal
 from tribo.results.seal import PAGE, NotSealedError, Seal, digest, page_count, read_seal
 
@@ -62,7 +64,15 @@ class SealedFile(io.RawIOBase):
 
     def _committed(self) -> tuple[Seal, Mapping[int, bytes]]:
         """Return the last seal, and the pages that do not stand in the file yet."""
-        journal = read_journal(self.path)
+        try:
+            journal = read_journal(self.path)
+        except NotSealedError as error:
+            warnings.warn(
+                f"{self.path}: {error}; what it held is lost, and the commit before it is read",
+                TriboWarning,
+                stacklevel=2,
+            )
+            journal = None
         try:
             seal = read_seal(self._file)
         except NotSealedError:
@@ -70,6 +80,8 @@ class SealedFile(io.RawIOBase):
                 raise
             return journal[1], journal[0]
         if journal is None or journal[1].identity != seal.identity:
+            return seal, {}
+        if journal[1].commit < seal.commit:
             return seal, {}
         return journal[1], journal[0]
 

@@ -65,7 +65,8 @@ def field(
         raise PluginError(
             f"{who} gave {what} that is not an array of shape {shape}: {_shown(values)}"
         )
-    array = plain.astype(np.float64, copy=False)
+    # Sums depend on the order in memory, and a checkpoint keeps but one.
+    array = np.asarray(plain, dtype=np.float64, order="C")
     low, high = (
         float(np.minimum.reduce(array, axis=None)),
         float(np.maximum.reduce(array, axis=None)),

@@ -172,4 +172,4 @@ def _not_finite(state: State) -> str | None:
 
 def _worst(first: float, second: float) -> float:
     """Return the larger of two, or NaN if the second is."""
-    return second if not second <= first else first
+    return first if first != first or second <= first else second
