@@ -3,6 +3,7 @@
 import json
 import os
 import signal
+import socket
 import time
 from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
@@ -214,5 +215,15 @@ def test_a_scheduler_that_does_not_answer_is_named():
     with (
         pytest.raises(CaseError, match=r"no scheduler answers at tcp://127.0.0.1:1 within 1 s"),
         on_scheduler("tcp://127.0.0.1:1", patience=1),
+    ):
+        pass
+
+
+def test_something_else_that_listens_is_no_scheduler():
+    pytest.importorskip("distributed", reason="dask.distributed is not installed")
+    with (
+        socket.create_server(("127.0.0.1", 0)) as silent,
+        pytest.raises(CaseError, match=r"no scheduler answers at .*something else may be"),
+        on_scheduler(f"tcp://127.0.0.1:{silent.getsockname()[1]}", patience=1),
     ):
         pass

@@ -8,6 +8,8 @@ import warnings
 from collections.abc import Iterator
 from concurrent.futures import Executor
 from contextlib import contextmanager
+from queue import Empty, Queue
+from threading import Thread
 from typing import Any
 
 from tribo.core.errors import CaseError, TriboWarning
@@ -32,14 +34,7 @@ def on_scheduler(address: str, patience: float = PATIENCE) -> Iterator[Executor]
     CaseError
         If dask is not installed, or the scheduler does not answer.
     """
-    distributed = _distributed()
-    try:
-        client = distributed.Client(address, timeout=patience)
-    except (OSError, TimeoutError, ValueError) as error:
-        raise CaseError(
-            f"no scheduler answers at {address} within {patience:g} s ({_reason(error)}); start "
-            "one with 'dask scheduler', and give the address that it prints"
-        ) from None
+    client = _connected(_distributed(), address, patience)
     with client:
         if not client.scheduler_info(n_workers=-1)["workers"]:
             warnings.warn(
@@ -69,6 +64,31 @@ def on_local_cluster(workers: int | None) -> Iterator[Executor]:
         distributed.Client(cluster) as client,
     ):
         yield client.get_executor(pure=False)
+
+
+def _connected(distributed: Any, address: str, patience: float) -> Any:
+    """Return a client; whatever answers at the address, and however, it does not take for ever."""
+    answer: Queue[Any] = Queue()
+
+    def connect() -> None:
+        try:
+            answer.put(distributed.Client(address, timeout=patience))
+        except Exception as error:
+            # What is no scheduler may answer anything, and dask raise anything of it.
+            answer.put(error)
+
+    # Dask's own time limit ends with the connection, not with the first answer.
+    Thread(target=connect, daemon=True).start()
+    try:
+        found = answer.get(timeout=patience + 1.0)
+    except Empty:
+        found = TimeoutError("something else may be listening there")
+    if isinstance(found, Exception):
+        raise CaseError(
+            f"no scheduler answers at {address} within {patience:g} s ({_reason(found)}); start "
+            "one with 'dask scheduler', and give the address that it prints"
+        ) from None
+    return found
 
 
 def _distributed() -> Any:
