@@ -142,10 +142,7 @@ def valid_cases():
     texts = [tribo.templates.template(name) for name in tribo.templates.TEMPLATES]
     texts += [path.read_text() for path in sorted(ROOT.glob("examples/*.toml"))]
     # Beside cases there are studies and measurements.
-    texts = [
-        text for text in texts if "bodies" in tomllib.loads(text) and "grid" in tomllib.loads(text)
-    ]
-    cases = [tomllib.loads(text) for text in texts]
+    cases = [case for case in map(tomllib.loads, texts) if {"bodies", "grid"} <= case.keys()]
     for contact in ("winkler", "periodic"):
         other = deepcopy(cases[0])
         other["contact"] = {"type": contact}
