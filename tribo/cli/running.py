@@ -17,8 +17,8 @@ from tribo.core.errors import TriboWarning
 if TYPE_CHECKING:
     from sys import UnraisableHookArgs
 
-AGAIN = 0.01
-"""In s."""
+AGAIN = 0.2
+"""Time by which the timer has been started, on a busy machine too, in s."""
 
 
 @contextmanager
