@@ -164,8 +164,8 @@ def test_a_worker_that_lacks_a_plugin_says_so(tmp_path):
     assert statuses(swept) == ["done", "failed"]
     message = swept.rows[1]["message"]
     assert (
-        "cannot compose this case: bodies.ball.wear.type: unknown wear law 'energy.dissipation'"
-        in message
+        "cannot compose this case: bodies.ball.wear.type: wear law 'energy.dissipation' cannot be "
+        "used: tribo-energy" in message
     )
     assert "validated with tribo 0.1.0, tribo-energy" in message
     assert statuses(sweep(path, executor=sweeps.Inline(), retry=True)) == ["done", "done"]
