@@ -9,6 +9,9 @@ SCRIPT = """
     from unittest import mock
     import tribo.cli.main as cli
 
+    # A shell starts what runs in the background with the signal ignored.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+
     class Thing:
         pass
 
