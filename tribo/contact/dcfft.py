@@ -11,7 +11,7 @@ from pydantic import Field
 
 from tribo.contact.bounded import solve_bounded
 from tribo.contact.box import Box, around, whole
-from tribo.contact.conditions import check_bearable
+from tribo.contact.conditions import check_window
 from tribo.contact.love import nyquist_compliance
 from tribo.contact.nested import coarsen, prolong
 from tribo.contact.operator import HalfSpace, Operator, WornOperator
@@ -57,9 +57,7 @@ class DcFft(ContactSolver[DcFftConfig]):
 
     def check(self, system: ContactSystem) -> None:
         """Raise `CaseError` if the window cannot bear the load at the pressure cap."""
-        cap = self._cap(system)
-        area = system.grid.size[0] * system.grid.size[1]
-        check_bearable(system.load, area, np.inf if cap is None else cap)
+        check_window(system.grid, system.load, self._cap(system))
 
     def solve(
         self, problem: ContactProblem, start: ContactSolution | None = None
@@ -69,9 +67,8 @@ class DcFft(ContactSolver[DcFftConfig]):
         Without `start`, grids of half the cells are solved first.
         """
         guess = None if start is None else start.pressure
-        grid, cap = problem.system.grid, self._cap(problem.system)
         # Before the window is cut down to a box, about which no message should speak.
-        check_bearable(problem.load, grid.size[0] * grid.size[1], np.inf if cap is None else cap)
+        check_window(problem.system.grid, problem.load, self._cap(problem.system))
         return self._solve(problem, guess, self.config.tolerance)
 
     def smallest_compliance(self, system: ContactSystem) -> float:

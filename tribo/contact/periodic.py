@@ -11,7 +11,7 @@ import scipy.fft
 from pydantic import Field
 
 from tribo.contact.bounded import solve_bounded
-from tribo.contact.conditions import check_bearable
+from tribo.contact.conditions import check_window
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactProblem, ContactSolution, ContactSystem
 from tribo.core.units import Quantity
@@ -100,9 +100,7 @@ class Periodic(ContactSolver[PeriodicConfig]):
 
     def check(self, system: ContactSystem) -> None:
         """Raise `CaseError` if the window cannot bear the load at the pressure cap."""
-        cap = self._cap(system)
-        area = system.grid.size[0] * system.grid.size[1]
-        check_bearable(system.load, area, np.inf if cap is None else cap)
+        check_window(system.grid, system.load, self._cap(system))
 
     def solve(
         self, problem: ContactProblem, start: ContactSolution | None = None
