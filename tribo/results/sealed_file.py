@@ -79,11 +79,11 @@ class SealedFile(io.RawIOBase):
             if journal is None:
                 raise
             return journal[1], journal[0]
-        if journal is None or journal[1].identity != seal.identity:
+        if journal is None:
             return seal, {}
-        if journal[1].commit < seal.commit:
-            return seal, {}
-        return journal[1], journal[0]
+        pages, later = journal
+        of_this_file = later.identity == seal.identity and later.commit >= seal.commit
+        return (later, pages) if of_this_file else (seal, {})
 
     @property
     def size(self) -> int:
