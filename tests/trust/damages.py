@@ -3,7 +3,6 @@
 PYTHONPATH=tests python -m trust.damages --count 1000 --seed 1
 """
 
-import argparse
 import os
 import random
 import signal
@@ -14,7 +13,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from click.testing import CliRunner
-from trust.trial import start, whole
+from trust.trial import command, start, whole
 
 from tribo import CaseError, Result
 from tribo.analysis.report import lab_report
@@ -145,15 +144,5 @@ def judge(path, expected, _):
     os._exit(HARMLESS if found == expected else WRONG)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--count", type=int, default=1000)
-    parser.add_argument("--seed", type=int, default=1)
-    given = parser.parse_args()
-    damages = damage_and_read(given.count, given.seed)
-    print(damages)
-    sys.exit(not damages.good)
-
-
 if __name__ == "__main__":
-    main()
+    command(__doc__, damage_and_read, 1000)

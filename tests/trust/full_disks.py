@@ -3,17 +3,15 @@
 PYTHONPATH=tests python -m trust.full_disks --count 40 --seed 1
 """
 
-import argparse
 import random
 import resource
 import subprocess
-import sys
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from trust.trial import contents, resume, run, same, start, whole
+from trust.trial import command, contents, resume, run, same, start, whole
 
 from tribo import Result
 
@@ -108,16 +106,5 @@ def small_disk(folder, room):
         subprocess.run(["umount", str(folder)], check=True)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--count", type=int, default=40)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--tmpfs", action="store_true", help="on a small tmpfs, as root")
-    given = parser.parse_args()
-    disks = fill_and_resume(given.count, given.seed, tmpfs=given.tmpfs)
-    print(disks)
-    sys.exit(not disks.good)
-
-
 if __name__ == "__main__":
-    main()
+    command(__doc__, fill_and_resume, 40, tmpfs="on a small tmpfs, as root")

@@ -3,7 +3,6 @@
 PYTHONPATH=tests python -m trust.kills --count 100 --seed 1
 """
 
-import argparse
 import os
 import random
 import sys
@@ -13,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from trust.trial import contents, dying, resume, run, same, start, whole
+from trust.trial import command, contents, dying, resume, run, same, start, whole
 
 from tribo import CaseError, Result
 from tribo.results.checkpoint import checkpoint_path, previous_path
@@ -147,15 +146,5 @@ def _readable(path):
     return True
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--count", type=int, default=100)
-    parser.add_argument("--seed", type=int, default=1)
-    given = parser.parse_args()
-    kills = kill_and_resume(given.count, given.seed)
-    print(kills)
-    sys.exit(not kills.good)
-
-
 if __name__ == "__main__":
-    main()
+    command(__doc__, kill_and_resume, 100)

@@ -1,5 +1,6 @@
 """The run that the trials are made with, and how one of them is watched."""
 
+import argparse
 import os
 import signal
 import sys
@@ -175,3 +176,15 @@ def whole(folder):
     code, _ = start(run, path).wait()
     assert code == 0
     return path
+
+
+def command(about, trial, count, **switches):
+    """Make a trial from the command line; `switches` has what each of its options means."""
+    parser = argparse.ArgumentParser(description=about)
+    parser.add_argument("--count", type=int, default=count)
+    parser.add_argument("--seed", type=int, default=1)
+    for name, meaning in switches.items():
+        parser.add_argument(f"--{name}", action="store_true", help=meaning)
+    done = trial(**vars(parser.parse_args()))
+    print(done)
+    sys.exit(not done.good)
