@@ -94,7 +94,7 @@ def _snapshot(time, bodies, plastic, power, shape):
         increment=1.0,
         reference_depth=1e-6,
     )
-    width, breadth = half_widths(pressure, GRID)
+    width, breadth = half_widths(state.contact, GRID)
     return Snapshot(
         state,
         Measures(

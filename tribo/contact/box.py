@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tribo.core.arrays import Array, Mask
+from tribo.core.arrays import Array, Mask, Region, bounds
 
 _SMALLEST = 8
 
@@ -53,12 +53,19 @@ def whole(window: tuple[int, int]) -> Box:
 
 
 def around(cells: Mask, margin: int) -> Box:
-    """Return a box of few distinct sizes around the set cells of a window.
+    """Return a box of few distinct sizes around the set cells of a window; as `around_region`."""
+    return around_region(bounds(cells), (cells.shape[0], cells.shape[1]), margin)
+
+
+def around_region(region: Region, window: tuple[int, int], margin: int) -> Box:
+    """Return a box of few distinct sizes around a region of a window.
 
     Parameters
     ----------
-    cells : ndarray of bool, shape of the window
-        Cells to enclose; the whole window is returned when there are none.
+    region : tuple of slice
+        Cells to enclose; the whole window is returned for an empty region.
+    window : tuple of int
+        Cells of the window along x and y.
     margin : int
         Cells to add on each side, at least.
 
@@ -68,18 +75,16 @@ def around(cells: Mask, margin: int) -> Box:
         Its edge lengths are {4, 5, 6, 7}·2^k, so that transforms are fast and
         kernels are used again, or the window's.
     """
-    window = (cells.shape[0], cells.shape[1])
-    if not cells.any():
+    rows, columns = region
+    if rows.start == rows.stop:
         return whole(window)
-    i, nx = _span(np.any(cells, axis=1), margin)
-    j, ny = _span(np.any(cells, axis=0), margin)
+    i, nx = _widened(rows, window[0], margin)
+    j, ny = _widened(columns, window[1], margin)
     return Box((i, j), (nx, ny), window)
 
 
-def _span(lines: Mask, margin: int) -> tuple[int, int]:
-    count = lines.size
-    index = np.flatnonzero(lines)
-    low, high = int(index[0]) - margin, int(index[-1]) + 1 + margin
+def _widened(lines: slice, count: int, margin: int) -> tuple[int, int]:
+    low, high = lines.start - margin, lines.stop + margin
     length = _rounded(high - low)
     if length >= count:
         return 0, count

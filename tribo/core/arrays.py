@@ -1,4 +1,4 @@
-"""The one array type, and how values become read-only."""
+"""The one array type, parts of it, and how values become read-only."""
 
 from __future__ import annotations
 
@@ -8,9 +8,33 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
+Region = tuple[slice, slice]
+"""Rows and columns of an array."""
+
 
 def readonly(array: Array) -> Array:
     """Return a view of `array` that cannot be written to."""
     view = array.view()
     view.flags.writeable = False
     return view
+
+
+def span(line: Mask) -> slice:
+    """Return where `line` is set, from the first to the last; empty if nowhere."""
+    index = np.flatnonzero(line)
+    return slice(int(index[0]), int(index[-1]) + 1) if index.size else slice(0, 0)
+
+
+def bounds(cells: Mask) -> Region:
+    """Return the smallest region with all cells of `cells` that are set; empty if none is."""
+    rows = span(np.asarray(cells.any(axis=1)))
+    return rows, span(np.asarray(cells[rows].any(axis=0)))
+
+
+def union(first: Region, second: Region) -> Region:
+    """Return the smallest region with all of two others."""
+    (a, b), (c, d) = first, second
+    return (
+        slice(min(a.start, c.start), max(a.stop, c.stop)),
+        slice(min(b.start, d.start), max(b.stop, d.stop)),
+    )

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
-from tribo.core.arrays import Array
+from tribo.core.arrays import Array, Region, bounds
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 
@@ -152,3 +153,8 @@ class ContactSolution:
     overlap: Array
     iterations: int
     residuals: Residuals
+
+    @cached_property
+    def extent(self) -> Region:
+        """The smallest part of the window with all cells under pressure."""
+        return bounds(self.pressure > 0)

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from tribo.core.arrays import Array, Mask
-from tribo.core.contact import Residuals
+from tribo.core.arrays import Array, Mask, span
+from tribo.core.contact import ContactSolution, Residuals
 from tribo.core.grid import Grid
 
 
@@ -71,14 +71,11 @@ def centre(field: Array) -> float:
     return float(np.mean(middle))
 
 
-def half_widths(pressure: Array, grid: Grid) -> tuple[float, float]:
+def half_widths(contact: ContactSolution, grid: Grid) -> tuple[float, float]:
     """Half the extent of {p > 0} along x and along y, in m."""
-    touching: Mask = pressure > 0
-    along, across = np.any(touching, axis=1), np.any(touching, axis=0)
-    return (
-        0.5 * extent(np.asarray(along)) * grid.spacing[0],
-        0.5 * extent(np.asarray(across)) * grid.spacing[1],
-    )
+    along, across = contact.extent
+    dx, dy = grid.spacing
+    return 0.5 * (along.stop - along.start) * dx, 0.5 * (across.stop - across.start) * dy
 
 
 def contact_area(pressure: Array, grid: Grid) -> float:
@@ -94,5 +91,5 @@ def reaches_border(pressure: Array) -> bool:
 
 def extent(touching: Mask) -> int:
     """Return the number of entries from the first to the last that is set."""
-    index = np.flatnonzero(touching)
-    return int(index[-1] - index[0] + 1) if index.size else 0
+    found = span(touching)
+    return int(found.stop - found.start)

@@ -20,7 +20,7 @@ SHRINK, GROW = 0.2, 2.5
 def first_increment(model: Model, state: State, remaining: float) -> float:
     """Return a first increment that wears a small part of the elastic approach, in m."""
     moment = Moment(state.time, state.distance, remaining / (model.end_time - state.time))
-    rates = wear_rates(model, state.contact.pressure, law_states(state), moment)
+    rates = wear_rates(model, state.contact, law_states(state), moment)
     fastest = max((float(np.max(rate.depth)) for rate in rates.values()), default=0.0)
     part = FIRST * state.reference_depth
     # Two flats that repeat have no approach, and wear evenly.

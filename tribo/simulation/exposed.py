@@ -43,8 +43,12 @@ class CheckedExposure(Exposure):
 
     def average(self, rate: Array) -> Array:
         """Return the rate each point of the body sees, on its own surface."""
+        asked = readonly(rate)
         with calling(self._motion):
-            answer = self._asked.average(readonly(rate))
+            answer = self._asked.average(asked)
+        if answer is asked and not self.swept:
+            # What was held to the contract as a law's answer.
+            return asked
         average, least, _ = answers.field(self._who, "an average", answer, self._own)
         if least < 0 <= np.min(rate):
             raise PluginError(
@@ -66,14 +70,17 @@ class CheckedExposure(Exposure):
 
     def compliance(self, derivative: Array, pressure: Array) -> WearCompliance | None:
         """Return the wear per metre of sliding as a compliance, or None."""
+        asked = readonly(derivative)
         with calling(self._motion):
-            answer = self._asked.compliance(readonly(derivative), readonly(pressure))
+            answer = self._asked.compliance(asked, readonly(pressure))
         if answer is None:
             return None
         if not isinstance(answer, WearCompliance):
             kind = type(answer).__name__
             raise PluginError(f"{self._who} gave a {kind} instead of a WearCompliance")
-        local, least, _ = answers.field(self._who, "a local compliance", answer.local, self._cells)
+        local, least = answer.local, 0.0
+        if local is not asked:
+            local, least, _ = answers.field(self._who, "a local compliance", local, self._cells)
         swept, lowest, _ = answers.field(
             self._who, "a swept compliance", answer.swept, self._cells[1:]
         )

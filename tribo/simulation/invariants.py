@@ -13,7 +13,7 @@ from math import isfinite
 import numpy as np
 
 from tribo.config.stepping import ExplicitConfig
-from tribo.core.arrays import Array
+from tribo.core.arrays import Array, union
 from tribo.core.errors import NumericalError
 from tribo.core.fields import WearRate
 from tribo.core.measures import Invariants
@@ -90,8 +90,10 @@ def hold(model: Model, before: State | None, after: State) -> State:
     if before is not None:
         after = replace(after, previous=before.contact.pressure)
         if before.previous is not None:
+            # Where neither of the last two presses, nothing comes back.
+            near = union(before.contact.extent, after.contact.extent)
             pressures = before.previous, before.contact.pressure, after.contact.pressure
-            share = handed_back(*pressures)
+            share = handed_back(*(pressure[near] for pressure in pressures))
             after = replace(after, invariants=replace(after.invariants, chattering=share))
     broken = broken_by(after)
     if broken is None and chatters(after) and not _may_chatter(model):

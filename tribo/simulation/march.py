@@ -79,12 +79,13 @@ def march(model: Model, state: State) -> Iterator[Accepted]:
             state = hold(model, state, _step_towards(model, state, stop))
             _check_window(model, state)
             state = _noticed(model, state)
-            worn_out = model.stop.depth is not None and _depth(model, state) >= model.stop.depth
+            limit = model.stop.depth
+            worn_out = limit is not None and _depth(model, state) >= limit
             last = worn_out or state.time >= model.end_time
-            if worn_out and state.time < model.end_time:
+            if limit is not None and worn_out and state.time < model.end_time:
                 text = (
                     f"stop: ended at {state.time:.6g} s, where the wear depth reached "
-                    f"{1e6 * _depth_limit(model):.4g} µm"
+                    f"{1e6 * limit:.4g} µm"
                 )
                 state = replace(state, notices=(*state.notices, text))
             save = last or state.time >= stop
@@ -183,8 +184,10 @@ def _stop_at_depth(
     time: float,
 ) -> State:
     """Take a step, or the part of it that just wears to the depth where the run ends."""
-    limit = _depth_limit(model)
     after = step(model, state, increment, time)
+    if model.stop.depth is None:
+        return after
+    limit = model.stop.depth
     low, high = 0.0, increment
     depth_low, depth_high = _depth(model, state), _depth(model, after)
     if depth_high <= limit:
@@ -207,10 +210,6 @@ def _stop_at_depth(
 def _depth(model: Model, state: State) -> float:
     names = list(state.bodies) if model.stop.body is None else [model.stop.body]
     return max(float(np.max(state.bodies[name].wear)) for name in names)
-
-
-def _depth_limit(model: Model) -> float:
-    return model.stop.depth if model.stop.depth is not None else np.inf
 
 
 def _check_time_step(model: Model, config: ExplicitConfig, state: State) -> None:
@@ -252,7 +251,7 @@ def _check_stability(model: Model, state: State, moment: Moment) -> None:
 def _check_window(model: Model, state: State) -> None:
     if model.may_reach_edge or not reaches_border(state.contact.pressure):
         return
-    width, breadth = half_widths(state.contact.pressure, model.grid)
+    width, breadth = half_widths(state.contact, model.grid)
     raise NumericalError(
         f"at {state.time:.6g} s ({state.distance:.6g} m) the contact, "
         f"{2e3 * width:.3g} × {2e3 * breadth:.3g} mm, reached the edge of the window of "
@@ -270,8 +269,7 @@ def _track_changes(model: Model) -> bool:
 
 def _noticed(model: Model, state: State) -> State:
     """Add to the state the warnings that are due and were not given before."""
-    pressure = state.contact.pressure
-    width, breadth = half_widths(pressure, model.grid)
+    width, breadth = half_widths(state.contact, model.grid)
     due = []
     limitation = averaging_limit(model.kinematics, model.grid, width)
     if limitation is not None and _track_changes(model):

@@ -12,7 +12,8 @@ from tribo.simulation.model import Model
 def measure(model: Model, state: State) -> Measures:
     """Return the scalars of `state` that are recorded at every step."""
     pressure = state.contact.pressure
-    width, breadth = half_widths(pressure, model.grid)
+    touched = pressure[state.contact.extent]
+    width, breadth = half_widths(state.contact, model.grid)
     bodies = {
         name: BodyMeasures(
             max_wear_depth=float(np.max(body.wear)),
@@ -25,11 +26,11 @@ def measure(model: Model, state: State) -> Measures:
     return Measures(
         time=state.time,
         distance=state.distance,
-        max_pressure=float(np.max(pressure)),
+        max_pressure=float(np.max(touched)),
         centre_pressure=centre(pressure),
         half_width_x=width,
         half_width_y=breadth,
-        area=contact_area(pressure, model.grid),
+        area=contact_area(touched, model.grid),
         approach=state.contact.approach,
         residuals=state.contact.residuals,
         contact_solves=state.contact_solves,

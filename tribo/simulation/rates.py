@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tribo.contact.box import around, whole
+from tribo.contact.box import around_region, whole
 from tribo.core.arrays import Array, readonly
+from tribo.core.contact import ContactSolution
 from tribo.core.errors import PluginError
 from tribo.core.fields import FRICTION_COEFFICIENT, ContactConditions, LocalConditions, WearRate
 from tribo.core.state import State
@@ -46,7 +47,7 @@ def law_states(state: State) -> LawStates:
 
 
 def wear_rates(
-    model: Model, pressure: Array, law_states: LawStates, moment: Moment
+    model: Model, contact: ContactSolution, law_states: LawStates, moment: Moment
 ) -> dict[str, WearRate]:
     """Return the rate of every body that wears, in the contact frame.
 
@@ -54,8 +55,8 @@ def wear_rates(
     ----------
     model : Model
         The composed case.
-    pressure : ndarray, shape (nx, ny)
-        In Pa.
+    contact : ContactSolution
+        The pressure.
     law_states : Mapping[str, Mapping[str, ndarray]]
         State fields of each body's law, on the body's surface.
     moment : Moment
@@ -68,10 +69,10 @@ def wear_rates(
         right shape, or a law with a depth that is negative, or not 0 where
         the pressure is.
     """
-    pressure = readonly(pressure)
+    pressure = readonly(contact.pressure)
     fields = _effect_fields(model, pressure, moment)
     everywhere = whole(model.grid.cells)
-    near = around(pressure > 0, MARGIN)
+    near = around_region(contact.extent, model.grid.cells, MARGIN)
     rates = {}
     for body in model.bodies:
         if body.wear is None:

@@ -127,7 +127,7 @@ def implicit_step(
     rates: Mapping[str, WearRate] = state.rates
     while True:
         if implied is not None or not rates:
-            rates = wear_rates(model, solution.pressure, law, moment)
+            rates = wear_rates(model, solution, law, moment)
         worn = _worn(model, rates, increment)
         settled = _advanced(model, before, rates, increment)
         depth = _total(model, worn)
@@ -202,7 +202,7 @@ def rated(model: Model, state: State, moment: Moment) -> State:
     """Return `state` with the rates of its contact, asked for unless it has them."""
     if state.rates:
         return state
-    rates = wear_rates(model, state.contact.pressure, law_states(state), moment)
+    rates = wear_rates(model, state.contact, law_states(state), moment)
     return replace(state, rates=rates)
 
 
@@ -217,11 +217,12 @@ def largest_stable_increment(model: Model, state: State, moment: Moment) -> floa
     smallest = smallest_compliance(model.contact, model.system)
     if smallest is None:
         return None
-    pressure = state.contact.pressure
+    pressure, near = state.contact.pressure, state.contact.extent
     compliance = _compliance(model, rated(model, state, moment).rates, pressure, 1.0)
-    touching = pressure > 0
+    touching = pressure[near] > 0
     length = np.count_nonzero(touching, axis=0) * model.grid.spacing[0]
-    slope = float(compliance.local[touching].max()) + float((compliance.swept * length).max())
+    local = float(np.max(compliance.local[near], where=touching, initial=0.0))
+    slope = local + float((compliance.swept[near[1]] * length).max())
     return 2 * smallest / slope if slope > 0 else np.inf
 
 

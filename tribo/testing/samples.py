@@ -261,7 +261,7 @@ def expect_volume_balance(model: Model) -> None:
     for before, after in steps(model):
         increment = after.distance - before.distance
         moment = Moment(after.time, after.distance, increment / (after.time - before.time))
-        rates = wear_rates(model, after.contact.pressure, law_states(after), moment)
+        rates = wear_rates(model, after.contact, law_states(after), moment)
         for name, rate in rates.items():
             needed = increment * float(np.sum(rate.depth)) * model.grid.cell_area
             volume = model.exposures[name].volume
