@@ -10,25 +10,38 @@ _NAME = re.compile(r"^Name:\s*(\S+)", re.MULTILINE)
 _VERSION = re.compile(r"^Version:\s*(\S+)", re.MULTILINE)
 
 
-def with_entry_points() -> Iterator[tuple[metadata.Distribution, list[metadata.EntryPoint]]]:
+def with_entry_points(
+    mention: str = "",
+) -> Iterator[tuple[metadata.Distribution, list[metadata.EntryPoint]]]:
     """Yield every distribution that has entry points; of a name twice, the one found first.
 
     One whose metadata cannot be read is passed over.
+
+    Parameters
+    ----------
+    mention : str, optional
+        Text that its entry points must have somewhere: to parse those of everything installed
+        would take most of composing a run.
     """
-    seen: set[str] = set()
     for distribution in metadata.distributions():
         try:
-            points = list(distribution.entry_points)
-            if not points:
+            text = distribution.read_text("entry_points.txt")
+            if not text or mention not in text or not _is_found(distribution):
                 continue
-            # To parse the metadata of everything installed would take most of composing a run.
-            text = metadata_text(distribution)
+            points = list(distribution.entry_points)
         except Exception:
             continue
-        name, version = _NAME.search(text), _VERSION.search(text)
-        if name and version and name[1] not in seen:
-            seen.add(name[1])
-            yield distribution, points
+        yield distribution, points
+
+
+def _is_found(distribution: metadata.Distribution) -> bool:
+    """Return whether it is the one that is found by its name; it needs a version too."""
+    text = metadata_text(distribution)
+    name, version = _NAME.search(text), _VERSION.search(text)
+    if not (name and version):
+        return False
+    found = metadata.distribution(name[1])
+    return (metadata_text(found), found.locate_file("")) == (text, distribution.locate_file(""))
 
 
 def metadata_text(distribution: metadata.Distribution) -> str:

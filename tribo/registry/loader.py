@@ -77,7 +77,7 @@ def installed() -> list[Source]:
     of this version: then it is incompatible.
     """
     found: list[Source] = []
-    for distribution, points in with_entry_points():
+    for distribution, points in with_entry_points("tribo.v"):
         ours = [point for point in points if is_group(point.group)]
         if ours:
             found += _sources(distribution.name, distribution.version, ours)
