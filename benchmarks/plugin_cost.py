@@ -1,35 +1,26 @@
 """What the plugin layer adds to a run, as ratios against direct calls.
 
-The same run is made in three ways, by turns:
+composition
+    What a run from its case takes before the first step (registry made anew, entry
+    points read, hooks called, configuration validated, names looked up) less what it
+    takes to make the same objects directly and join them with `assemble`.
+checks
+    What holding every answer to the contract, naming who raises and keeping arrays from
+    being written to adds to the steps: two runs of the same case, one with and one
+    without, are taken step by step in turns, so that both meet the same machine.
 
-composed
-    from its case, with the registry made anew: entry points read, hooks
-    called, the configuration validated, names looked up;
-joined
-    from objects that are made directly and joined with `assemble`;
-unchecked
-    as joined, but every component is called as it is: nothing holds its
-    answers to the contract, names it where it raises, or keeps its arrays
-    from being written to.
+Both are in per cent of the run without either, an observer that does nothing included.
+Each figure is the median over the repeats with its 95 % confidence interval, which needs
+at least six; the clock is the CPU time of the process.
 
-*Composition* is composed over joined, *checks* is joined over unchecked, and
-*all* is composed over unchecked. All three solve the same steps. What counts
-is the processor time of the process, all threads together: each ratio is the
-median of those of single turns, with their smallest and largest, beside the
-ratio of the fastest runs, which other work on the machine disturbs least. Two
-equal runs differ by some per cent on a busy machine: what the spread does not
-tell apart from 1 is not measured. What takes place before the run, composing, is timed apart too.
-
-Run it with ``python benchmarks/plugin_cost.py [--case CASE] [--cells 256] [--repeats 7] [--json]``.
-A case that names an installed plugin shows what that costs: once in a process of
-its own, unless it was found to import before; ``XDG_CACHE_HOME=$(mktemp -d)``
-makes the first repeat find it out.
+Run it with ``python benchmarks/plugin_cost.py``. A case that names an installed plugin shows
+what that costs: once in a process of its own, unless it was found to import before;
+``XDG_CACHE_HOME=$(mktemp -d)`` makes the first repeat find it out.
 """
 
 from __future__ import annotations
 
 import argparse
-import json
 import statistics
 import time
 import tomllib
@@ -37,26 +28,32 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, nullcontext
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar, Literal
 from unittest.mock import patch
 
 import numpy as np
+from common import Row, Tables, main
+from scipy.stats import quantile_test
 
 from tribo import Simulation
+from tribo.core.state import RunInfo, Snapshot
 from tribo.interfaces.component import Component
+from tribo.interfaces.observer import Observer, ObserverConfig
 from tribo.registry.registry import default_registry
 from tribo.simulation import exposed, motion, rates, solving, watching
+from tribo.simulation.march import begin, march
+from tribo.simulation.measure import measure as scalars
 from tribo.simulation.model import Body, Model, assemble
 from tribo.templates import template
 
 
-def composed(data: dict[str, Any], model: Model) -> Simulation:
+def composed(data: dict[str, Any]) -> Simulation:
     """Return the case, composed through a new registry."""
     default_registry.cache_clear()
     return Simulation(data)
 
 
-def joined(data: dict[str, Any], model: Model) -> Simulation:
+def joined(model: Model) -> Simulation:
     """Return the same case, made of objects of the classes that `model` is made of."""
     return Simulation(
         assemble(
@@ -109,81 +106,91 @@ def unchecked() -> Iterator[None]:
         yield
 
 
-def seconds(make: Callable[[], Simulation]) -> tuple[float, float, int]:
-    """Return how long it takes to make a simulation, to make and run it, and its steps."""
+class IdleConfig(ObserverConfig):
+    """Nothing to set."""
+
+    type: Literal["idle"] = "idle"
+
+
+class Idle(Observer[IdleConfig]):
+    """Looks on."""
+
+    Config: ClassVar[type[IdleConfig]] = IdleConfig
+
+
+def steps(model: Model) -> Iterator[int]:
+    """Run, and pause after the first contact and after each step."""
+    audience = watching.Audience((Idle(IdleConfig()),))
+    state = begin(model)
+    yield 0
+    for accepted in march(model, state):
+        snapshot = Snapshot(accepted.state, scalars(model, accepted.state))
+        audience.step(snapshot, save=accepted.save)
+        yield accepted.state.steps
+
+
+def seconds(make: Callable[[], object]) -> tuple[float, Any]:
+    """Return the processor time of a call, and what it returns."""
     begun = time.process_time()
-    simulation = make()
-    made = time.process_time() - begun
-    with simulation.run() as result:
-        return made, time.process_time() - begun, result.totals()["steps"]
+    made = make()
+    return time.process_time() - begun, made
 
 
-def measure(data: dict[str, Any], repeats: int) -> dict[str, Any]:
-    """Return the ratios of the repeats, and what the ways to make a simulation take."""
+def in_turns(checked: Model, plain: Model) -> tuple[float, float, int]:
+    """Return the seconds of a run that is checked, of one that is not, and their steps."""
+    runs = {"checked": steps(checked), "plain": steps(plain)}
+    spent = dict.fromkeys(runs, 0.0)
+    count = 0
+    while True:
+        # Each goes first as often as the other: what one leaves in the caches favours none.
+        for way in sorted(runs, reverse=count % 2 == 1):
+            with unchecked() if way == "plain" else UNGUARDED:
+                time_spent, step = seconds(lambda way=way: next(runs[way], None))
+            spent[way] += time_spent
+        if step is None:
+            return spent["checked"], spent["plain"], count - 1
+        count += 1
+
+
+def measure(options: argparse.Namespace) -> Tables:
+    """Return what composition, checks and both add."""
+    data = tomllib.loads(options.case.read_text() if options.case else template("ball_on_disk"))
+    data["grid"]["cells"] = options.cells
     model = Simulation(data).model
-    times: dict[str, list[tuple[float, float, int]]] = {
-        "composed": [],
-        "joined": [],
-        "unchecked": [],
-    }
-    for repeat in range(repeats):
-        # Each goes first as often as the others: what warms up in between favours none.
-        for turn in range(3):
-            way = list(times)[(repeat + turn) % 3]
-            with unchecked() if way == "unchecked" else UNGUARDED:
-                make = composed if way == "composed" else joined
-                times[way].append(seconds(lambda make=make: make(data, model)))
-    (steps,) = {steps for runs in times.values() for _, _, steps in runs}
-    whole = {way: [run for _, run, _ in runs] for way, runs in times.items()}
-    making = {way: statistics.median(made for made, _, _ in runs) for way, runs in times.items()}
+    added: dict[str, list[float]] = {"composition": [], "checks": [], "both": []}
+    runs = []
+    for _ in range(options.repeats):
+        composing, made = seconds(lambda: composed(data))
+        with unchecked():
+            joining, direct = seconds(lambda: joined(model))
+        checked, plain, count = in_turns(made.model, direct.model)
+        runs.append(joining + plain)
+        added["composition"].append((composing - joining) / runs[-1])
+        added["checks"].append((checked - plain) / runs[-1])
+        added["both"].append(added["composition"][-1] + added["checks"][-1])
+    about = f"What the plugin layer adds to a run of {count} steps on {options.cells}² cells"
+    run = statistics.median(runs)
+    return {about: [_row(part, ratios, run) for part, ratios in added.items()]}
+
+
+def _row(part: str, ratios: list[float], run: float) -> Row:
+    percent = [100 * ratio for ratio in ratios]
+    between = quantile_test(percent, q=0.0, p=0.5).confidence_interval(0.95)
+    middle = statistics.median(percent)
     return {
-        "steps": steps,
-        "run_s": statistics.median(whole["unchecked"]),
-        "composition": _spread(whole["composed"], whole["joined"]),
-        "checks": _spread(whole["joined"], whole["unchecked"]),
-        "all": _spread(whole["composed"], whole["unchecked"]),
-        "making_added_s": making["composed"] - making["unchecked"],
+        "part": part,
+        "percent": middle,
+        "low": float(between.low),
+        "high": float(between.high),
+        "ms": 10 * middle * run,
     }
 
 
-def _spread(dividends: list[float], divisors: list[float]) -> dict[str, float]:
-    ratios = [a / b for a, b in zip(dividends, divisors, strict=True)]
-    return {
-        "min": min(ratios),
-        "median": statistics.median(ratios),
-        "max": max(ratios),
-        "fastest": min(dividends) / min(divisors),
-    }
-
-
-def main() -> None:
-    """Print the median ratios and their spread."""
-    parser = argparse.ArgumentParser(description="What the plugin layer adds to a run.")
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add this benchmark's own options."""
     parser.add_argument("--case", type=Path, help="a case file; the paper's if left out")
     parser.add_argument("--cells", type=int, default=256)
-    parser.add_argument("--repeats", type=int, default=7)
-    parser.add_argument("--json", action="store_true")
-    chosen = parser.parse_args()
-    data = tomllib.loads(chosen.case.read_text() if chosen.case else template("ball_on_disk"))
-    data["grid"]["cells"] = chosen.cells
-    found = {
-        "cells": chosen.cells,
-        "repeats": chosen.repeats,
-        **measure(data, chosen.repeats),
-    }
-    if chosen.json:
-        print(json.dumps(found, indent=2))
-        return
-    words = {"composition": "composing the run", "checks": "checking answers", "all": "both"}
-    for part, what in words.items():
-        low, middle, high, fastest = (
-            100 * (found[part][end] - 1) for end in ("min", "median", "max", "fastest")
-        )
-        print(f"{what:18} {middle:6.2f} % ({low:.2f} to {high:.2f} %; fastest {fastest:.2f} %)")
-    print(f"of {found['run_s']:.2f} s, {found['steps']} steps on {chosen.cells}² cells")
-    added = found["making_added_s"]
-    print(f"composing takes {1e3 * added:.1f} ms, {100 * added / found['run_s']:.2f} % of the run")
 
 
 if __name__ == "__main__":
-    main()
+    main(__doc__, add_options, measure)
