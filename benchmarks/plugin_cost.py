@@ -36,7 +36,7 @@ from common import Row, Tables, main
 from scipy.stats import quantile_test
 
 from tribo import Simulation
-from tribo.core.state import RunInfo, Snapshot
+from tribo.core.state import Snapshot
 from tribo.interfaces.component import Component
 from tribo.interfaces.observer import Observer, ObserverConfig
 from tribo.registry.registry import default_registry
@@ -168,12 +168,12 @@ def measure(options: argparse.Namespace) -> Tables:
         added["composition"].append((composing - joining) / runs[-1])
         added["checks"].append((checked - plain) / runs[-1])
         added["both"].append(added["composition"][-1] + added["checks"][-1])
-    about = f"What the plugin layer adds to a run of {count} steps on {options.cells}² cells"
-    run = statistics.median(runs)
-    return {about: [_row(part, ratios, run) for part, ratios in added.items()]}
+    run = {"cells": options.cells, "steps": count, "run_ms": 1e3 * statistics.median(runs)}
+    rows = [_row(part, ratios, run) for part, ratios in added.items()]
+    return {"What the plugin layer adds to a run": rows}
 
 
-def _row(part: str, ratios: list[float], run: float) -> Row:
+def _row(part: str, ratios: list[float], run: Row) -> Row:
     percent = [100 * ratio for ratio in ratios]
     between = quantile_test(percent, q=0.0, p=0.5).confidence_interval(0.95)
     middle = statistics.median(percent)
@@ -182,7 +182,8 @@ def _row(part: str, ratios: list[float], run: float) -> Row:
         "percent": middle,
         "low": float(between.low),
         "high": float(between.high),
-        "ms": 10 * middle * run,
+        "ms": middle / 100 * run["run_ms"],
+        **run,
     }
 
 
