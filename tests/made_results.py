@@ -6,6 +6,7 @@ from tribo.core.contact import ContactSolution, ContactSystem, Residuals
 from tribo.core.grid import Grid
 from tribo.core.measures import BodyMeasures, Measures, centre, contact_area, half_widths
 from tribo.core.state import BodyInfo, BodyState, RunInfo, Snapshot, State
+from tribo.results.guarded import GuardedFile
 from tribo.results.provenance import provenance
 from tribo.results.read import Result
 from tribo.results.store import ResultWriter
@@ -58,7 +59,7 @@ def made(
         writer.append_step(snapshot.measures)
         writer.append_save(snapshot)
     writer.finish(status, 1.0)
-    return Result(writer.file, "made")
+    return Result(GuardedFile(writer.file, "made"))
 
 
 def half_width(time):

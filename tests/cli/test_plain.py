@@ -13,7 +13,7 @@ from tribo.results.seal import write_sealed
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("plain")
-    file = made()._file
+    file = made()._file.file
     file.flush()
     image = file.id.get_file_image()
     write_sealed(folder / "x.h5", image, identity=bytes(16), sync=False)

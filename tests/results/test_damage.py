@@ -1,5 +1,6 @@
 """A damaged result says what of it is lost, and gives the rest."""
 
+import json
 import os
 import subprocess
 import sys
@@ -13,8 +14,16 @@ from paper_models import archard, flat, motion, small, sphere, steel
 from tribo import Body, CaseError, Grid, Interrupted, Result, Simulation
 from tribo.core.errors import OutputError, TriboWarning
 from tribo.interfaces.observer import Observer, ObserverConfig
-from tribo.results.checkpoint import checkpoint_path, previous_path
+from tribo.results.checkpoint import (
+    checkpoint_path,
+    previous_path,
+    read_checkpoint,
+    write_checkpoint,
+)
 from tribo.results.columns import COLUMNS
+from tribo.results.store import read_text, write_text
+from tribo.simulation.describe import describe
+from tribo.simulation.march import begin
 
 
 @pytest.fixture(scope="module")
@@ -99,7 +108,7 @@ def test_a_file_that_is_cut_short_says_so(sound, tmp_path):
     path.write_bytes(sound.read_bytes()[:-1])
     done = show(path)
     assert done.returncode == 2
-    assert "is not a whole tribo result" in done.stderr
+    assert "is not a whole tribo file" in done.stderr
 
 
 def test_a_claim_of_more_than_the_file_can_hold_takes_no_memory(sound, tmp_path):
@@ -109,6 +118,45 @@ def test_a_claim_of_more_than_the_file_can_hold_takes_no_memory(sound, tmp_path)
         file["bodies/ball/wear_depth"].resize(10**9, axis=0)
     with Result.open(path) as result, pytest.raises(CaseError, match="more than the file holds"):
         result.body("ball")
+
+
+def test_a_text_is_no_larger_than_the_file_either(sound, tmp_path):
+    path = tmp_path / "claims.h5"
+    path.write_bytes(sound.read_bytes())
+    with edited(path) as file:
+        del file["case"]
+        file.create_dataset("case", shape=(10**12,), chunks=(4096,), dtype="u1")
+    with Result.open(path) as result, pytest.raises(CaseError, match=r"'case'.*the file holds"):
+        _ = result.case
+
+
+def larger(file):
+    del file["pressure"]
+    file.create_dataset("pressure", shape=(10**6, 10**6), chunks=(64, 64), dtype="f8")
+
+
+def of_another_version(file):
+    scalars = json.loads(read_text(file, "scalars"))
+    scalars["invariants"]["unheard_of"] = 1.0
+    del file["scalars"], file["scalars_bytes"]
+    write_text(file, "scalars", json.dumps(scalars))
+
+
+@pytest.mark.parametrize(
+    ("change", "words"), [(larger, "the file holds"), (of_another_version, "unheard_of")]
+)
+def test_a_checkpoint_that_cannot_be_is_not_gone_on_with(sound, tmp_path, change, words):
+    path = tmp_path / "run.h5"
+    path.write_bytes(sound.read_bytes())
+    with edited(path) as file:
+        file.attrs["status"] = "interrupted"
+    case = describe(model())
+    write_checkpoint(path, begin(model()), 0.0, case)
+    assert read_checkpoint(path, case)[0].steps == 0
+    with edited(checkpoint_path(path)) as file:
+        change(file)
+    with pytest.raises(CaseError, match=rf"no checkpoint to resume from: .*{words}.*tribo run"):
+        Simulation(model()).resume(path)
 
 
 def test_a_result_left_open_does_no_harm_at_the_end(sound):
@@ -144,7 +192,9 @@ def flip(path, at):
 @pytest.mark.parametrize("at", [0, 1000, -5000, -1])
 def test_a_flipped_bit_in_a_checkpoint_is_noticed_and_the_one_before_is_used(sound, stopped, at):
     flip(checkpoint_path(stopped), at)
-    with pytest.warns(TriboWarning, match=r"ckpt is damaged .*: going on from stopped.h5.ckpt.pr"):
+    with pytest.warns(
+        TriboWarning, match=r"ckpt is (damaged|not a whole).*: going on from stopped.h5.ckpt.pr"
+    ):
         Simulation(model()).resume(stopped).close()
     with Result.open(stopped) as result, Result.open(sound) as whole:
         np.testing.assert_array_equal(result.pressure(-1), whole.pressure(-1))

@@ -86,14 +86,14 @@ def test_the_history_has_a_row_a_step(path):
 def test_other_files_are_refused(tmp_path, content):
     path = tmp_path / "other.h5"
     path.write_bytes(content)
-    with pytest.raises(CaseError, match=r"other\.h5 is not a whole tribo result"):
+    with pytest.raises(CaseError, match=r"other\.h5 is not a whole tribo file"):
         Result.open(path)
 
 
 def test_other_hdf5_files_are_refused(tmp_path):
     path = tmp_path / "other.h5"
     h5py.File(path, "w").close()
-    with pytest.raises(CaseError, match=r"not a whole tribo result .*written to it"):
+    with pytest.raises(CaseError, match=r"not a whole tribo file .*written to it"):
         Result.open(path)
 
 

@@ -13,7 +13,8 @@ from tribo.analysis.ball import (
 )
 from tribo.analysis.scar import scar
 from tribo.analysis.track import circular_groove_area, groove_radius, planimetric_area
-from tribo.results.read import BodyResult, Result
+from tribo.results.body import BodyResult
+from tribo.results.read import Result
 
 _ROUND = 1e-9
 

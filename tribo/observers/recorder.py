@@ -14,6 +14,7 @@ from tribo.core.state import RunInfo, Snapshot
 from tribo.core.units import Quantity
 from tribo.interfaces.observer import Observer, ObserverConfig
 from tribo.results.checkpoint import remove_checkpoint, write_checkpoint
+from tribo.results.guarded import GuardedFile
 from tribo.results.read import Result
 from tribo.results.store import ResultWriter
 
@@ -107,7 +108,7 @@ class Recorder(Observer[RecorderConfig]):
         """Return what was recorded, for reading."""
         if self.config.path is not None:
             return Result.open(self.config.path)
-        return Result(self.writer.file, "the result")
+        return Result(GuardedFile(self.writer.file, "the result"))
 
     def _make_room(self) -> None:
         """Refuse to replace a file unasked."""

@@ -16,8 +16,9 @@ from tribo.plotting.profiles import enlargement, visible
 from tribo.plotting.style import WIDE, Stroke, house_style, legend_below, new_figure
 from tribo.plotting.units import Unit, height_unit, length_unit, time_labels
 from tribo.plotting.window import Limits, limits, number_of_saves, removed, scar_mask, spread
+from tribo.results.body import BodyResult
 from tribo.results.export import profile
-from tribo.results.read import BodyResult, Result
+from tribo.results.read import Result
 
 WORN = Stroke("black", width=1.0)
 UNWORN = Stroke("#404040", dashes=(0.0, (3.0, 1.6)), width=0.8)

@@ -22,12 +22,12 @@ from tribo.core.errors import CaseError, OutputError, TriboWarning
 from tribo.core.fields import WearRate
 from tribo.core.measures import Invariants
 from tribo.core.state import BodyState, State
+from tribo.results.guarded import GuardedFile
 from tribo.results.journal import journal_path
 from tribo.results.read import Result
 from tribo.results.seal import write_sealed
-from tribo.results.sealed_file import SealedFile
 from tribo.results.sealed_writer import SealedWriter
-from tribo.results.store import read_text, write_array, write_text
+from tribo.results.store import write_array, write_text
 
 
 def checkpoint_path(result: Path) -> Path:
@@ -96,20 +96,21 @@ def read_checkpoint(result: Path, case: Mapping[str, object]) -> tuple[State, fl
     CaseError
         If there is no readable checkpoint.
     """
-    with Result.open(result) as kept:
-        saves, steps = len(kept.times), kept.totals()["steps"]
+    with Result.open(result) as rows:
+        saves, steps = len(rows.times), rows.totals()["steps"]
     reasons = []
     for path in (checkpoint_path(result), previous_path(result)):
         if not path.exists():
             continue
         try:
-            with closing(SealedFile(path)) as sealed, h5py.File(sealed, "r") as file:
-                if file.attrs["case"] != fingerprint(case):
+            with closing(GuardedFile.open(path)) as kept:
+                if kept.attribute("case") != fingerprint(case):
                     reasons.append(f"{path.name} belongs to another case")
                     continue
-                state, wall_time = _read_state(file)
-        except (OSError, KeyError, ValueError) as error:
-            reasons.append(f"{path.name} is damaged ({error})")
+                with kept.reading("its state"):
+                    state, wall_time = _read_state(kept)
+        except CaseError as error:
+            reasons.append(str(error))
             continue
         if state.saves > saves or state.steps > steps:
             reasons.append(f"{path.name} counts rows that {result.name} lacks")
@@ -202,28 +203,28 @@ def _write_state(file: h5py.File, state: State, wall_time: float) -> None:
             write_array(file, f"rates/{name}/state/{field}", values)
 
 
-def _read_state(file: h5py.File) -> tuple[State, float]:
-    scalars = json.loads(read_text(file, "scalars"))
+def _read_state(file: GuardedFile) -> tuple[State, float]:
+    scalars = json.loads(file.text("scalars"))
     contact = ContactSolution(
-        pressure=file["pressure"][:],
+        pressure=file.array("pressure"),
         approach=scalars["approach"],
-        overlap=file["overlap"][:],
+        overlap=file.array("overlap"),
         iterations=scalars["iterations"],
         residuals=Residuals(**scalars["residuals"]),
     )
     bodies = {
         name: BodyState(
-            wear=file[f"bodies/{name}/wear"][:],
-            plastic=file[f"bodies/{name}/plastic"][:],
-            law={field: file[f"bodies/{name}/law/{field}"][:] for field in fields},
+            wear=file.array(f"bodies/{name}/wear"),
+            plastic=file.array(f"bodies/{name}/plastic"),
+            law={field: file.array(f"bodies/{name}/law/{field}") for field in fields},
         )
         for name, fields in scalars["bodies"].items()
     }
     rates = {
         name: WearRate(
-            depth=file[f"rates/{name}/depth"][:],
-            derivative=file[f"rates/{name}/derivative"][:],
-            state={field: file[f"rates/{name}/state/{field}"][:] for field in fields},
+            depth=file.array(f"rates/{name}/depth"),
+            derivative=file.array(f"rates/{name}/derivative"),
+            state={field: file.array(f"rates/{name}/state/{field}") for field in fields},
         )
         for name, fields in scalars["rates"].items()
     }
@@ -234,6 +235,6 @@ def _read_state(file: h5py.File) -> tuple[State, float]:
         rates=rates,
         notices=tuple(scalars["notices"]),
         invariants=Invariants(**scalars["invariants"]),
-        previous=file["previous"][:] if "previous" in file else None,
+        previous=file.array("previous") if "previous" in file.file else None,
     )
     return state, scalars["wall_time"]

@@ -3,16 +3,11 @@
 from __future__ import annotations
 
 import json
-import os
-import weakref
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
-from dataclasses import dataclass, field
+from collections.abc import Mapping
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
-import h5py
 import numpy as np
 
 from tribo.core.arrays import Array
@@ -20,62 +15,14 @@ from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError
 from tribo.core.fields import Field
 from tribo.core.grid import Grid
+from tribo.results.body import BodyResult, checked_save
 from tribo.results.columns import BODY_COLUMNS, COLUMNS, INVARIANTS
-from tribo.results.damage import unreadable
-from tribo.results.seal import NotSealedError
-from tribo.results.sealed_file import SealedFile, close_sealed
-from tribo.results.store import FORMAT, read_text
+from tribo.results.guarded import GuardedFile
+from tribo.results.store import FORMAT
 
 SAME_TIME = 1e-9
 """How far a time may be off that of a save, relative to the last one."""
-MOST_PACKED = 1100
-"""Bytes that a byte of a file may stand for; deflate comes to 1032."""
 _LISTED = 8
-
-
-@dataclass(frozen=True)
-class BodyResult:
-    """What a result keeps of one body.
-
-    Parameters
-    ----------
-    name : str
-        Its name.
-    swept : bool
-        Whether its points passed through the contact.
-    density : float or None
-        In kg/m³.
-    height : ndarray, shape (nx, ny)
-        Its initial height outward, in m.
-    wear_depth, plastic_depth : ndarray, shape (saves, nx, ny)
-        At each save, in m. On a swept body the wear does not vary along x.
-    state : Mapping[str, ndarray]
-        What its wear law keeps per material point, by name, shaped as
-        `wear_depth`.
-    state_fields : tuple of Field
-        Units and meanings of `state`.
-    """
-
-    name: str
-    swept: bool
-    density: float | None
-    height: Array
-    wear_depth: Array
-    plastic_depth: Array
-    state: Mapping[str, Array] = field(default_factory=dict)
-    state_fields: tuple[Field, ...] = ()
-
-    def surface(self, save: int) -> Array:
-        """Return the height outward at a save, worn and deformed, in m.
-
-        Raises
-        ------
-        CaseError
-            If there is no such save.
-        """
-        save = _checked(save, len(self.wear_depth), f"body {self.name!r}")
-        surface: Array = self.height - self.wear_depth[save] - self.plastic_depth[save]
-        return surface
 
 
 class Result:
@@ -85,21 +32,13 @@ class Result:
 
     Parameters
     ----------
-    file : h5py.File
+    file : GuardedFile
         The open file; most users call `Result.open`.
-    name : str
-        What to call it in messages.
-    sealed : SealedFile, optional
-        What the file is read through; closed with it.
     """
 
-    def __init__(self, file: h5py.File, name: str, sealed: SealedFile | None = None) -> None:
+    def __init__(self, file: GuardedFile) -> None:
         self._file = file
-        self._sealed = sealed
-        self.name = name
-        if sealed is not None:
-            # HDF5 must not be left to close it when Python is gone.
-            self._close = weakref.finalize(self, close_sealed, file, sealed)
+        self.name = file.name
 
     @classmethod
     def open(cls, path: str | Path) -> Self:
@@ -113,36 +52,15 @@ class Result:
             If there is no such file, it is not a tribo result, or it is
             damaged at its root.
         """
-        path = Path(path)
-        if not os.path.isfile(path):
-            raise CaseError(f"{path} is not a file; give the .h5 file that 'tribo run' wrote")
-        try:
-            sealed = SealedFile(path)
-        except NotSealedError as error:
-            raise CaseError(
-                f"{path} is not a whole tribo result ({error}): it was cut short, or another "
-                "program has written to it"
-            ) from error
-        except OSError as error:
-            raise CaseError(f"{path} cannot be read: {error.strerror}") from error
-        if sealed.size == 0:
-            sealed.close()
-            raise CaseError(f"{path} holds nothing yet: its run was stopped as it began")
-        try:
-            file = h5py.File(sealed, "r")
-        except OSError as error:
-            sealed.close()
-            raise CaseError(f"{path} is damaged at its root: {error}") from error
-        result = cls(file, str(path), sealed)
-        with result._reading("its root"):
-            found = file.attrs.get("tribo_format")
+        result = cls(GuardedFile.open(Path(path)))
+        found = result._file.attribute("tribo_format", None)
         if found != FORMAT:
             result.close()
             raise CaseError(f"{path} is a tribo result of format {found}, not {FORMAT}")
         return result
 
     def __repr__(self) -> str:
-        if not self._file:
+        if not self._file.file:
             return f"<Result {self.name}: closed>"
         times = self.times
         listed = [f"{time:g}" for time in times]
@@ -165,10 +83,7 @@ class Result:
 
     def close(self) -> None:
         """Close the file."""
-        if self._sealed is None:
-            self._file.close()
-        else:
-            self._close()
+        self._file.close()
 
     def check(self) -> None:
         """Hold the whole file against its checksums.
@@ -178,48 +93,45 @@ class Result:
         CaseError
             If it is damaged, with what of it cannot be read.
         """
-        if self._sealed is None or not self._sealed.bad_pages():
-            return
-        lost = unreadable(self._file)
-        raise CaseError(
-            f"{self.name} is damaged: "
-            + (f"{', '.join(lost)} cannot be read" if lost else "nothing in use is lost")
-        )
+        self._file.check()
 
     @property
     def status(self) -> str:
         """``"done"``, ``"running"``, ``"interrupted"`` or ``"failed"``."""
-        return str(self._attribute("status"))
+        return str(self._file.attribute("status"))
 
     @property
     def wall_time(self) -> float:
         """Time the run took, in s."""
-        return float(self._attribute("wall_time_s"))
+        return float(self._file.attribute("wall_time_s"))
 
     @property
     def case(self) -> dict[str, Any]:
         """The full configuration, as plain data."""
-        return dict(json.loads(self._text("case")))
+        return dict(json.loads(self._file.text("case")))
 
     @property
     def provenance(self) -> dict[str, Any]:
         """Versions and classes that made the result."""
-        return dict(json.loads(self._text("provenance")))
+        return dict(json.loads(self._file.text("provenance")))
 
     @property
     def notices(self) -> tuple[str, ...]:
         """Warnings given during the run."""
-        return tuple(json.loads(str(self._attribute("notices", "[]"))))
+        return tuple(json.loads(str(self._file.attribute("notices", "[]"))))
 
     @property
     def system(self) -> ContactSystem:
         """Window, load, contact modulus, pressure cap and initial curvature."""
-        lx, ly = (float(size) for size in self._attribute("window_m"))
-        cap, curvature = self._attribute("cap_Pa", None), self._attribute("curvature_1_m", None)
+        lx, ly = (float(size) for size in self._file.attribute("window_m"))
+        cap, curvature = (
+            self._file.attribute("cap_Pa", None),
+            self._file.attribute("curvature_1_m", None),
+        )
         return ContactSystem(
-            grid=Grid((lx, ly), (len(self._read("x")), len(self._read("y")))),
-            modulus=float(self._attribute("modulus_Pa")),
-            load=float(self._attribute("load_N")),
+            grid=Grid((lx, ly), (len(self._file.array("x")), len(self._file.array("y")))),
+            modulus=float(self._file.attribute("modulus_Pa")),
+            load=float(self._file.attribute("load_N")),
             cap=None if cap is None else float(cap),
             curvature=None if curvature is None else (float(curvature[0]), float(curvature[1])),
         )
@@ -232,12 +144,12 @@ class Result:
     @property
     def times(self) -> Array:
         """Time of each save, in s."""
-        return self._read("time")
+        return self._file.array("time")
 
     @property
     def distances(self) -> Array:
         """Path slid at each save, in m."""
-        return self._read("saves/distance")
+        return self._file.array("saves/distance")
 
     @property
     def body_names(self) -> tuple[str, ...]:
@@ -254,7 +166,7 @@ class Result:
         CaseError
             If there is no such save.
         """
-        return self._read("pressure", _checked(save, len(self.times), self.name))
+        return self._file.array("pressure", checked_save(save, len(self.times), self.name))
 
     def save_at(self, time: float) -> int:
         """Return the index of the save at `time`.
@@ -289,8 +201,8 @@ class Result:
             raise CaseError(
                 f"{self.name} has no body {name!r}; its bodies are {', '.join(self.body_names)}"
             )
-        with self._reading(f"'bodies/{name}'"):
-            group = self._file[f"bodies/{name}"]
+        with self._file.reading(f"'bodies/{name}'"):
+            group = self._file.file[f"bodies/{name}"]
             swept, density = bool(group.attrs["swept"]), group.attrs.get("density_kg_m3")
             kept = [
                 Field(field, str(values.attrs["units"]), str(values.attrs["long_name"]))
@@ -300,9 +212,9 @@ class Result:
             name=name,
             swept=swept,
             density=None if density is None else float(density),
-            height=self._read(f"bodies/{name}/height"),
+            height=self._file.array(f"bodies/{name}/height"),
             wear_depth=self._on_window(f"bodies/{name}/wear_depth"),
-            plastic_depth=self._read(f"bodies/{name}/plastic_depth"),
+            plastic_depth=self._file.array(f"bodies/{name}/plastic_depth"),
             state={f.name: self._on_window(f"bodies/{name}/state/{f.name}") for f in kept},
             state_fields=tuple(kept),
         )
@@ -312,11 +224,11 @@ class Result:
 
         A body's columns are called ``bodies.NAME.wear_volume_m3`` and so on.
         """
-        columns = {column.label: self._read(f"{name}/{column.name}") for column in COLUMNS}
+        columns = {column.label: self._file.array(f"{name}/{column.name}") for column in COLUMNS}
         for body in self.body_names:
             for part in BODY_COLUMNS:
                 label = f"bodies.{body}.{part.label}"
-                columns[label] = self._read(f"{name}/bodies/{body}/{part.name}")
+                columns[label] = self._file.array(f"{name}/bodies/{body}/{part.name}")
         return columns
 
     def saves(self) -> list[dict[str, Any]]:
@@ -365,45 +277,14 @@ class Result:
     def worst(self) -> Mapping[str, float]:
         """Return the worst value, over all steps, of each invariant that the run was held to."""
         columns = [column for column in COLUMNS if column.name in INVARIANTS]
-        return {c.label: float(np.max(self._read(f"history/{c.name}"), initial=0)) for c in columns}
+        return {
+            c.label: float(np.max(self._file.array(f"history/{c.name}"), initial=0))
+            for c in columns
+        }
 
     def _on_window(self, name: str) -> Array:
         """Return a body's own field at every save, spread along x where the body is swept."""
-        values = self._read(name)
+        values = self._file.array(name)
         if values.ndim == 2:
             values = np.broadcast_to(values[:, None, :], (len(values), *self.grid.cells))
         return values
-
-    def _read(self, name: str, index: int | slice = slice(None)) -> Array:
-        save = f" of save {index}" if isinstance(index, int) else ""
-        with self._reading(f"{name!r}{save}"):
-            dataset = self._file[name]
-            if self._sealed is not None and dataset.nbytes > MOST_PACKED * self._sealed.size:
-                raise ValueError(f"it claims {dataset.nbytes:.3g} bytes, more than the file holds")
-            return np.asarray(dataset[index])
-
-    def _text(self, name: str) -> str:
-        with self._reading(repr(name)):
-            return read_text(self._file, name)
-
-    def _attribute(self, name: str, *default: object) -> Any:
-        with self._reading(repr(name)):
-            attributes = self._file.attrs
-            return attributes.get(name, *default) if default else attributes[name]
-
-    @contextmanager
-    def _reading(self, what: str) -> Iterator[None]:
-        """Say what of the file is damaged, whatever HDF5 raises of it."""
-        try:
-            yield
-        except (OSError, KeyError, RuntimeError, ValueError, TypeError) as error:
-            raise CaseError(f"{self.name} is damaged: {what} cannot be read ({error})") from error
-
-
-def _checked(save: int, count: int, who: str) -> int:
-    if not -count <= save < count:
-        numbered = f", 0 to {count - 1}" if count > 1 else ""
-        raise CaseError(
-            f"{who} has no save {save}: it has {count} save{'' if count == 1 else 's'}{numbered}"
-        )
-    return save

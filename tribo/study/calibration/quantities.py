@@ -13,8 +13,9 @@ from tribo.analysis.inferred import track_section
 from tribo.analysis.scar import VISIBLE_DEPTH, crown
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
+from tribo.results.body import BodyResult
 from tribo.results.export import profile
-from tribo.results.read import BodyResult, Result
+from tribo.results.read import Result
 from tribo.simulation.model import Model
 
 

@@ -1,0 +1,65 @@
+"""What a result keeps of one body."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from tribo.core.arrays import Array
+from tribo.core.errors import CaseError
+from tribo.core.fields import Field
+
+
+@dataclass(frozen=True)
+class BodyResult:
+    """What a result keeps of one body.
+
+    Parameters
+    ----------
+    name : str
+        Its name.
+    swept : bool
+        Whether its points passed through the contact.
+    density : float or None
+        In kg/m³.
+    height : ndarray, shape (nx, ny)
+        Its initial height outward, in m.
+    wear_depth, plastic_depth : ndarray, shape (saves, nx, ny)
+        At each save, in m. On a swept body the wear does not vary along x.
+    state : Mapping[str, ndarray]
+        What its wear law keeps per material point, by name, shaped as
+        `wear_depth`.
+    state_fields : tuple of Field
+        Units and meanings of `state`.
+    """
+
+    name: str
+    swept: bool
+    density: float | None
+    height: Array
+    wear_depth: Array
+    plastic_depth: Array
+    state: Mapping[str, Array] = field(default_factory=dict)
+    state_fields: tuple[Field, ...] = ()
+
+    def surface(self, save: int) -> Array:
+        """Return the height outward at a save, worn and deformed, in m.
+
+        Raises
+        ------
+        CaseError
+            If there is no such save.
+        """
+        save = checked_save(save, len(self.wear_depth), f"body {self.name!r}")
+        surface: Array = self.height - self.wear_depth[save] - self.plastic_depth[save]
+        return surface
+
+
+def checked_save(save: int, count: int, who: str) -> int:
+    """Return `save`; CaseError if `who` has none of that number."""
+    if not -count <= save < count:
+        numbered = f", 0 to {count - 1}" if count > 1 else ""
+        raise CaseError(
+            f"{who} has no save {save}: it has {count} save{'' if count == 1 else 's'}{numbered}"
+        )
+    return save
