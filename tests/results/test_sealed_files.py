@@ -1,11 +1,14 @@
 """Sealed files: all that was committed or none of it, and no bit of it changed."""
 
+import errno
 import io
 import random
+import struct
 from contextlib import closing
+from hashlib import sha256
 
 import pytest
-from paper_models import small
+from paper_models import motion, small
 
 from tribo import CaseError, Simulation
 from tribo.core.errors import TriboWarning
@@ -263,3 +266,30 @@ def test_what_another_process_is_writing_keeps_its_checkpoint(tmp_path):
     ):
         Simulation(small()).run(path, overwrite=True)
     assert checkpoint_path(path).exists()
+
+
+def test_a_file_system_without_locks_is_told_of_once(tmp_path, monkeypatch):
+    def flock(*_):
+        raise OSError(errno.ENOLCK, "No locks available")
+
+    monkeypatch.setattr(sealed_writer.fcntl, "flock", flock)
+    path = tmp_path / "run.h5"
+    path.write_bytes(b"an older one")
+    with pytest.warns(TriboWarning, match=r"run\.h5: its file system has no locks") as told:
+        Simulation(small(kinematics=motion(duration=1))).run(path, overwrite=True).close()
+    assert len([each for each in told if "locks" in str(each.message)]) == 1
+
+
+def test_a_journal_that_counts_more_pages_than_it_has_is_refused(tmp_path):
+    path = tmp_path / "file"
+    with closing(SealedWriter.create(path)) as file:
+        file.write(b"first")
+        file.commit(sync=True)
+        file.write(b"more")
+        file.commit(sync=False)
+    journal = journal_path(path)
+    data = journal.read_bytes()
+    body = data[:8] + struct.pack("<Q", 2**40) + data[16:-32]
+    journal.write_bytes(body + sha256(body).digest())
+    with pytest.warns(TriboWarning, match="not one of tribo's"):
+        assert content(path) == b"first"

@@ -50,9 +50,9 @@ def read_journal(path: Path) -> tuple[Mapping[int, bytes], Seal] | None:
     if len(body) < _HEAD.size or sha256(body).digest() != check:
         raise NotSealedError("its journal is damaged")
     magic, count = _HEAD.unpack_from(body)
-    if magic != _MAGIC:
-        raise NotSealedError("its journal is not one of tribo's")
     step = _INDEX.size + PAGE
+    if magic != _MAGIC or _HEAD.size + count * step > len(body):
+        raise NotSealedError("its journal is not one of tribo's")
     pages = {}
     for at in range(_HEAD.size, _HEAD.size + count * step, step):
         (index,) = _INDEX.unpack_from(body, at)

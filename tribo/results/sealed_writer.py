@@ -5,11 +5,12 @@ from __future__ import annotations
 import fcntl
 import io
 import os
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING
 from uuid import uuid4
 
-from tribo.core.errors import CaseError
+from tribo.core.errors import CaseError, TriboWarning
 from tribo.results.journal import journal_path, write_journal
 from tribo.results.seal import PAGE, Seal, digest, page_count, write_sealed
 from tribo.results.sealed_file import SealedFile
@@ -99,7 +100,13 @@ class SealedWriter(SealedFile):
     def _open(self, path: Path) -> io.FileIO:
         file = io.FileIO(path, "r+")
         try:
-            _lock(file, path)
+            if not _lock(file, path):
+                warnings.warn(
+                    f"{path}: its file system has no locks, so nothing stops another run from "
+                    "writing the same file; see that none does, or choose another place with -o",
+                    TriboWarning,
+                    stacklevel=2,
+                )
         except BaseException:
             file.close()
             raise
@@ -161,11 +168,13 @@ def _write_all(fd: int, data: bytes, position: int) -> None:
         view, position = view[written:], position + written
 
 
-def _lock(file: io.IOBase, path: Path) -> None:
+def _lock(file: io.IOBase, path: Path) -> bool:
+    """Keep other processes from writing a file; return False where there are no locks."""
     try:
         fcntl.flock(file.fileno(), fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError as error:
         raise CaseError(f"{path} is in use: another process has it open") from error
     except OSError:
-        # Some network file systems have no locks.
-        pass
+        # Some network file systems have none.
+        return False
+    return True
