@@ -92,10 +92,24 @@ def test_chattering_stops_a_run_whose_solver_overstates_its_stability():
         last(model)
 
 
-def test_chattering_is_told_of_where_it_is_allowed(tmp_path):
-    with pytest.warns(TriboWarning, match="the pressure chatters"):
+def test_chattering_is_told_of_where_it_is_allowed():
+    with (
+        pytest.warns(TriboWarning, match="the pressure chatters"),
+        pytest.warns(TriboWarning, match="beyond the stability limit"),
+    ):
         result = Simulation(one_body(stepping=unstable(1.5))).run()
     assert result.worst()["chattering"] > CHATTERING
+
+
+@pytest.mark.parametrize(("factor", "told"), [(0.97, False), (1.03, True)])
+def test_a_step_that_may_chatter_is_told_of_before_it_does(factor, told):
+    # The mode that is 3 % beyond the limit takes hundreds of steps to show.
+    first = states(one_body(stepping=unstable(factor), kinematics=motion(duration=10)))[1]
+    notices = [text for text in first.notices if text.startswith("stability: at 0 s")]
+    assert len(notices) == told
+    if told:
+        stated = float(notices[0].split("largest stable step is ")[1].split(" s")[0])
+        assert stated == pytest.approx(time_step(1.0), rel=1e-3)
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ from edited import edited
 from paper_models import K, archard, flat, motion, small, sphere, states, steel
 
 from tribo import Body, CaseError, Grid, Interrupted, NumericalError, Result, Simulation
-from tribo.config.stepping import ExplicitConfig
+from tribo.config.stepping import ExplicitConfig, ImplicitConfig
 from tribo.config.stop import StopConfig
 from tribo.core.errors import TriboWarning
 from tribo.interfaces.observer import Observer, ObserverConfig
@@ -97,7 +97,7 @@ def test_a_torn_checkpoint_falls_back_on_the_one_before(tmp_path):
         Simulation(model).run(parts, observers=[Stopper(30)])
     checkpoint = tmp_path / "parts.h5.ckpt"
     checkpoint.write_bytes(checkpoint.read_bytes()[:2000])
-    with pytest.warns(TriboWarning, match=r"ckpt is damaged .*: going on from .*prev"):
+    with pytest.warns(TriboWarning, match=r"ckpt is not a whole.*: going on from .*prev"):
         Simulation(model).resume(parts).close()
     first, second = contents(whole), contents(parts)
     for name in first:
@@ -253,3 +253,18 @@ def test_steps_shorten_before_a_save_and_are_long_again_after_it():
     at = int(np.flatnonzero(np.isclose(times, 10.0))[0])
     assert steps[at - 1] <= 1.5 * 0.01 * 10.0
     assert steps[at] > 2 * steps[at - 1]
+
+
+@pytest.mark.parametrize("stepping", [ImplicitConfig(), ExplicitConfig(time_step=0.25)])
+@pytest.mark.parametrize("before", [1e-7, 1e-8, 1e-9, 1e-12])
+def test_a_save_just_before_a_reversal_or_the_end_is_made(stepping, before):
+    # There the path of a sine grows by less than its rounding.
+    saves = (5 - before, 5.0, 10 - before)
+    given = motion(frequency=1, duration=10, waveform="sinusoidal")
+    model = small(kinematics=given, save_times=saves, stepping=stepping)
+    with Simulation(model).run() as result:
+        assert tuple(result.times) == (0.0, *saves, 10.0)
+        assert np.all(np.diff(result.distances) >= 0)
+        assert result.distances[[1, 2, 4]] == pytest.approx([0.02, 0.02, 0.04], rel=1e-9)
+        first, second = (result.body("disk").wear_depth[save] for save in (1, 2))
+        assert second == pytest.approx(first, rel=1e-9)

@@ -9,7 +9,7 @@ import numpy as np
 
 from tribo.config.stepping import ExplicitConfig, ImplicitConfig
 from tribo.core.errors import CaseError, NumericalError, PluginError
-from tribo.core.measures import half_widths, reaches_border
+from tribo.core.measures import Invariants, half_widths, reaches_border
 from tribo.core.state import State
 from tribo.simulation.calling import named
 from tribo.simulation.control import SHRINK, first_increment, fitted, next_factor, step_error
@@ -31,8 +31,11 @@ FEW_CELLS = 8
 MAX_REJECTIONS = 40
 # Of the path until the next stop: a shorter step would drown in rounding.
 SMALLEST = 1e-12
+# Of the time until it: so near a reversal, a sine slides less than that.
+MOMENT = 1e-7
 MOST_STEPS = 1e8
 DEPTH_ACCURACY = 1e-6
+STABILITY = "stability"
 
 
 @dataclass(frozen=True)
@@ -97,10 +100,19 @@ def march(model: Model, state: State) -> Iterator[Accepted]:
 
 
 def _step_towards(model: Model, state: State, stop: float) -> State:
+    if _rests(model, state, stop):
+        return replace(state, time=stop, steps=state.steps + 1, invariants=Invariants())
     state = start_sliding(model, state)
     if isinstance(model.stepping, ExplicitConfig):
         return _explicit(model, model.stepping, state, stop)
     return _implicit(model, model.stepping, state, stop)
+
+
+def _rests(model: Model, state: State, stop: float) -> bool:
+    """Whether the path until a stop that is a moment away is lost in rounding."""
+    if stop - state.time > MOMENT * stop:
+        return False
+    return abs(path_at(model.kinematics, stop) - state.distance) <= SMALLEST * state.distance
 
 
 def _explicit(model: Model, config: ExplicitConfig, state: State, stop: float) -> State:
@@ -109,9 +121,7 @@ def _explicit(model: Model, config: ExplicitConfig, state: State, stop: float) -
         time = stop
     increment = _path_until(model, state, time) - state.distance
     moment = Moment(time, state.distance + increment, increment / (time - state.time))
-    state = rated(model, state, moment)
-    if not config.allow_unstable:
-        _check_stability(model, state, moment)
+    state = _held_stable(model, config, rated(model, state, moment), moment)
     return _stop_at_depth(model, state, explicit_step, increment, time)
 
 
@@ -220,17 +230,25 @@ def _check_time_step(model: Model, config: ExplicitConfig, state: State) -> None
             "make it longer, or use stepping.type = 'implicit'",
             "stepping.time_step",
         )
-    if not config.allow_unstable:
-        increment = _path_until(model, state, config.time_step)
-        _check_stability(
-            model, state, Moment(config.time_step, increment, increment / config.time_step)
-        )
+    increment = _path_until(model, state, config.time_step)
+    moment = Moment(config.time_step, increment, increment / config.time_step)
+    _held_stable(model, config, state, moment)
 
 
-def _check_stability(model: Model, state: State, moment: Moment) -> None:
-    """Raise `CaseError` unless the step from now to `moment` is stable."""
+def _held_stable(model: Model, config: ExplicitConfig, state: State, moment: Moment) -> State:
+    """Return `state`, told if the step from it to `moment` is beyond the stability limit.
+
+    Raises
+    ------
+    CaseError
+        If it is, and the case does not allow it.
+    """
+    if config.allow_unstable and _is_told(state, STABILITY):
+        return state
     limit = largest_stable_increment(model, state, moment)
     if limit is None:
+        if config.allow_unstable:
+            return state
         raise CaseError(
             f"contact.type = {model.contact.type_name()!r} does not state its smallest "
             "compliance, so the stability of explicit steps cannot be checked; set "
@@ -238,14 +256,19 @@ def _check_stability(model: Model, state: State, moment: Moment) -> None:
             "stepping.time_step",
         )
     increment = moment.distance - state.distance
-    if increment >= limit:
-        dt = moment.time - state.time
+    if increment < limit:
+        return state
+    dt = moment.time - state.time
+    words = (
+        f"{dt:.4g} s slides {increment:.4g} m, beyond the stability limit of {limit:.4g} m; "
+        f"the largest stable step is {dt * limit / increment:.4g} s"
+    )
+    if not config.allow_unstable:
         raise CaseError(
-            f"{dt:.4g} s slides {increment:.4g} m, beyond the stability limit of {limit:.4g} m; "
-            f"the largest stable step is {dt * limit / increment:.4g} s (or use stepping.type = "
-            "'implicit', or set stepping.allow_unstable = true)",
+            f"{words} (or use stepping.type = 'implicit', or set stepping.allow_unstable = true)",
             "stepping.time_step",
         )
+    return _told(state, STABILITY, f"{words}. Sooner or later the pressure may chatter")
 
 
 def _check_window(model: Model, state: State) -> None:
@@ -270,27 +293,29 @@ def _track_changes(model: Model) -> bool:
 def _noticed(model: Model, state: State) -> State:
     """Add to the state the warnings that are due and were not given before."""
     width, breadth = half_widths(state.contact, model.grid)
-    due = []
     limitation = averaging_limit(model.kinematics, model.grid, width)
     if limitation is not None and _track_changes(model):
-        due.append(("averaging", f"at {state.time:.6g} s ({state.distance:.6g} m) {limitation}"))
+        state = _told(state, "averaging", limitation)
     dx, dy = model.grid.spacing
     cells = min(2 * width / dx, 2 * breadth / dy)
     if state.steps == 0 and cells < FEW_CELLS:
-        due.append(
-            (
-                "resolution",
-                f"the first contact is only {cells:.0f} cells wide; its pressure is inaccurate "
-                f"until it has grown: aim for {FEW_CELLS} or more (grid.cells)",
-            )
+        text = (
+            f"resolution: the first contact is only {cells:.0f} cells wide; its pressure is "
+            f"inaccurate until it has grown: aim for {FEW_CELLS} or more (grid.cells)"
         )
+        state = replace(state, notices=(*state.notices, text))
     if chatters(state):
-        due.append(
-            (
-                "chattering",
-                f"at {state.time:.6g} s ({state.distance:.6g} m) {chattering_words(state)}",
-            )
-        )
-    given = {notice.split(":", 1)[0] for notice in state.notices}
-    new = [f"{kind}: {text}" for kind, text in due if kind not in given]
-    return replace(state, notices=(*state.notices, *new)) if new else state
+        state = _told(state, "chattering", chattering_words(state))
+    return state
+
+
+def _told(state: State, kind: str, words: str) -> State:
+    """Return `state` with a warning of what begins here, unless it has one of that kind."""
+    if _is_told(state, kind):
+        return state
+    text = f"{kind}: at {state.time:.6g} s ({state.distance:.6g} m) {words}"
+    return replace(state, notices=(*state.notices, text))
+
+
+def _is_told(state: State, kind: str) -> bool:
+    return any(notice.startswith(f"{kind}:") for notice in state.notices)
