@@ -1,4 +1,4 @@
-"""Order, limit and uncertainty from three levels, against made and published numbers."""
+"""Order, limit and uncertainty from three levels, against numbers made for it."""
 
 import pytest
 
@@ -20,13 +20,21 @@ def test_order_and_limit_of_a_power_are_found(order, sizes):
     assert found.gci == pytest.approx(found.uncertainty / found.values[-1], rel=1e-8)
 
 
-def test_the_example_of_celik_and_others():
-    # Table 1 of the paper, reattachment length on 18000, 8000 and 4500 cells:
-    # r21 = 1.5, r32 = 1.333, p = 1.53, limit 6.1685, GCI 2.2 %.
-    found = convergence([5.863, 5.972, 6.063], [2.0, 1.5, 1.0], formal_order=2.0)
-    assert found.order == pytest.approx(1.53, abs=0.005)
-    assert found.limit == pytest.approx(6.1685, abs=1e-3)
-    assert found.gci == pytest.approx(0.022, abs=5e-4)
+def test_an_example_that_can_be_worked_by_hand():
+    # 1 + h²/10: the differences 0.175 and 0.125 stand in the ratio (4 - 9/4) : (9/4 - 1).
+    found = convergence([1.4, 1.225, 1.1], [2.0, 1.5, 1.0], formal_order=2.0)
+    assert found.order == pytest.approx(2.0)
+    assert found.limit == pytest.approx(1.0)
+    # 1.25 × 0.125/1.1 / (9/4 - 1)
+    assert found.gci == pytest.approx(0.125 / 1.1)
+
+
+@pytest.mark.parametrize("sizes", [(1 / 7, 1 / 8, 1 / 8), (1, 1, 1), (1 / 8, 1 / 7, 1 / 9)])
+@pytest.mark.parametrize("values", [(1.0, 1.1, 1.12), (1.0, 1.1, 1.05), (1.0, 1.0, 1.0)])
+def test_levels_that_are_no_refinement_show_no_order(values, sizes):
+    found = convergence(values, sizes, formal_order=1.0)
+    assert (found.behaviour, found.order, found.gci) == ("not refined", None, None)
+    assert found.uncertainty == pytest.approx(3 * (max(values) - min(values)))
 
 
 def test_the_uncertainty_of_a_coarser_level_is_its_own():

@@ -66,6 +66,18 @@ def test_explicit_steps_are_made_shorter_and_show_first_order():
     assert depth.steps.uncertainty > abs(coarse - fine)
 
 
+def test_saves_do_not_keep_steps_from_being_refined(implicit):
+    # One every half second would leave all three levels the same steps, and so no error at all.
+    many = refine(worn(save_times=tuple(0.5 * i for i in range(400))))
+    assert many == implicit
+
+
+def test_as_many_steps_at_looser_tolerances_are_no_refinement(monkeypatch):
+    monkeypatch.setattr(refinement, "_looser", lambda config, factor: config)
+    study = refine(worn(kinematics=motion(duration=2)))
+    assert {estimate.steps.behaviour for estimate in study.estimates} == {"not refined"}
+
+
 def test_a_body_that_does_not_wear_is_left_out(implicit):
     assert not [name for name in by_name(implicit) if name.startswith("disk")]
 

@@ -18,7 +18,7 @@ from typing import Literal
 
 from scipy.optimize import brentq
 
-Behaviour = Literal["exact", "converges", "oscillates", "diverges"]
+Behaviour = Literal["exact", "converges", "oscillates", "diverges", "not refined"]
 
 SAFETY = 1.25
 UNCONVERGED_SAFETY = 3.0
@@ -36,7 +36,8 @@ class Convergence:
     behaviour : str
         "exact" if the values agree to round-off; "converges" if their
         differences shrink and keep their sign; "oscillates" if those change
-        it; "diverges" if they do not shrink.
+        it; "diverges" if they do not shrink; "not refined" if the sizes do not
+        fall, whatever the values do.
     order : float or None
         Observed order; only of what converges.
     limit : float or None
@@ -71,14 +72,14 @@ def convergence(
     formal one is used with them. The uncertainty is 1.25 |φ − φ_limit| at the
     case's own level, which is GCI times φ₁ at the finest. Values that
     oscillate have no order: the uncertainty is their range. Of values that do
-    not converge it is three times that.
+    not converge, or of levels that are no refinement, it is three times that.
 
     Parameters
     ----------
     values : sequence of float
         Three, from coarse to fine.
     sizes : sequence of float
-        Of cells or steps at these levels, in any unit; falling.
+        Of cells or steps at these levels, in any unit.
     formal_order : float
         Order of the method.
     own : int, optional
@@ -91,6 +92,8 @@ def convergence(
     coarse, middle, fine = values
     spread = max(values) - min(values)
     three = (coarse, middle, fine)
+    if not sizes[0] > sizes[1] > sizes[2]:
+        return Convergence(three, "not refined", None, None, None, UNCONVERGED_SAFETY * spread)
     if spread <= ROUND_OFF * max(map(abs, values)):
         return Convergence(three, "exact", None, None, 0.0, 0.0)
     rough, close = coarse - middle, middle - fine

@@ -40,7 +40,7 @@ class Estimate:
     unit : str
         SI unit.
     value : float
-        As the case itself gives it.
+        As the case itself gives it, without saves on the way.
     grid, steps : Convergence
         Over three grids, and over three lengths of step.
     floor : float
@@ -75,7 +75,8 @@ def refine(model: Model, started: Callable[[str], None] = lambda _: None) -> Ref
     The finest grid is the case's own; cells grow by 1.5 towards the coarser
     ones. Of implicit steps the case's own are the finest too, and tolerances
     are loosened to make them 1.5 and 2.25 times as long; explicit ones are
-    shortened instead, which stays within their stability limit.
+    shortened instead, which stays within their stability limit. Nothing is
+    saved on the way: saves cut steps short, and those would not be refined.
 
     Parameters
     ----------
@@ -157,7 +158,7 @@ def _step_words(config: ImplicitConfig | ExplicitConfig) -> str:
 
 
 def _run(model: Model, cells: tuple[int, int], config: ImplicitConfig | ExplicitConfig) -> Level:
-    level = varied(model, grid=Grid(model.grid.size, cells), stepping=config)
+    level = varied(model, grid=Grid(model.grid.size, cells), stepping=config, save_times=())
     state = begin(level)
     for accepted in march(level, state):
         state = accepted.state
