@@ -74,12 +74,11 @@ def _reciprocating(stroke: int, placement: float) -> Found:
     track = stroke + GRID.cells[0]
     worn_ball, worn_flat = _moved(model, positions, track, WORN / len(positions))
     ball_average, flat_average = _averaged(length)
-    middle = track // 2
+    middle = np.mean(worn_flat[track // 2 - 1 : track // 2 + 1], axis=0)
     return {
         "depth of the ball": norm(worn_ball, ball_average),
-        "depth of the flat at mid-stroke": norm(
-            np.mean(worn_flat[middle - 1 : middle + 1], axis=0), flat_average
-        ),
+        "depth of the flat at mid-stroke": norm(middle, flat_average),
+        "largest depth there, by the average": (float(middle.max()), float(flat_average.max())),
     }
 
 
@@ -105,6 +104,7 @@ CHECKS = (
         (
             Quantity("depth of the ball", "1", 2e-2, note=ENDS),
             Quantity("depth of the flat at mid-stroke", "1", 2e-2, note=ENDS),
+            Quantity("largest depth there, by the average", "m", 2e-2, note=ENDS),
         ),
         levels=(38, 57, 76),
         cost=6.0,
