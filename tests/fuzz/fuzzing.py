@@ -33,10 +33,12 @@ class Fuzz:
     slowest: float = 0.0
     """In s."""
     seconds: float = 0.0
+    stopped: bool = False
+    """Whether it was, before all cases were tried."""
 
     @property
     def good(self):
-        return not self.faults
+        return not (self.faults or self.stopped)
 
     def figures(self):
         """Return the figures by name."""
@@ -132,6 +134,7 @@ def fuzz(count, seed, *, workers=None, numbers=None):
                 if not _next(worker, waiting):
                     busy.remove(worker)
     except KeyboardInterrupt:
+        fuzz.stopped = True
         print("stopped; what was tried so far:", file=sys.stderr)
     finally:
         for worker in pool:

@@ -2,15 +2,18 @@
 
 import os
 import random
+import sys
 import time
 import tomllib
+from dataclasses import replace
 
 import pytest
-from fuzz import fuzzing
+from fuzz import fuzzing, trial
 from fuzz.generate import mutated, plausible, toml, valid_cases
 from fuzz.trial import schema
+from paper_models import motion, small
 
-from tribo import CaseError
+from tribo import CaseError, Result, Simulation
 from tribo.config.load import validate_case
 
 
@@ -64,3 +67,50 @@ def test_a_hang_and_a_death_are_seen(monkeypatch, work, words):
     done = fuzzing.fuzz(2, seed=1, workers=1)
     assert [fault.split(":")[0] for fault in done.faults.values()] == [words, words]
     assert (done.hangs, done.deaths) == ((2, 0) if words == "hang" else (0, 2))
+
+
+@pytest.mark.parametrize(
+    ("end", "words"),
+    [
+        (lambda: 1 / 0, "traceback: ZeroDivisionError"),
+        (lambda: sys.exit(1), "exit code 1"),
+        (lambda: sys.exit(2), "no message"),
+        (lambda: print("Traceback", file=sys.stderr), "traceback"),
+    ],
+)
+def test_an_end_that_is_not_documented_is_seen(monkeypatch, tmp_path, end, words):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(trial, "main", end)
+    _, _, fault, _ = trial.timed(trial.KINDS.index("text"), 1, tmp_path)
+    assert fault.startswith(words)
+
+
+@pytest.mark.parametrize(
+    ("name", "wrong", "words"),
+    [
+        ("status", property(lambda self: "running"), "status 'running' after success"),
+        ("pressure", lambda self, save: 1.01 * pressure(self, save), "the pressure of save 0"),
+        ("worst", lambda self: {**worst(self), "volume_error": 1e-3}, "volume_error is 0.001"),
+        ("worst", lambda self: {**worst(self), "force_error": float("nan")}, "force_error is nan"),
+        ("body", lambda self, name: grown_back(body(self, name)), "ball grows back"),
+    ],
+)
+def test_a_result_that_cannot_be_is_seen(monkeypatch, tmp_path, name, wrong, words):
+    path = tmp_path / "run.h5"
+    Simulation(small(kinematics=motion(duration=5))).run(path).close()
+    assert trial.broken(path, 0) is None
+    monkeypatch.setattr(Result, name, wrong)
+    assert trial.broken(path, 0).startswith(words)
+
+
+pressure, worst, body = Result.pressure, Result.worst, Result.body
+
+
+def grown_back(kept):
+    return replace(kept, wear_depth=kept.wear_depth[::-1])
+
+
+def test_a_fuzz_that_was_stopped_is_not_good():
+    assert fuzzing.Fuzz().good
+    assert not fuzzing.Fuzz(stopped=True).good
+    assert not fuzzing.Fuzz(faults={1: "hang"}).good

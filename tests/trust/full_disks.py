@@ -34,7 +34,7 @@ class FullDisks:
 
     @property
     def good(self):
-        return self.stopped == self.identical and not self.other_exits
+        return self.stopped == self.identical > 0 and not (self.other_exits + self.lost_saves)
 
 
 def fill_and_resume(count, seed, *, tmpfs=False):

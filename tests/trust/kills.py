@@ -40,10 +40,12 @@ class Kills:
     different: int = 0
     left_over: int = 0
     """Files that a finished run leaves behind."""
+    other_exits: int = 0
+    """Runs that ended by themselves, and badly."""
 
     @property
     def good(self):
-        bad = self.lost_saves + self.unreadable + self.left_over
+        bad = self.lost_saves + self.unreadable + self.left_over + self.other_exits
         return self.killed == self.identical and not bad
 
 
@@ -59,7 +61,7 @@ def kill_and_resume(count, seed):
         begun = time.monotonic()
         undisturbed = contents(whole(folder))
         duration = time.monotonic() - begun
-        while kills.killed < count:
+        while kills.killed + kills.other_exits < count:
             _one(Path(folder) / "run.h5", chance, duration, undisturbed, kills)
     return kills
 
@@ -68,6 +70,9 @@ def _one(path, chance, duration, undisturbed, kills):
     acknowledged, code = _killed(run, path, chance, duration, kills.killed % 2)
     if code == 0:
         kills.finished += 1
+        return
+    if code > 0:
+        kills.other_exits += 1
         return
     if not acknowledged:
         # It had not begun to save: there is nothing to lose or to go on with.

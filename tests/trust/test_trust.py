@@ -2,16 +2,19 @@
 
 import os
 import signal
+from dataclasses import replace
 
 import pytest
+import trust.damages
 from trust import trial
 from trust.damages import KINDS, damage_and_read
-from trust.full_disks import fill_and_resume
+from trust.full_disks import FullDisks, fill_and_resume
 from trust.kills import kill_and_resume
 from trust.trial import contents, resume, run, same, start, whole
 
 from tribo.observers import recorder
-from tribo.results.checkpoint import checkpoint_path
+from tribo.results import sealed_file
+from tribo.results.checkpoint import checkpoint_path, write_checkpoint
 from tribo.results.store import ResultWriter
 
 
@@ -77,3 +80,33 @@ def test_killed_as_it_ended(tmp_path):
     assert start(resume, path).wait()[0] == 0
     assert same(contents(path), undisturbed)
     assert sorted(p.name for p in tmp_path.iterdir()) == ["run.h5", "whole.h5"]
+
+
+def test_a_file_read_wrong_would_be_seen(tmp_path, monkeypatch):
+    class Anything(bytes):
+        def __ne__(self, other):
+            return False
+
+    monkeypatch.setattr(sealed_file, "digest", lambda page: Anything())
+    monkeypatch.setattr(trust.damages, "KINDS", (trust.damages.flip,))
+    monkeypatch.chdir(tmp_path)
+    damages = damage_and_read(40, seed=3)
+    assert damages.ends()["silently wrong"] > 0
+    assert not damages.good
+
+
+def test_other_bits_after_a_kill_would_be_seen(monkeypatch):
+    def write(result, state, *args, **options):
+        write_checkpoint(result, replace(state, distance=state.distance + 1e-9), *args, **options)
+
+    monkeypatch.setattr(recorder, "write_checkpoint", write)
+    kills = kill_and_resume(2, seed=3)
+    assert kills.different > 0
+    assert not kills.good
+
+
+def test_a_save_lost_to_a_full_disk_would_be_seen():
+    sound = FullDisks(stopped=2, identical=2)
+    assert sound.good
+    bad = ({"lost_saves": 1}, {"other_exits": 1}, {"identical": 1}, {"stopped": 0, "identical": 0})
+    assert not any(replace(sound, **change).good for change in bad)
