@@ -12,7 +12,7 @@ from paper_models import motion, small
 
 from tribo import CaseError, Simulation
 from tribo.core.errors import TriboWarning
-from tribo.results import sealed_writer
+from tribo.results import sealed_file, sealed_writer
 from tribo.results.checkpoint import checkpoint_path
 from tribo.results.journal import journal_path
 from tribo.results.seal import PAGE, NotSealedError, write_sealed
@@ -266,6 +266,18 @@ def test_what_another_process_is_writing_keeps_its_checkpoint(tmp_path):
     ):
         Simulation(small()).run(path, overwrite=True)
     assert checkpoint_path(path).exists()
+
+
+def test_a_journal_begun_while_the_file_is_opened_is_read(tmp_path, monkeypatch):
+    path = tmp_path / "file"
+    with closing(SealedWriter.create(path)) as file:
+        file.write(b"first")
+        file.commit(sync=False)
+    # The writer is in the middle of the seal.
+    path.write_bytes(path.read_bytes()[:-1])
+    answers = iter([None, sealed_file.read_journal(path)])
+    monkeypatch.setattr(sealed_file, "read_journal", lambda _: next(answers))
+    assert content(path) == b"first"
 
 
 def test_a_file_system_without_locks_is_told_of_once(tmp_path, monkeypatch):

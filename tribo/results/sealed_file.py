@@ -76,6 +76,8 @@ class SealedFile(io.RawIOBase):
         try:
             seal = read_seal(self._file)
         except NotSealedError:
+            # A writer may have begun to carry one out since it was looked for.
+            journal = journal or read_journal(self.path)
             if journal is None:
                 raise
             return journal[1], journal[0]
