@@ -33,7 +33,7 @@ def test_an_example_that_can_be_worked_by_hand():
 @pytest.mark.parametrize("values", [(1.0, 1.1, 1.12), (1.0, 1.1, 1.05), (1.0, 1.0, 1.0)])
 def test_levels_that_are_no_refinement_show_no_order(values, sizes):
     found = convergence(values, sizes, formal_order=1.0)
-    assert (found.behaviour, found.order, found.gci) == ("not refined", None, None)
+    assert (found.behaviour, found.order, found.gci) == ("unrefined", None, None)
     assert found.uncertainty == pytest.approx(3 * (max(values) - min(values)))
 
 

@@ -5,6 +5,7 @@ from paper_models import archard, flat, foundation, motion, paraboloid, small, s
 
 from tribo import Body, Grid
 from tribo.config.stepping import ExplicitConfig, ImplicitConfig
+from tribo.config.stop import StopConfig
 from tribo.core.errors import CaseError, NumericalError
 from tribo.verification import refinement
 from tribo.verification.refinement import refine
@@ -39,7 +40,7 @@ def test_levels_are_the_cases_own_and_two_coarser_of_the_same_parity(implicit):
 def test_stated_uncertainties_cover_a_much_finer_run(implicit):
     stepping = ImplicitConfig(pressure_tolerance=0.005, depth_tolerance=1e-5, settle=1e-3)
     fine = refinement._run(worn(), (245, 245), stepping)
-    exact = refinement._quantities(fine.end)
+    exact = refinement._quantities(worn(), fine.end)
     for name, estimate in by_name(implicit).items():
         unit, value = exact[name]
         assert estimate.unit == unit
@@ -75,7 +76,15 @@ def test_saves_do_not_keep_steps_from_being_refined(implicit):
 def test_as_many_steps_at_looser_tolerances_are_no_refinement(monkeypatch):
     monkeypatch.setattr(refinement, "_looser", lambda config, factor: config)
     study = refine(worn(kinematics=motion(duration=2)))
-    assert {estimate.steps.behaviour for estimate in study.estimates} == {"not refined"}
+    assert {estimate.steps.behaviour for estimate in study.estimates} == {"unrefined"}
+
+
+def test_of_a_run_that_ends_at_a_depth_the_path_is_what_is_uncertain(implicit):
+    found = by_name(refine(worn(stop=StopConfig(depth="2 um"))))
+    assert found["ball: largest depth"].uncertainty < 1e-4 * found["ball: largest depth"].value
+    path = found["path slid"]
+    assert 0 < path.uncertainty < 0.1 * path.value < 2
+    assert "path slid" not in by_name(implicit)
 
 
 def test_a_body_that_does_not_wear_is_left_out(implicit):

@@ -18,7 +18,7 @@ from typing import Literal
 
 from scipy.optimize import brentq
 
-Behaviour = Literal["exact", "converges", "oscillates", "diverges", "not refined"]
+Behaviour = Literal["exact", "converges", "oscillates", "diverges", "unrefined"]
 
 SAFETY = 1.25
 UNCONVERGED_SAFETY = 3.0
@@ -36,7 +36,7 @@ class Convergence:
     behaviour : str
         "exact" if the values agree to round-off; "converges" if their
         differences shrink and keep their sign; "oscillates" if those change
-        it; "diverges" if they do not shrink; "not refined" if the sizes do not
+        it; "diverges" if they do not shrink; "unrefined" if the sizes do not
         fall, whatever the values do.
     order : float or None
         Observed order; only of what converges.
@@ -93,7 +93,7 @@ def convergence(
     spread = max(values) - min(values)
     three = (coarse, middle, fine)
     if not sizes[0] > sizes[1] > sizes[2]:
-        return Convergence(three, "not refined", None, None, None, UNCONVERGED_SAFETY * spread)
+        return Convergence(three, "unrefined", None, None, None, UNCONVERGED_SAFETY * spread)
     if spread <= ROUND_OFF * max(map(abs, values)):
         return Convergence(three, "exact", None, None, 0.0, 0.0)
     rough, close = coarse - middle, middle - fine

@@ -170,14 +170,14 @@ def _estimates(
 ) -> Iterator[Estimate]:
     dx, dy = model.grid.spacing
     floors = {"half-width along": 0.5 * dx, "half-width across": 0.5 * dy}
-    for name, (unit, value) in _quantities(steps[own].end).items():
+    for name, (unit, value) in _quantities(model, steps[own].end).items():
         by_grid = convergence(
-            [_quantities(level.end)[name][1] for level in grids],
+            [_quantities(model, level.end)[name][1] for level in grids],
             [1 / level.cells[0] for level in grids],
             formal_order=GRID_ORDER,
         )
         by_step = convergence(
-            [_quantities(level.end)[name][1] for level in steps],
+            [_quantities(model, level.end)[name][1] for level in steps],
             [1 / level.steps for level in steps],
             formal_order=STEP_ORDER,
             own=own,
@@ -187,13 +187,15 @@ def _estimates(
         yield Estimate(name, unit, value, by_grid, by_step, floor, total)
 
 
-def _quantities(end: Measures) -> dict[str, tuple[str, float]]:
+def _quantities(model: Model, end: Measures) -> dict[str, tuple[str, float]]:
     found = {
         "peak pressure": ("Pa", end.max_pressure),
         "pressure at the centre": ("Pa", end.centre_pressure),
         "half-width along": ("m", end.half_width_x),
         "half-width across": ("m", end.half_width_y),
     }
+    if model.stop.depth is not None:
+        found["path slid"] = ("m", end.distance)
     for name, body in end.bodies.items():
         if body.wear_volume > 0:
             found |= {
