@@ -38,15 +38,15 @@ class FullDisks:
 
 
 def fill_and_resume(count, seed, *, tmpfs=False):
-    """Give `count` runs less room than they need: by a limit on file size, or a small tmpfs."""
+    """Stop `count` runs by less room than they need: a limit on file size, or a small tmpfs."""
     disks = FullDisks()
     chance = random.Random(seed)
     with TemporaryDirectory() as folder:
         path = whole(folder)
         undisturbed, most = contents(path), path.stat().st_size
-        for _ in range(count):
-            # The first save takes two thirds of it; checkpoints and the journal take room too.
-            room = chance.randrange(3 * most // 4, 3 * most if tmpfs else most)
+        while disks.stopped + disks.other_exits < count:
+            # The first save takes nine tenths of it; checkpoints and the journal take room too.
+            room = chance.randrange(9 * most // 10, 3 * most if tmpfs else most)
             _one(Path(folder), room, tmpfs, undisturbed, disks)
     return disks
 
