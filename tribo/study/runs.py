@@ -12,6 +12,7 @@ from tribo.registry.registry import Registry
 from tribo.results.read import Result
 from tribo.simulation.describe import describe
 from tribo.simulation.run import Simulation
+from tribo.study.completion import complete, is_done
 from tribo.study.variation import Variant
 
 Observers = Callable[[], Sequence[Observer[ObserverConfig]]]
@@ -66,24 +67,22 @@ def run_variants(
     if folder is not None:
         _make(folder)
         paths = [folder / name for name in file_names([variant.label for variant in variants])]
-    # All are looked at before the first one runs.
-    found = [
-        None if path is None or overwrite else _status(path, simulation)
-        for path, simulation in zip(paths, simulations, strict=True)
-    ]
+    if not overwrite:
+        for path, simulation in zip(paths, simulations, strict=True):
+            _check_own(path, simulation)
     results = []
     for i, (variant, simulation) in enumerate(zip(variants, simulations, strict=True)):
         path, number = paths[i], f"{i + 1} of {len(variants)}, {variant.label}"
-        if path is not None and found[i] == "done":
+        if path is not None and not overwrite and is_done(path, simulation):
             tell(f"{number}: done already, {path}")
             results.append(Result.open(path))
             continue
         tell(number)
         try:
-            if path is not None and found[i] == "interrupted":
-                results.append(simulation.resume(path, observers=observers()))
-            else:
+            if path is None or overwrite:
                 results.append(simulation.run(path, observers=observers(), overwrite=True))
+            else:
+                results.append(complete(simulation, path, observers()))
         except TriboError as error:
             raise type(error)(f"{variant.label}: {error}") from error
     return results
@@ -99,17 +98,18 @@ def file_names(labels: Sequence[str]) -> list[str]:
     return [f"{name}.h5" for name in names]
 
 
-def _status(path: Path, simulation: Simulation) -> str | None:
-    """Return the status of a result of the same case and components; None if there is none."""
-    if not path.exists():
-        return None
-    with Result.open(path) as result:
-        if result.case != describe(simulation.model):
-            raise CaseError(
-                f"{path} is the result of another case; choose another folder with -o, or run all "
-                "anew with --force"
-            )
-        return result.status if not simulation.changed_since(result) else None
+def _check_own(path: Path | None, simulation: Simulation) -> None:
+    """Check that a file is not the result of another case; one that holds nothing is nobody's."""
+    if path is None or not path.exists() or path.stat().st_size == 0:
+        return
+    otherwise = "choose another folder with -o, or run all anew with --force"
+    try:
+        with Result.open(path) as result:
+            own = result.case == describe(simulation.model)
+    except CaseError as error:
+        raise CaseError(f"{error}; {otherwise}") from error
+    if not own:
+        raise CaseError(f"{path} is the result of another case; {otherwise}")
 
 
 def _make(folder: Path) -> None:

@@ -14,13 +14,14 @@ from tribo.core.errors import CaseError, OutputError
 from tribo.results.checkpoint import fingerprint
 from tribo.results.provenance import origin
 from tribo.simulation.run import Simulation
+from tribo.study.completion import is_done
 from tribo.study.sweeping.carrying import carry
 from tribo.study.sweeping.locks import BusyError, locked
 from tribo.study.sweeping.points import count, points
 from tribo.study.sweeping.processes import Processes
 from tribo.study.sweeping.runs_table import Row, Run, outcome, runs_table, saves_table, write_csv
 from tribo.study.sweeping.study_file import load_study
-from tribo.study.sweeping.worker import Task, failure_path, is_done
+from tribo.study.sweeping.worker import Task, failure_path
 from tribo.study.variation import variants
 
 MANY = 1000

@@ -13,9 +13,8 @@ from typing import Any
 from tribo.core.errors import CaseError, Interrupted, TriboError
 from tribo.core.state import Snapshot
 from tribo.interfaces.observer import Observer, ObserverConfig
-from tribo.results.read import Result
-from tribo.simulation.describe import describe
 from tribo.simulation.run import Simulation
+from tribo.study.completion import complete, is_done
 from tribo.study.sweeping.locks import BusyError, locked
 
 GLANCE = 0.5
@@ -91,22 +90,6 @@ def write_failure(result: Path, message: str) -> None:
     fresh.replace(path)
 
 
-def is_done(path: Path, simulation: Simulation) -> bool:
-    """Return whether a file is the sound, finished result of a simulation as it is now."""
-    if not path.exists():
-        return False
-    try:
-        with Result.open(path) as result:
-            result.check()
-            return (
-                result.status == "done"
-                and result.case == describe(simulation.model)
-                and not simulation.changed_since(result)
-            )
-    except CaseError:
-        return False
-
-
 def _run(task: Task, path: Path, stop: Path) -> None:
     try:
         simulation = Simulation(task.case)
@@ -117,16 +100,7 @@ def _run(task: Task, path: Path, stop: Path) -> None:
         ) from error
     if is_done(path, simulation):
         return
-    observers = [_StopFile(stop)]
-    if path.exists():
-        try:
-            simulation.resume(path, observers=observers).close()
-        except CaseError:
-            # Nothing to go on from: no good checkpoint, or other versions of components.
-            pass
-        else:
-            return
-    simulation.run(path, observers=observers, overwrite=True).close()
+    complete(simulation, path, [_StopFile(stop)]).close()
 
 
 @contextmanager
