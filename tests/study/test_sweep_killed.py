@@ -95,7 +95,8 @@ def test_a_killed_parent_takes_its_workers_along_and_the_command_goes_on(tmp_pat
     children = workers(killed)
     assert len(children) == 2
     killed.kill()
-    killed.communicate()
+    # Python's own helper, too, goes without a word.
+    assert killed.communicate()[1] == ""
     until(lambda: not any(map(alive, children)), "end of the workers")
     before = done(tmp_path)
     # A worker may still have ended its run.
@@ -208,6 +209,15 @@ def test_a_scheduler_that_ends_is_told_of_and_the_command_goes_on(tmp_path, whol
     assert "the same command goes on" in err
     assert finished(sweeps.tribo("sweep", study, cwd=tmp_path))[0] == 0
     pandas.testing.assert_frame_equal(table(tmp_path), whole)
+
+
+def test_a_cluster_of_its_own_does_not_print_what_runs_warn_of(tmp_path):
+    pytest.importorskip("distributed", reason="dask.distributed is not installed")
+    study = sweeps.study(tmp_path, sweeps.QUICK + "[grid]\ngrid.cells = [10, 12]")
+    code, _, err = finished(sweeps.tribo("sweep", study, "--dask", "--jobs", 1, cwd=tmp_path))
+    assert code == 0
+    assert all(message.startswith("resolution:") for message in table(tmp_path)["message"])
+    assert "Warning" not in err
 
 
 def test_a_scheduler_that_does_not_answer_is_named():

@@ -13,6 +13,7 @@ from threading import Thread
 from typing import Any
 
 from tribo.core.errors import CaseError, TriboWarning
+from tribo.study.sweeping.processes import be_quiet
 
 PATIENCE = 15.0
 """How long a scheduler may take to answer, in s."""
@@ -63,6 +64,7 @@ def on_local_cluster(workers: int | None) -> Iterator[Executor]:
         ) as cluster,
         distributed.Client(cluster) as client,
     ):
+        client.register_worker_callbacks(be_quiet)
         yield client.get_executor(pure=False)
 
 

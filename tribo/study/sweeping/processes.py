@@ -82,8 +82,8 @@ class Processes(ThreadPoolExecutor):
         """Return the worker of this thread, by the number of its process."""
         number: int | None = getattr(self._mine, "number", None)
         if number not in self._workers:
-            pool = ProcessPoolExecutor(1, mp_context=get_context("spawn"), initializer=_begin)
-            with _starting, _single_threaded():
+            with _starting, _environment():
+                pool = ProcessPoolExecutor(1, mp_context=get_context("spawn"), initializer=_begin)
                 # The process starts with the first call.
                 first = pool.submit(os.getpid)
             number = self._mine.number = first.result()
@@ -94,10 +94,15 @@ class Processes(ThreadPoolExecutor):
 
 
 @contextmanager
-def _single_threaded() -> Iterator[None]:
-    """Give processes that start now one thread each for linear algebra."""
-    before = {name: os.environ.get(name) for name in THREADS}
-    os.environ.update(dict.fromkeys(THREADS, "1"))
+def _environment() -> Iterator[None]:
+    """Give processes that start now one thread each for linear algebra.
+
+    The one that tidies up after this process, should it be killed, does so in silence.
+    """
+    quiet = os.environ.get("PYTHONWARNINGS"), "ignore:::multiprocessing.resource_tracker"
+    changed = dict.fromkeys(THREADS, "1") | {"PYTHONWARNINGS": ",".join(filter(None, quiet))}
+    before = {name: os.environ.get(name) for name in changed}
+    os.environ.update(changed)
     try:
         yield
     finally:
@@ -108,12 +113,14 @@ def _single_threaded() -> Iterator[None]:
                 os.environ[name] = value
 
 
-def _begin() -> None:
-    """Prepare a worker: its parent hears Ctrl-C, and it does not outlive its parent.
-
-    What a run warns of is in its result.
-    """
+def be_quiet() -> None:
+    """Keep a worker from printing what its runs warn of, which is in their results."""
     warnings.simplefilter("ignore", TriboWarning)
+
+
+def _begin() -> None:
+    """Prepare a worker: its parent hears Ctrl-C, and it does not outlive its parent."""
+    be_quiet()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()
 
