@@ -110,7 +110,10 @@ SAMPLE = '[sample]\nmethod = "sobol"\ncount = 2\n[sample.ranges]\n'
     ("text", "message"),
     [
         ("", "nothing varies; give [grid], [zip], [[list]] or [sample]"),
-        ("[grid]\nload.normal = []", 'grid."load.normal": at least 1 values are needed'),
+        (
+            "[grid]\nload.normal = []",
+            'grid."load.normal": at least 1 value is needed, none was',
+        ),
         ("[grid]\nload.normal = 3", 'grid."load.normal": a list is needed, 3 was given'),
         ("[gird]\nload.normal = [1]", "gird: unknown key 'gird'; did you mean 'grid'?"),
         ("[grid]\nloda.normal = [1]", "loda: unknown key 'loda'; did you mean 'load'?"),

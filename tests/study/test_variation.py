@@ -107,3 +107,4 @@ def test_variants_with_one_reason_are_told_together():
     )
     assert len(text.splitlines()) == 3
     assert "; and 1 more: loda" in refused("loda=1,2,3,4")
+    assert refused("loda=1").startswith("the only variant cannot be run; nothing was started:\n")

@@ -135,9 +135,9 @@ def _message(details: ErrorDetails, place: Place, registry: Registry) -> str:
     if kind in _BOUNDS:
         return f"{given}: must be {_BOUNDS[kind].format(**context)}"
     if kind == "too_short":
-        return f"at least {context['min_length']} values are needed, {_count(context)} given"
+        return f"at least {_values(context['min_length'], 'needed')}, {_count(context)} given"
     if kind == "too_long":
-        return f"at most {context['max_length']} values are allowed, {_count(context)} given"
+        return f"at most {_values(context['max_length'], 'allowed')}, {_count(context)} given"
     if kind == "literal_error":
         return _choice(details["input"], context["expected"])
     if kind == "union_tag_invalid":
@@ -168,9 +168,15 @@ def _choice(given: object, expected: str) -> str:
     return f"{expected} is needed, {shown(given)} was given" + (suggestion(meant) if meant else "")
 
 
+def _values(count: int, what: str) -> str:
+    return f"1 value is {what}" if count == 1 else f"{count} values are {what}"
+
+
 def _count(context: dict[str, Any]) -> str:
     count = context.get("actual_length")
-    return "fewer were" if count is None else "1 was" if count == 1 else f"{count} were"
+    if count is None:
+        return "fewer were"
+    return f"{count or 'none'} {'was' if count in (0, 1) else 'were'}"
 
 
 def _plain(message: str) -> str:

@@ -198,7 +198,8 @@ def _check_body(data: Mapping[str, Any], path: str) -> None:
 
 def _refusal(reasons: Mapping[str, Sequence[str]], count: int) -> str:
     failing = sum(map(len, reasons.values()))
-    lines = [f"{failing} of {count} variants cannot be run; nothing was started:"]
+    which = "the only variant" if count == 1 else f"{failing} of {count} variants"
+    lines = [f"{which} cannot be run; nothing was started:"]
     for reason, labels in reasons.items():
         named = "; ".join(labels[:_NAMED])
         more = f"; and {len(labels) - _NAMED} more" if len(labels) > _NAMED else ""
