@@ -1,6 +1,7 @@
 """`tribo compare`, as a user meets it."""
 
 import json
+import shutil
 
 import pytest
 from click.testing import CliRunner
@@ -84,6 +85,26 @@ def test_bad_input_is_told(folder, files, options, message):
         )
     assert message in str(caught.value)
     assert caught.value.exit_code == 2
+
+
+def test_names_of_files_are_shown_as_they_are_and_not_broken(folder):
+    names = ["[m]", "steel_on_steel_in_oil", "steel_on_bronze_in_oil"]
+    of_grids = folder / "grids"
+    cells = ["--vary", "grid.cells=18,20", *QUICK, "--no-plots", "-o", of_grids]
+    assert invoke(folder / "my.toml", *cells).exit_code == 0
+    for name, count in zip(names, (18, 20, 20), strict=True):
+        shutil.copy(of_grids / f"grid.cells={count}.h5", folder / f"{name}.h5")
+    done = invoke(*(folder / f"{name}.h5" for name in names), "--no-plots")
+    lines = done.stdout.splitlines()
+    first_note = next(i for i, line in enumerate(lines) if line.startswith("Note"))
+    tables = map(str.split, lines[2:first_note])
+    heads = [words for words in tables if words and words[0] in names]
+    assert [head for line in heads for head in line] == names
+    assert "relative to [m];" in done.stdout
+    assert f"Note: {names[1]}, {names[2]}: not on the grid of [m]," in done.stdout.replace(
+        "\n", " "
+    )
+    assert max(map(len, lines)) <= 80
 
 
 def test_many_results_go_below_each_other(folder):

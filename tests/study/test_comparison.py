@@ -1,6 +1,7 @@
 """Results side by side: what is the same differs by round-off, what is not by what was changed."""
 
 import json
+import shutil
 import tomllib
 import warnings
 
@@ -172,6 +173,62 @@ def test_a_run_that_was_interrupted_goes_on(tmp_path):
             assert np.array_equal(a.pressure(-1), b.pressure(-1))
 
 
+def test_a_run_that_was_killed_goes_on(tmp_path):
+    from tribo.interfaces.observer import Observer, ObserverConfig
+
+    class Watch(Observer[ObserverConfig]):
+        """Copies what a kill would leave after 150 s, and notes the times of all steps."""
+
+        def __init__(self, copy=None):
+            super().__init__(ObserverConfig(type="watch"))
+            self.copy, self.times = copy, []
+
+        def on_step(self, snapshot):
+            self.times.append(snapshot.state.time)
+            if self.copy and self.times[-1] > 150 and not self.copy.exists():
+                shutil.copytree(tmp_path / "whole", self.copy)
+
+    axes = [Axis("contact.type", ("dcfft", "winkler"))]
+    first, second = Watch(tmp_path / "killed"), Watch()
+    with (
+        compare(case(), grid(axes), tmp_path / "whole", observers=lambda: [first]) as whole,
+        compare(case(), grid(axes), tmp_path / "killed", observers=lambda: [second]) as resumed,
+    ):
+        # The second variant begins anew.
+        assert second.times[0] >= 100
+        assert min(second.times) == 0
+        for a, b in zip(resumed.results.values(), whole.results.values(), strict=True):
+            assert a.status == "done"
+            assert np.array_equal(a.pressure(-1), b.pressure(-1))
+
+
+def test_what_a_run_left_that_holds_nothing_is_made_anew_and_what_is_no_result_kept(tmp_path):
+    axes = [Axis("contact.type", ("dcfft", "winkler"))]
+    path = tmp_path / "contact.type=dcfft.h5"
+    path.touch()
+    compare(case(), grid(axes), tmp_path).close()
+    path.write_text("my notes")
+    with pytest.raises(
+        CaseError, match=r"dcfft\.h5 is not a whole .* or run all anew with --force"
+    ):
+        compare(case(), grid(axes), tmp_path)
+    assert path.read_text() == "my notes"
+
+
+def test_a_damaged_result_is_made_anew(tmp_path):
+    axes = [Axis("contact.type", ("dcfft", "winkler"))]
+    compare(case(), grid(axes), tmp_path).close()
+    path = tmp_path / "contact.type=dcfft.h5"
+    content = bytearray(path.read_bytes())
+    content[len(content) // 2] ^= 1
+    path.write_bytes(content)
+    told = []
+    compare(case(), grid(axes), tmp_path, tell=told.append).close()
+    assert ["done already" in line for line in told] == [False, True]
+    with Result.open(path) as result:
+        result.check()
+
+
 def test_a_run_that_fails_is_named():
     data = case(stepping={"type": "explicit", "time_step": 0.25})
     settings = grid([Axis("stepping.time_step", (0.25, 1e4))])
@@ -247,6 +304,15 @@ def test_notices_of_a_run_are_notes():
         warnings.simplefilter("ignore", TriboWarning)
         with compare(long, grid([Axis("load.normal", (90, 100))])) as comparison:
             assert any(note.startswith("90: averaging:") for note in comparison.notes)
+
+
+def test_a_notice_of_several_runs_is_told_once():
+    coarse = case(grid={"size": "0.9 mm", "cells": 12})
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", TriboWarning)
+        with compare(coarse, grid([Axis("contact.type", ("dcfft", "winkler"))])) as comparison:
+            (note,) = comparison.notes
+    assert note.startswith("dcfft; winkler: resolution: ")
 
 
 def test_file_names_are_safe_and_different():

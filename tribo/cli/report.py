@@ -8,6 +8,7 @@ from typing import Any
 
 from rich import box
 from rich.console import Console
+from rich.markup import escape
 from rich.measure import Measurement
 from rich.table import Table
 from rich.text import Text
@@ -47,7 +48,7 @@ def print_report(result: Result, console: Console | None = None) -> None:
     if result.status != "done":
         console.print(f"[yellow]This run is {result.status}, not done.[/]")
     for notice in result.notices:
-        console.print(f"[yellow]Note:[/] {notice}")
+        console.print(f"[yellow]Note:[/] {escape(notice)}")
 
 
 def print_provenance(result: Result, console: Console | None = None) -> None:

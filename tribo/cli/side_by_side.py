@@ -7,6 +7,7 @@ from typing import Any
 
 from rich import box
 from rich.console import Console
+from rich.markup import escape
 from rich.table import Table
 
 from tribo.study.comparison import Comparison
@@ -14,6 +15,7 @@ from tribo.study.differences import differences
 
 _NAME_WIDTH = 26
 _CELL_WIDTH = 16
+_GAP = 3
 NOTHING = "–"
 
 Row = tuple[str, tuple[str, ...], float, str]
@@ -30,21 +32,32 @@ def print_comparison(
     if paths:
         console.print(f"Varied: {', '.join(paths)}")
     console.print(
-        f"Percentages are relative to {comparison.reference}; those of fields are the L2 norm and "
-        "the largest difference."
+        f"Percentages are relative to {escape(comparison.reference)}; those of fields are the L2 "
+        "norm and the largest difference."
     )
-    columns = max(2, (console.width - _NAME_WIDTH) // _CELL_WIDTH)
+    # A label is broken between its words, unless two of them would not fit.
+    longest = max((len(word) for label in labels for word in label.split()), default=0)
+    room = max(console.width - _NAME_WIDTH, 2 * _CELL_WIDTH)
+    cell = min(max(_CELL_WIDTH, longest + _GAP), room // 2)
+    columns = max(2, room // cell)
     for start in range(0, len(labels), columns):
-        console.print(_table(comparison, labels[start : start + columns], times))
+        console.print(_table(comparison, labels[start : start + columns], times, cell))
     for note in comparison.notes:
-        console.print(f"[yellow]Note:[/] {note}")
+        console.print(f"[yellow]Note:[/] {escape(note)}")
 
 
-def _table(comparison: Comparison, labels: Sequence[str], times: Sequence[float]) -> Table:
+def _table(
+    comparison: Comparison, labels: Sequence[str], times: Sequence[float], cell: int
+) -> Table:
     table = Table(box=box.SIMPLE_HEAD)
     table.add_column("", no_wrap=True)
     for label in labels:
-        table.add_column(label, justify="right", overflow="fold")
+        table.add_column(
+            escape(label),
+            justify="right",
+            overflow="fold",
+            min_width=min(max(map(len, label.split()), default=0), cell - _GAP),
+        )
     for name, key, digits in (
         ("steps", "steps", "{:.0f}"),
         ("contact solves", "contact_solves", "{:.0f}"),

@@ -106,11 +106,11 @@ class Comparison:
             for label, result in self.results.items()
             if result.status != "done"
         ]
-        notes += [
-            f"{label}: {notice}"
-            for label, result in self.results.items()
-            for notice in result.notices
-        ]
+        warned: dict[str, list[str]] = {}
+        for label, result in self.results.items():
+            for notice in result.notices:
+                warned.setdefault(notice, []).append(label)
+        notes += [f"{'; '.join(labels)}: {notice}" for notice, labels in warned.items()]
         return notes
 
     def chosen_times(self, times: Sequence[float] = ()) -> list[float]:
