@@ -44,6 +44,13 @@ def test_it_prints_estimates_with_intervals_and_what_to_run(done):
     assert last.endswith("--set bodies.ball.wear.k=7.077e-15 --set bodies.disk.wear.k=7.077e-16")
 
 
+def test_its_tables_break_neither_names_nor_numbers(done):
+    lines = done.stdout.splitlines()
+    (row,) = (line.split() for line in lines if line.startswith(" bodies.disk.wear.k"))
+    assert " ".join(row) == "bodies.disk.wear.k 7.08e-16 1/Pa 4.25e-16 to 9.91e-16 ±40 % ±50 %"
+    assert max(len(line) for line in lines if line.startswith(" ")) <= 80
+
+
 def test_it_tells_of_each_run_on_stderr(done):
     lines = done.stderr.splitlines()
     assert lines[0].startswith("run 1: misfit χ² ")

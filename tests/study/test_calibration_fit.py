@@ -156,6 +156,25 @@ def test_a_parameter_without_effect_is_named():
         fit(lambda k: np.array([k[0], k[0] ** 2]), made, np.ones(2))
 
 
+def test_an_effect_that_drowns_in_its_uncertainty_is_not_called_none():
+    made = problem(np.ones(1), np.full(1, 5e3), names=("k",), start=np.ones(1))
+    with pytest.raises(CaseError, match=r"what k changes .* the uncertainty is 5000 times the val"):
+        fit(lambda k: k, made, np.ones(1))
+
+
+@pytest.mark.parametrize("start", [0.99, 1.0, 1.01])
+def test_no_run_is_made_beyond_the_bounds(start):
+    """Not for a difference either, where the bounds are near."""
+    bounds = np.array([0.99, 1.01])
+    made = Problem(("k",), np.ones(1), np.full(1, 1e-3), np.full(1, True), *np.log(bounds)[:, None])
+
+    def model(k):
+        assert bounds[0] * (1 - 1e-12) <= k[0] <= bounds[1] * (1 + 1e-12)
+        return k
+
+    assert np.exp(fit(model, made, np.array([start])).point) == pytest.approx(1.0, rel=1e-5)
+
+
 def test_a_model_that_jumps_about_is_not_settled():
     random = np.random.default_rng(0)
     made = problem(np.array([1.0]), np.array([1e-6]), names=("k",), start=np.ones(1))

@@ -88,8 +88,8 @@ def test_every_quantity_can_be_asked_for():
                 "uncertainty": "1 um",
                 "position": ["1 mm", "2 mm"],
             },
-            "measured[0]: profile_along needs value and position, two lists of the same length; 1 "
-            "values and 2 positions were given",
+            "measured[0]: profile_along needs value and position, two lists of the same length, "
+            "not 1 and 2 long",
         ),
         (
             {
@@ -203,7 +203,8 @@ def test_a_level_is_a_probability():
 
 def test_a_parameter_that_changes_nothing_is_told():
     """How stiff a body is does not change how much it loses."""
-    data = {"measured": [GOOD], "fit": [{"path": "bodies.ball.material.young"}]}
+    loss = changed(value="0.5 ug", uncertainty="0.05 ug")
+    data = {"measured": [loss], "fit": [{"path": "bodies.ball.material.young"}]}
     case = apply_settings(CASE, {"kinematics.duration": 20, "output": {}})
     with pytest.raises(
         CaseError, match=r"^bodies.ball.material.young changes none of the measured"

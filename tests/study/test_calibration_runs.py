@@ -13,7 +13,11 @@ from tribo.core.errors import NumericalError, TriboWarning
 from tribo.simulation.run import Simulation
 from tribo.study import calibrate
 from tribo.study.calibration import runs as calibration_runs
-from tribo.study.calibration.quantities import QUANTITIES, diameter
+from tribo.study.calibration.measured import read_measurements
+from tribo.study.calibration.notes import far_off
+from tribo.study.calibration.parameters import Parameter, find_parameters
+from tribo.study.calibration.quantities import QUANTITIES, diameter, percent
+from tribo.study.calibration.runs import Runs
 from tribo.templates import template
 from tribo.testing.reference.ball_on_track import ball_on_track
 
@@ -220,11 +224,88 @@ def test_widths_finer_than_the_grid_are_told(true_run):
 
 
 def test_a_failing_run_says_with_what():
-    data = [weighed("ball", mass(1000 * BALL))]
-    with pytest.raises(NumericalError) as caught:
+    """And before it, that a unit was probably forgotten."""
+    data = [weighed("ball", 1000 * mass(BALL))]
+    with (
+        pytest.raises(NumericalError) as caught,
+        pytest.warns(
+            TriboWarning,
+            match=r"^measured\[0\]: value was read as 7.32e-06 kg, a factor of 1000 above the "
+            r"7.32e-09 kg that the case gives with bodies.ball.wear.k = 3.11e-16 1/Pa; a number "
+            "without a unit is in kg",
+        ),
+    ):
         calibrate(CASE, {"measured": data})
     assert "with bodies.ball.wear.k = " in str(caught.value)
     assert "reached the edge of the window" in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("entry", "text"),
+    [
+        (
+            measured("disk", "depth", 0.18e-9, 0.05),
+            "measured[1]: value was read as 1.8e-10 m, a factor of ",
+        ),
+        (
+            {
+                "body": "disk",
+                "quantity": "mass",
+                "before": 27.6445,
+                "after": 27.6443,
+                "resolution": 1e-4,
+            },
+            "measured[1]: before less after was read as 0.0002 kg, a factor of ",
+        ),
+    ],
+)
+def test_what_is_far_from_what_the_case_gives_is_told(true_run, entry, text):
+    entries = read_measurements({"measured": [weighed("ball", mass(50 * BALL)), entry]}).measured
+    own = [computed(true_run, each.body, each.quantity) for each in entries]
+    parameters = [Parameter("bodies.disk.wear.k", "1/Pa", DISK, 0.0, np.inf)]
+    # A coefficient may be off by fifty.
+    (told,) = far_off(entries, np.array(own), parameters)
+    assert told.startswith(text)
+
+
+def test_an_estimate_on_its_bound_is_told():
+    fit = [{"path": "bodies.ball.wear.k", "upper": 1.2 * BALL}]
+    found = calibrate(CASE, {"measured": [weighed("ball", mass(2 * BALL))], "fit": fit})
+    (each,) = found.parameters
+    assert each.value == pytest.approx(1.2 * BALL)
+    assert each.lower < each.value
+    assert each.upper <= 1.2 * BALL
+    assert (
+        "bodies.ball.wear.k: the estimate lies on its upper bound, 3.73e-16 1/Pa; without it the "
+        "data would be met better"
+    ) in found.notes
+
+
+def test_a_parameter_stays_within_an_open_bound():
+    """Poisson's ratio is below a half."""
+    data = [weighed("ball", mass(BALL))]
+    path = "bodies.ball.material.poisson"
+    entries = read_measurements({"measured": data, "fit": fitting(path)})
+    case = validate_case(CASE)
+    (parameter,) = find_parameters(case, entries.fit, entries.measured)
+    assert 0.499 < parameter.upper < 0.5
+    runs = Runs(CASE, entries.measured, [parameter], [], None)
+    assert runs(np.array([0.5 + 1e-12])) == pytest.approx([mass(BALL)])
+
+
+def test_what_was_measured_at_the_end_is_not_predicted():
+    entry = {"time": 300.0, **weighed("ball", mass(BALL))}
+    found = calibrate(CASE, {"measured": [entry]})
+    assert ("ball", "mass") not in [(each.body, each.quantity) for each in found.predictions]
+    (datum,) = found.as_json()["data"]
+    assert (datum["time_s"], datum["position_m"]) == (300.0, None)
+
+
+@pytest.mark.parametrize(
+    ("part", "text"), [(2e-14, "0.0"), (0.0526, "5.3"), (0.0996, "10"), (1, "100"), (2.5, "250")]
+)
+def test_percent_are_written_out(part, text):
+    assert percent(part) == text
 
 
 def test_intervals_cover_the_truth_at_their_level(monkeypatch):

@@ -11,10 +11,14 @@ from pathlib import Path
 import click
 from rich import box
 from rich.console import Console
+from rich.markup import escape
 from rich.table import Table
 
 from tribo.study.calibration.outcome import Calibration, Datum, Estimate, Expected
-from tribo.study.calibration.quantities import PROFILES, in_words
+from tribo.study.calibration.quantities import PROFILES, in_si, in_words, percent
+
+LONGEST_NAME = 36
+"""Characters of a name that a table for 80 columns has room for."""
 
 
 @click.command()
@@ -68,22 +72,25 @@ def _tell(run: int, misfit: float) -> None:
     click.echo(f"run {run}: misfit χ² {misfit:.3g}", err=True)
 
 
-def _table(title: str, columns: tuple[str, ...]) -> Table:
+def _table(title: str, names: list[str], columns: tuple[str, ...]) -> Table:
+    """Return a table that breaks its cells between words, and only very long names within."""
     table = Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD)
-    table.pad_edge = False
-    table.add_column("", overflow="fold")
+    table.pad_edge, table.collapse_padding = False, True
+    longest = max(map(len, names), default=0)
+    table.add_column("", overflow="fold", no_wrap=longest <= LONGEST_NAME)
     for column in columns:
-        table.add_column(column, justify="right", no_wrap=True)
+        table.add_column(column, justify="right", overflow="fold")
     return table
 
 
 def _estimates(found: Calibration) -> Table:
     level = f"{100 * found.level:g} % interval"
-    table = _table(f"Fitted in {found.runs} runs", ("estimate", level, "", "resolution"))
+    names = [each.path for each in found.parameters]
+    table = _table(f"Fitted in {found.runs} runs", names, ("estimate", level, "", "resolution"))
     for each in found.parameters:
         table.add_row(
             each.path,
-            f"{each.value:.3g} {'' if each.unit == '1' else each.unit}".rstrip(),
+            in_si(each.value, each.unit),
             f"{_end(each.lower)} to {_end(each.upper)}",
             _relative(each.value, each.lower, each.upper),
             _resolution(each),
@@ -92,10 +99,11 @@ def _estimates(found: Calibration) -> Table:
 
 
 def _data(found: Calibration) -> Table:
-    table = _table("Measured", ("value", "uncertainty", "computed", "residual"))
-    for each in found.data:
+    names = [_name(each) for each in found.data]
+    table = _table("Measured", names, ("value", "uncertainty", "computed", "residual"))
+    for each, name in zip(found.data, names, strict=True):
         table.add_row(
-            _name(each),
+            name,
             in_words(each.quantity, each.measured),
             in_words(each.quantity, each.sigma),
             in_words(each.quantity, each.computed),
@@ -106,12 +114,13 @@ def _data(found: Calibration) -> Table:
 
 def _predictions(found: Calibration) -> Table:
     level = f"{100 * found.level:g} % interval"
-    table = _table("Not measured, at the end", ("computed", level, ""))
-    for each in found.predictions:
+    names = [_name(each) for each in found.predictions]
+    table = _table("Not measured, at the end", names, ("computed", level, ""))
+    for each, name in zip(found.predictions, names, strict=True):
         low = in_words(each.quantity, each.lower).split()[0]
         high = "open" if math.isinf(each.upper) else in_words(each.quantity, each.upper)
         table.add_row(
-            f"{each.body}, {each.quantity}",
+            name,
             in_words(each.quantity, each.value),
             f"{low} to {high}",
             _relative(each.value, each.lower, each.upper),
@@ -134,7 +143,7 @@ def _judgement(found: Calibration) -> Iterator[str]:
                 f"{round(found.correlation[i, j], 2) + 0.0:+.2f}."
             )
     for note in found.notes:
-        yield f"[yellow]Note:[/] {note}"
+        yield f"[yellow]Note:[/] {escape(note)}"
 
 
 def _name(each: Datum | Expected) -> str:
@@ -153,10 +162,11 @@ def _end(value: float) -> str:
 def _resolution(each: Estimate) -> str:
     if not each.resolution_limit or math.isinf(each.upper):
         return ""
-    return f"±{100 * each.resolution_limit:.2g} %"
+    return f"±{percent(each.resolution_limit)} %"
 
 
 def _relative(value: float, lower: float, upper: float) -> str:
     if math.isinf(upper):
         return ""
-    return f"−{100 * (1 - lower / value):.2g} +{100 * (upper / value - 1):.2g} %"
+    below, above = percent(1 - lower / value), percent(upper / value - 1)
+    return f"±{above} %" if below == above else f"−{below} +{above} %"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -11,7 +12,7 @@ import numpy as np
 
 from tribo.config.load import read_toml, validate_case
 from tribo.core.arrays import Array
-from tribo.core.errors import CaseError
+from tribo.core.errors import CaseError, TriboWarning
 from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.registry import Registry
 from tribo.simulation.model import Model, located
@@ -19,6 +20,7 @@ from tribo.simulation.run import Simulation
 from tribo.study.calibration.fit import Problem, fit
 from tribo.study.calibration.judge import outcome
 from tribo.study.calibration.measured import Measured, Measurements, read_measurements
+from tribo.study.calibration.notes import far_off
 from tribo.study.calibration.outcome import Calibration
 from tribo.study.calibration.parameters import find_parameters
 from tribo.study.calibration.quantities import PROFILES, QUANTITIES, check_available, is_available
@@ -96,6 +98,9 @@ def calibrate(
     def run(values: Array) -> Array:
         responses = runs(values)
         notices[values.tobytes()] = runs.notices
+        if runs.count == 1:
+            for text in far_off(asked.measured, responses[:count], parameters):
+                warnings.warn(text, TriboWarning, stacklevel=2)
         if on_run is not None:
             on_run(runs.count, float(np.sum(problem.residuals(responses) ** 2)))
         return responses
@@ -141,7 +146,11 @@ def _check_entry(model: Model, entry: Measured, place: str) -> None:
 
 def _predicted(model: Model, measured: Sequence[Measured]) -> list[Predicted]:
     """Return all that the runs give at their end and was not measured then."""
-    known = {(entry.body, entry.quantity) for entry in measured if entry.time is None}
+    known = {
+        (entry.body, entry.quantity)
+        for entry in measured
+        if entry.time is None or entry.time >= model.end_time * (1 - 1e-12)
+    }
     return [
         (body.name, quantity)
         for body in model.bodies

@@ -24,6 +24,8 @@ SETTLED = 0.01
 """Change of the responses, in standard deviations, that ends the fit."""
 NO_EFFECT = 1e-3
 """Change of a datum, in standard deviations, per change of a parameter by e: nothing to learn."""
+NOTABLE = 0.01
+"""Relative change of a datum, per change of a parameter by e, that is none of rounding."""
 MOST_ROUNDS = 12
 _PULL = 1e-3
 _RIDGE = 1e-12
@@ -180,7 +182,7 @@ def fit(model: Callable[[Array], Array], problem: Problem, start: Array) -> Surr
 
     point = np.log(start)
     here = _differenced(run, problem, point, run(point))
-    _check_effect(problem, here.jacobian(point))
+    _check_effect(here)
     known = point
     for _ in range(MOST_ROUNDS):
         point = here.closest().x
@@ -262,20 +264,32 @@ def _differenced(
 ) -> Surrogate:
     columns = []
     for i in range(len(point)):
-        step = STEP if point[i] + STEP <= problem.upper[i] else -STEP
+        below, above = point[i] - problem.lower[i], problem.upper[i] - point[i]
+        # Where bounds leave no room for a whole step, the larger part of it.
+        step = min(STEP, above) if above >= min(STEP, below) else -min(STEP, below)
         moved = point.copy()
         moved[i] += step
         columns.append(_change(problem, responses, run(moved)) / step)
     return Surrogate(problem, point, responses, np.stack(columns, axis=1))
 
 
-def _check_effect(problem: Problem, jacobian: Array) -> None:
-    for name, effect in zip(problem.names, np.max(np.abs(jacobian), axis=0), strict=True):
-        if effect < NO_EFFECT:
+def _check_effect(here: Surrogate) -> None:
+    problem, n = here.problem, len(here.problem.observed)
+    effects = np.max(np.abs(here.jacobian(here.point)), axis=0)
+    for name, effect, slopes in zip(problem.names, effects, here.slopes[:n].T, strict=True):
+        if effect >= NO_EFFECT:
+            continue
+        changed = problem.logged[:n] & (np.abs(slopes) > NOTABLE)
+        if np.any(changed):
+            least = float(np.min(problem.sigma[changed] / problem.observed[changed]))
             raise CaseError(
-                f"{name} changes none of the measured values; leave it out of fit, or measure "
-                "something that depends on it"
+                f"what {name} changes is measured too badly to tell: the uncertainty is "
+                f"{least:.0f} times the value; is its unit the one that was meant?"
             )
+        raise CaseError(
+            f"{name} changes none of the measured values; leave it out of fit, or measure "
+            "something that depends on it"
+        )
 
 
 def _change(problem: Problem, before: Array, after: Array) -> Array:

@@ -57,7 +57,8 @@ def outcome(
     estimates = []
     for i, parameter in enumerate(parameters):
         value = float(np.exp(fitted.point[i]))
-        ends = _ends(fitted, np.eye(len(parameters))[i], value, level)
+        low, high = _ends(fitted, np.eye(len(parameters))[i], value, level)
+        ends = max(low, parameter.lower), min(high, parameter.upper)
         estimates.append(
             Estimate(
                 parameter.path, parameter.unit, value, *ends, float(shares[i]), float(limits[i])
@@ -78,7 +79,7 @@ def outcome(
         degrees_of_freedom=len(data) - len(parameters),
         correlation=spread / np.outer(deviations, deviations),
         singular_values=np.asarray(np.linalg.svd(jacobian, compute_uv=False), dtype=np.float64),
-        notes=(*notes(estimates, data, measured, jacobian, grid), *notices),
+        notes=(*notes(estimates, parameters, data, measured, jacobian, grid), *notices),
     )
 
 

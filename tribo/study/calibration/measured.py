@@ -89,8 +89,8 @@ class Measured(Table):
         depths = self.value if isinstance(self.value, tuple) else ()
         if not depths or len(depths) != len(self.position or ()):
             raise ValueError(
-                f"{self.quantity} needs value and position, two lists of the same length; "
-                f"{len(depths)} values and {len(self.position or ())} positions were given"
+                f"{self.quantity} needs value and position, two lists of the same length, not "
+                f"{len(depths)} and {len(self.position or ())} long"
             )
 
     def _check_readings(self) -> None:

@@ -126,12 +126,12 @@ class Calibration:
         return float(chdtrc(self.degrees_of_freedom, self.chi_square))
 
     def as_json(self) -> dict[str, Any]:
-        """Return it as plain data in SI units; an end that is open is None."""
+        """Return it as plain data in SI units; an upper end that is open is None, a lower one 0."""
         return {
             "level": self.level,
             "runs": self.runs,
             "parameters": [_finite(asdict(each)) for each in self.parameters],
-            "data": [asdict(each) for each in self.data],
+            "data": [_datum(each) for each in self.data],
             "predictions": [_finite(asdict(each)) for each in self.predictions],
             "chi_square": self.chi_square,
             "degrees_of_freedom": self.degrees_of_freedom,
@@ -140,6 +140,11 @@ class Calibration:
             "singular_values": self.singular_values.tolist(),
             "notes": list(self.notes),
         }
+
+
+def _datum(each: Datum) -> dict[str, Any]:
+    names = {"time": "time_s", "position": "position_m"}
+    return {names.get(key, key): value for key, value in asdict(each).items()}
 
 
 def _finite(values: dict[str, Any]) -> dict[str, Any]:

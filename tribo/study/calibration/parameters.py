@@ -17,6 +17,9 @@ from tribo.core.words import did_you_mean, shown, suggestion
 from tribo.simulation.model import located
 from tribo.study.calibration.measured import Fitted, Measured
 
+WITHIN = 1e-9
+"""How far within an open bound a parameter stays, relative."""
+
 
 @dataclass(frozen=True)
 class Parameter:
@@ -144,8 +147,11 @@ def _bounded(place: str, entry: Fitted, value: float, mark: Quantity) -> Paramet
             "scale, so give a start above 0",
             f"{place}.start",
         )
-    least = max(b for b in (mark.above, mark.at_least, 0.0) if b is not None)
-    most = min(b for b in (mark.below, mark.at_most, math.inf) if b is not None)
+    # A run needs a value within bounds that a field does not take themselves.
+    above = None if mark.above is None else mark.above + WITHIN * abs(mark.above)
+    below = None if mark.below is None else mark.below - WITHIN * abs(mark.below)
+    least = max(b for b in (above, mark.at_least, 0.0) if b is not None)
+    most = min(b for b in (below, mark.at_most, math.inf) if b is not None)
     lower, upper = read("lower", entry.lower, least), read("upper", entry.upper, most)
     if not (lower <= start <= upper and lower < upper):
         raise CaseError(

@@ -142,6 +142,16 @@ def in_words(name: str, value: float) -> str:
     return f"{quantity.per_unit * value:.3g} {quantity.shown}"
 
 
+def in_si(value: float, unit: str) -> str:
+    """Return a value in SI with its unit, if that is not 1, as ``"7.08e-15 1/Pa"``."""
+    return f"{value:.3g}" if unit == "1" else f"{value:.3g} {unit}"
+
+
+def percent(part: float) -> str:
+    """Return a part in percent, rounded, for a table or a sentence; without the sign."""
+    return f"{100 * part:.0f}" if part >= 0.095 else f"{100 * part:.1f}"
+
+
 def read_profile(result: Result, body: BodyResult, save: int, name: str, at: Array) -> Array:
     """Return a profile's depths at positions, in m."""
     axis = PROFILES[name]

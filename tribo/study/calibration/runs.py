@@ -68,17 +68,23 @@ class Runs:
 
     def __call__(self, values: Array) -> Array:
         """Return the computed values of the data, and then those of the predictions."""
-        settings = {p.path: float(v) for p, v in zip(self._parameters, values, strict=True)}
-        case = validate_case(apply_settings(self._tables, settings), registry=self._registry)
+        # The logarithm that the fit works with may round to just beyond a bound.
+        settings = {
+            p.path: min(max(float(value), p.lower), p.upper)
+            for p, value in zip(self._parameters, values, strict=True)
+        }
         self.count += 1
         with warnings.catch_warnings():
             # The notices of the run with the estimates say the same, once.
             warnings.simplefilter("ignore", TriboWarning)
             try:
+                case = validate_case(
+                    apply_settings(self._tables, settings), registry=self._registry
+                )
                 result = Simulation(case, self._registry).run()
-            except NumericalError as error:
+            except (CaseError, NumericalError) as error:
                 named = ", ".join(f"{path} = {value:.4g}" for path, value in settings.items())
-                raise NumericalError(f"run {self.count}, with {named}: {error}") from error
+                raise type(error)(f"run {self.count}, with {named}: {error}") from error
         with result:
             self.notices = result.notices
             data = [
