@@ -113,6 +113,8 @@ def test_a_save_out_of_range_is_refused_with_how_many_there_are(path, save):
     with Result.open(path) as result:
         with pytest.raises(CaseError, match=f"no save {save}: it has 3 saves, 0 to 2"):
             result.pressure(save)
+        with pytest.raises(CaseError, match=f"no save {save}: it has 3 saves, 0 to 2"):
+            result.wear_depth("ball", save)
         ball = result.body("ball")
     with pytest.raises(CaseError, match=f"'ball' has no save {save}: it has 3 saves, 0 to 2"):
         ball.surface(save)
@@ -122,6 +124,16 @@ def test_saves_count_from_either_end(path):
     with Result.open(path) as result:
         np.testing.assert_array_equal(result.pressure(-1), result.pressure(2))
         np.testing.assert_array_equal(result.pressure(-3), result.pressure(0))
+
+
+def test_the_wear_depth_of_a_save_is_that_of_the_body(path):
+    with Result.open(path) as result:
+        for name in ("ball", "disk"):
+            for save in (0, 2, -1):
+                expected = result.body(name).wear_depth[save]
+                np.testing.assert_array_equal(result.wear_depth(name, save), expected)
+        with pytest.raises(CaseError, match="has no body 'bal'; its bodies are ball, disk"):
+            result.wear_depth("bal", 0)
 
 
 def test_a_save_is_found_by_its_time_within_rounding():

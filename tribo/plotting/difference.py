@@ -59,7 +59,7 @@ def difference_map(results: Mapping[str, Result], label: str, time: float) -> Fi
     touched = (result.pressure(i) > 0) | (first.pressure(j) > 0)
     for name in result.body_names:
         if name in first.body_names and not result.body(name).swept:
-            worn, other = result.body(name).wear_depth[i], first.body(name).wear_depth[j]
+            worn, other = result.wear_depth(name, i), first.wear_depth(name, j)
             touched |= scar_mask(worn) | scar_mask(other)
             if np.any(worn != other):
                 fields.append((f"Wear depth of {name}", height_unit, np.asarray(worn - other)))

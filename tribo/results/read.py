@@ -168,6 +168,21 @@ class Result:
         """
         return self._file.array("pressure", checked_save(save, len(self.times), self.name))
 
+    def wear_depth(self, body: str, save: int) -> Array:
+        """Return the worn depth of a body at a save, shape (nx, ny), in m.
+
+        Saves count from 0; -1 is the last. Reads no other save, as `Result.body` does.
+
+        Raises
+        ------
+        CaseError
+            If there is no such body or save.
+        """
+        self._check_body(body)
+        save = checked_save(save, len(self.times), self.name)
+        depth = self._file.array(f"bodies/{body}/wear_depth", save)
+        return np.broadcast_to(depth, self.grid.cells)
+
     def save_at(self, time: float) -> int:
         """Return the index of the save at `time`.
 
@@ -197,10 +212,7 @@ class Result:
         CaseError
             If there is no body of that name.
         """
-        if name not in self.body_names:
-            raise CaseError(
-                f"{self.name} has no body {name!r}; its bodies are {', '.join(self.body_names)}"
-            )
+        self._check_body(name)
         with self._file.reading(f"'bodies/{name}'"):
             group = self._file.file[f"bodies/{name}"]
             swept, density = bool(group.attrs["swept"]), group.attrs.get("density_kg_m3")
@@ -281,6 +293,12 @@ class Result:
             c.label: float(np.max(self._file.array(f"history/{c.name}"), initial=0))
             for c in columns
         }
+
+    def _check_body(self, name: str) -> None:
+        if name not in self.body_names:
+            raise CaseError(
+                f"{self.name} has no body {name!r}; its bodies are {', '.join(self.body_names)}"
+            )
 
     def _on_window(self, name: str) -> Array:
         """Return a body's own field at every save, spread along x where the body is swept."""

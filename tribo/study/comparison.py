@@ -140,6 +140,7 @@ class Comparison:
             Which saves, in s; all common ones if left out.
         """
         first = self.results[self.reference]
+        saves = {label: result.saves() for label, result in self.results.items()}
         return {
             "reference": self.reference,
             "notes": self.notes,
@@ -156,7 +157,10 @@ class Comparison:
             "saves": [
                 {
                     "time_s": time,
-                    "results": {label: self.save(label, time) for label in self.results},
+                    "results": {
+                        label: saves[label][result.save_at(time)]
+                        for label, result in self.results.items()
+                    },
                     "differences": {
                         label: {
                             each.field: {"l2": each.l2, "largest": each.largest}

@@ -102,7 +102,7 @@ def _fields(result: Result, reference: Result, time: float) -> Iterator[tuple[st
     save = result.save_at(time)
     yield PRESSURE, result.pressure(save)
     for name in common_bodies([reference, result]):
-        yield f"bodies.{name}.wear_depth", result.body(name).wear_depth[save]
+        yield f"bodies.{name}.wear_depth", result.wear_depth(name, save)
 
 
 def _sections(field: Array, result: Result, reference: Result) -> Array:
