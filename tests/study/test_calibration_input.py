@@ -166,6 +166,11 @@ def test_fewer_data_than_parameters_are_told():
     )
 
 
+def test_a_case_in_the_place_of_measured_values_is_told():
+    with pytest.raises(CaseError, match="this is a case, not measured values"):
+        calibrate(CASE, CASE)
+
+
 def test_nothing_measured_is_told():
     assert refused() == "measured: nothing is measured; give each value as [[measured]]"
 

@@ -171,6 +171,9 @@ def read_measurements(source: Measurements | Mapping[str, Any] | str | Path) -> 
     if isinstance(source, Measurements):
         return source
     data = read_toml(source) if isinstance(source, str | Path) else source
+    if "bodies" in data and "measured" not in data:
+        name = "this" if isinstance(source, Mapping) else f"{source}"
+        raise CaseError(f"{name} is a case, not measured values; those are entries [[measured]]")
     try:
         return Measurements.model_validate(data)
     except ValidationError as error:
