@@ -56,8 +56,20 @@ def test_the_rule_of_the_page(errors):
             assert abs(error.depth) < 0.03
         if error.worn >= 7:
             assert abs(error.depth) < 0.01
+    default = [e for e in errors if e.match == "contact_radius"]
+    assert max(abs(e.depth) for e in default if e.worn < 0.5) < 0.325
+    assert all(0.105 < e.depth < 0.155 for e in default if 0.95 < e.worn < 1.1)
     # The other two are worse where little is worn, so that the rule says something.
     assert max(abs(e.depth) for e in errors if e.match != "peak_pressure") > 0.2
+
+
+def test_volumes_do_not_depend_on_what_bears_the_load(example):
+    with example.run() as comparison:
+        for time in comparison.times[1:]:
+            saves = [comparison.save(label, time) for label in comparison.results]
+            for name, body in saves[0]["bodies"].items():
+                of = [save["bodies"][name]["wear_volume_m3"] for save in saves]
+                assert of == pytest.approx([body["wear_volume_m3"]] * 4, rel=1e-12)
 
 
 def test_the_table_has_a_row_a_save(example, errors):

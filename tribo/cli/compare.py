@@ -37,9 +37,9 @@ def compare(
 
     With --vary FILES is one case. Any of its values can vary: commas stand
     between what takes turns, or it is a TOML list in brackets. Several --vary
-    multiply. X.type=A,B replaces the table X by the defaults of each type. What
-    is done already in the folder is not run again. The first variant or file is
-    what the others are compared with.
+    multiply. X.type=A,B replaces the table X by the defaults of each type that is
+    not the case's own. What is done already in the folder is not run again. The
+    first variant or file is what the others are compared with.
 
     \b
     Example:

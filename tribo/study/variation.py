@@ -121,7 +121,7 @@ def variants(
         The tables of a case, as a TOML file has them.
     settings : iterable of Mapping
         Values by path, a mapping a variant; see `grid`. Setting ``X.type``
-        replaces the table X by that type's defaults.
+        to another type replaces the table X by that type's defaults.
     registry : Registry, optional
         Where to look components up; the installed plugins if left out.
 
