@@ -252,6 +252,17 @@ def test_a_case_may_require_versions(tmp_path):
         assert words in done.stderr
 
 
+def test_a_plugin_that_is_turned_off_meets_no_requirement(tmp_path):
+    keep(tmp_path, law(GOOD))
+    case = tmp_path / "plain.toml"
+    case.write_text(f"requires = ['zoo-tribo>=1.0']\n{case.read_text()}")
+    assert command(tmp_path, "check", "plain.toml").returncode == 0
+    done = command(tmp_path, "--no-plugin", "zoo-tribo", "check", "plain.toml")
+    assert done.returncode == 2
+    assert "error: requires: " in done.stderr
+    assert "the plugin zoo-tribo 1.0 is disabled: turned off by --no-plugin" in done.stderr
+
+
 def test_a_requirement_counts_where_its_marker_holds(tmp_path):
     keep(tmp_path, law(GOOD))
     case = tmp_path / "plain.toml"

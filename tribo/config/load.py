@@ -63,7 +63,7 @@ def validate_case(data: Mapping[str, Any], *, registry: Registry | None = None) 
     requires = data.get("requires")
     if isinstance(requires, list | tuple) and all(_is_requirement(text) for text in requires):
         # Before any name is looked up: what lacks is then told by the package to install.
-        check_requirements(requires)
+        check_requirements(requires, known.plugins)
     try:
         return Case.model_validate(data, context={"registry": known})
     except ValidationError as error:

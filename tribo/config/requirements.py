@@ -1,4 +1,4 @@
-"""Are the distributions that a case asks for installed?"""
+"""Are the distributions that a case asks for installed, and their plugins at hand?"""
 
 from __future__ import annotations
 
@@ -6,15 +6,19 @@ from collections.abc import Iterable
 from importlib import metadata
 
 from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
 
 from tribo.core.errors import CaseError
+from tribo.registry.records import PluginRecord
 
 
-def check_requirements(requires: Iterable[str]) -> None:
+def check_requirements(requires: Iterable[str], plugins: Iterable[PluginRecord] = ()) -> None:
     """Raise `CaseError` unless every requirement, as ``"acme-tribo>=1.2"``, is met.
 
-    One whose marker, as ``; python_version < "3.12"``, does not hold here is none.
+    One whose marker, as ``; python_version < "3.12"``, does not hold here is none. A plugin
+    that is disabled, broken or incompatible does not meet one.
     """
+    unusable = {canonicalize_name(p.distribution): p for p in plugins if not p.usable}
     for text in requires:
         requirement = Requirement(text)
         if requirement.marker is not None and not requirement.marker.evaluate({"extra": ""}):
@@ -25,8 +29,17 @@ def check_requirements(requires: Iterable[str]) -> None:
             found = "is not installed"
         else:
             if requirement.specifier.contains(version, prereleases=True):
+                _check_usable(text, unusable.get(canonicalize_name(requirement.name)))
                 continue
             found = f"is installed in version {version}"
         raise CaseError(
             f"{text!r} is needed, but {requirement.name} {found}; install it with pip", "requires"
+        )
+
+
+def _check_usable(text: str, plugin: PluginRecord | None) -> None:
+    if plugin is not None:
+        raise CaseError(
+            f"{text!r} is needed, but the plugin {plugin} is {plugin.status}: {plugin.reason}",
+            "requires",
         )

@@ -47,7 +47,7 @@ def catalogue(registry: Registry) -> list[dict[str, str]]:
     rows += [
         _row("", "", plugin, distribution_summary(plugin))
         for plugin in registry.plugins
-        if plugin.status in ("disabled", "broken", "incompatible")
+        if not plugin.usable
     ]
     return rows
 

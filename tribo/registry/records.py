@@ -47,6 +47,11 @@ class PluginRecord:
     def __str__(self) -> str:
         return f"{self.distribution} {self.version}".rstrip()
 
+    @property
+    def usable(self) -> bool:
+        """Whether anything of it can be used, as far as is known."""
+        return self.status not in ("disabled", "broken", "incompatible")
+
 
 @dataclass(frozen=True)
 class ComponentRecord:

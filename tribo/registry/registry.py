@@ -25,8 +25,6 @@ from tribo.registry.records import ComponentRecord, Name, PluginRecord
 from tribo.registry.selection import selected
 from tribo.registry.verdicts import shown_to_import
 
-_UNUSABLE = ("disabled", "broken", "incompatible")
-
 
 class Registry:
     """The components that a set of plugins offers, by kind and name.
@@ -46,7 +44,7 @@ class Registry:
         self._offers: dict[int, tuple[ComponentRecord, ...]] = {}
         self._claims: dict[Name, list[int]] = {}
         for number, source in enumerate(self._sources):
-            if source.record.status in _UNUSABLE:
+            if not source.record.usable:
                 continue
             declared = source.declared
             if declared is None:
@@ -200,7 +198,7 @@ class Registry:
         return [
             f"{plugin} is {plugin.status}: {plugin.reason}"
             for source, plugin in zip(self._sources, self._records, strict=True)
-            if plugin.status in _UNUSABLE
+            if not plugin.usable
             and (name in [n for _, n in source.declared or ()] if declared else not source.declared)
         ]
 
@@ -211,7 +209,7 @@ class Registry:
 
     def _with_conflicts(self, number: int) -> PluginRecord:
         record = self._records[number]
-        if record.status in _UNUSABLE:
+        if not record.usable:
             return record
         reasons = []
         for (kind, name), claims in self._claims.items():
