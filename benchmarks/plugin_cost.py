@@ -41,9 +41,10 @@ from tribo.interfaces.component import Component
 from tribo.interfaces.observer import Observer, ObserverConfig
 from tribo.registry.registry import default_registry
 from tribo.simulation import exposed, motion, rates, solving, watching
+from tribo.simulation.assembly import assemble
 from tribo.simulation.march import begin, march
 from tribo.simulation.measure import measure as scalars
-from tribo.simulation.model import Body, Model, assemble
+from tribo.simulation.model import Body, Model
 from tribo.templates import template
 
 

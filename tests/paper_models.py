@@ -6,8 +6,9 @@ from tribo.contact.winkler import Winkler, WinklerConfig
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.kinematics.reciprocating import Reciprocating, ReciprocatingConfig
+from tribo.simulation.assembly import assemble
 from tribo.simulation.march import begin, march
-from tribo.simulation.model import Body, assemble
+from tribo.simulation.model import Body
 from tribo.surfaces.flat import Flat, FlatConfig
 from tribo.surfaces.paraboloid import Paraboloid, ParaboloidConfig
 from tribo.surfaces.sphere import Sphere, SphereConfig

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from tribo.registry.hookspecs import hookimpl as hookimpl
     from tribo.registry.registry import Registry as Registry
     from tribo.results.read import Result as Result
+    from tribo.simulation.assembly import assemble as assemble
     from tribo.simulation.model import Body as Body
-    from tribo.simulation.model import assemble as assemble
     from tribo.simulation.run import Simulation as Simulation
 
 _HOME = {
@@ -38,7 +38,7 @@ _HOME = {
     "Simulation": "tribo.simulation.run",
     "TriboError": "tribo.core.errors",
     "TriboWarning": "tribo.core.errors",
-    "assemble": "tribo.simulation.model",
+    "assemble": "tribo.simulation.assembly",
     "hookimpl": "tribo.registry.hookspecs",
     "load_case": "tribo.config.load",
 }

@@ -19,8 +19,9 @@ from tribo.core.contact import ContactProblem
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.interfaces.surface import Surface, SurfaceConfig
+from tribo.simulation.assembly import assemble
 from tribo.simulation.march import begin, march
-from tribo.simulation.model import Body, assemble
+from tribo.simulation.model import Body
 from tribo.wear.archard import Archard, ArchardConfig
 
 # The solver stops at a residual of 1e-10, far below what is held against the answers.

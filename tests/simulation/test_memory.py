@@ -22,7 +22,7 @@ MEASURE = """
     from paper_models import *
     from tribo.contact.periodic import Periodic, PeriodicConfig
     from tribo.simulation.memory import memory_needed, memory_left
-    from tribo.simulation.model import laws_of
+    from tribo.simulation.bodies import laws_of
     from tribo.simulation.run import Simulation
     warnings.simplefilter("ignore")
     case, cells = sys.argv[1], int(sys.argv[2])

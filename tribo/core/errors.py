@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import ClassVar
 
 
@@ -57,3 +59,14 @@ class Interrupted(TriboError):
 
 class TriboWarning(UserWarning):
     """Something a user should know about a run that goes on."""
+
+
+@contextmanager
+def located(path: str) -> Iterator[None]:
+    """Give a `CaseError` raised inside its place in the case, unless it has one."""
+    try:
+        yield
+    except CaseError as error:
+        if error.path:
+            raise
+        raise CaseError(str(error), path) from error

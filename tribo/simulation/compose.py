@@ -9,8 +9,10 @@ from tribo.config.case import Case
 from tribo.core.errors import CaseError
 from tribo.interfaces.component import ComponentConfig
 from tribo.registry.registry import Registry, default_registry
+from tribo.simulation.assembly import assemble
 from tribo.simulation.calling import calling
-from tribo.simulation.model import Body, MissingFieldError, Model, assemble
+from tribo.simulation.effects import MissingFieldError
+from tribo.simulation.model import Body, Model
 
 
 def compose(case: Case, registry: Registry | None = None) -> Model:

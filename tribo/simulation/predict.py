@@ -12,11 +12,13 @@ from tribo.core.grid import Grid
 from tribo.core.measures import Measures
 from tribo.core.state import State
 from tribo.results.provenance import stated_facts
+from tribo.simulation.assembly import varied
+from tribo.simulation.bodies import laws_of
 from tribo.simulation.calling import calling
 from tribo.simulation.march import FEW_CELLS, MOST_STEPS, begin, march
 from tribo.simulation.measure import measure
 from tribo.simulation.memory import memory_needed
-from tribo.simulation.model import Model, laws_of, varied
+from tribo.simulation.model import Model
 from tribo.simulation.motion import averaging_limit, path_at
 from tribo.simulation.rates import Moment
 from tribo.simulation.step import first_contact, largest_stable_increment, start_sliding

@@ -20,13 +20,14 @@ from tribo.registry.registry import Registry, default_registry
 from tribo.results.checkpoint import read_checkpoint, tidied
 from tribo.results.provenance import changed_components, origin, provenance
 from tribo.results.read import Result
+from tribo.simulation.bodies import surface_height
 from tribo.simulation.calling import calling
 from tribo.simulation.compose import compose
 from tribo.simulation.describe import describe
 from tribo.simulation.interrupt import InterruptGuard
 from tribo.simulation.march import begin, march
 from tribo.simulation.measure import measure
-from tribo.simulation.model import Model, surface_height
+from tribo.simulation.model import Model
 from tribo.simulation.motion import path_at
 from tribo.simulation.watching import Audience
 

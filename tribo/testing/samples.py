@@ -15,8 +15,9 @@ from tribo.core.material import Material
 from tribo.core.state import State
 from tribo.interfaces.effect import Effect, EffectConfig
 from tribo.kinematics.reciprocating import Reciprocating, ReciprocatingConfig
+from tribo.simulation.assembly import assemble
 from tribo.simulation.march import begin, march
-from tribo.simulation.model import Body, Model, assemble
+from tribo.simulation.model import Body, Model
 from tribo.simulation.rates import Moment, law_states, wear_rates
 from tribo.surfaces.cylinder import Cylinder, CylinderConfig
 from tribo.surfaces.flat import Flat, FlatConfig

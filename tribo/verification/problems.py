@@ -18,7 +18,8 @@ from tribo.core.state import State
 from tribo.interfaces.contact import ContactSolver
 from tribo.interfaces.surface import Surface, SurfaceConfig
 from tribo.kinematics.unidirectional import Unidirectional, UnidirectionalConfig
-from tribo.simulation.model import Body, Model, assemble
+from tribo.simulation.assembly import assemble
+from tribo.simulation.model import Body, Model
 from tribo.simulation.step import explicit_step, first_contact, implicit_step
 from tribo.surfaces.flat import Flat, FlatConfig
 from tribo.surfaces.paraboloid import Paraboloid, ParaboloidConfig

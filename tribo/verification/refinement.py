@@ -9,9 +9,10 @@ from tribo.config.stepping import ExplicitConfig, ImplicitConfig
 from tribo.core.errors import CaseError, NumericalError
 from tribo.core.grid import Grid
 from tribo.core.measures import Measures
+from tribo.simulation.assembly import varied
 from tribo.simulation.march import begin, march
 from tribo.simulation.measure import measure
-from tribo.simulation.model import Model, varied
+from tribo.simulation.model import Model
 from tribo.verification.convergence import Convergence, convergence
 
 # Above the 1.3 that Celik et al. (2008) ask for, and mild on cases that are coarse already.

@@ -12,10 +12,10 @@ import numpy as np
 
 from tribo.config.load import read_toml, validate_case
 from tribo.core.arrays import Array
-from tribo.core.errors import CaseError, TriboWarning
+from tribo.core.errors import CaseError, TriboWarning, located
 from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.registry import Registry
-from tribo.simulation.model import Model, located
+from tribo.simulation.model import Model
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.fit import Problem, fit
 from tribo.study.calibration.judge import outcome

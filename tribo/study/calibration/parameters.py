@@ -11,10 +11,9 @@ from pydantic import BaseModel
 
 from tribo.config.case import Case
 from tribo.config.overrides import path_keys
-from tribo.core.errors import CaseError
+from tribo.core.errors import CaseError, located
 from tribo.core.units import Quantity
 from tribo.core.words import did_you_mean, shown, suggestion
-from tribo.simulation.model import located
 from tribo.study.calibration.measured import Fitted, Measured
 
 WITHIN = 1e-9

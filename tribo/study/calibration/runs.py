@@ -11,10 +11,9 @@ import numpy as np
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
 from tribo.core.arrays import Array
-from tribo.core.errors import CaseError, NumericalError, TriboWarning
+from tribo.core.errors import CaseError, NumericalError, TriboWarning, located
 from tribo.registry.registry import Registry
 from tribo.results.read import Result
-from tribo.simulation.model import located
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.measured import Measured
 from tribo.study.calibration.parameters import Parameter

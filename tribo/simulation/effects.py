@@ -1,0 +1,89 @@
+"""Effects in the order in which they need one another."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from tribo.core.errors import CaseError, located
+from tribo.core.fields import FRICTION_COEFFICIENT
+from tribo.interfaces.effect import Effect, EffectConfig
+from tribo.simulation.calling import calling
+from tribo.simulation.model import Body, Model
+
+
+def in_order(
+    effects: Sequence[Effect[EffectConfig]],
+    bodies: Sequence[Body],
+    friction_coefficient: float | None,
+) -> tuple[Effect[EffectConfig], ...]:
+    """Return effects so that each comes after those that provide what it requires.
+
+    Raises
+    ------
+    MissingFieldError
+        If an effect or a wear law requires what nothing provides.
+    CaseError
+        If a field is provided twice.
+    """
+    known = set() if friction_coefficient is None else {FRICTION_COEFFICIENT.name}
+    ordered: list[Effect[EffectConfig]] = []
+    waiting = list(effects)
+    while waiting:
+        ready = next((e for e in waiting if set(e.requires) <= known), None)
+        if ready is None:
+            first = waiting[0]
+            missing = sorted(set(first.requires) - known)
+            text = _missing(f"effect {first.type_name()!r}", missing, waiting)
+            raise MissingFieldError(text, "effects", missing)
+        waiting.remove(ready)
+        ordered.append(ready)
+        for field in ready.provides:
+            if field.name in known:
+                raise CaseError(
+                    f"{field.name!r} is provided twice, the second time by "
+                    f"{ready.type_name()!r}; keep one",
+                    "effects",
+                )
+            known.add(field.name)
+    for body in bodies:
+        if body.wear is not None and not set(body.wear.requires) <= known:
+            missing = sorted(set(body.wear.requires) - known)
+            text = _missing(f"wear law {body.wear.type_name()!r}", missing, [])
+            raise MissingFieldError(text, f"bodies.{body.name}.wear", missing)
+    return tuple(ordered)
+
+
+class MissingFieldError(CaseError):
+    """A law or an effect needs fields that nothing provides."""
+
+    def __init__(self, message: str, path: str, missing: Sequence[str]) -> None:
+        super().__init__(message, path)
+        self.missing = tuple(missing)
+
+
+def _missing(who: str, missing: Sequence[str], waiting: Sequence[Effect[EffectConfig]]) -> str:
+    if list(missing) == [FRICTION_COEFFICIENT.name]:
+        return f"{who} needs a coefficient of friction: add [friction] coefficient = …"
+    in_circle = [
+        effect.type_name()
+        for effect in waiting
+        if any(field.name in missing for field in effect.provides)
+    ]
+    if in_circle:
+        return (
+            f"{who} needs {', '.join(missing)}, which {', '.join(in_circle)} provides, but these "
+            "effects wait for one another"
+        )
+    return (
+        f"{who} needs the field {', '.join(missing)}, which nothing in this case provides: add an "
+        "effect that does ('tribo plugins list' names those installed)"
+    )
+
+
+def check_effects(model: Model) -> None:
+    """Raise `CaseError` if an effect does not suit the bodies or how they move."""
+    materials = {body.name: body.material for body in model.bodies}
+    swept = frozenset(name for name in materials if model.is_swept(name))
+    for effect in model.effects:
+        with located("effects"), calling(effect):
+            effect.check(materials, swept)
