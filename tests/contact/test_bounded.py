@@ -92,6 +92,27 @@ def test_rough_surfaces_near_full_plasticity_converge(load: float, cap: float) -
     assert solution.iterations < 40
 
 
+class _Counted(HalfSpace):
+    calls = 0
+
+    def apply(self, pressure: Array) -> Array:
+        self.calls += 1
+        return super().apply(pressure)
+
+
+@pytest.mark.parametrize(("seed", "cap"), [(18, 1.5), (0, None), (0, 1.05)])
+def test_an_iteration_costs_one_call_of_the_operator(seed: int, cap: float | None) -> None:
+    gap, load = _rough(seed, (8, 8)), 2 / 15
+    limit = None if cap is None else cap * load / 64e-12
+    operator = _Counted((8, 8), (1e-6, 1e-6), MODULUS)
+    first = solve_bounded(operator, gap, load, limit)
+    assert operator.calls == first.iterations + 1
+    # With seed 18 the projected conjugate direction points uphill once.
+    other = gap + 0.3 * _rough(seed + 1, (8, 8))
+    again = solve_bounded(operator, other, load, limit, start=first.pressure)
+    assert operator.calls == first.iterations + again.iterations + 2
+
+
 def test_an_open_gap_at_the_cap_is_a_residual() -> None:
     p, gap = np.array([[2.0, 1.0]]), np.array([[1e-6, 0.0]])
     at_cap = residuals(p, gap, np.full((1, 2), 1e-5), 1e-5, 3.0, 2.0)

@@ -79,6 +79,17 @@ def test_a_wave_pressed_flat_has_the_pressure_of_its_mode() -> None:
     assert solution.pressure[:, 0] == pytest.approx(pressure, rel=1e-10)
 
 
+@pytest.mark.parametrize("amplitude", [1e-10, 1e-14, 1e-18])
+def test_what_is_worn_to_almost_flat_is_solved_down_to_rounding(amplitude: float) -> None:
+    shape, width = (32, 24), 1e-3
+    gap = amplitude * np.random.default_rng(0).standard_normal(shape)
+    along, across = (2 * np.pi * np.fft.fftfreq(n, width / n) for n in shape)
+    stiffness = 0.5 * MODULUS * np.hypot(along[:, None], across)
+    expected = 1e8 - np.fft.ifft2(stiffness * np.fft.fft2(gap)).real
+    found = solve(gap, (width, width), 1e8 * width**2)
+    assert found.pressure == pytest.approx(expected, rel=1e-14)
+
+
 def test_light_crests_are_hertz_contacts() -> None:
     solution, limits = egg_box(0.01, 256)
     exact = hertz.point(

@@ -33,9 +33,10 @@ def solve_bounded(
     """Minimise ½ pᵀA p + gapᵀp over 0 <= p <= cap with sum(p) * cell area = load.
 
     Preconditioned conjugate gradients on the cells strictly within the bounds,
-    which are left and entered as the iteration goes; where that stalls, as it
-    does when nearly all cells are at a bound, projected Barzilai-Borwein steps
-    take over until they stall in turn.
+    which are left and entered as the iteration goes: a step as long as the last
+    one is projected onto the bounds, and the minimum sought along what is left
+    of it. Where that stalls, as it does when nearly all cells are at a bound,
+    projected Barzilai-Borwein steps take over until they stall in turn.
 
     Parameters
     ----------
@@ -57,7 +58,7 @@ def solve_bounded(
         is more. Cells at the cap whose gap is open count as violations of
         complementarity too.
     max_iterations : int, default 500
-        Each costs one call of the operator.
+        Each costs one call of the operator; the start costs one too.
 
     Returns
     -------
@@ -146,7 +147,7 @@ class _Iterate:
         return residuals(p, self.gap, self.displacement, self.approach, self.total, self.limit)
 
     def conjugate_step(self) -> bool:
-        """Move along a conjugate direction on the face; False if there is none."""
+        """Move along a conjugate direction on the face; False if that does not lower the energy."""
         g = self.deformed
         face = self.free | (self.zero & (g < 0))
         if self.limit < np.inf:
@@ -168,14 +169,19 @@ class _Iterate:
                 direction += kept
         if dot(residual, direction) >= 0:
             direction = -z
-        ahead = self.pressure + self.length * direction
+        # Not as a difference of pressures, of which little but rounding may be left.
+        change = self.length * direction
+        ahead = self.pressure + change
         meets_bound = self._leaves(ahead)
         if meets_bound:
             ahead = project(ahead, self.total, self.limit, face)
-        change = ahead - self.pressure
+            change = ahead - self.pressure
+        slope = dot(change, g)
+        if slope >= 0:
+            return False
         response = self.operator.apply(change)
-        slope, curvature = dot(change, g), dot(change, response)
-        if not (slope < 0 < curvature):
+        curvature = dot(change, response)
+        if curvature <= 0:
             return False
         self.direction, self.gradient, self.decrease = direction, residual, decrease
         best = -slope / curvature
