@@ -100,6 +100,16 @@ def test_every_quantity_can_be_asked_for():
             },
             "measured[0].position: 1.1 mm lies outside the window, which reaches 1 mm from",
         ),
+        (
+            {
+                "quantity": "profile_along",
+                "value": ["-80 um", "-104 um", "2 um"],
+                "uncertainty": "5 um",
+                "position": ["-0.3 mm", "0 mm", "0.9 mm"],
+            },
+            "measured[0]: the depths are negative, -60.7 µm in the mean; depths count downwards "
+            "from the unworn surface, positive where it is worn: turn the sign round",
+        ),
     ],
 )
 def test_a_wrong_value_is_told(changes, message):
@@ -215,6 +225,18 @@ def test_a_parameter_that_changes_nothing_is_told():
         CaseError, match=r"^bodies.ball.material.young changes none of the measured"
     ):
         calibrate(case, data)
+
+
+def test_a_profile_that_noise_makes_negative_is_taken():
+    entry = {
+        "body": "ball",
+        "quantity": "profile_along",
+        "value": ["-2 um", "1 um"],
+        "uncertainty": "1 um",
+        "position": ["0 mm", "0.5 mm"],
+    }
+    (read,) = read_measurements({"measured": [entry]}).measured
+    assert read.values == pytest.approx([-2e-6, 1e-6])
 
 
 @pytest.mark.parametrize(

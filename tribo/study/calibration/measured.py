@@ -19,6 +19,8 @@ from tribo.study.calibration.quantities import PROFILES, unit_of
 
 Reading = Annotated[float, Quantity("kg", above=0)]
 Position = Annotated[float, Quantity("m")]
+_BEYOND_NOISE = 3.0
+"""How many standard deviations a mean lies below 0 that noise does not explain."""
 
 
 class Measured(Table):
@@ -83,6 +85,8 @@ class Measured(Table):
                 "say how well it was measured: uncertainty (a standard deviation), resolution, "
                 "or both"
             )
+        if self.quantity in PROFILES:
+            self._check_sign()
         return self
 
     def _check_profile(self) -> None:
@@ -91,6 +95,15 @@ class Measured(Table):
             raise ValueError(
                 f"{self.quantity} needs value and position, two lists of the same length, not "
                 f"{len(depths)} and {len(self.position or ())} long"
+            )
+
+    def _check_sign(self) -> None:
+        mean = float(np.mean(self.values))
+        if mean < -_BEYOND_NOISE * self.sigma / np.sqrt(len(self.values)):
+            raise ValueError(
+                f"the depths are negative, {1e6 * mean:.3g} µm in the mean; depths count downwards "
+                "from the unworn surface, positive where it is worn: turn the sign round, or level "
+                "the profile"
             )
 
     def _check_readings(self) -> None:
