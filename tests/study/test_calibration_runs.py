@@ -9,12 +9,12 @@ from scipy.stats import binom
 
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
-from tribo.core.errors import NumericalError, TriboWarning
+from tribo.core.errors import CaseError, NumericalError, TriboWarning
 from tribo.simulation.run import Simulation
 from tribo.study import calibrate
 from tribo.study.calibration import runs as calibration_runs
+from tribo.study.calibration.far_off import FarOff, check_far_off, far_off
 from tribo.study.calibration.measured import read_measurements
-from tribo.study.calibration.notes import far_off
 from tribo.study.calibration.parameters import Parameter, find_parameters
 from tribo.study.calibration.quantities import QUANTITIES, diameter, percent
 from tribo.study.calibration.runs import Runs
@@ -223,21 +223,71 @@ def test_widths_finer_than_the_grid_are_told(true_run):
     assert any("raise grid.cells" in note for note in found.notes)
 
 
-def test_a_failing_run_says_with_what():
-    """And before it, that a unit was probably forgotten."""
-    data = [weighed("ball", 1000 * mass(BALL))]
-    with (
-        pytest.raises(NumericalError) as caught,
-        pytest.warns(
-            TriboWarning,
-            match=r"^measured\[0\]: value was read as 7.32e-06 kg, a factor of 1000 above the "
-            r"7.32e-09 kg that the case gives with bodies.ball.wear.k = 3.11e-16 1/Pa; a number "
-            "without a unit is in kg",
-        ),
-    ):
-        calibrate(CASE, {"measured": data})
+def test_a_failing_run_says_with_what_and_what_may_be_off():
+    with pytest.raises(NumericalError) as caught:
+        calibrate(CASE, {"measured": [weighed("ball", 50 * mass(BALL))]})
     assert "with bodies.ball.wear.k = " in str(caught.value)
     assert "reached the edge of the window" in str(caught.value)
+    assert str(caught.value).endswith(
+        "; or is a measured value off? measured[0]: value was read as 3.66e-07 kg, a factor of 50 "
+        "above the 7.32e-09 kg that the case gives with bodies.ball.wear.k = 3.11e-16 1/Pa"
+    )
+
+
+@pytest.mark.parametrize(
+    ("entry", "text"),
+    [
+        (
+            {"body": "ball", "quantity": "mass", "value": "7.32 mg", "uncertainty": "1 ug"},
+            "value was read as 7.32e-06 kg, a factor of ",
+        ),
+        (
+            {"body": "ball", "quantity": "volume", "value": 0.25, "uncertainty": 0.02},
+            "value was read as 0.25 m^3, a factor of ",
+        ),
+        (
+            {"body": "disk", "quantity": "depth", "value": 0.1, "uncertainty": 3e-3},
+            "value was read as 0.1 m, a factor of ",
+        ),
+        (
+            {
+                "body": "disk",
+                "quantity": "profile_across",
+                "value": [0.1, 0.2],
+                "position": ["0 mm", "0.05 mm"],
+                "uncertainty": 0.01,
+            },
+            "value was read as 0.2 m, a factor of ",
+        ),
+    ],
+)
+def test_a_forgotten_unit_is_refused_before_anything_is_fitted(entry, text):
+    runs = []
+    with pytest.raises(CaseError) as caught:
+        calibrate(CASE, {"measured": [entry]}, on_run=lambda run, misfit: runs.append(run))
+    assert str(caught.value).startswith(f"measured[0]: {text}")
+    assert str(caught.value).endswith(
+        ": check the value and its unit, or give a start in fit that is nearer to it"
+    )
+    assert not runs
+
+
+@pytest.mark.parametrize(
+    "entry",
+    [
+        {**weighed("ball", mass(BALL)), "uncertainty": "0.1 g"},
+        {
+            "body": "disk",
+            "quantity": "profile_across",
+            "value": ["0.1 um", "0.2 um"],
+            "position": ["0.1 mm", "0.05 mm"],
+            "uncertainty": 0.01,
+        },
+    ],
+)
+def test_an_uncertainty_without_its_unit_is_told(entry):
+    with pytest.raises(CaseError, match=r"wear.k changes is measured too badly to tell: .* of the"):
+        calibrate(CASE, {"measured": [entry]})
 
 
 @pytest.mark.parametrize(
@@ -264,8 +314,20 @@ def test_what_is_far_from_what_the_case_gives_is_told(true_run, entry, text):
     own = [computed(true_run, each.body, each.quantity) for each in entries]
     parameters = [Parameter("bodies.disk.wear.k", "1/Pa", DISK, 0.0, np.inf)]
     # A coefficient may be off by fifty.
-    (told,) = far_off(entries, np.array(own), parameters)
-    assert told.startswith(text)
+    (maybe, told) = far_off(entries, np.array(own), parameters)
+    assert maybe.factor == pytest.approx(50)
+    assert told.factor > 300
+    assert told.text.startswith(text)
+
+
+@pytest.mark.parametrize(("factor", "is_told"), [(99.0, False), (101.0, True), (299.0, True)])
+def test_what_is_far_off_but_may_be_meant_is_told(factor, is_told):
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        check_far_off([FarOff(factor, "measured[0]")])
+    assert [str(each.message) for each in caught] == [
+        "measured[0]: is that the value, and the unit, that was meant?"
+    ] * is_told
 
 
 def test_an_estimate_on_its_bound_is_told():

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -12,15 +11,15 @@ import numpy as np
 
 from tribo.config.load import read_toml, validate_case
 from tribo.core.arrays import Array
-from tribo.core.errors import CaseError, TriboWarning, located
+from tribo.core.errors import CaseError, NumericalError, located
 from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.registry import Registry
 from tribo.simulation.model import Model
 from tribo.simulation.run import Simulation
+from tribo.study.calibration.far_off import FarOff, check_far_off, far_off
 from tribo.study.calibration.fit import Problem, fit
 from tribo.study.calibration.judge import outcome
 from tribo.study.calibration.measured import Measured, Measurements, read_measurements
-from tribo.study.calibration.notes import far_off
 from tribo.study.calibration.outcome import Calibration
 from tribo.study.calibration.parameters import find_parameters
 from tribo.study.calibration.quantities import PROFILES, QUANTITIES, check_available, is_available
@@ -94,18 +93,26 @@ def calibrate(
     )
 
     notices: dict[bytes, tuple[str, ...]] = {}
+    far: list[FarOff] = []
 
     def run(values: Array) -> Array:
         responses = runs(values)
         notices[values.tobytes()] = runs.notices
         if runs.count == 1:
-            for text in far_off(asked.measured, responses[:count], parameters):
-                warnings.warn(text, TriboWarning, stacklevel=2)
+            found = list(far_off(asked.measured, responses[:count], parameters))
+            check_far_off(found)
+            far.extend(found)
         if on_run is not None:
             on_run(runs.count, float(np.sum(problem.residuals(responses) ** 2)))
         return responses
 
-    fitted = fit(run, problem, np.array([p.start for p in parameters]))
+    try:
+        fitted = fit(run, problem, np.array([p.start for p in parameters]))
+    except (CaseError, NumericalError) as error:
+        if not far:
+            raise
+        texts = "; ".join(each.text for each in far)
+        raise type(error)(f"{error}; or is a measured value off? {texts}") from error
     return outcome(
         fitted,
         parameters,

@@ -274,17 +274,16 @@ def _differenced(
 
 
 def _check_effect(here: Surrogate) -> None:
-    problem, n = here.problem, len(here.problem.observed)
+    n = len(here.problem.observed)
     effects = np.max(np.abs(here.jacobian(here.point)), axis=0)
-    for name, effect, slopes in zip(problem.names, effects, here.slopes[:n].T, strict=True):
+    size = np.where(here.problem.logged, 1.0, np.abs(here.responses))[:n]
+    for name, effect, slopes in zip(here.problem.names, effects, here.slopes[:n].T, strict=True):
         if effect >= NO_EFFECT:
             continue
-        changed = problem.logged[:n] & (np.abs(slopes) > NOTABLE)
-        if np.any(changed):
-            least = float(np.min(problem.sigma[changed] / problem.observed[changed]))
+        if np.any(np.abs(slopes) > NOTABLE * size):
             raise CaseError(
-                f"what {name} changes is measured too badly to tell: the uncertainty is "
-                f"{least:.0f} times the value; is its unit the one that was meant?"
+                f"what {name} changes is measured too badly to tell: a change by a factor e comes "
+                f"to {effect:.1g} of the uncertainty; is the unit of that the one that was meant?"
             )
         raise CaseError(
             f"{name} changes none of the measured values; leave it out of fit, or measure "

@@ -13,7 +13,7 @@ from tribo.core.grid import Grid
 from tribo.study.calibration.measured import Measured
 from tribo.study.calibration.outcome import Datum, Estimate
 from tribo.study.calibration.parameters import Parameter
-from tribo.study.calibration.quantities import in_si, in_words, percent, unit_of
+from tribo.study.calibration.quantities import in_si, in_words, percent
 
 UNLIKELY = 0.01
 """Probability of so large a misfit below which data and model are said to disagree."""
@@ -24,8 +24,6 @@ EDGES = 0.2
 _AXES = {"scar_along": 0, "scar_across": 1}
 _TAKES_PART = 0.3
 _MOST = 0.5
-FAR_OFF = 100.0
-"""Ratio of measured and computed beyond which a unit was probably forgotten."""
 AT_BOUND = 1e-6
 """How near to a bound an estimate lies on it, relative."""
 
@@ -63,36 +61,6 @@ def notes(
         *_misfit(data, len(estimates)),
         *_too_coarse(measured, grid),
     ]
-
-
-def far_off(
-    measured: Sequence[Measured], computed: Array, parameters: Sequence[Parameter]
-) -> Iterator[str]:
-    """Say what is measured orders of magnitude away from what the first run gives.
-
-    Parameters
-    ----------
-    measured : sequence of Measured
-        What was measured.
-    computed : ndarray, shape (n,)
-        The data as that run gives them, in the same order.
-    parameters : sequence of Parameter
-        What it was made with.
-    """
-    values = iter(computed.tolist())
-    given = ", ".join(f"{p.path} = {in_si(p.start, p.unit)}" for p in parameters)
-    for i, entry in enumerate(measured):
-        own = max(abs(next(values)) for _ in entry.values)
-        read = float(np.max(np.abs(entry.values)))
-        if own > 0 and read > 0 and not 1 / FAR_OFF <= read / own <= FAR_OFF:
-            unit = unit_of(entry.quantity)
-            reading = "before less after" if entry.value is None else "value"
-            side, factor = ("above", read / own) if read > own else ("below", own / read)
-            yield (
-                f"measured[{i}]: {reading} was read as {in_si(read, unit)}, a factor of "
-                f"{factor:.0f} {side} the {in_si(own, unit)} that the case gives with {given}; a "
-                f"number without a unit is in {unit}: was another one meant?"
-            )
 
 
 def _dominated(
