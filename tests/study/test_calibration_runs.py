@@ -330,17 +330,33 @@ def test_what_is_far_off_but_may_be_meant_is_told(factor, is_told):
     ] * is_told
 
 
-def test_an_estimate_on_its_bound_is_told():
+def test_an_estimate_held_by_its_bound_has_no_interval_and_data_and_model_disagree():
     fit = [{"path": "bodies.ball.wear.k", "upper": 1.2 * BALL}]
     found = calibrate(CASE, {"measured": [weighed("ball", mass(2 * BALL))], "fit": fit})
     (each,) = found.parameters
     assert each.value == pytest.approx(1.2 * BALL)
-    assert each.lower < each.value
-    assert each.upper <= 1.2 * BALL
-    assert (
-        "bodies.ball.wear.k: the estimate lies on its upper bound, 3.73e-16 1/Pa; without it the "
-        "data would be met better"
-    ) in found.notes
+    assert each.held
+    assert (each.lower, each.upper) == (0, 1.2 * BALL)
+    assert {(p.lower, p.upper) for p in found.predictions} == {(0, np.inf)}
+    # 1.2 against 2 ± 0.1, and nothing that could be fitted.
+    assert found.chi_square == pytest.approx(64)
+    assert found.degrees_of_freedom == 1
+    assert found.p_value < 1e-14
+    assert any(
+        n.startswith(
+            "bodies.ball.wear.k: the estimate lies on its upper bound, 3.73e-16 1/Pa, and has no "
+            "interval; without the bound"
+        )
+        for n in found.notes
+    )
+    assert any(
+        n.startswith(
+            "data and model disagree: χ² is 64 where about 1 is expected; the mass of 'ball' is "
+            "off by 8 times its uncertainty"
+        )
+        for n in found.notes
+    )
+    assert not any("nothing is left to test" in n for n in found.notes)
 
 
 def test_a_parameter_stays_within_an_open_bound():

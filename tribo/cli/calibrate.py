@@ -91,8 +91,8 @@ def _estimates(found: Calibration) -> Table:
         table.add_row(
             each.path,
             in_si(each.value, each.unit),
-            f"{_end(each.lower)} to {_end(each.upper)}",
-            _relative(each.value, each.lower, each.upper),
+            "held by its bound" if each.held else f"{_end(each.lower)} to {_end(each.upper)}",
+            "" if each.held else _relative(each.value, each.lower, each.upper),
             _resolution(each),
         )
     return table
@@ -122,7 +122,7 @@ def _predictions(found: Calibration) -> Table:
         table.add_row(
             name,
             in_words(each.quantity, each.value),
-            f"{low} to {high}",
+            "open" if high == "open" and not each.lower else f"{low} to {high}",
             _relative(each.value, each.lower, each.upper),
         )
     return table
@@ -160,7 +160,7 @@ def _end(value: float) -> str:
 
 
 def _resolution(each: Estimate) -> str:
-    if not each.resolution_limit or math.isinf(each.upper):
+    if not each.resolution_limit or each.held or math.isinf(each.upper):
         return ""
     return f"±{percent(each.resolution_limit)} %"
 

@@ -16,6 +16,9 @@ from tribo.study.calibration.outcome import Calibration, Datum, Estimate, Expect
 from tribo.study.calibration.parameters import Parameter
 from tribo.study.calibration.quantities import unit_of
 
+AT_BOUND = 1e-6
+"""How near to a bound an estimate lies on it, relative."""
+
 
 def outcome(
     fitted: Surrogate,
@@ -57,17 +60,32 @@ def outcome(
     estimates = []
     for i, parameter in enumerate(parameters):
         value = float(np.exp(fitted.point[i]))
-        low, high = _ends(fitted, np.eye(len(parameters))[i], value, level)
-        ends = max(low, parameter.lower), min(high, parameter.upper)
+        held = any(
+            abs(value - bound) <= AT_BOUND * value for bound in (parameter.lower, parameter.upper)
+        )
+        ends = parameter.lower, parameter.upper
+        if not held:
+            low, high = _ends(fitted, np.eye(len(parameters))[i], value, level)
+            ends = max(low, parameter.lower), min(high, parameter.upper)
         estimates.append(
             Estimate(
-                parameter.path, parameter.unit, value, *ends, float(shares[i]), float(limits[i])
+                parameter.path,
+                parameter.unit,
+                value,
+                *ends,
+                float(shares[i]),
+                float(limits[i]),
+                held,
             )
         )
+    free = sum(not each.held for each in estimates)
+    spare = len(data) - free
     predictions = []
     for i, (body, quantity) in predicted.items():
         value = float(fitted.responses[i])
-        ends = _ends(fitted, fitted.slopes[i], value, level)
+        ends = (0.0, math.inf)
+        if free == len(estimates):
+            ends = _ends(fitted, fitted.slopes[i], value, level)
         predictions.append(Expected(body, quantity, unit_of(quantity), value, *ends))
     return Calibration(
         level=level,
@@ -76,10 +94,10 @@ def outcome(
         data=tuple(data),
         predictions=tuple(predictions),
         chi_square=float(sum(each.residual**2 for each in data)),
-        degrees_of_freedom=len(data) - len(parameters),
+        degrees_of_freedom=spare,
         correlation=spread / np.outer(deviations, deviations),
         singular_values=np.asarray(np.linalg.svd(jacobian, compute_uv=False), dtype=np.float64),
-        notes=(*notes(estimates, parameters, data, measured, jacobian, grid), *notices),
+        notes=(*notes(estimates, parameters, data, measured, jacobian, grid, spare), *notices),
     )
 
 

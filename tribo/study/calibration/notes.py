@@ -24,8 +24,6 @@ EDGES = 0.2
 _AXES = {"scar_along": 0, "scar_across": 1}
 _TAKES_PART = 0.3
 _MOST = 0.5
-AT_BOUND = 1e-6
-"""How near to a bound an estimate lies on it, relative."""
 
 
 def notes(
@@ -35,6 +33,7 @@ def notes(
     measured: Sequence[Measured],
     jacobian: Array,
     grid: Grid,
+    spare: int,
 ) -> list[str]:
     """Return what to bear in mind, a sentence or two each.
 
@@ -52,13 +51,15 @@ def notes(
         Derivatives of the residuals by the logarithms of the parameters.
     grid : Grid
         The window of the runs.
+    spare : int
+        Degrees of freedom of χ².
     """
     return [
         *_dominated(estimates, measured, jacobian),
         *_entangled([each.path for each in estimates], jacobian),
         *_open(estimates),
         *_bounded(estimates, parameters),
-        *_misfit(data, len(estimates)),
+        *_misfit(data, spare),
         *_too_coarse(measured, grid),
     ]
 
@@ -71,7 +72,9 @@ def _dominated(
     owners = [entry for entry in measured for _ in entry.values]
     parts = np.array([entry.from_resolution[0] / entry.sigma for entry in owners])
     for estimate, own in zip(estimates, effect, strict=True):
-        if estimate.resolution_share > _MOST and math.isfinite(estimate.upper):
+        if estimate.held or math.isinf(estimate.upper):
+            continue
+        if estimate.resolution_share > _MOST:
             entry = owners[int(np.argmax(np.abs(own) * parts))]
             instrument = "balance" if entry.quantity == "mass" else "instrument"
             step = in_words(entry.quantity, entry.resolution or 0.0)
@@ -105,6 +108,8 @@ def _entangled(paths: Sequence[str], jacobian: Array) -> Iterator[str]:
 
 def _open(estimates: Sequence[Estimate]) -> Iterator[str]:
     for each in estimates:
+        if each.held:
+            continue
         sides = [
             side
             for side, is_open in (
@@ -119,27 +124,30 @@ def _open(estimates: Sequence[Estimate]) -> Iterator[str]:
 
 def _bounded(estimates: Sequence[Estimate], parameters: Sequence[Parameter]) -> Iterator[str]:
     for estimate, asked in zip(estimates, parameters, strict=True):
-        for side, bound in (("lower", asked.lower), ("upper", asked.upper)):
-            if abs(estimate.value - bound) <= AT_BOUND * estimate.value:
-                yield (
-                    f"{estimate.path}: the estimate lies on its {side} bound, "
-                    f"{in_si(bound, asked.unit)}; without it the data would be met better"
-                )
+        if estimate.held:
+            is_lower = estimate.value - asked.lower < asked.upper - estimate.value
+            side, bound = ("lower", asked.lower) if is_lower else ("upper", asked.upper)
+            yield (
+                f"{estimate.path}: the estimate lies on its {side} bound, "
+                f"{in_si(bound, asked.unit)}, and has no interval; without the bound the data "
+                "would be met better"
+            )
 
 
-def _misfit(data: Sequence[Datum], parameters: int) -> Iterator[str]:
-    spare = len(data) - parameters
+def _misfit(data: Sequence[Datum], spare: int) -> Iterator[str]:
     if spare == 0:
         yield (
             "there are no more data than parameters, so that nothing is left to test the model with"
         )
         return
     chi_square = sum(each.residual**2 for each in data)
+    worst = max(data, key=lambda each: abs(each.residual))
     if chdtrc(spare, chi_square) < UNLIKELY:
         yield (
-            f"data and model disagree: χ² is {chi_square:.3g} where about {spare} is expected. "
-            "The model leaves something out, or uncertainties are larger than stated; the "
-            "intervals are then too narrow"
+            f"data and model disagree: χ² is {chi_square:.3g} where about {spare} is expected; the "
+            f"{worst.quantity} of {worst.body!r} is off by {abs(worst.residual):.3g} times its "
+            "uncertainty. The model leaves something out, or uncertainties are larger than stated; "
+            "the intervals are then too narrow"
         )
 
 

@@ -25,11 +25,15 @@ class Estimate:
         The estimate.
     lower, upper : float
         Ends of its interval; infinite, or 0, where the data do not bound it.
+        Its bounds where it is held by one.
     resolution_share : float
         Part of its variance that comes from instruments' resolution.
     resolution_limit : float
         How far it may be off through resolution alone, in the worst case,
         relative to `value`.
+    held : bool
+        Whether it lies on one of its bounds, so that the data are not met as
+        well as they could be and give no interval.
     """
 
     path: str
@@ -39,6 +43,7 @@ class Estimate:
     upper: float
     resolution_share: float
     resolution_limit: float
+    held: bool
 
 
 @dataclass(frozen=True)
@@ -62,7 +67,10 @@ class Datum:
 
 @dataclass(frozen=True)
 class Expected:
-    """A quantity at the end of the run that was not measured, with its interval."""
+    """A quantity at the end of the run that was not measured, with its interval.
+
+    The interval is open, 0 to infinity, where a parameter is held by a bound.
+    """
 
     body: str
     quantity: str
@@ -91,7 +99,7 @@ class Calibration:
     chi_square : float
         Sum of the squared residuals.
     degrees_of_freedom : int
-        Data less parameters.
+        Data less the parameters that no bound holds.
     correlation : ndarray, shape (p, p)
         Between the logarithms of the parameters.
     singular_values : ndarray, shape (p,)
