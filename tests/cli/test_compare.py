@@ -61,7 +61,7 @@ def test_json_is_one_object_and_files_compare_alike(folder, compared):
     assert [save["time_s"] for save in data["saves"]] == [0, 20, 60]
     assert data["pictures"] == []
     files = [folder / "my-compare" / f"contact.type={name}.h5" for name in ("dcfft", "winkler")]
-    of_files = json.loads(invoke(*files, "--json", "--no-plots", "--at", "60").stdout)
+    of_files = json.loads(invoke(*files, "--json", "--no-plots", "--at", "1 min").stdout)
     (last,) = of_files["saves"]
     assert list(last["results"].values()) == list(data["saves"][-1]["results"].values())
 
@@ -76,6 +76,7 @@ def test_json_is_one_object_and_files_compare_alike(folder, compared):
         (["my.toml"], ["--vary", "loda.normal=1,2"], "unknown key 'loda'; did you mean 'load'?"),
         (["a.h5", "b.h5"], ["--force"], "--set and --force are for a case that varies"),
         (["a.h5", "b.h5"], [], "a.h5 is not a file"),
+        (["a.h5", "b.h5"], ["--at", "1 mm"], "--at: '1 mm' is a length [m]; a time [s] is needed"),
     ],
 )
 def test_bad_input_is_told(folder, files, options, message):
@@ -85,6 +86,13 @@ def test_bad_input_is_told(folder, files, options, message):
         )
     assert message in str(caught.value)
     assert caught.value.exit_code == 2
+
+
+def test_a_time_that_is_not_saved_is_told_before_anything_runs(folder):
+    nowhere = folder / "nowhere"
+    with pytest.raises(CaseError, match="nothing is saved at 3600 s, only at 0, 20, 60 s; add it"):
+        invoke(folder / "my.toml", *CONTACTS, *QUICK, "--at", "1 h", "-o", nowhere)
+    assert not nowhere.exists()
 
 
 def test_names_of_files_are_shown_as_they_are_and_not_broken(folder):

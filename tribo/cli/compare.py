@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tribo.core.errors import CaseError
+from tribo.core.errors import CaseError, located
 
 if TYPE_CHECKING:
     from tribo.study.comparison import Comparison
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 @click.option("--vary", multiple=True, metavar="PATH=A,B", help="Values that take turns.")
 @click.option("--set", "overrides", multiple=True, metavar="PATH=VALUE", help="Change a value.")
 @click.option("-o", "--output", type=click.Path(path_type=Path), help="Folder; CASE-compare.")
-@click.option("--at", "times", multiple=True, type=float, metavar="S", help="Save to show, in s.")
+@click.option("--at", "at", multiple=True, metavar="TIME", help="Save to show, as '1 h'.")
 @click.option("--force", is_flag=True, help="Run all anew.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object, in SI units.")
 @click.option("--no-plots", is_flag=True, help="Write no pictures.")
@@ -28,7 +28,7 @@ def compare(
     vary: tuple[str, ...],
     overrides: tuple[str, ...],
     output: Path | None,
-    times: tuple[float, ...],
+    at: tuple[str, ...],
     force: bool,
     as_json: bool,
     no_plots: bool,
@@ -45,12 +45,13 @@ def compare(
     Example:
       tribo compare my.toml --vary contact.type=dcfft,winkler
       tribo compare my.toml --vary load.normal='50 N,100 N' --vary grid.cells=64,128
-      tribo compare a.h5 b.h5 --at 0 --at 600
+      tribo compare a.h5 b.h5 --at 0 --at '10 min'
     """
     from tribo.cli.side_by_side import print_comparison
 
     folder = output or files[0].with_name(files[0].stem + "-compare")
-    with _comparison(files, vary, overrides, folder, force) as comparison:
+    times = _times(at)
+    with _comparison(files, vary, overrides, folder, times, force) as comparison:
         chosen = comparison.chosen_times(times)
         if not as_json:
             print_comparison(comparison, chosen)
@@ -63,11 +64,21 @@ def compare(
         click.echo(f"Wrote {path}")
 
 
+def _times(at: tuple[str, ...]) -> list[float]:
+    """Return times in s; a number alone is in s."""
+    from tribo.config.overrides import parse_value
+    from tribo.core.units import Quantity
+
+    with located("--at"):
+        return [Quantity("s", at_least=0).read(parse_value(text)) for text in at]
+
+
 def _comparison(
     files: tuple[Path, ...],
     vary: tuple[str, ...],
     overrides: tuple[str, ...],
     folder: Path,
+    times: list[float],
     force: bool,
 ) -> Comparison:
     from tribo.study.comparison import compare as run
@@ -85,6 +96,7 @@ def _comparison(
             apply_overrides(read_toml(files[0]), overrides),
             grid([Axis.parse(text) for text in vary]),
             folder,
+            times=times,
             observers=lambda: [Progress()],
             tell=lambda text: click.echo(text, err=True),
             overwrite=force,

@@ -16,7 +16,7 @@ from tribo.registry.registry import Registry
 from tribo.results.read import Result
 from tribo.study.differences import common_bodies, common_times, differences, same_grid
 from tribo.study.runs import Observers, run_variants
-from tribo.study.variation import short_labels, variants
+from tribo.study.variation import check_saved, short_labels, variants
 
 MOST = 12
 """Most results that a table or a picture takes side by side."""
@@ -181,6 +181,7 @@ def compare(
     folder: str | Path | None = None,
     *,
     labels: Sequence[str] | None = None,
+    times: Sequence[float] = (),
     registry: Registry | None = None,
     observers: Observers = list,
     tell: Callable[[str], None] = lambda text: None,
@@ -200,6 +201,8 @@ def compare(
         there. In memory if left out.
     labels : sequence of str, optional
         What to call the variants; the values that differ if left out.
+    times : sequence of float, optional
+        Times, in s, at which all variants must save, so that they can be shown.
     registry : Registry, optional
         Where to look components up; the installed plugins if left out.
     observers, tell, overwrite : optional
@@ -213,7 +216,7 @@ def compare(
     Raises
     ------
     CaseError
-        If a variant is not valid, before any is run.
+        If a variant is not valid or does not save at `times`, before any is run.
     TriboError
         What a run raises; the message names the variant.
 
@@ -230,6 +233,8 @@ def compare(
         )
     data = case if isinstance(case, Mapping) else read_toml(case)
     found = variants(data, settings, registry=registry)
+    for variant in found:
+        check_saved(variant, times, registry)
     names = list(labels or short_labels(settings))
     if len(set(names)) != len(settings):
         raise CaseError(f"{len(settings)} variants need as many different labels, not {names}")

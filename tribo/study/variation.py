@@ -14,6 +14,7 @@ from tribo.config.overrides import apply_settings, parse_value, path_keys
 from tribo.core.errors import CaseError
 from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.registry import Registry
+from tribo.results.read import SAME_TIME
 from tribo.simulation.run import Simulation
 
 _NAMED = 3
@@ -148,6 +149,26 @@ def variants(
         if other is not variant.label:
             raise CaseError(f"{other} and {variant.label} are the same case; leave one of them out")
     return found
+
+
+def check_saved(variant: Variant, times: Sequence[float], registry: Registry | None) -> None:
+    """Check that a variant saves at times, in s; where a depth may end it, nobody knows before.
+
+    Raises
+    ------
+    CaseError
+        If it does not; the message says when it saves.
+    """
+    if not times or variant.case.stop.depth is not None:
+        return
+    model = Simulation(variant.case, registry).model
+    saved = sorted({0.0, *model.save_times, model.end_time})
+    for time in times:
+        if not any(abs(time - each) <= SAME_TIME * model.end_time for each in saved):
+            raise CaseError(
+                f"{variant.label}: nothing is saved at {time:g} s, only at "
+                f"{', '.join(f'{each:g}' for each in saved)} s; add it to output.save_times"
+            )
 
 
 def short_labels(varied: Sequence[Mapping[str, Any]]) -> list[str]:
