@@ -7,6 +7,7 @@ import socket
 import time
 from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
+from threading import Thread
 
 import pandas
 import pytest
@@ -237,3 +238,22 @@ def test_something_else_that_listens_is_no_scheduler():
         on_scheduler(f"tcp://127.0.0.1:{silent.getsockname()[1]}", patience=1),
     ):
         pass
+
+
+def test_something_else_that_answers_is_no_scheduler():
+    """Of the banner of an SSH server dask makes the length of what follows, 2.8 EiB."""
+    pytest.importorskip("distributed", reason="dask.distributed is not installed")
+    with socket.create_server(("127.0.0.1", 0)) as talkative:
+
+        def answer():
+            connection, _ = talkative.accept()
+            with connection:
+                connection.sendall(b"SSH-2.0-OpenSSH_9.6\r\n")
+                connection.recv(1)
+
+        Thread(target=answer, daemon=True).start()
+        with (
+            pytest.raises(CaseError, match=r"no scheduler answers at .*something else may be"),
+            on_scheduler(f"tcp://127.0.0.1:{talkative.getsockname()[1]}", patience=3),
+        ):
+            pass

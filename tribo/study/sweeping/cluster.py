@@ -17,6 +17,7 @@ from tribo.study.sweeping.processes import be_quiet
 
 PATIENCE = 15.0
 """How long a scheduler may take to answer, in s."""
+ELSE = "something else may be listening there"
 
 
 @contextmanager
@@ -84,7 +85,7 @@ def _connected(distributed: Any, address: str, patience: float) -> Any:
     try:
         found = answer.get(timeout=patience + 1.0)
     except Empty:
-        found = TimeoutError("something else may be listening there")
+        found = TimeoutError(ELSE)
     if isinstance(found, Exception):
         raise CaseError(
             f"no scheduler answers at {address} within {patience:g} s ({_reason(found)}); start "
@@ -108,4 +109,7 @@ def _distributed() -> Any:
 
 
 def _reason(error: Exception) -> str:
+    if not isinstance(error, OSError | ValueError):
+        # Bytes that mean something else were read as dask's.
+        return ELSE
     return str(error).splitlines()[0] if str(error) else type(error).__name__
