@@ -217,6 +217,17 @@ def test_data_at_odds_with_the_model_are_told():
     assert any(note.startswith("data and model disagree: χ² is") for note in found.notes)
 
 
+def test_a_balance_that_is_too_coarse_is_told():
+    loss = {"body": "ball", "quantity": "mass", "value": mass(BALL), "resolution": "0.1 mg"}
+    found = calibrate(CASE, {"measured": [loss]})
+    assert (
+        "the balance is too coarse: read to 0.1 mg, the mass of 'ball' may be off by 0.1 mg, and "
+        "0.00732 mg is given"
+    ) in found.notes
+    fine = calibrate(CASE, {"measured": [loss | {"resolution": "1 ug"}]})
+    assert not any("too coarse" in note for note in fine.notes)
+
+
 def test_widths_finer_than_the_grid_are_told(true_run):
     data = [measured("ball", "scar_across", computed(true_run, "ball", "scar_across"), 0.005)]
     found = calibrate(CASE, {"measured": data})

@@ -60,6 +60,7 @@ def notes(
         *_open(estimates),
         *_bounded(estimates, parameters),
         *_misfit(data, spare),
+        *_too_coarse_to_show(measured),
         *_too_coarse(measured, grid),
     ]
 
@@ -76,11 +77,10 @@ def _dominated(
             continue
         if estimate.resolution_share > _MOST:
             entry = owners[int(np.argmax(np.abs(own) * parts))]
-            instrument = "balance" if entry.quantity == "mass" else "instrument"
             step = in_words(entry.quantity, entry.resolution or 0.0)
             yield (
-                f"{estimate.path}: the {instrument}'s resolution dominates the uncertainty; the "
-                f"{entry.quantity} of {entry.body!r} read to {step} leaves "
+                f"{estimate.path}: the {_instrument(entry)}'s resolution dominates the "
+                f"uncertainty; the {entry.quantity} of {entry.body!r} read to {step} leaves "
                 f"±{percent(estimate.resolution_limit)} % open"
             )
 
@@ -149,6 +149,22 @@ def _misfit(data: Sequence[Datum], spare: int) -> Iterator[str]:
             "uncertainty. The model leaves something out, or uncertainties are larger than stated; "
             "the intervals are then too narrow"
         )
+
+
+def _too_coarse_to_show(measured: Sequence[Measured]) -> Iterator[str]:
+    for entry in measured:
+        off, value = entry.from_resolution[1], float(np.max(np.abs(entry.values)))
+        if off >= value:
+            yield (
+                f"the {_instrument(entry)} is too coarse: read to "
+                f"{in_words(entry.quantity, entry.resolution or 0.0)}, the {entry.quantity} of "
+                f"{entry.body!r} may be off by {in_words(entry.quantity, off)}, and "
+                f"{in_words(entry.quantity, value)} is given"
+            )
+
+
+def _instrument(entry: Measured) -> str:
+    return "balance" if entry.quantity == "mass" else "instrument"
 
 
 def _too_coarse(measured: Sequence[Measured], grid: Grid) -> Iterator[str]:
