@@ -5,7 +5,12 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
+from rich.console import Console
+
+from tribo.cli.calibrate import _data, _estimates, _predictions
+from tribo.study.calibration.outcome import Calibration, Datum, Estimate, Expected
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 QUICK = ["--set", "grid.cells=24", "--set", "contact.type=winkler"]
@@ -49,6 +54,32 @@ def test_its_tables_break_neither_names_nor_numbers(done):
     (row,) = (line.split() for line in lines if line.startswith(" bodies.disk.wear.k"))
     assert " ".join(row) == "bodies.disk.wear.k 7.08e-16 1/Pa 4.25e-16 to 9.91e-16 ±40 % ±50 %"
     assert max(len(line) for line in lines if line.startswith(" ")) <= 80
+
+
+def test_wide_tables_break_no_value_at_80_columns(capsys):
+    """Long names are broken between words, intervals around "to"."""
+    ball = "bodies.second_ball.wear.factor"
+    estimate = Estimate(ball, "1/Pa", 1.234e-15, 1.111e-16, 1.357e-14, 0.5, 1.34, False)
+    data = [
+        Datum("second_ball", quantity, 3600.0, -0.35e-3, "m", 7.99e-9, 1.11e-9, 9.99e-9, -12.3)
+        for quantity in ("profile_along", "profile_across")
+    ]
+    expected = Expected("second_ball", "scar_across", "m", 1.23e-3, 1.11e-4, 1.46e-2)
+    found = Calibration(
+        0.95, 5, (estimate,), tuple(data), (expected,), 0.1, 1, np.eye(1), np.ones(1), ()
+    )
+    console = Console(width=80)
+    for table in (_estimates(found), _data(found), _predictions(found)):
+        console.print(table)
+    lines = [line.rstrip() for line in capsys.readouterr().out.splitlines()]
+    assert max(map(len, lines)) <= 80
+    text = "\n".join(lines)
+    for whole in (ball, "1.23e-15 1/Pa", "1.36e-14", "±134 %", "resolution"):
+        assert whole in text
+    for whole in ("uncertainty", "0.00799 µm", "0.00111 µm", "profile_across", "-12.3", "residual"):
+        assert whole in text
+    for whole in ("second_ball, scar_across", "1.23 mm", "0.111 to 14.6 mm"):
+        assert whole in text
 
 
 def test_it_tells_of_each_run_on_stderr(done):

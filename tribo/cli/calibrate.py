@@ -17,7 +17,7 @@ from rich.table import Table
 from tribo.study.calibration.outcome import Calibration, Datum, Estimate, Expected
 from tribo.study.calibration.quantities import PROFILES, in_si, in_words, percent
 
-LONGEST_NAME = 36
+LONGEST_NAME = 30
 """Characters of a name that a table for 80 columns has room for."""
 
 
@@ -72,27 +72,40 @@ def _tell(run: int, misfit: float) -> None:
     click.echo(f"run {run}: misfit χ² {misfit:.3g}", err=True)
 
 
-def _table(title: str, names: list[str], columns: tuple[str, ...]) -> Table:
-    """Return a table that breaks its cells between words, and only very long names within."""
+def _table(title: str, names: list[str], *columns: str) -> Table:
+    """Return a table that breaks intervals between words, but no values.
+
+    Names are broken between words, and only very long words within.
+    """
     table = Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD)
     table.pad_edge, table.collapse_padding = False, True
-    longest = max(map(len, names), default=0)
-    table.add_column("", overflow="fold", no_wrap=longest <= LONGEST_NAME)
+    longest = max((len(word) for name in names for word in name.split()), default=0)
+    one_word = not any(" " in name for name in names)
+    table.add_column(
+        "",
+        overflow="fold",
+        no_wrap=one_word and longest <= LONGEST_NAME,
+        min_width=None if one_word else min(longest, LONGEST_NAME),
+    )
     for column in columns:
-        table.add_column(column, justify="right", overflow="fold")
+        is_interval = column == "" or column.endswith("interval")
+        table.add_column(column, justify="right", overflow="fold", no_wrap=not is_interval)
     return table
 
 
 def _estimates(found: Calibration) -> Table:
-    level = f"{100 * found.level:g} % interval"
     names = [each.path for each in found.parameters]
-    table = _table(f"Fitted in {found.runs} runs", names, ("estimate", level, "", "resolution"))
+    table = _table(
+        f"Fitted in {found.runs} runs", names, "estimate", _at_level(found), "", "resolution"
+    )
     for each in found.parameters:
         table.add_row(
             each.path,
             in_si(each.value, each.unit),
-            "held by its bound" if each.held else f"{_end(each.lower)} to {_end(each.upper)}",
-            "" if each.held else _relative(each.value, each.lower, each.upper),
+            "held by its bound"
+            if each.held
+            else _interval(each, f"{each.lower:.3g}", f"{each.upper:.3g}"),
+            "" if each.held else _relative(each),
             _resolution(each),
         )
     return table
@@ -100,7 +113,7 @@ def _estimates(found: Calibration) -> Table:
 
 def _data(found: Calibration) -> Table:
     names = [_name(each) for each in found.data]
-    table = _table("Measured", names, ("value", "uncertainty", "computed", "residual"))
+    table = _table("Measured", names, "value", "uncertainty", "computed", "residual")
     for each, name in zip(found.data, names, strict=True):
         table.add_row(
             name,
@@ -113,17 +126,15 @@ def _data(found: Calibration) -> Table:
 
 
 def _predictions(found: Calibration) -> Table:
-    level = f"{100 * found.level:g} % interval"
     names = [_name(each) for each in found.predictions]
-    table = _table("Not measured, at the end", names, ("computed", level, ""))
+    table = _table("Not measured, at the end", names, "computed", _at_level(found), "")
     for each, name in zip(found.predictions, names, strict=True):
         low = in_words(each.quantity, each.lower).split()[0]
-        high = "open" if math.isinf(each.upper) else in_words(each.quantity, each.upper)
         table.add_row(
             name,
             in_words(each.quantity, each.value),
-            "open" if high == "open" and not each.lower else f"{low} to {high}",
-            _relative(each.value, each.lower, each.upper),
+            _interval(each, low, in_words(each.quantity, each.upper)),
+            _relative(each),
         )
     return table
 
@@ -155,8 +166,14 @@ def _name(each: Datum | Expected) -> str:
     return text
 
 
-def _end(value: float) -> str:
-    return "open" if math.isinf(value) else f"{value:.3g}"
+def _at_level(found: Calibration) -> str:
+    return f"{100 * found.level:g} % interval"
+
+
+def _interval(each: Estimate | Expected, low: str, high: str) -> str:
+    if math.isinf(each.upper):
+        return f"{low} to open" if each.lower else "open"
+    return f"{low} to {high}"
 
 
 def _resolution(each: Estimate) -> str:
@@ -165,8 +182,8 @@ def _resolution(each: Estimate) -> str:
     return f"±{percent(each.resolution_limit)} %"
 
 
-def _relative(value: float, lower: float, upper: float) -> str:
-    if math.isinf(upper):
+def _relative(each: Estimate | Expected) -> str:
+    if math.isinf(each.upper):
         return ""
-    below, above = percent(1 - lower / value), percent(upper / value - 1)
+    below, above = percent(1 - each.lower / each.value), percent(each.upper / each.value - 1)
     return f"±{above} %" if below == above else f"−{below} +{above} %"
