@@ -136,7 +136,11 @@ SAMPLE = '[sample]\nmethod = "sobol"\ncount = 2\n[sample.ranges]\n'
         (SAMPLE + "load.normal = {low = 1}", 'sample.ranges."load.normal".high: missing'),
         (
             SAMPLE + "load.normal = {low = '1 Pa', high = 2}",
-            "sample.ranges: the low ends cannot be used: ",
+            "sample.ranges: the low ends cannot be used: load.normal: '1 Pa' is a pressure",
+        ),
+        (
+            SAMPLE + "load.normal = {low = 0, high = 2}",
+            "sample.ranges: the low ends cannot be used: load.normal: 0 N: must be greater than 0",
         ),
         (
             SAMPLE + "load.normal = {low = '2 N', high = 1}",
@@ -157,6 +161,12 @@ def test_what_is_wrong_is_said_before_anything_runs(tmp_path, text, message):
         plan(sweeps.study(tmp_path, sweeps.QUICK + text), tmp_path / "out")
     assert message in str(caught.value)
     assert not (tmp_path / "out").exists()
+
+
+def test_a_case_in_the_place_of_a_study_is_told(tmp_path):
+    sweeps.study(tmp_path)
+    with pytest.raises(CaseError, match=r"case\.toml is a case, not a study; .*case = 'case.toml'"):
+        plan(tmp_path / "case.toml", tmp_path / "out")
 
 
 def test_a_missing_base_case_is_named(tmp_path):

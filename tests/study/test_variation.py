@@ -32,10 +32,27 @@ def refused(*axes):
         ("a.b=[[32, 64], 32]", ([32, 64], 32)),
         ('a.b=[{type="x"}, "y"]', ({"type": "x"}, "y")),
         ("a.b=one", ("one",)),
+        ('a.b={type="x", c=1}', ({"type": "x", "c": 1},)),
     ],
 )
 def test_an_axis_is_a_path_and_its_values(text, values):
     assert Axis.parse(text) == Axis("a.b", values)
+
+
+@pytest.mark.parametrize("quoted", ["'50 N,100 N'", '"50 N,100 N"'])
+def test_quotes_around_all_values_are_told(quoted):
+    with pytest.raises(CaseError) as caught:
+        Axis.parse(f"load.normal={quoted}")
+    assert str(caught.value) == (
+        f"load.normal: its quotes make one value of {quoted}; leave them out, or give each value "
+        "its own"
+    )
+    assert Axis.parse(f"load.normal=[{quoted}]").values == ("50 N,100 N",)
+
+
+def test_lists_are_labelled_as_they_are_written():
+    labels = [v.label for v in made("output.save_times=[[0, 100], [0, 200]]")]
+    assert labels == ["output.save_times=[0, 100]", "output.save_times=[0, 200]"]
 
 
 def test_axes_multiply_and_the_last_varies_first():

@@ -92,7 +92,7 @@ def file_names(labels: Sequence[str]) -> list[str]:
     """Return a file name for each label, all different."""
     names: list[str] = []
     for label in labels:
-        stem = re.sub(r"[^\w.,=+×-]+", "_", label)[:_LONGEST_NAME]
+        stem = re.sub(r"[^\w.,=+-]+", "_", label)[:_LONGEST_NAME]
         number = sum(name == stem or name.startswith(f"{stem}~") for name in names)
         names.append(f"{stem}~{number}" if number else stem)
     return [f"{name}.h5" for name in names]

@@ -138,7 +138,7 @@ def variants(
     reasons: dict[str, list[str]] = {}
     for label, point in zip(labels, points, strict=True):
         try:
-            found.append(Variant(label, point, _case(data, point, registry)))
+            found.append(Variant(label, point, valid_case(data, point, registry)))
         except CaseError as error:
             reasons.setdefault(str(error), []).append(label)
     if reasons:
@@ -194,10 +194,24 @@ def _values(path: str, text: str) -> tuple[Any, ...]:
         if bracketed:
             raise CaseError(f"{text!r} is no list in TOML: {error}", path) from None
         return tuple(parse_value(part.strip()) for part in text.split(","))
-    return tuple(read["values"])
+    values = tuple(read["values"])
+    if not bracketed and len(values) == 1 and isinstance(values[0], str) and "," in values[0]:
+        raise CaseError(
+            f"its quotes make one value of {text}; leave them out, or give each value its own", path
+        )
+    return values
 
 
-def _case(data: Mapping[str, Any], point: Mapping[str, Any], registry: Registry | None) -> Case:
+def valid_case(
+    data: Mapping[str, Any], point: Mapping[str, Any], registry: Registry | None = None
+) -> Case:
+    """Return the validated case that follows from `data` with the settings of one point.
+
+    Raises
+    ------
+    CaseError
+        If it is not valid.
+    """
     for path in point:
         _check_body(data, path)
     case = validate_case(apply_settings(data, point), registry=registry)
@@ -242,5 +256,5 @@ def _shown(value: Any) -> str:
         ]
         return " ".join(parts)
     if isinstance(value, list | tuple):
-        return "×".join(map(_shown, value))
+        return f"[{', '.join(map(_shown, value))}]"
     return str(value).lower() if isinstance(value, bool) else str(value)

@@ -11,7 +11,7 @@ from typing import Any
 from tribo.config.overrides import path_keys
 from tribo.core.errors import CaseError, TriboWarning
 from tribo.study.sweeping.study_file import RangeConfig, SampleConfig, Study
-from tribo.study.variation import Axis, grid, variants
+from tribo.study.variation import Axis, grid, valid_case
 
 Point = dict[str, Any]
 
@@ -119,10 +119,10 @@ def _end(
     """Return one end of each range in SI, as the case reads it."""
     ends = {path: getattr(given, end) for path, given in ranges.items()}
     try:
-        (variant,) = variants(data, [{**first, **ends}])
+        case = valid_case(data, {**first, **ends})
     except CaseError as error:
         raise CaseError(f"the {end} ends cannot be used: {error}", "sample.ranges") from None
-    read = variant.case.model_dump(mode="json")
+    read = case.model_dump(mode="json")
     return {path: _number(read, path) for path in ends}
 
 

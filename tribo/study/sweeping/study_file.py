@@ -75,7 +75,13 @@ def load_study(path: str | Path) -> tuple[Study, dict[str, Any]]:
         If a file cannot be read, or what it says is wrong; one line an error.
     """
     path = Path(path)
-    study = validate_study(read_toml(path))
+    tables = read_toml(path)
+    if "bodies" in tables and "case" not in tables:
+        raise CaseError(
+            f"{path} is a case, not a study; a study names a case, as case = {path.name!r}, and "
+            "says what varies in it, in [grid] say"
+        )
+    study = validate_study(tables)
     try:
         base = read_toml(path.parent / study.case)
     except CaseError as error:
