@@ -157,9 +157,9 @@ def _print_study(study: Refinement) -> None:
             _named(estimate.name, estimate.unit),
             f"{estimate.value:.5g}",
             f"{estimate.uncertainty:.1e}",
-            f"{share:.2g}",
+            _percent(share),
             _order(estimate.grid),
-            NOTHING if estimate.grid.gci is None else f"{100 * estimate.grid.gci:.2g}",
+            NOTHING if estimate.grid.gci is None else _percent(100 * estimate.grid.gci),
             _order(estimate.steps),
         )
     console = Console(highlight=False)
@@ -179,14 +179,24 @@ def _table(*, header: bool, **widths: int) -> Table:
     table = Table(box=None, expand=True, show_header=header, padding=(0, 0, 0, 1))
     for name, width in widths.items():
         if width:
-            table.add_column(name, justify="right", no_wrap=True, width=width)
+            table.add_column(name, justify="right", width=width)
         else:
             table.add_column(name, ratio=1, overflow="fold")
     return table
 
 
 def _order(found: Convergence) -> str:
-    return found.behaviour if found.order is None else f"{found.order:.2f}"
+    if found.order is None:
+        return found.behaviour
+    order = f"{found.order:.2f}"
+    return order if found.behaviour == "converges" else f"{order}, {found.behaviour}"
+
+
+def _percent(share: float) -> str:
+    """Return a share in at most five characters."""
+    if 0 < share < 0.01:
+        return "<0.01"
+    return f"{share:.0f}" if share >= 10 else f"{share:.2g}"
 
 
 def _named(name: str, unit: str) -> str:

@@ -5,7 +5,9 @@ References
 I. B. Celik, U. Ghia, P. J. Roache, C. J. Freitas, H. Coleman, P. E. Raad,
 "Procedure for estimation and reporting of uncertainty due to discretization in
 CFD applications", J. Fluids Eng. 130 (2008) 078001; P. J. Roache, J. Fluids
-Eng. 116 (1994) 405-413. Where the levels do not converge: L. Eça,
+Eng. 116 (1994) 405-413. The limits of the order and the two factors of safety:
+W. L. Oberkampf, C. J. Roy, "Verification and Validation in Scientific
+Computing" (2010), section 8.6. Where the levels do not converge: L. Eça,
 M. Hoekstra, J. Comput. Phys. 262 (2014) 104-130.
 """
 
@@ -18,10 +20,11 @@ from typing import Literal
 
 from scipy.optimize import brentq
 
-Behaviour = Literal["exact", "converges", "oscillates", "diverges", "unrefined"]
+Behaviour = Literal["exact", "converges", "not asymptotic", "oscillates", "diverges", "unrefined"]
 
-SAFETY = 1.25
-UNCONVERGED_SAFETY = 3.0
+SAFETY, DOUBTFUL_SAFETY = 1.25, 3.0
+MET = 0.1
+"""Part of the formal order by which the observed one may differ and still be said to meet it."""
 ROUND_OFF = 1e-10
 
 
@@ -35,15 +38,17 @@ class Convergence:
         From coarse to fine.
     behaviour : str
         "exact" if the values agree to round-off; "converges" if their
-        differences shrink and keep their sign; "oscillates" if those change
-        it; "diverges" if they do not shrink; "unrefined" if the sizes do not
-        fall, whatever the values do.
+        differences shrink and keep their sign; "not asymptotic" if they do so
+        at an order far from the formal one; "oscillates" if the sign changes;
+        "diverges" if they do not shrink; "unrefined" if the sizes do not fall,
+        whatever the values do.
     order : float or None
-        Observed order; only of what converges.
+        Observed order; only of what converges, or is not asymptotic.
     limit : float or None
-        Value extrapolated with it.
+        Value extrapolated with it; only of what converges.
     gci : float or None
-        Grid convergence index of the finest level, relative to its value.
+        Grid convergence index of the finest level, relative to its value; only
+        of what converges.
     uncertainty : float
         Of the value at the case's own level, in its unit.
     """
@@ -66,13 +71,16 @@ def convergence(
 
         p = |ln|ε₃₂/ε₂₁| + ln((r₂₁ᵖ − 1)/(r₃₂ᵖ − 1))| / ln r₂₁
         φ_limit = (r₂₁ᵖ φ₁ − φ₂)/(r₂₁ᵖ − 1)
-        GCI = 1.25 |(φ₁ − φ₂)/φ₁| / (r₂₁ᵖ − 1)
+        GCI = F |(φ₁ − φ₂)/φ₁| / (r₂₁ᵖ − 1)
 
-    An order above the formal one is a chance of the three values, and the
-    formal one is used with them. The uncertainty is 1.25 |φ − φ_limit| at the
-    case's own level, which is GCI times φ₁ at the finest. Values that
-    oscillate have no order: the uncertainty is their range. Of values that do
-    not converge, or of levels that are no refinement, it is three times that.
+    The factor F is 1.25 if p is within 10 % of the formal order, and 3
+    otherwise; of a p above the formal order, the formal one is used
+    (Oberkampf & Roy). The uncertainty is F |φ − φ_limit| at the case's own
+    level, which is GCI times φ₁ at the finest. A p below half of the formal
+    order, or more than 1 above it, says that the levels are not in the
+    asymptotic range, and that nothing can be extrapolated: the uncertainty is
+    three times the range of the values, as of those that oscillate or do not
+    converge, and of levels that are no refinement (Eça & Hoekstra).
 
     Parameters
     ----------
@@ -91,22 +99,29 @@ def convergence(
     """
     coarse, middle, fine = values
     spread = max(values) - min(values)
-    three = (coarse, middle, fine)
+
+    def doubtful(behaviour: Behaviour, order: float | None = None) -> Convergence:
+        three = (coarse, middle, fine)
+        return Convergence(three, behaviour, order, None, None, DOUBTFUL_SAFETY * spread)
+
     if not sizes[0] > sizes[1] > sizes[2]:
-        return Convergence(three, "unrefined", None, None, None, UNCONVERGED_SAFETY * spread)
+        return doubtful("unrefined")
     if spread <= ROUND_OFF * max(map(abs, values)):
-        return Convergence(three, "exact", None, None, 0.0, 0.0)
+        return Convergence((coarse, middle, fine), "exact", None, None, 0.0, 0.0)
     rough, close = coarse - middle, middle - fine
     if rough * close < 0 or close == 0:
-        return Convergence(three, "oscillates", None, None, None, spread)
+        return doubtful("oscillates")
     order = _observed_order(rough, close, sizes)
     if order is None:
-        return Convergence(three, "diverges", None, None, None, UNCONVERGED_SAFETY * spread)
+        return doubtful("diverges")
+    if not 0.5 * formal_order <= order <= formal_order + 1:
+        return doubtful("not asymptotic", order)
+    safety = SAFETY if abs(order - formal_order) <= MET * formal_order else DOUBTFUL_SAFETY
     gain = (sizes[1] / sizes[2]) ** min(order, formal_order) - 1
     limit = fine - close / gain
-    gci = SAFETY * abs(close) / gain / abs(fine) if fine != 0 else None
-    uncertainty = SAFETY * abs(values[own] - limit)
-    return Convergence(three, "converges", order, limit, gci, uncertainty)
+    gci = safety * abs(close) / gain / abs(fine) if fine != 0 else None
+    uncertainty = safety * abs(values[own] - limit)
+    return Convergence((coarse, middle, fine), "converges", order, limit, gci, uncertainty)
 
 
 def _observed_order(rough: float, close: float, sizes: Sequence[float]) -> float | None:
