@@ -10,7 +10,8 @@ import click
 
 from tribo.cli.plain import make_plain
 from tribo.cli.running import no_interrupt_lost, warnings_on_stderr
-from tribo.core.errors import TriboError
+from tribo.cli.streams import Output, Remarks, over
+from tribo.core.errors import ReaderGone, TriboError
 
 COMMANDS = {
     "demo": "Run the paper's one-hour test.",
@@ -80,8 +81,8 @@ def tribo(no_plugin: tuple[str, ...], only: str | None) -> None:
       tribo check my.toml
       tribo run my.toml
 
-    Exit codes: 0 done, 2 bad input, 3 numerical failure or a failing plugin,
-    130 interrupted.
+    Exit codes: 0 done, 2 bad input, 3 numerical failure, a failing plugin or
+    output that cannot be written, 130 interrupted, 141 standard output closed.
     """
     if no_plugin or only is not None:
         from tribo.registry.selection import keep_only, turn_off
@@ -96,15 +97,21 @@ def main() -> None:
     debug = bool(os.environ.get("TRIBO_DEBUG"))
     # Looking for plugins of its own, pydantic falls over any malformed distribution.
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
+    sys.stdout, sys.stderr = over(sys.stdout, Output), over(sys.stderr, Remarks)
     make_plain(sys.stdout)
     make_plain(sys.stderr)
     try:
         with warnings_on_stderr(), no_interrupt_lost():
             tribo.main(standalone_mode=False)
+            # What a plugin may have printed.
+            print(end="", flush=True)
     except click.exceptions.Abort:
         _fail("interrupted", 130)
     except click.ClickException as error:
         error.show()
+        sys.exit(error.exit_code)
+    except ReaderGone as error:
+        # A reader such as `head` has seen enough, which is no mistake.
         sys.exit(error.exit_code)
     except TriboError as error:
         if debug:
@@ -114,10 +121,6 @@ def main() -> None:
         if debug:
             raise
         _fail("out of memory; lower grid.cells, or raise the limit of this process", 3)
-    except BrokenPipeError:
-        # The reader of a pipe, such as `head`, has seen enough.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        sys.exit(1)
     except Exception as error:
         if debug:
             raise

@@ -20,7 +20,8 @@ def run(case: Path, output: Path | None, overrides: tuple[str, ...], force: bool
       tribo run my.toml --set grid.cells=128 --set contact.type=winkler -o winkler.h5
 
     Ctrl-C stops cleanly; 'tribo resume' goes on. Exit codes: 0 done, 2 bad
-    input, 3 numerical failure, 130 interrupted.
+    input, 3 numerical failure or output that cannot be written, 130
+    interrupted.
     """
     from tribo.cli.report import print_report
     from tribo.config.load import load_case

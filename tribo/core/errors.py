@@ -57,6 +57,12 @@ class Interrupted(TriboError):
     exit_code: ClassVar[int] = 130
 
 
+class ReaderGone(TriboError):
+    """Standard output is a pipe that was closed, as by `head`; nothing is said."""
+
+    exit_code: ClassVar[int] = 141
+
+
 class TriboWarning(UserWarning):
     """Something a user should know about a run that goes on."""
 

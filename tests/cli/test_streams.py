@@ -1,0 +1,85 @@
+"""Standard streams that cannot be written to."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tribo import Result
+from tribo.templates import template
+
+QUICK = ["--set", "grid.cells=32", "--set", "kinematics.duration=60"]
+QUICK += ["--set", "output.save_times=[0, 20, 40]", "--set", "grid.size=0.7 mm"]
+# A run as short as this one is silent otherwise.
+TALKATIVE = """
+import tribo.cli.main, tribo.observers.progress
+tribo.observers.progress.QUIET = -1.0
+tribo.cli.main.main()
+"""
+FULL = Path("/dev/full")
+needs_full = pytest.mark.skipif(not FULL.exists(), reason="there is no /dev/full")
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("streams")
+    (folder / "my.toml").write_text(template("ball_on_disk"), encoding="utf-8")
+    done = tribo(folder, "run", "my.toml", *QUICK, stderr=subprocess.PIPE)
+    assert b"of 60 s, step" in done.stderr
+    return folder
+
+
+@pytest.fixture
+def full():
+    with FULL.open("wb") as device:
+        yield device
+
+
+@pytest.fixture
+def unread():
+    """Return a pipe that nobody reads."""
+    reader, writer = os.pipe()
+    os.close(reader)
+    with os.fdopen(writer, "wb") as pipe:
+        yield pipe
+
+
+def tribo(folder, *arguments, **streams):
+    command = [sys.executable, "-c", TALKATIVE, *arguments]
+    return subprocess.run(command, cwd=folder, check=False, timeout=300, **streams)
+
+
+@needs_full
+@pytest.mark.parametrize("arguments", [["show", "my.h5"], ["show", "my.h5", "--json"], ["--help"]])
+def test_a_full_standard_output_is_one_line_and_exit_code_3(folder, full, arguments):
+    done = tribo(folder, *arguments, stdout=full, stderr=subprocess.PIPE)
+    assert done.returncode == 3
+    assert done.stderr == b"error: cannot write to standard output: No space left on device\n"
+
+
+@pytest.mark.parametrize("arguments", [["show", "my.h5"], ["show", "my.h5", "--json"], ["--help"]])
+def test_a_pipe_that_nobody_reads_ends_quietly(folder, unread, arguments):
+    done = tribo(folder, *arguments, stdout=unread, stderr=subprocess.PIPE)
+    assert (done.returncode, done.stderr) == (141, b"")
+
+
+def test_a_run_goes_on_without_a_reader_of_its_progress(folder, unread):
+    done = tribo(folder, "run", "my.toml", "-o", "unread.h5", *QUICK, stdout=unread, stderr=unread)
+    assert done.returncode == 141
+    with Result.open(folder / "unread.h5") as result:
+        assert result.status == "done"
+
+
+@needs_full
+def test_a_run_goes_on_where_its_progress_cannot_be_written(folder, full):
+    streams = {"stdout": subprocess.PIPE, "stderr": full}
+    done = tribo(folder, "run", "my.toml", "-o", "untold.h5", *QUICK, **streams)
+    assert done.returncode == 0
+    assert b"Saved untold.h5" in done.stdout
+
+
+@needs_full
+def test_an_error_that_cannot_be_told_has_its_exit_code(folder, full):
+    assert tribo(folder, "run", "none.toml", stderr=full).returncode == 2

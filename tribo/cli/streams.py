@@ -1,0 +1,49 @@
+"""Standard streams that cannot be written to: a full disk, a pipe that nobody reads."""
+
+from __future__ import annotations
+
+import io
+import os
+from typing import TYPE_CHECKING, TextIO
+
+from tribo.core.errors import OutputError, ReaderGone
+
+if TYPE_CHECKING:
+    from _typeshed import ReadableBuffer
+
+
+class Output(io.FileIO):
+    """Standard output: it ends the command where it cannot be written to."""
+
+    def write(self, data: ReadableBuffer) -> int:
+        """Write, or raise `OutputError` or `ReaderGone`."""
+        try:
+            return super().write(data)
+        except OSError as error:
+            # Or Python tries once more as it ends, and complains.
+            os.dup2(os.open(os.devnull, os.O_WRONLY), self.fileno())
+            if isinstance(error, BrokenPipeError):
+                raise ReaderGone("nobody reads standard output any more") from error
+            raise OutputError(f"cannot write to standard output: {error.strerror}") from error
+
+
+class Remarks(io.FileIO):
+    """Standard error: progress and messages that cannot be written are left out."""
+
+    def write(self, data: ReadableBuffer) -> int:
+        """Write, or say nothing."""
+        try:
+            return super().write(data)
+        except OSError:
+            return memoryview(data).nbytes
+
+
+def over(stream: TextIO, kind: type[Output | Remarks]) -> TextIO:
+    """Return a stream to where `stream` goes that fails as `kind` does."""
+    if not isinstance(stream, io.TextIOWrapper):
+        return stream
+    return io.TextIOWrapper(
+        io.BufferedWriter(kind(stream.fileno(), "w", closefd=False)),
+        encoding=stream.encoding,
+        line_buffering=stream.line_buffering,
+    )
