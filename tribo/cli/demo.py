@@ -26,21 +26,21 @@ def demo(directory: Path, force: bool) -> None:
     """
     from tribo.cli.report import print_report
     from tribo.config.load import load_case
-    from tribo.core.errors import CaseError
+    from tribo.core.errors import CaseError, OutputError
     from tribo.observers.progress import Progress
     from tribo.plotting.figures import save_figures
     from tribo.simulation.run import Simulation
     from tribo.templates import template
 
     case, output = directory / "ball_on_disk.toml", directory / "ball_on_disk.h5"
-    for path in (case, output):
-        if path.exists() and not force:
-            raise CaseError(f"{path} exists; choose another folder with -d, or use --force")
     try:
+        for path in (case, output):
+            if path.exists() and not force:
+                raise CaseError(f"{path} exists; choose another folder with -d, or use --force")
         directory.mkdir(parents=True, exist_ok=True)
         case.write_text(template("ball_on_disk"), encoding="utf-8")
     except OSError as error:
-        raise CaseError(f"cannot write to {directory}: {error.strerror}") from error
+        raise OutputError(f"cannot write to {directory}: {error.strerror}") from error
     click.echo("One hour of a steel ball rubbing on a steel disk: 100 N, 25 Hz, 360 m.")
     simulation = Simulation(load_case(case))
     with simulation.run(output, observers=[Progress()], overwrite=force) as result:

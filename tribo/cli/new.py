@@ -26,12 +26,12 @@ def new(name: str, file: Path, force: bool) -> None:
     Example:
       tribo new ball_on_disk my.toml
     """
-    from tribo.core.errors import CaseError
+    from tribo.core.errors import CaseError, OutputError
 
-    if file.exists() and not force:
-        raise CaseError(f"{file} exists; choose another name, or replace it with --force")
     try:
+        if file.exists() and not force:
+            raise CaseError(f"{file} exists; choose another name, or replace it with --force")
         file.write_text(template(name), encoding="utf-8")
     except OSError as error:
-        raise CaseError(f"cannot write {file}: {error.strerror}") from error
+        raise OutputError(f"cannot write {file}: {error.strerror}") from error
     click.echo(f"Wrote {file}; look it over, then: tribo check {file}")

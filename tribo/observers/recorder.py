@@ -148,7 +148,9 @@ class Recorder(Observer[RecorderConfig]):
         try:
             yield
         except (OSError, RuntimeError) as error:
+            reason = getattr(error, "strerror", None) or error
+            remedy = "" if isinstance(error, PermissionError) else "free space or "
             raise OutputError(
-                f"cannot write {self.config.path}: {error}; free space or choose another place "
-                "with -o; what was saved before is intact"
+                f"cannot write {self.config.path}: {reason}; {remedy}choose another place with "
+                "-o; what was saved before is intact"
             ) from error

@@ -7,7 +7,7 @@ from importlib.resources import files
 from pathlib import Path
 from string import Template
 
-from tribo.core.errors import CaseError
+from tribo.core.errors import CaseError, OutputError
 from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.kinds import KINDS
 from tribo.scaffold.names import PluginName
@@ -38,7 +38,9 @@ def write_plugin(name: str, kind: str, folder: Path) -> list[Path]:
     Raises
     ------
     CaseError
-        If the name is no good, the kind unknown, or the folder cannot be made.
+        If the name is no good, the kind unknown, or the folder exists.
+    OutputError
+        If the files cannot be written.
     """
     plugin = PluginName(name)
     words = _words(plugin, _kind(kind))
@@ -56,14 +58,15 @@ def write_plugin(name: str, kind: str, folder: Path) -> list[Path]:
         "tests/test_example.py": f"{words['kind']}/test_example.py",
     }
     texts = {path: _filled(template, words) for path, template in layout.items()}
-    _make(folder)
-    written = []
-    for path, text in texts.items():
-        file = folder / path
-        file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(text, encoding="utf-8")
-        written.append(file)
-    return sorted(written)
+    try:
+        _make(folder)
+        for path, text in texts.items():
+            file = folder / path
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise OutputError(f"cannot write to {folder}: {error.strerror}") from error
+    return sorted(folder / path for path in texts)
 
 
 def _kind(kind: str) -> str:
@@ -101,7 +104,4 @@ def _make(folder: Path) -> None:
         raise CaseError(f"{folder} exists; give another folder, or take it away first")
     if not folder.parent.is_dir():
         raise CaseError(f"there is no folder {folder.parent}; make it first")
-    try:
-        folder.mkdir()
-    except OSError as error:
-        raise CaseError(f"{folder} cannot be made: {error.strerror}") from error
+    folder.mkdir()

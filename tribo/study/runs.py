@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -100,7 +101,7 @@ def file_names(labels: Sequence[str]) -> list[str]:
 
 def _check_own(path: Path | None, simulation: Simulation) -> None:
     """Check that a file is not the result of another case; one that holds nothing is nobody's."""
-    if path is None or not path.exists() or path.stat().st_size == 0:
+    if path is None or not os.path.exists(path) or path.stat().st_size == 0:
         return
     otherwise = "choose another folder with -o, or run all anew with --force"
     try:

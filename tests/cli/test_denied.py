@@ -1,0 +1,78 @@
+"""Folders that may not be written to."""
+
+import os
+import shutil
+from pathlib import Path
+from tempfile import mkdtemp
+
+import pytest
+from click.testing import CliRunner
+
+from tribo.cli.main import tribo
+from tribo.core.errors import OutputError
+from tribo.templates import template
+
+NOBODY = 65534
+QUICK = ["--set", "grid.cells=24", "--set", "grid.size=0.7 mm", "--set", "kinematics.duration=20"]
+QUICK += ["--set", "output.save_times=[0]"]
+
+
+def invoke(*arguments):
+    return CliRunner().invoke(tribo, arguments)
+
+
+@pytest.fixture(scope="module")
+def given():
+    """A case and two results in a folder that, unlike those of pytest, all may read and enter."""
+    folder = Path(mkdtemp())
+    case = folder / "my.toml"
+    case.write_text(template("ball_on_disk"), encoding="utf-8")
+    for name in ("a.h5", "b.h5"):
+        assert invoke("run", str(case), "-o", str(folder / name), *QUICK).exit_code == 0
+    # Python itself may be where only root can import from.
+    compared = invoke("compare", *(str(folder / name) for name in ("a.h5", "b.h5")))
+    drawn = invoke("plot", str(folder / "a.h5"))
+    assert compared.exit_code == drawn.exit_code == 0
+    (folder / "denied").mkdir()
+    (folder / "denied").chmod(0o555)
+    folder.chmod(0o755)
+    yield folder
+    shutil.rmtree(folder)
+
+
+@pytest.fixture
+def nobody():
+    """Whoever runs the tests: root may write anywhere."""
+    if os.geteuid() == 0:
+        os.seteuid(NOBODY)
+        yield
+        os.seteuid(0)
+    else:
+        yield
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ["new", "ball_on_disk", "denied/my.toml"],
+        ["demo", "-d", "denied/demo"],
+        ["plugins", "new", "acme-fretting", "--kind", "wear-law", "-d", "denied"],
+        ["run", "my.toml", "-o", "denied/my.h5", *QUICK],
+        ["plot", "a.h5", "-d", "denied/plots"],
+        ["export", "a.h5", "-d", "denied/csv"],
+        ["compare", "a.h5", "b.h5", "-o", "denied/compare"],
+        ["compare", "my.toml", "--vary", "load.normal=1,2", "-o", "denied/compare", *QUICK],
+    ],
+    ids=lambda command: command[0],
+)
+def test_it_is_one_message_and_exit_code_3(given, nobody, monkeypatch, command):
+    monkeypatch.chdir(given)
+    done = invoke(*command)
+    assert isinstance(done.exception, OutputError)
+    assert done.exception.exit_code == 3
+    message = str(done.exception)
+    assert message.startswith("cannot ")
+    assert "denied" in message
+    assert "Permission denied" in message
+    for word in ("space", ".new", "Errno"):
+        assert word not in message
