@@ -147,6 +147,15 @@ def test_not_converging_says_how_far_it_came_and_what_to_do() -> None:
         solve_bounded(operator, case.gap, case.load, max_iterations=3)
 
 
+def test_a_load_that_is_lost_in_rounding_is_said_to_be() -> None:
+    case = ball(32)
+    operator = HalfSpace((32, 32), case.system.grid.spacing, MODULUS)
+    with pytest.raises(NumericalError, match=r"no cell is in contact: the load is so small"):
+        solve_bounded(operator, case.gap, 1e-50)
+    with pytest.raises(CaseError, match=r"the load is 1e-300 N; less than 1e-100 N is lost"):
+        solve_bounded(operator, case.gap, 1e-300)
+
+
 def test_gap_and_load_are_checked() -> None:
     operator = HalfSpace((4, 4), (1e-6, 1e-6), MODULUS)
     with pytest.raises(CaseError, match="positive load"):

@@ -157,3 +157,9 @@ def test_start_changes_nothing_but_the_work() -> None:
     warm = _fixed().solve(case, cold)
     assert warm.iterations < cold.iterations
     assert warm.pressure == pytest.approx(cold.pressure, rel=1e-12)
+
+
+@pytest.mark.parametrize("load", [1e-320, 1e-300])
+def test_a_load_that_is_lost_in_rounding_is_said_to_be(load: float) -> None:
+    with pytest.raises(CaseError, match="is lost in rounding"):
+        _fixed().solve(replace(ball(32), load=load))

@@ -70,8 +70,8 @@ def solve_bounded(
     CaseError
         If the load is not positive, or more than the box bears at the cap.
     NumericalError
-        If the gap is not finite, or the residuals did not fall to the
-        tolerance; the message says how far they came.
+        If the gap is not finite, the load is lost in rounding, or the residuals
+        did not fall to the tolerance; the message says how far they came.
 
     References
     ----------
@@ -236,6 +236,11 @@ class _Iterate:
 def _approach(gap: Array, free: Mask, zero: Mask, full: Mask) -> float:
     if free.any():
         return float(np.mean(gap[free]))
+    if not full.any():
+        raise NumericalError(
+            "no cell is in contact: the load is so small that it is lost in rounding; raise "
+            "load.normal"
+        )
     # Without a cell between the bounds any value between the two will do.
     highest = float(gap[full].max())
     return 0.5 * (highest + float(gap[zero].min())) if zero.any() else highest

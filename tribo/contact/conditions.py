@@ -9,9 +9,12 @@ from tribo.core.contact import Residuals
 from tribo.core.errors import CaseError, NumericalError
 from tribo.core.grid import Grid
 
+LEAST_LOAD = 1e-100
+"""In N; of much less, products with pressures and lengths underflow."""
+
 
 def check_bearable(load: float, area: float, limit: float) -> None:
-    """Raise `CaseError` unless `load` is positive and `area` can bear it.
+    """Raise `CaseError` unless `load` is positive, not lost in rounding, and `area` can bear it.
 
     Parameters
     ----------
@@ -24,6 +27,10 @@ def check_bearable(load: float, area: float, limit: float) -> None:
     """
     if not load > 0:
         raise CaseError(f"the load is {load:g} N; a contact needs a positive load")
+    if load < LEAST_LOAD:
+        raise CaseError(
+            f"the load is {load:g} N; less than {LEAST_LOAD:g} N is lost in rounding; raise it"
+        )
     if load > limit * area:
         raise CaseError(
             f"the load is {load:g} N, but with pressure limited to {limit:g} Pa the window bears "
