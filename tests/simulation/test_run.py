@@ -158,6 +158,23 @@ def test_a_contact_that_reaches_the_edge_stops_the_run_with_what_was_saved(tmp_p
         assert np.all(np.isfinite(result.pressure(-1)))
 
 
+@pytest.mark.parametrize(
+    ("k", "failure"), [(1e-2, "miss their tolerances"), (1e-6, "reached the edge of the window")]
+)
+def test_a_run_that_fails_asks_for_the_unit_of_a_wear_coefficient_that_is_absurd(k, failure):
+    bodies = [Body("ball", sphere(), steel(), archard(k=k)), Body("disk", flat(), steel())]
+    with pytest.raises(NumericalError, match=failure) as failed:
+        Simulation(small(bodies=bodies)).run()
+    assert "ball would wear about" in str(failed.value)
+    assert "in the unit that was meant" in str(failed.value)
+
+
+def test_a_window_that_is_merely_small_raises_no_doubt_about_the_unit():
+    with pytest.raises(NumericalError, match="reached the edge") as failed:
+        Simulation(small(grid=Grid((0.4e-3, 0.4e-3), (32, 32)))).run()
+    assert "unit" not in str(failed.value)
+
+
 def test_a_window_too_small_for_the_first_contact_is_refused(tmp_path):
     path = tmp_path / "run.h5"
     with pytest.raises(CaseError, match=r"^grid\.size: the first contact reaches the edge"):

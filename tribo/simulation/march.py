@@ -13,6 +13,7 @@ from tribo.core.measures import Invariants, half_widths, reaches_border
 from tribo.core.state import State
 from tribo.simulation.calling import named
 from tribo.simulation.control import SHRINK, first_increment, fitted, next_factor, step_error
+from tribo.simulation.doubt import asked_of
 from tribo.simulation.invariants import chattering_words, chatters, hold
 from tribo.simulation.model import Model
 from tribo.simulation.motion import averaging_limit, path_at, time_at
@@ -150,6 +151,7 @@ def _implicit(model: Model, config: ImplicitConfig, state: State, stop: float) -
                 f"steps down to {increment:.3g} m at {state.distance:.6g} m still miss their "
                 f"tolerances (depth error {errors[0]:.3g}, pressure change {errors[1]:.3g} times "
                 "what is allowed); raise stepping.depth_tolerance or pressure_tolerance"
+                + asked_of(model, state)
             )
         natural = factor * increment
     # A step cut short to meet a save says little about the next: keep the longer of the two.
@@ -279,7 +281,7 @@ def _check_window(model: Model, state: State) -> None:
         f"at {state.time:.6g} s ({state.distance:.6g} m) the contact, "
         f"{2e3 * width:.3g} × {2e3 * breadth:.3g} mm, reached the edge of the window of "
         f"{1e3 * model.grid.size[0]:.4g} × {1e3 * model.grid.size[1]:.4g} mm; make grid.size "
-        "larger (and grid.cells with it)"
+        "larger (and grid.cells with it)" + asked_of(model, state)
     )
 
 

@@ -15,6 +15,7 @@ from tribo.results.provenance import stated_facts
 from tribo.simulation.assembly import varied
 from tribo.simulation.bodies import laws_of
 from tribo.simulation.calling import calling
+from tribo.simulation.doubt import too_deep
 from tribo.simulation.march import FEW_CELLS, MOST_STEPS, begin, march
 from tribo.simulation.measure import measure
 from tribo.simulation.memory import memory_needed
@@ -27,8 +28,6 @@ COARSE = 72
 MARGINS = (1.5, 1.0)
 LOOSE = ImplicitConfig(depth_tolerance=2e-2, pressure_tolerance=0.5, settle=0.1)
 BARE_FILE = 1e6
-DEEP = 0.1
-"""Wear depth, relative to the radius of curvature, that is more likely a slip of units."""
 
 
 @dataclass(frozen=True)
@@ -214,18 +213,9 @@ def _outgrown(model: Model, coarse: CoarseRun) -> str:
 
 
 def _deep(model: Model, last: Measures | None) -> list[str]:
-    """Say which bodies wear deeper than is plausible for the contact's curvature."""
-    curvature = max(model.system.curvature or (0.0, 0.0))
-    if last is None or curvature <= 0:
+    if last is None:
         return []
-    return [
-        f"{name} would wear about {1e3 * body.max_wear_depth:.3g} mm deep, which is "
-        f"{body.max_wear_depth * curvature:.3g} times the radius of curvature of "
-        f"{1e3 / curvature:.3g} mm: is its wear coefficient in the unit that was meant? A bare k "
-        "is in 1/Pa; write '1e-6 mm^3/(N m)' for that unit"
-        for name, body in last.bodies.items()
-        if body.max_wear_depth * curvature > DEEP
-    ]
+    return too_deep(model.system, {n: body.max_wear_depth for n, body in last.bodies.items()})
 
 
 def _inside(model: Model, measures: Measures) -> bool:
