@@ -1,7 +1,9 @@
 """Runs end to end: saves, stops, interruption and resumption."""
 
+import errno
 import os
 import signal
+from unittest.mock import Mock
 
 import h5py
 import numpy as np
@@ -12,8 +14,9 @@ from paper_models import K, archard, flat, motion, small, sphere, states, steel
 from tribo import Body, CaseError, Grid, Interrupted, NumericalError, Result, Simulation
 from tribo.config.stepping import ExplicitConfig, ImplicitConfig
 from tribo.config.stop import StopConfig
-from tribo.core.errors import TriboWarning
+from tribo.core.errors import OutputError, TriboWarning
 from tribo.interfaces.observer import Observer, ObserverConfig
+from tribo.observers import recorder
 from tribo.simulation.describe import describe
 
 
@@ -216,6 +219,25 @@ def test_a_model_made_of_objects_describes_the_case_that_makes_it():
 def test_a_swept_body_must_not_vary_along_the_track():
     with pytest.raises(CaseError, match=r"bodies\.disk\.surface: .*kinematics\.swept"):
         small(bodies=[Body("ball", flat(), steel()), Body("disk", sphere(), steel())])
+
+
+def test_a_run_stopped_before_its_first_checkpoint_says_so_and_can_start_again(
+    tmp_path, monkeypatch
+):
+    path = tmp_path / "run.h5"
+    with monkeypatch.context() as disk:
+        full = OSError(errno.ENOSPC, "No space left on device")
+        disk.setattr(recorder, "write_checkpoint", Mock(side_effect=full))
+        with (
+            pytest.warns(TriboWarning, match="No space left"),
+            pytest.raises(OutputError, match="No space left on device; free space or choose"),
+        ):
+            Simulation(small()).run(path)
+    with Result.open(path) as result:
+        assert list(result.times) == [0]
+    with pytest.raises(CaseError, match=r"stopped before the first was written; .* run --force"):
+        Simulation(small()).resume(path)
+    assert Simulation(small()).run(path, overwrite=True).status == "done"
 
 
 def test_the_checkpoint_of_another_case_is_not_gone_on_with(tmp_path):

@@ -123,9 +123,9 @@ def read_checkpoint(result: Path, case: Mapping[str, object]) -> tuple[State, fl
             )
         return state, wall_time
     raise CaseError(
-        f"{result} has no checkpoint to resume from"
-        + (f": {'; '.join(reasons)}" if reasons else "")
-        + "; start again with 'tribo run'"
+        f"{result} has no checkpoint to resume from: "
+        + ("; ".join(reasons) or "its run was stopped before the first was written")
+        + "; start again with 'tribo run --force'"
     )
 
 
