@@ -8,6 +8,7 @@ import tomllib
 from dataclasses import replace
 
 import pytest
+import trials
 from fuzz import fuzzing, trial
 from fuzz.generate import mutated, plausible, toml, valid_cases
 from fuzz.trial import schema
@@ -23,6 +24,18 @@ def test_two_hundred_cases_end_as_they_should():
     assert done.figures()["cases"] == 200
     # Enough of them ran, and were refused.
     assert min(done.figures()["exit codes"][code] for code in ("0", "2")) > 20
+
+
+@pytest.mark.parametrize("command", [trials.main, fuzzing.main])
+def test_what_to_install_is_said_before_anything_starts(monkeypatch, capsys, command):
+    monkeypatch.setitem(sys.modules, "SurfaceTopography", None)
+    monkeypatch.setattr(sys, "argv", ["command"])
+    with pytest.raises(SystemExit):
+        command()
+    said = capsys.readouterr()
+    assert said.out == ""
+    assert "SurfaceTopography is not installed" in said.err
+    assert "pip install -r requirements-dev.txt" in said.err
 
 
 def test_a_case_is_repeatable():
