@@ -5,9 +5,11 @@ import shutil
 
 import pytest
 from click.testing import CliRunner
+from made_results import made
 
 from tribo.cli.main import tribo
 from tribo.core.errors import CaseError
+from tribo.results.seal import write_sealed
 from tribo.templates import template
 
 QUICK = ["--set", "grid.cells=24", "--set", "grid.size=0.7 mm", "--set", "kinematics.duration=60"]
@@ -93,6 +95,31 @@ def test_a_time_that_is_not_saved_is_told_before_anything_runs(folder):
     with pytest.raises(CaseError, match="nothing is saved at 3600 s, only at 0, 20, 60 s; add it"):
         invoke(folder / "my.toml", *CONTACTS, *QUICK, "--at", "1 h", "-o", nowhere)
     assert not nowhere.exists()
+
+
+def test_a_damaged_file_is_named_before_anything_is_shown(folder, compared):
+    whole = folder / "my-compare" / "contact.type=dcfft.h5"
+    damaged = folder / "damaged.h5"
+    data = bytearray(whole.read_bytes())
+    data[len(data) // 2] ^= 1
+    damaged.write_bytes(data)
+    done = CliRunner().invoke(tribo, ["compare", str(whole), str(damaged)])
+    assert isinstance(done.exception, CaseError)
+    assert "damaged.h5 is damaged" in str(done.exception)
+    assert done.stdout == ""
+
+
+def test_the_time_of_a_run_that_was_killed_is_not_known(tmp_path):
+    for name, status in (("whole", "done"), ("killed", "running")):
+        image = made(status=status)._file.file.id.get_file_image()
+        write_sealed(tmp_path / f"{name}.h5", image, identity=bytes(16), sync=False)
+    files = [tmp_path / "whole.h5", tmp_path / "killed.h5", "--no-plots"]
+    whole, killed = row(invoke(*files).stdout, "time to solution, s")
+    assert (whole.replace(".", "").isdigit(), killed) == (True, "–")
+    results = json.loads(invoke(*files, "--json").stdout)["results"]
+    assert results[1]["totals"]["wall_time_s"] is None
+    shown = CliRunner().invoke(tribo, ["show", str(tmp_path / "killed.h5")])
+    assert "contact solves.\n" in shown.stdout
 
 
 def test_names_of_files_are_shown_as_they_are_and_not_broken(folder):

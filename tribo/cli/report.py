@@ -36,10 +36,8 @@ def print_report(result: Result, console: Console | None = None) -> None:
     console.print(_first_contact(lab.first_contact))
     totals = result.totals()
     worst = result.worst()
-    console.print(
-        f"{totals['steps']} steps, {totals['contact_solves']} contact solves, "
-        f"{totals['wall_time_s']:.1f} s."
-    )
+    took = "" if result.wall_time is None else f", {result.wall_time:.1f} s"
+    console.print(f"{totals['steps']} steps, {totals['contact_solves']} contact solves{took}.")
     console.print(
         f"At worst: load off by {worst['force_error']:.0e}, worn volume by "
         f"{worst['volume_error']:.0e}, gap under pressure {worst['complementarity_error']:.0e}, "

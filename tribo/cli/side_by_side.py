@@ -63,7 +63,8 @@ def _table(
         ("contact solves", "contact_solves", "{:.0f}"),
         ("time to solution, s", "wall_time_s", "{:.1f}"),
     ):
-        table.add_row(name, *(digits.format(comparison.results[n].totals()[key]) for n in labels))
+        totals = (comparison.results[label].totals()[key] for label in labels)
+        table.add_row(name, *(NOTHING if n is None else digits.format(n) for n in totals))
     for time in times:
         table.add_section()
         table.add_row(f"[bold]at {time:g} s[/]")

@@ -46,7 +46,7 @@ class PluginError(NumericalError):
 
 
 class OutputError(TriboError):
-    """A result could not be written."""
+    """A file, or standard output, could not be written."""
 
     exit_code: ClassVar[int] = 3
 

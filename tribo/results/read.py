@@ -101,8 +101,10 @@ class Result:
         return str(self._file.attribute("status"))
 
     @property
-    def wall_time(self) -> float:
-        """Time the run took, in s."""
+    def wall_time(self) -> float | None:
+        """Time the run took, in s; None of one that is still running, or was killed."""
+        if self.status == "running":
+            return None
         return float(self._file.attribute("wall_time_s"))
 
     @property
@@ -274,8 +276,8 @@ class Result:
             "saves": self.saves(),
         }
 
-    def totals(self) -> Mapping[str, float | int]:
-        """Return what the run cost: solves, iterations, steps and wall time."""
+    def totals(self) -> Mapping[str, Any]:
+        """Return what the run cost: solves, iterations, steps and `wall_time`."""
         history = self.table("history")
         steps = len(history["time_s"])
         last = -1 if steps else slice(0)

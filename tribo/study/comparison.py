@@ -263,7 +263,7 @@ def compare_files(paths: Sequence[str | Path]) -> Comparison:
     Raises
     ------
     CaseError
-        If one is not a result file, or they have no save in common.
+        If one is not a result file, or damaged, or they have no save in common.
     """
     files = [Path(path) for path in paths]
     twice = [str(path) for path, count in Counter(files).items() if count > 1]
@@ -275,6 +275,8 @@ def compare_files(paths: Sequence[str | Path]) -> Comparison:
             path.stem if stems else str(path): unless_kept.enter_context(Result.open(path))
             for path in files
         }
+        for result in results.values():
+            result.check()
         comparison = Comparison(results)
         unless_kept.pop_all()
     return comparison
