@@ -15,6 +15,7 @@ from tribo import Body, CaseError, Grid, Interrupted, NumericalError, Result, Si
 from tribo.config.stepping import ExplicitConfig, ImplicitConfig
 from tribo.config.stop import StopConfig
 from tribo.core.errors import OutputError, TriboWarning
+from tribo.interfaces.component import Component
 from tribo.interfaces.observer import Observer, ObserverConfig
 from tribo.observers import recorder
 from tribo.simulation.describe import describe
@@ -90,6 +91,18 @@ def test_a_run_stopped_twice_resumes_to_the_same_bits(tmp_path):
     first, second = contents(whole), contents(parts)
     for name in first:
         np.testing.assert_array_equal(first[name], second[name], err_msg=name)
+
+
+def test_a_run_gone_on_with_changed_components_and_stopped_again_says_how_to_go_on(
+    tmp_path, monkeypatch
+):
+    path = tmp_path / "run.h5"
+    with pytest.raises(Interrupted, match=r"tribo resume \S+$"):
+        Simulation(small()).run(path, observers=[Stopper(3)])
+    monkeypatch.setattr(Component, "facts", lambda self: {"serial number": "8"})
+    with pytest.raises(Interrupted, match=r"tribo resume \S+ --allow-changed$"):
+        Simulation(small()).resume(path, observers=[Stopper(6)], allow_changed=True)
+    Simulation(small()).resume(path, allow_changed=True).close()
 
 
 def test_a_torn_checkpoint_falls_back_on_the_one_before(tmp_path):

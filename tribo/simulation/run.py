@@ -151,7 +151,9 @@ class Simulation:
         kept = tuple(text for text in state.notices if not text.startswith(FAILED))
         state = replace(state, notices=kept)
         recorder = Recorder(RecorderConfig(path=path))
-        return self._follow(state, recorder, observers, resumed=True, wall_time=wall_time)
+        return self._follow(
+            state, recorder, observers, resumed=True, wall_time=wall_time, changed=bool(changes)
+        )
 
     def changed_since(self, result: Result) -> list[tuple[str, str, str]]:
         """Return the place of each component that is not the one a result was made with.
@@ -168,6 +170,7 @@ class Simulation:
         *,
         resumed: bool,
         wall_time: float,
+        changed: bool = False,
     ) -> Result:
         audience = Audience((recorder, *self.model.observers, *extra))
         snapshot = self._snapshot(state)
@@ -193,9 +196,10 @@ class Simulation:
         except KeyboardInterrupt as error:
             reason = "interrupted"
             where = recorder.config.path
+            option = " --allow-changed" if changed else ""
             raise Interrupted(
                 f"stopped at {snapshot.measures.time:.6g} s of {self.model.end_time:g} s"
-                + (f"; go on with: tribo resume {where}" if where else "")
+                + (f"; go on with: tribo resume {where}{option}" if where else "")
             ) from error
         finally:
             audience.finish(snapshot, reason)
