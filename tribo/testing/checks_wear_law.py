@@ -20,6 +20,11 @@ _SHAPE = (7, 6)
 # Not an order of magnitude apart, so that a pressure between two is like both.
 _LADDER = np.geomspace(1e5, samples.PEAK, 160)
 
+_FOLLOWING = (
+    "; if a field that it requires follows the pressure, say how: see 'Fields that follow the "
+    "pressure' in docs/plugins.md"
+)
+
 
 def _inputs(subject: Subject, law: Any, number: int) -> LocalConditions:
     pressure = samples.sample_pressure(_SHAPE) if number == 0 else np.full(_SHAPE, 1e8)
@@ -90,7 +95,7 @@ def derivative_is_that_of_the_depth(subject: Subject) -> None:
     require(
         error[at] <= allowed[at],
         f"at p = {_LADDER[at]:.3g} Pa the derivative is {found[at]:.6g} 1/Pa, but the depth "
-        f"changes by {slope:.6g} per Pa",
+        f"changes by {slope:.6g} per Pa{_FOLLOWING if law.requires else ''}",
     )
 
 

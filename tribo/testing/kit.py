@@ -23,6 +23,7 @@ from tribo.testing import (
     checks_observer,
     checks_surface,
     checks_wear_law,
+    samples,
 )
 from tribo.testing.checks_component import COMPONENT_CHECKS
 from tribo.testing.checks_config import CONFIG_CHECKS
@@ -85,7 +86,9 @@ def check(
     fields : Mapping[str, float or callable], optional
         Typical values, in SI, of the local fields that the class requires. One
         that follows the pressure is given as a function of it, and belongs to
-        what the law's derivative is compared with.
+        what the law's derivative is compared with. Unless given, a field whose
+        ``NAME_slope`` is required too is that slope times the pressure; others
+        have plausible values, most of them the same at every pressure.
 
     Returns
     -------
@@ -236,6 +239,7 @@ def subjects(
     valid = list(_validated(cls, configs))
     revival = Revival(valid)
     kind = kind_of(cls).name
+    fields = samples.following(getattr(cls, "requires", ()), fields)
     return [Subject(cls, kind, config, fields, revival, i) for i, config in enumerate(valid)]
 
 

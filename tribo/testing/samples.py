@@ -60,6 +60,20 @@ def typical(name: str, given: Mapping[str, FieldValue], pressure: Array) -> Arra
     return at_each
 
 
+def following(names: Sequence[str], given: Mapping[str, FieldValue]) -> dict[str, FieldValue]:
+    """Return fields as `given`; one that is not, nor typical, follows its slope, if in `names`."""
+
+    def by_slope(slope: str) -> FieldValue:
+        return lambda pressure: typical(slope, given, pressure) * pressure
+
+    guessed = {
+        name: by_slope(f"{name}_slope")
+        for name in names
+        if f"{name}_slope" in names and not name.endswith(tuple(_TYPICAL))
+    }
+    return {**guessed, **given}
+
+
 def friction_coefficient(given: Mapping[str, FieldValue]) -> float:
     """Return the coefficient of friction of the small cases."""
     return float(typical("friction_coefficient", given, np.zeros(())))

@@ -166,9 +166,29 @@ def test_a_field_may_follow_the_pressure():
     agrees = checks["derivative_is_that_of_the_depth"]
     (held,) = subjects(Heated, [{}], {"heat": 1e9})
     (followed,) = subjects(Heated, [{}], {"heat": lambda pressure: 2 * pressure})
-    with pytest.raises(CheckFailed):
+    with pytest.raises(CheckFailed, match="Fields that follow the pressure"):
         agrees.run(held)
     agrees.run(followed)
+
+
+class Sloped(Law):
+    """Its derivative is by a slope that it is told."""
+
+    requires = ("heat", "heat_slope")
+
+    def rate(self, local):
+        touching = local.pressure > 0
+        return WearRate(
+            np.where(touching, 1e-16 * local.fields["heat"], 0.0),
+            1e-16 * local.fields["heat_slope"],
+            {"rubbed": 1.0 * touching},
+        )
+
+
+@pytest.mark.parametrize("fields", [{}, {"heat_slope": 2.0}, {"heat": lambda pressure: pressure}])
+def test_a_field_whose_slope_is_required_follows_the_pressure(fields):
+    report = check(Sloped, [{}], fields=fields)
+    assert report.ok, str(report)
 
 
 PYTEST = """
