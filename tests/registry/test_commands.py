@@ -86,6 +86,19 @@ def test_a_check_of_a_configuration_without_a_schema_says_so(tmp_path: Path) -> 
     assert "making the schema of OddConfig raised RuntimeError: no schema today" in line
 
 
+@pytest.mark.parametrize(("kind", "status"), [("Path", 0), ("float", 3)])
+def test_what_needs_a_file_is_left_to_its_own_tests(tmp_path: Path, kind: str, status: int) -> None:
+    line = '    type: Literal["odd.one"]'
+    needing = OBSERVER.format(name="odd.one", title="Odd").replace(
+        line, f"    path: {kind}\n{line}"
+    )
+    install(tmp_path, "reader", f"from pathlib import Path\n{needing}")
+    done = command(tmp_path, "plugins", "check", "reader")
+    assert done.returncode == status, done.stderr
+    left = "odd.one: not checked, for want of a file as its path; the tests of reader have to"
+    assert (left in done.stdout) == (status == 0)
+
+
 def test_a_name_in_conflict_is_shown_and_checked_with_both_named(tmp_path: Path) -> None:
     for name in ("left", "right"):
         install(tmp_path, name, code("odd.one"))
