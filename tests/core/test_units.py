@@ -59,7 +59,7 @@ def test_conversion_agrees_with_pint(text: str, unit: str) -> None:
     number, _, written = text.replace("5mm", "5 mm").partition(" ")
     expected = PINT.Quantity(float(number), written).to(unit if unit != "1" else "").magnitude
     # pint multiplies floats, which rounds more than once.
-    assert parse(text, unit) == pytest.approx(expected, rel=1e-14)
+    assert parse(text, unit) == pytest.approx(expected, rel=1e-14, abs=0)
 
 
 @pytest.mark.parametrize(

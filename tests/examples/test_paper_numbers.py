@@ -34,17 +34,17 @@ def test_a_step_holds_no_whole_number_of_strokes(paper):
 
 def test_the_printed_coefficient_needs_25_times_the_distance(paper):
     k = paper.wear_coefficients()
-    assert k.from_distance == pytest.approx(7.785e-15, rel=1e-4)
+    assert k.from_distance == pytest.approx(7.785e-15, rel=1e-4, abs=0)
     # The paper prints three digits, 3.11e-16; the weights give 3.114e-16.
-    assert k.from_multiplied_distance == pytest.approx(paper.WEAR_COEFFICIENT, rel=2e-3)
-    assert k.ball == pytest.approx(7.08e-15, rel=1e-3)
-    assert k.disk == pytest.approx(7.08e-16, rel=1e-3)
+    assert k.from_multiplied_distance == pytest.approx(paper.WEAR_COEFFICIENT, rel=2e-3, abs=0)
+    assert k.ball == pytest.approx(7.08e-15, rel=1e-3, abs=0)
+    assert k.disk == pytest.approx(7.08e-16, rel=1e-3, abs=0)
 
 
 def test_neither_reading_of_equal_reaches_the_weighed_volume(paper):
     each, half = paper.readings()
-    assert each.per_body == pytest.approx(1.12e-11, rel=1e-3)
-    assert each.total == pytest.approx(2 * half.total, rel=1e-12)
+    assert each.per_body == pytest.approx(1.12e-11, rel=1e-3, abs=0)
+    assert each.total == pytest.approx(2 * half.total, rel=1e-12, abs=0)
     assert 1 / each.of_weighed == pytest.approx(12.5, rel=3e-3)
     assert 1 / half.of_weighed == pytest.approx(25.0, rel=3e-3)
     # 0.088 mg off each body, 23 times less than the ball lost.

@@ -76,7 +76,7 @@ def test_volumes_are_k_f_s(paper_small):
     model = small()
     for name, body in state.bodies.items():
         volume = model.exposures[name].volume(body.wear)
-        assert volume == pytest.approx(K * 100 * state.distance, rel=1e-10)
+        assert volume == pytest.approx(K * 100 * state.distance, rel=1e-10, abs=0)
 
 
 def test_halving_tolerances_changes_the_answer_within_them(paper_small):

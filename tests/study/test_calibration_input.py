@@ -250,11 +250,11 @@ def test_a_profile_that_noise_makes_negative_is_taken():
 )
 def test_the_uncertainty_of_a_mass(changes, sigma):
     (entry,) = read_measurements({"measured": [changed(**changes)]}).measured
-    assert entry.sigma == pytest.approx(sigma)
+    assert entry.sigma == pytest.approx(sigma, rel=1e-6, abs=0)
 
 
 def test_the_uncertainty_of_one_reading():
     entry = {"body": "ball", "quantity": "depth", "value": 1e-6, "resolution": "0.1 um"}
     (entry,) = read_measurements({"measured": [entry]}).measured
-    assert entry.sigma == pytest.approx(1e-7 / 12**0.5)
-    assert entry.from_resolution[1] == pytest.approx(0.5e-7)
+    assert entry.sigma == pytest.approx(1e-7 / 12**0.5, rel=1e-6, abs=0)
+    assert entry.from_resolution[1] == pytest.approx(0.5e-7, rel=1e-6, abs=0)

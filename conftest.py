@@ -1,0 +1,21 @@
+"""What every test compares by."""
+
+import numpy as np
+import pytest
+
+_approx = pytest.approx
+
+
+def approx(expected, rel=None, abs=None, nan_ok=False):
+    """`pytest.approx`, but an error where its default abs=1e-12, not `rel`, would decide."""
+    if abs is None:
+        values = list(expected.values()) if isinstance(expected, dict) else expected
+        allowed = (1e-6 if rel is None else rel) * np.abs(np.asarray(values, float))
+        if (allowed < 1e-12).any():
+            raise ValueError(
+                f"approx({expected!r}) allows 1e-12; give rel with abs=0, or abs alone"
+            )
+    return _approx(expected, rel, abs, nan_ok)
+
+
+pytest.approx = approx
