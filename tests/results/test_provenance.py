@@ -59,6 +59,7 @@ def test_show_prints_configuration_and_facts_of_each():
         print_provenance(result, console)
     text = console.file.getvalue()
     lines = text.splitlines()
+    assert f", source code {origin(stated())['code'][:10]}\n" in text
     at = next(i for i, line in enumerate(lines) if line.startswith("  bodies.ball.surface: sphere"))
     assert lines[at + 1 : at + 3] == ["      radius = 0.005", "      serial number: 7"]
     assert "      type" not in text
