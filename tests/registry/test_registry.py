@@ -114,7 +114,10 @@ class Unconfigured(Observer[QuietConfig]):
         ),
         (plugin("bad", tribo_zzz=lambda: [Loud]), "(the hooks are tribo_contact_solvers, tribo_"),
         (plugin("bad", tribo_observers=lambda: None), "TypeError"),
-        (plugin("bad", tribo_observers=lambda: [Bare]), "Bare, not a subclass of tribo.interf"),
+        (
+            plugin("bad", tribo_observers=lambda: [Bare]),
+            "Bare, not a subclass of tribo.plugin.Observer",
+        ),
         (plugin("bad", tribo_observers=lambda: [Quiet(QuietConfig())]), "not a subclass of"),
         (plugin("bad", tribo_surfaces=lambda: [Bare]), "Bare does not define height"),
         (plugin("bad", tribo_observers=lambda: [Unconfigured]), "Config is not a subclass of"),

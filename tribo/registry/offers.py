@@ -95,13 +95,15 @@ def _name(cls: Any, kind: Kind) -> str:
     """Return the name of `cls` in a case; raise TypeError if it is not of this kind."""
     shown = getattr(cls, "__qualname__", repr(cls))
     if not (inspect.isclass(cls) and issubclass(cls, kind.interface)):
-        raise TypeError(f"{kind.hook} returns {shown}, not a subclass of {_of(kind.interface)}")
+        raise TypeError(
+            f"{kind.hook} returns {shown}, not a subclass of tribo.plugin.{kind.interface.__name__}"
+        )
     if inspect.isabstract(cls):
         missing = ", ".join(sorted(cls.__abstractmethods__))
         raise TypeError(f"{shown} does not define {missing}")
     config = getattr(cls, "Config", None)
     if not (inspect.isclass(config) and issubclass(config, ComponentConfig)):
-        raise TypeError(f"{shown}.Config is not a subclass of {_of(ComponentConfig)}")
+        raise TypeError(f"{shown}.Config is not a subclass of tribo.plugin.ComponentConfig")
     _check_declarations(cls, kind, shown)
     name = config.model_fields["type"].default
     if not (isinstance(name, str) and name):
@@ -123,7 +125,3 @@ def _check_declarations(cls: type, kind: Kind, shown: str) -> None:
         raise TypeError(
             f'{shown}.requires is {names!r}; it must be a tuple of names, as in ("temperature",)'
         )
-
-
-def _of(cls: type) -> str:
-    return f"{cls.__module__}.{cls.__qualname__}"
