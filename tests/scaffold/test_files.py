@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import importlib
 import os
+import re
 import subprocess
 import sys
 import tomllib
@@ -48,6 +49,7 @@ def test_it_is_a_complete_distribution(kind: str, name: str, tmp_path: Path) -> 
     }
     project = tomllib.loads((folder / "pyproject.toml").read_text())["project"]
     assert project["name"] == name
+    assert not re.match("A [aeiou]", project["description"])
     assert "tribo>=0.1,<0.2" in project["dependencies"]
     points = {group(kind.replace("-", "_")): {PluginName(name).component: package}}
     assert project["entry-points"] == points
