@@ -30,6 +30,7 @@ COMMANDS = {
     "verify": "Compare with closed forms and other codes; find the errors of a case.",
     "doctor": "Test the installation and every plugin.",
 }
+GLOBAL = ("--no-plugin", "--plugins")
 
 
 class LazyGroup(click.Group):
@@ -69,8 +70,18 @@ class LazyGroup(click.Group):
 
 @click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(package_name="tribo")
-@click.option("--no-plugin", multiple=True, metavar="NAME", help="Leave a plugin out.")
-@click.option("--plugins", "only", metavar="A,B", help="Let only these plugins take part.")
+@click.option(
+    "--no-plugin",
+    multiple=True,
+    metavar="NAME",
+    help="Leave a plugin out; as TRIBO_DISABLE_PLUGINS=A,B.",
+)
+@click.option(
+    "--plugins",
+    "only",
+    metavar="A,B",
+    help="Let only these plugins take part; as TRIBO_PLUGINS=A,B.",
+)
 def tribo(no_plugin: tuple[str, ...], only: str | None) -> None:
     """Simulate wear: contact mechanics, wear laws and kinematics as plugins.
 
@@ -108,6 +119,9 @@ def main() -> None:
     except click.exceptions.Abort:
         _fail("interrupted", 130)
     except click.ClickException as error:
+        if isinstance(error, click.NoSuchOption) and error.option_name in GLOBAL:
+            what = f"'{error.option_name}' stands before the command."
+            error = click.UsageError(what, error.ctx)
         error.show()
         sys.exit(error.exit_code)
     except ReaderGone as error:
