@@ -21,7 +21,7 @@ from tribo.core.errors import NumericalError
 from tribo.core.units import Quantity
 from tribo.interfaces.contact import ContactSolver, ContactSolverConfig
 
-_MARGIN = 4
+_MARGIN = 2
 _COARSEST = 64
 _COARSE_TOLERANCE = 1e-3
 
