@@ -1,5 +1,6 @@
 """Standard streams that cannot be written to."""
 
+import io
 import os
 import subprocess
 import sys
@@ -8,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from tribo import Result
+from tribo.cli.streams import Output, over
 from tribo.templates import template
 
 QUICK = ["--set", "grid.cells=32", "--set", "kinematics.duration=60"]
@@ -83,3 +85,11 @@ def test_a_run_goes_on_where_its_progress_cannot_be_written(folder, full):
 @needs_full
 def test_an_error_that_cannot_be_told_has_its_exit_code(folder, full):
     assert tribo(folder, "run", "none.toml", stderr=full).returncode == 2
+
+
+def test_what_is_not_buffered_stays_so():
+    read, write = os.pipe()
+    with open(read, "rb", 0) as reader, io.FileIO(write, "w") as raw:
+        out = over(io.TextIOWrapper(raw, write_through=True), Output)
+        out.write("now")
+        assert reader.read(3) == b"now"

@@ -243,6 +243,15 @@ def test_two_distributions_that_claim_a_name_lose_it(folder: Path) -> None:
         registry.lookup("observer", "four.calm")
 
 
+def test_a_folder_that_is_searched_twice_holds_its_plugins_once(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    code = {"twice": observer("twice.calm")}
+    distribute(folder, "twice", "1.0", {"tribo.v1.observer": {"twice.calm": "twice"}}, **code)
+    monkeypatch.setattr("sys.path", [*sys.path, str(folder)])
+    assert len(sources("twice")) == 1
+
+
 def test_only_the_name_that_two_claim_is_lost(folder: Path) -> None:
     for name in ("four-c", "four-d"):
         module = name.replace("-", "_")

@@ -185,6 +185,15 @@ def test_a_run_that_fails_asks_for_the_unit_of_a_wear_coefficient_that_is_absurd
     assert "in the unit that was meant" in str(failed.value)
 
 
+def test_a_question_that_cannot_be_asked_hides_no_failure(monkeypatch):
+    def raising(*_):
+        raise NumericalError("of the question")
+
+    monkeypatch.setattr("tribo.simulation.doubt.wear_rates", raising)
+    with pytest.raises(NumericalError, match="reached the edge"):
+        Simulation(small(grid=Grid((0.4e-3, 0.4e-3), (32, 32)))).run()
+
+
 def test_a_window_that_is_merely_small_raises_no_doubt_about_the_unit():
     with pytest.raises(NumericalError, match="reached the edge") as failed:
         Simulation(small(grid=Grid((0.4e-3, 0.4e-3), (32, 32)))).run()

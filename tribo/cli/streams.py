@@ -42,8 +42,12 @@ def over(stream: TextIO, kind: type[Output | Remarks]) -> TextIO:
     """Return a stream to where `stream` goes that fails as `kind` does."""
     if not isinstance(stream, io.TextIOWrapper):
         return stream
+    # As good as none where `python -u` asks for no buffer.
+    size = 1 if stream.write_through else io.DEFAULT_BUFFER_SIZE
     return io.TextIOWrapper(
-        io.BufferedWriter(kind(stream.fileno(), "w", closefd=False)),
+        io.BufferedWriter(kind(stream.fileno(), "w", closefd=False), size),
         encoding=stream.encoding,
+        errors=stream.errors,
         line_buffering=stream.line_buffering,
+        write_through=stream.write_through,
     )

@@ -16,9 +16,12 @@ def check_requirements(requires: Iterable[str], plugins: Iterable[PluginRecord] 
     """Raise `CaseError` unless every requirement, as ``"acme-tribo>=1.2"``, is met.
 
     One whose marker, as ``; python_version < "3.12"``, does not hold here is none. A plugin
-    that is disabled, broken or incompatible does not meet one.
+    of which nothing is usable (disabled, broken or incompatible) does not meet one.
     """
-    unusable = {canonicalize_name(p.distribution): p for p in plugins if not p.usable}
+    found_as: dict[str, PluginRecord] = {}
+    # Of the modules of a distribution, one that is usable counts.
+    for plugin in sorted(plugins, key=lambda plugin: plugin.usable):
+        found_as[canonicalize_name(plugin.distribution)] = plugin
     for text in requires:
         requirement = Requirement(text)
         if requirement.marker is not None and not requirement.marker.evaluate({"extra": ""}):
@@ -29,7 +32,7 @@ def check_requirements(requires: Iterable[str], plugins: Iterable[PluginRecord] 
             found = "is not installed"
         else:
             if requirement.specifier.contains(version, prereleases=True):
-                _check_usable(text, unusable.get(canonicalize_name(requirement.name)))
+                _check_usable(text, found_as.get(canonicalize_name(requirement.name)))
                 continue
             found = f"is installed in version {version}"
         raise CaseError(
@@ -38,7 +41,7 @@ def check_requirements(requires: Iterable[str], plugins: Iterable[PluginRecord] 
 
 
 def _check_usable(text: str, plugin: PluginRecord | None) -> None:
-    if plugin is not None:
+    if plugin is not None and not plugin.usable:
         raise CaseError(
             f"{text!r} is needed, but the plugin {plugin} is {plugin.status}: {plugin.reason}",
             "requires",

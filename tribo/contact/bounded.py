@@ -188,7 +188,8 @@ class _Iterate:
         self.length *= min(max(best, 0.5), 2.0)
         part, moved = best, self.pressure + best * change
         if (meets_bound and best >= _NEAR_ENOUGH) or self._leaves(moved):
-            # Onto the bound, so that the cells that meet it leave the face.
+            # Onto the bound, so that the cells that meet it leave the face; or no farther than
+            # what is known to lie within the bounds.
             part, moved = 1.0, ahead
         self.pressure = balance(moved, self.total, self.limit)
         response *= part

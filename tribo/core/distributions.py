@@ -23,25 +23,31 @@ def with_entry_points(
         Text that its entry points must have somewhere: to parse those of everything installed
         would take most of composing a run.
     """
+    # The same folder may be searched twice.
+    seen: set[str] = set()
     for distribution in metadata.distributions():
         try:
             text = distribution.read_text("entry_points.txt")
-            if not text or mention not in text or not _is_found(distribution):
+            if not text or mention not in text:
                 continue
+            name = _name_if_found(distribution)
             points = list(distribution.entry_points)
         except Exception:
             continue
-        yield distribution, points
+        if name and name not in seen:
+            seen.add(name)
+            yield distribution, points
 
 
-def _is_found(distribution: metadata.Distribution) -> bool:
-    """Return whether it is the one that is found by its name; it needs a version too."""
+def _name_if_found(distribution: metadata.Distribution) -> str:
+    """Return its name if it has a version and is what is found by that name, or nothing."""
     text = metadata_text(distribution)
     name, version = _NAME.search(text), _VERSION.search(text)
     if not (name and version):
-        return False
+        return ""
     found = metadata.distribution(name[1])
-    return (metadata_text(found), found.locate_file("")) == (text, distribution.locate_file(""))
+    same = (metadata_text(found), found.locate_file("")) == (text, distribution.locate_file(""))
+    return name[1] if same else ""
 
 
 def metadata_text(distribution: metadata.Distribution) -> str:

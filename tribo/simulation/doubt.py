@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from tribo.core.contact import ContactSystem
+from tribo.core.errors import TriboError
 from tribo.core.state import State
 from tribo.simulation.model import Model
 from tribo.simulation.motion import path_at
@@ -33,14 +34,20 @@ def asked_of(model: Model, state: State) -> str:
     time = model.end_time - state.time
     if not time > 0:
         return ""
+    try:
+        depths = _depths_to_come(model, state, time)
+    except TriboError:
+        # What fails here must not hide what the question is added to.
+        return ""
+    asked = too_deep(model.system, depths)
+    return f". At this rate {'; '.join(asked)}" if asked else ""
+
+
+def _depths_to_come(model: Model, state: State, time: float) -> dict[str, float]:
     left = path_at(model.kinematics, model.end_time) - state.distance
     moment = Moment(state.time, state.distance, left / time)
     rates = wear_rates(model, state.contact, law_states(state), moment)
-    asked = too_deep(
-        model.system,
-        {
-            name: left * float(np.max(model.exposures[name].average(rate.depth)))
-            for name, rate in rates.items()
-        },
-    )
-    return f". At this rate {'; '.join(asked)}" if asked else ""
+    return {
+        name: left * float(np.max(model.exposures[name].average(rate.depth)))
+        for name, rate in rates.items()
+    }

@@ -141,10 +141,10 @@ def _implicit(model: Model, config: ImplicitConfig, state: State, stop: float) -
             factor = next_factor(*errors)
             if max(errors) <= 1:
                 break
-        except StepRejected:
+        except StepRejected as error:
             factor = SHRINK
             if rejected == MAX_REJECTIONS or factor * increment < SMALLEST * target:
-                raise
+                raise NumericalError(f"{error}{asked_of(model, state)}") from error
         rejected += 1
         if rejected > MAX_REJECTIONS or factor * increment < SMALLEST * target:
             raise NumericalError(
