@@ -89,7 +89,10 @@ def test_an_error_that_cannot_be_told_has_its_exit_code(folder, full):
 
 def test_what_is_not_buffered_stays_so():
     read, write = os.pipe()
-    with open(read, "rb", 0) as reader, io.FileIO(write, "w") as raw:
-        out = over(io.TextIOWrapper(raw, write_through=True), Output)
+    with (
+        open(read, "rb", 0) as reader,
+        io.TextIOWrapper(io.FileIO(write, "w"), write_through=True) as plain,
+        over(plain, Output) as out,
+    ):
         out.write("now")
         assert reader.read(3) == b"now"
