@@ -63,7 +63,7 @@ def test_failed_runs_are_told_by_reason_and_exit_with_3(tmp_path):
     ("options", "message"),
     [
         (["none.toml"], "none.toml: there is no such file"),
-        (["case.toml"], "unknown key"),
+        (["case.toml"], "is a case, not a study"),
         (
             ["study.toml", "--scheduler", "tcp://a:1", "--dask"],
             "--scheduler has workers of its own",

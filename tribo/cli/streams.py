@@ -40,12 +40,17 @@ class Remarks(io.FileIO):
 
 def over(stream: TextIO, kind: type[Output | Remarks]) -> TextIO:
     """Return a stream to where `stream` goes that fails as `kind` does."""
+    try:
+        number = stream.fileno()
+    except (AttributeError, OSError, ValueError):
+        # None of the operating system's: a test's, a notebook's, or none at all.
+        return stream
     if not isinstance(stream, io.TextIOWrapper):
         return stream
     # As good as none where `python -u` asks for no buffer.
     size = 1 if stream.write_through else io.DEFAULT_BUFFER_SIZE
     return io.TextIOWrapper(
-        io.BufferedWriter(kind(stream.fileno(), "w", closefd=False), size),
+        io.BufferedWriter(kind(number, "w", closefd=False), size),
         encoding=stream.encoding,
         errors=stream.errors,
         line_buffering=stream.line_buffering,
