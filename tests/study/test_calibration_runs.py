@@ -333,6 +333,16 @@ def test_what_is_far_from_what_the_case_gives_is_told(true_run, entry, text):
     assert told.text.startswith(text)
 
 
+@pytest.mark.parametrize(("sigmas", "factors"), [(0.5, []), (4.9, []), (20.0, [20.0])])
+def test_a_null_result_is_as_far_off_as_its_uncertainty_is(sigmas, factors):
+    """A disk that lost 1.2 ng give or take a microgram, where the case takes off so many σ."""
+    data = {**weighed("disk", 1.22e-12), "uncertainty": 9.8e-10}
+    parameters = [Parameter("bodies.disk.wear.k", "1/Pa", DISK, 0.0, np.inf)]
+    entries = read_measurements({"measured": [data]}).measured
+    found = far_off(entries, np.array([sigmas * 9.8e-10]), parameters)
+    assert [each.factor for each in found] == pytest.approx(factors)
+
+
 @pytest.mark.parametrize(("factor", "is_told"), [(99.0, False), (101.0, True), (299.0, True)])
 def test_what_is_far_off_but_may_be_meant_is_told(factor, is_told):
     with warnings.catch_warnings(record=True) as caught:

@@ -23,7 +23,7 @@ A prefix is a factor of 1000; a start may be off by a few on top of it.
 
 @dataclass(frozen=True)
 class FarOff:
-    """A measured value beside what the case gives: their ratio, above 1, and both in words."""
+    """A measured value beside what the case gives: how many times it is off, and both in words."""
 
     factor: float
     text: str
@@ -73,12 +73,16 @@ def far_off(
     for i, entry in enumerate(measured):
         own = max(abs(next(values)) for _ in entry.values)
         read = float(np.max(np.abs(entry.values)))
-        if own == 0 or read == 0 or 1 / NOTABLE <= read / own <= NOTABLE:
+        if own == 0 or read == 0:
+            continue
+        side, ratio = ("above", read / own) if read > own else ("below", own / read)
+        # Of less than its uncertainty, as a null result, no more is known than that it is as small.
+        factor = ratio if read > own else own / max(read, entry.sigma)
+        if factor <= NOTABLE:
             continue
         unit = unit_of(entry.quantity)
         reading = "before less after" if entry.value is None else "value"
-        side, factor = ("above", read / own) if read > own else ("below", own / read)
-        rounded = float(f"{factor:.3g}")
+        rounded = float(f"{ratio:.3g}")
         yield FarOff(
             factor,
             f"measured[{i}]: {reading} was read as {in_si(read, unit)}, a factor of {rounded:g} "
