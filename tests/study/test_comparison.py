@@ -202,11 +202,34 @@ def test_a_run_that_was_killed_goes_on(tmp_path):
             assert np.array_equal(a.pressure(-1), b.pressure(-1))
 
 
+def test_a_run_that_fails_as_it_goes_on_keeps_what_was_saved(tmp_path, monkeypatch):
+    from tribo import Interrupted
+    from tribo.simulation import run
+
+    def march(model, state, error):
+        raise error
+        yield
+
+    axes = [Axis("contact.type", ("dcfft", "winkler"))]
+    path = tmp_path / "contact.type=dcfft.h5"
+    monkeypatch.setattr(run, "march", lambda *given: march(*given, KeyboardInterrupt()))
+    with pytest.raises(Interrupted):
+        compare(case(), grid(axes), tmp_path)
+    monkeypatch.setattr(run, "march", lambda *given: march(*given, CaseError("too long a step")))
+    monkeypatch.setattr(run, "begin", None)
+    with pytest.raises(CaseError, match="too long a step"):
+        compare(case(), grid(axes), tmp_path)
+    with Result.open(path) as result:
+        assert result.notices == ("failed: too long a step",)
+        assert list(result.times) == [0]
+
+
 def test_what_a_run_left_that_holds_nothing_is_made_anew_and_what_is_no_result_kept(tmp_path):
     axes = [Axis("contact.type", ("dcfft", "winkler"))]
     path = tmp_path / "contact.type=dcfft.h5"
     path.touch()
-    compare(case(), grid(axes), tmp_path).close()
+    with pytest.warns(TriboWarning, match=r"dcfft\.h5 is begun anew: .* is too short"):
+        compare(case(), grid(axes), tmp_path).close()
     path.write_text("my notes")
     with pytest.raises(
         CaseError, match=r"dcfft\.h5 is not a whole .* or run all anew with --force"
@@ -223,7 +246,8 @@ def test_a_damaged_result_is_made_anew(tmp_path):
     content[len(content) // 2] ^= 1
     path.write_bytes(content)
     told = []
-    compare(case(), grid(axes), tmp_path, tell=told.append).close()
+    with pytest.warns(TriboWarning, match=r"dcfft\.h5 is begun anew: .* is damaged"):
+        compare(case(), grid(axes), tmp_path, tell=told.append).close()
     assert ["done already" in line for line in told] == [False, True]
     with Result.open(path) as result:
         result.check()

@@ -209,7 +209,8 @@ def test_a_damaged_result_is_done_again(tmp_path, damage):
     spoilt = {"no result": b"no", "a flipped bit": content, "cut short": content[:-5000]}
     damaged.write_bytes(spoilt[damage])
     executor = sweeps.Inline()
-    assert statuses(sweep(path, executor=executor)) == ["done"] * 4
+    with pytest.warns(TriboWarning, match=f"{damaged.name} is begun anew: "):
+        assert statuses(sweep(path, executor=executor)) == ["done"] * 4
     assert executor.calls == [str(swept.runs[1].path)]
 
 
@@ -218,7 +219,8 @@ def test_results_of_other_components_are_made_anew(tmp_path, monkeypatch):
     sweep(path, executor=sweeps.Inline())
     monkeypatch.setattr("tribo.results.provenance._code", lambda package: "edited")
     executor = sweeps.Inline()
-    assert statuses(sweep(path, executor=executor)) == ["done"] * 4
+    with pytest.warns(TriboWarning, match="is begun anew: .* is done, with other components: "):
+        assert statuses(sweep(path, executor=executor)) == ["done"] * 4
     assert len(executor.calls) == 4
 
 

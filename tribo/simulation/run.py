@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -126,7 +127,21 @@ class Simulation:
         ------
         CaseError
             If the file is not that of a stopped run of this case, or a
-            component has changed.
+            component has changed; and what `run` raises.
+        """
+        return self.reopen(output, observers=observers, allow_changed=allow_changed)()
+
+    def reopen(
+        self,
+        output: str | Path,
+        *,
+        observers: Sequence[Observer[ObserverConfig]] = (),
+        allow_changed: bool = False,
+    ) -> Callable[[], Result]:
+        """Read the checkpoint of a stopped run, and return what goes on from it.
+
+        Parameters and errors are those of `resume`; what is returned raises
+        those of the run itself.
         """
         path = Path(output)
         with Result.open(path) as result:
@@ -134,12 +149,13 @@ class Simulation:
             result.check()
             changes = self.changed_since(result)
             case = result.case
+        listed = "; ".join(f"{place} was {old}, is {new}" for place, old, new in changes)
         if done:
             if not tidied(path):
-                raise CaseError(f"{path} is done; there is nothing to resume")
-            return Result.open(path)
+                told = f", with other components: {listed}" if changes else ""
+                raise CaseError(f"{path} is done{told}; there is nothing to resume")
+            return partial(Result.open, path)
         if changes and not allow_changed:
-            listed = "; ".join(f"{place} was {old}, is {new}" for place, old, new in changes)
             raise CaseError(
                 f"{path} was begun with other components: {listed}. Install those again, or go on "
                 "with --allow-changed"
@@ -151,8 +167,14 @@ class Simulation:
         kept = tuple(text for text in state.notices if not text.startswith(FAILED))
         state = replace(state, notices=kept)
         recorder = Recorder(RecorderConfig(path=path))
-        return self._follow(
-            state, recorder, observers, resumed=True, wall_time=wall_time, changed=bool(changes)
+        return partial(
+            self._follow,
+            state,
+            recorder,
+            observers,
+            resumed=True,
+            wall_time=wall_time,
+            changed=bool(changes),
         )
 
     def changed_since(self, result: Result) -> list[tuple[str, str, str]]:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import os
+import warnings
 from collections.abc import Sequence
 from pathlib import Path
 
-from tribo.core.errors import CaseError
+from tribo.core.errors import CaseError, TriboWarning
 from tribo.interfaces.observer import Observer, ObserverConfig
 from tribo.results.read import Result
 from tribo.simulation.describe import describe
@@ -14,7 +16,7 @@ from tribo.simulation.run import Simulation
 
 def is_done(path: Path, simulation: Simulation) -> bool:
     """Return whether a file is the sound, finished result of a simulation as it is now."""
-    if not path.exists():
+    if not os.path.exists(path):
         return False
     try:
         with Result.open(path) as result:
@@ -38,7 +40,8 @@ def complete(
     simulation : Simulation
         What to run.
     path : Path
-        The result file; what is there and cannot be gone on with is lost.
+        The result file; what is there and cannot be gone on with is lost, with
+        a warning that says why.
     observers : sequence of Observer
         Watchers besides those of the case.
 
@@ -52,10 +55,12 @@ def complete(
     TriboError
         What a run raises.
     """
-    if path.exists():
+    if os.path.exists(path):
         try:
-            return simulation.resume(path, observers=observers)
-        except CaseError:
+            go_on = simulation.reopen(path, observers=observers)
+        except CaseError as error:
             # Nothing to go on from: no good checkpoint, or other versions of components.
-            pass
+            warnings.warn(f"{path} is begun anew: {error}", TriboWarning, stacklevel=2)
+        else:
+            return go_on()
     return simulation.run(path, observers=observers, overwrite=True)
