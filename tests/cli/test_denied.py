@@ -1,4 +1,4 @@
-"""Folders that may not be written to."""
+"""Folders that may not be written to, or not entered."""
 
 import os
 import shutil
@@ -9,11 +9,13 @@ from pkgutil import walk_packages
 from tempfile import mkdtemp
 
 import pytest
+import sweeps
 from click.testing import CliRunner
 
 import tribo as package
 from tribo.cli.main import tribo
-from tribo.core.errors import OutputError
+from tribo.core.errors import CaseError, OutputError
+from tribo.study import sweep
 from tribo.templates import template
 
 NOBODY = 65534
@@ -39,6 +41,12 @@ def given():
     assert compared.exit_code == drawn.exit_code == 0
     (folder / "denied").mkdir()
     (folder / "denied").chmod(0o555)
+    sweeps.study(folder)
+    (folder / "swept").mkdir()
+    (folder / "swept").chmod(0o777)
+    for closed in ("denied_entry", "swept/results"):
+        (folder / closed).mkdir()
+        (folder / closed).chmod(0)
     folder.chmod(0o755)
     yield folder
     shutil.rmtree(folder)
@@ -89,3 +97,25 @@ def test_it_is_one_message_and_exit_code_3(given, nobody, monkeypatch, command):
     assert "Permission denied" in message
     for word in ("space", ".new", "Errno"):
         assert word not in message
+
+
+def test_a_sweep_whose_results_cannot_be_entered_is_one_message(given, nobody, monkeypatch):
+    monkeypatch.chdir(given)
+    with pytest.raises(OutputError, match=r"^cannot write to swept: Permission denied$"):
+        sweep("study.toml", "swept", executor=sweeps.Inline())
+
+
+def test_a_comparison_in_a_folder_that_cannot_be_entered_is_one_message(given, nobody, monkeypatch):
+    monkeypatch.chdir(given)
+    vary = ("--vary", "load.normal=1,2")
+    done = invoke("compare", "my.toml", *vary, "-o", "denied_entry", *QUICK)
+    assert isinstance(done.exception, OutputError)
+    message = str(done.exception)
+    assert message.startswith("load.normal=1: cannot write denied_entry/load.normal=1.h5: Perm")
+
+
+def test_a_case_in_a_folder_that_cannot_be_entered_is_one_message(given, nobody, monkeypatch):
+    monkeypatch.chdir(given)
+    done = invoke("run", "denied_entry/my.toml")
+    assert isinstance(done.exception, CaseError)
+    assert str(done.exception) == "denied_entry/my.toml cannot be read: Permission denied"

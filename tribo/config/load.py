@@ -98,9 +98,9 @@ def read_toml(path: str | Path) -> dict[str, Any]:
         column.
     """
     path = Path(path)
-    if path.is_dir():
-        raise CaseError(f"{path} is a directory; give the case file in it")
     try:
+        if path.is_dir():
+            raise CaseError(f"{path} is a directory; give the case file in it")
         with path.open("rb") as file:
             content = file.read(_LARGEST + 1)
     except FileNotFoundError:
