@@ -360,7 +360,7 @@ def test_an_estimate_held_by_its_bound_has_no_interval_and_data_and_model_disagr
     assert each.value == pytest.approx(1.2 * BALL, rel=1e-6, abs=0)
     assert each.held
     assert (each.lower, each.upper) == (0, 1.2 * BALL)
-    assert {(p.lower, p.upper) for p in found.predictions} == {(0, np.inf)}
+    assert {(p.lower, p.upper) for p in found.predictions if p.body == "ball"} == {(0, np.inf)}
     # 1.2 against 2 ± 0.1, and nothing that could be fitted.
     assert found.chi_square == pytest.approx(64)
     assert found.degrees_of_freedom == 1
@@ -380,6 +380,21 @@ def test_an_estimate_held_by_its_bound_has_no_interval_and_data_and_model_disagr
         for n in found.notes
     )
     assert not any("nothing is left to test" in n for n in found.notes)
+
+
+def test_only_what_depends_on_a_held_parameter_is_predicted_without_an_interval():
+    """By Archard's law each volume is its own coefficient's; the groove's depth is of both."""
+    data = [weighed("ball", mass(2 * BALL)), weighed("disk", mass(DISK))]
+    fit = [{"path": "bodies.ball.wear.k", "upper": 1.2 * BALL}, *fitting("bodies.disk.wear.k")]
+    found = calibrate(CASE, {"measured": data, "fit": fit})
+    assert [each.held for each in found.parameters] == [True, False]
+    ends = {(p.body, p.quantity): (p.lower, p.upper) for p in found.predictions}
+    half = 1.959964 * 0.05
+    volume = DISK * LOAD * DISTANCE
+    assert ends["disk", "volume"] == pytest.approx(
+        (volume * (1 - half), volume * (1 + half)), rel=1e-3, abs=0
+    )
+    assert ends["ball", "volume"] == ends["disk", "depth"] == (0, np.inf)
 
 
 def test_a_parameter_stays_within_an_open_bound():

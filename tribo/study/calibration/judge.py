@@ -9,7 +9,7 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
-from tribo.study.calibration.fit import Surrogate, covariance, interval
+from tribo.study.calibration.fit import NOTABLE, Surrogate, covariance, interval
 from tribo.study.calibration.measured import Measured
 from tribo.study.calibration.notes import notes
 from tribo.study.calibration.outcome import Calibration, Datum, Estimate, Expected
@@ -78,13 +78,13 @@ def outcome(
                 held,
             )
         )
-    free = sum(not each.held for each in estimates)
-    spare = len(data) - free
+    held_ones = [each.held for each in estimates]
+    spare = len(data) - held_ones.count(False)
     predictions = []
     for i, (body, quantity) in predicted.items():
         value = float(fitted.responses[i])
         ends = (0.0, math.inf)
-        if free == len(estimates):
+        if not np.any(np.abs(fitted.slopes[i][held_ones]) > NOTABLE):
             ends = _ends(fitted, fitted.slopes[i], value, level)
         predictions.append(Expected(body, quantity, unit_of(quantity), value, *ends))
     return Calibration(

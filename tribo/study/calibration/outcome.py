@@ -69,7 +69,7 @@ class Datum:
 class Expected:
     """A quantity at the end of the run that was not measured, with its interval.
 
-    The interval is open, 0 to infinity, where a parameter is held by a bound.
+    The interval is open, 0 to infinity, where it depends on a parameter that a bound holds.
     """
 
     body: str
