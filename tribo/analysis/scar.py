@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tribo.core.arrays import Array
+from tribo.core.arrays import Array, bounds
 from tribo.core.grid import Grid
-from tribo.core.measures import centre, extent
+from tribo.core.measures import centre, lengths
 
 VISIBLE_DEPTH = 1e-8
 """Smallest depth taken for wear, in m: about the roughness of a polished flat."""
@@ -65,8 +65,7 @@ def scar(depth: Array, grid: Grid, visible: float = VISIBLE_DEPTH) -> Scar:
         With diameters 0 where nothing is worn visibly.
     """
     worn = depth > visible
-    along = extent(np.asarray(worn.any(axis=1))) * grid.spacing[0]
-    across = extent(np.asarray(worn.any(axis=0))) * grid.spacing[1]
+    along, across = lengths(bounds(worn), grid)
     return Scar(
         along=along,
         across=across,

@@ -19,7 +19,7 @@ def readonly(array: Array) -> Array:
     return view
 
 
-def span(line: Mask) -> slice:
+def _span(line: Mask) -> slice:
     """Return where `line` is set, from the first to the last; empty if nowhere."""
     index = np.flatnonzero(line)
     return slice(int(index[0]), int(index[-1]) + 1) if index.size else slice(0, 0)
@@ -27,8 +27,8 @@ def span(line: Mask) -> slice:
 
 def bounds(cells: Mask) -> Region:
     """Return the smallest region with all cells of `cells` that are set; empty if none is."""
-    rows = span(np.asarray(cells.any(axis=1)))
-    return rows, span(np.asarray(cells[rows].any(axis=0)))
+    rows = _span(np.asarray(cells.any(axis=1)))
+    return rows, _span(np.asarray(cells[rows].any(axis=0)))
 
 
 def union(first: Region, second: Region) -> Region:

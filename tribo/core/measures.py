@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from tribo.core.arrays import Array, Mask, span
+from tribo.core.arrays import Array, Region
 from tribo.core.contact import ContactSolution, Residuals
 from tribo.core.grid import Grid
 
@@ -73,9 +73,8 @@ def centre(field: Array) -> float:
 
 def half_widths(contact: ContactSolution, grid: Grid) -> tuple[float, float]:
     """Half the extent of {p > 0} along x and along y, in m."""
-    along, across = contact.extent
-    dx, dy = grid.spacing
-    return 0.5 * (along.stop - along.start) * dx, 0.5 * (across.stop - across.start) * dy
+    along, across = lengths(contact.extent, grid)
+    return 0.5 * along, 0.5 * across
 
 
 def contact_area(pressure: Array, grid: Grid) -> float:
@@ -89,7 +88,8 @@ def reaches_border(pressure: Array) -> bool:
     return any(bool((edge > 0).any()) for edge in edges)
 
 
-def extent(touching: Mask) -> int:
-    """Return the number of entries from the first to the last that is set."""
-    found = span(touching)
-    return int(found.stop - found.start)
+def lengths(region: Region, grid: Grid) -> tuple[float, float]:
+    """Lengths of a region of the window along x and along y, in m."""
+    rows, columns = region
+    dx, dy = grid.spacing
+    return (rows.stop - rows.start) * dx, (columns.stop - columns.start) * dy
