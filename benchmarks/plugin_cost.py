@@ -29,7 +29,7 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, nullcontext
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, ClassVar, Literal
+from typing import Any
 from unittest.mock import patch
 
 import numpy as np
@@ -39,7 +39,7 @@ from scipy.stats import bootstrap
 from tribo import Simulation
 from tribo.core.state import Snapshot
 from tribo.interfaces.component import Component
-from tribo.interfaces.observer import Observer, ObserverConfig
+from tribo.interfaces.observer import Observer
 from tribo.registry.registry import default_registry
 from tribo.simulation import exposed, motion, rates, solving, watching
 from tribo.simulation.assembly import assemble
@@ -80,7 +80,7 @@ def _body(body: Body) -> Body:
     return replace(body, surface=_new(body.surface), wear=body.wear and _new(body.wear))
 
 
-def _new(component: Component[Any]) -> Any:
+def _new(component: Component) -> Any:
     return type(component)(component.config)
 
 
@@ -111,21 +111,15 @@ def calls(chosen: list[tuple[Any, str, Callable[..., Any]]]) -> Iterator[None]:
         yield
 
 
-class IdleConfig(ObserverConfig):
-    """Nothing to set."""
-
-    type: Literal["idle"] = "idle"
-
-
-class Idle(Observer[IdleConfig]):
+class Idle(Observer):
     """Looks on."""
 
-    Config: ClassVar[type[IdleConfig]] = IdleConfig
+    type = "idle"
 
 
 def steps(model: Model) -> Iterator[int]:
     """Run, and pause after the first contact and after each step."""
-    audience = watching.Audience((Idle(IdleConfig()),))
+    audience = watching.Audience((Idle(),))
     state = begin(model)
     yield 0
     for accepted in march(model, state):

@@ -56,7 +56,7 @@ class Hour:
         self.ball_rate = float(ball.wear.config.k)
         self.track_rate = float(disk.wear.config.k) / float(self.model.kinematics.config.stroke)
         self.ends = [
-            self.model.kinematics.distance(time)
+            self.model.kinematics.distance_at(time)
             for time in sorted({*self.model.save_times, self.model.end_time})
             if time > 0
         ]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tribo.contact.dcfft import DcFft, DcFftConfig
+from tribo.contact.dcfft import DcFft
 from tribo.contact.love import displacement
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactProblem, ContactSystem, WearCompliance
@@ -42,7 +42,7 @@ def ball(
 
 
 def solver(tolerance: float = 1e-8, *, plasticity: bool = True) -> DcFft:
-    return DcFft(DcFftConfig(tolerance=tolerance, plasticity=plasticity))
+    return DcFft(tolerance=tolerance, plasticity=plasticity)
 
 
 def dense(shape: tuple[int, int], spacing: tuple[float, float]) -> Array:

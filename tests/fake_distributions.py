@@ -8,10 +8,10 @@ from tribo.registry.loader import Source, installed
 
 OBSERVER = """
 from typing import Literal
-from tribo.plugin import Observer, ObserverConfig, hookimpl
+from tribo.plugin import Observer, hookimpl
 
-class {title}Config(ObserverConfig):
-    type: Literal["{name}"] = "{name}"
+class {title}Config(Observer):
+    type = "{name}"
 
 class {title}(Observer[{title}Config]):
     Config = {title}Config

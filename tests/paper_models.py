@@ -1,18 +1,18 @@
 """Small models of the paper's test, made from objects."""
 
 from tribo.config.stepping import ImplicitConfig
-from tribo.contact.dcfft import DcFft, DcFftConfig
-from tribo.contact.winkler import Winkler, WinklerConfig
+from tribo.contact.dcfft import DcFft
+from tribo.contact.winkler import Winkler
 from tribo.core.grid import Grid
 from tribo.core.material import Material
-from tribo.kinematics.reciprocating import Reciprocating, ReciprocatingConfig
+from tribo.kinematics.reciprocating import Reciprocating
 from tribo.simulation.assembly import assemble
 from tribo.simulation.march import begin, march
 from tribo.simulation.model import Body
-from tribo.surfaces.flat import Flat, FlatConfig
-from tribo.surfaces.paraboloid import Paraboloid, ParaboloidConfig
-from tribo.surfaces.sphere import Sphere, SphereConfig
-from tribo.wear.archard import Archard, ArchardConfig
+from tribo.surfaces.flat import Flat
+from tribo.surfaces.paraboloid import Paraboloid
+from tribo.surfaces.sphere import Sphere
+from tribo.wear.archard import Archard
 
 K = 3.11e-16
 FOUNDATION = 1.2973e15  # Pa/m: matches Hertz's contact radius in the paper's case
@@ -23,32 +23,32 @@ def steel(hardness=None):
 
 
 def archard(k=K):
-    return Archard(ArchardConfig(k=k))
+    return Archard(k=k)
 
 
 def sphere():
-    return Sphere(SphereConfig(radius="5 mm"))
+    return Sphere(radius="5 mm")
 
 
 def paraboloid():
-    return Paraboloid(ParaboloidConfig(radius="5 mm"))
+    return Paraboloid(radius="5 mm")
 
 
 def flat():
-    return Flat(FlatConfig())
+    return Flat()
 
 
 def half_space(**values):
-    return DcFft(DcFftConfig(**values))
+    return DcFft(**values)
 
 
 def foundation(**values):
-    return Winkler(WinklerConfig(**{"modulus": FOUNDATION, **values}))
+    return Winkler(**{"modulus": FOUNDATION, **values})
 
 
 def motion(**values):
     return Reciprocating(
-        ReciprocatingConfig(**{"stroke": "2 mm", "frequency": 25, "duration": 200, **values})
+        Reciprocating(**{"stroke": "2 mm", "frequency": 25, "duration": 200, **values})
     )
 
 

@@ -46,7 +46,7 @@ def test_every_hook_is_documented_in_a_line(kind):
     assert len(inspect.getdoc(hook).splitlines()) == 1
 
 
-@pytest.mark.parametrize("cls", BUILT_IN, ids=lambda c: c.type_name())
+@pytest.mark.parametrize("cls", BUILT_IN, ids=lambda c: c.type)
 def test_every_built_in_describes_itself_and_its_parameters(cls: type[Component]):
     assert inspect.getdoc(cls) not in (None, inspect.getdoc(Component))
     for name, field in cls.Config.model_fields.items():

@@ -93,7 +93,7 @@ class Zoo:
 
 def case_of(*classes: Any, **changes: str) -> str:
     """Return a case that names `classes`, as TOML."""
-    named = {SLOTS.get(kind_of(c), kind_of(c)): f'"{c.type_name()}"' for c in classes}
+    named = {SLOTS.get(kind_of(c), kind_of(c)): f'"{c.type}"' for c in classes}
     return CASE.format(**SOUND | named | changes)
 
 
@@ -110,7 +110,7 @@ def expect_one_message(ended: Ended, cls: Any) -> None:
     """One line, no traceback, names component and fault; what was saved is there to be read."""
     (line,) = ended.said
     assert line.startswith("error: ")
-    assert repr(cls.type_name()) in line
+    assert repr(cls.type) in line
     assert cls.words in line
     assert ended.code == cls.code
     assert ended.path.exists() == cls.saved

@@ -2,7 +2,7 @@
 
 A plugin is a module with hooks that return its classes::
 
-    from tribo.plugin import WearLaw, WearLawConfig, WearRate, hookimpl
+    from tribo.plugin import WearLaw, WearRate, hookimpl
 
 and entry points that declare their names (see the page *Write a plugin*).
 """
@@ -27,14 +27,14 @@ from tribo.core.material import Material
 from tribo.core.measures import BodyMeasures, Measures
 from tribo.core.state import BodyInfo, BodyState, RunInfo, Snapshot, State
 from tribo.core.units import Quantity
-from tribo.interfaces.component import Component, ComponentConfig
-from tribo.interfaces.contact import ContactSolver, ContactSolverConfig
-from tribo.interfaces.effect import Effect, EffectConfig
+from tribo.interfaces.component import Component
+from tribo.interfaces.contact import ContactSolver
+from tribo.interfaces.effect import Effect
 from tribo.interfaces.exposure import Exposure, Stationary, Track
-from tribo.interfaces.kinematics import Kinematics, KinematicsConfig
-from tribo.interfaces.observer import Observer, ObserverConfig
-from tribo.interfaces.surface import Surface, SurfaceConfig
-from tribo.interfaces.wear import WearLaw, WearLawConfig
+from tribo.interfaces.kinematics import Kinematics
+from tribo.interfaces.observer import Observer
+from tribo.interfaces.surface import Surface
+from tribo.interfaces.wear import WearLaw
 from tribo.registry.hookspecs import hookimpl
 
 __all__ = [
@@ -44,27 +44,22 @@ __all__ = [
     "BodyState",
     "CaseError",
     "Component",
-    "ComponentConfig",
     "ContactConditions",
     "ContactProblem",
     "ContactSolution",
     "ContactSolver",
-    "ContactSolverConfig",
     "ContactSystem",
     "Effect",
-    "EffectConfig",
     "Exposure",
     "Field",
     "Grid",
     "HalfSpace",
     "Kinematics",
-    "KinematicsConfig",
     "LocalConditions",
     "Material",
     "Measures",
     "NumericalError",
     "Observer",
-    "ObserverConfig",
     "Operator",
     "Quantity",
     "Residuals",
@@ -73,14 +68,12 @@ __all__ = [
     "State",
     "Stationary",
     "Surface",
-    "SurfaceConfig",
     "Table",
     "Track",
     "TriboError",
     "TriboWarning",
     "WearCompliance",
     "WearLaw",
-    "WearLawConfig",
     "WearRate",
     "hookimpl",
     "nyquist_compliance",

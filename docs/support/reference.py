@@ -26,7 +26,7 @@ from tribo.config.stepping import ExplicitConfig, ImplicitConfig
 from tribo.core.dimensions import _PREFIXES, _SYMBOLS, _UNPREFIXED
 from tribo.core.errors import TriboError
 from tribo.core.units import _KINDS, Quantity
-from tribo.interfaces.component import Component, ComponentConfig
+from tribo.interfaces.component import Component
 from tribo.registry.hookspecs import hookspec
 from tribo.registry.kinds import KINDS
 from tribo.registry.loader import group
@@ -194,7 +194,7 @@ def _about(field: FieldInfo) -> Iterator[str]:
         yield f"{field.description}\n"
     if not field.is_required():
         default = field.default
-        if isinstance(default, ComponentConfig | ImplicitConfig):
+        if isinstance(default, Component | ImplicitConfig):
             yield f'Optional; `type = "{default.type}"` if left out.\n'
         elif isinstance(default, str):
             yield f'Optional; `type = "{default}"` if left out.\n'
@@ -216,7 +216,7 @@ def _table(model: Any) -> Iterator[str]:
     yield from _rows({n: f for n, f in model.model_fields.items() if n != "type"})
     for field in model.model_fields.values():
         inner = _model(field.annotation)
-        if inner is not None and not issubclass(inner, ComponentConfig) and inner is not model:
+        if inner is not None and not issubclass(inner, Component) and inner is not model:
             if inner.__name__ == "Material":
                 continue
             name = next(n for n, f in model.model_fields.items() if f is field)
@@ -300,7 +300,7 @@ def _summary(thing: Any) -> str:
     return " ".join((inspect.getdoc(thing) or "").split("\n\n")[0].split())
 
 
-def _prose(cls: type[Component[Any]]) -> str:
+def _prose(cls: type[Component]) -> str:
     """Return a docstring up to its first numpydoc section."""
     lines = (inspect.getdoc(cls) or "").splitlines()
     end = next((i - 1 for i, line in enumerate(lines) if line and set(line) == {"-"}), len(lines))

@@ -9,7 +9,7 @@ from rich.console import Console
 
 from tribo import Body, Grid, Simulation
 from tribo.cli.report import print_report
-from tribo.kinematics.reciprocating import Reciprocating, ReciprocatingConfig
+from tribo.kinematics.reciprocating import Reciprocating
 
 
 def printed(result, width=80):
@@ -28,7 +28,7 @@ def brief(**changes):
         Body("ball", sphere(), steel(4e9), archard()),
         Body("disk", flat(), steel(4e9), archard()),
     ]
-    kinematics = Reciprocating(ReciprocatingConfig(stroke=2e-3, frequency=25, duration=1))
+    kinematics = Reciprocating(stroke=2e-3, frequency=25, duration=1)
     return Simulation(small(**{"bodies": bodies, "kinematics": kinematics, **changes})).run()
 
 

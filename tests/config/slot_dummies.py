@@ -13,81 +13,59 @@ from tribo.core.fields import LocalConditions, WearRate
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.core.units import Quantity
-from tribo.interfaces.observer import Observer, ObserverConfig
-from tribo.interfaces.surface import Surface, SurfaceConfig
-from tribo.interfaces.wear import WearLaw, WearLawConfig
+from tribo.interfaces.observer import Observer
+from tribo.interfaces.surface import Surface
+from tribo.interfaces.wear import WearLaw
 from tribo.registry.hookspecs import hookimpl
 from tribo.registry.loader import given
 from tribo.registry.registry import Registry
 
 
-class LinearConfig(WearLawConfig):
-    type: Literal["linear"] = "linear"
+class Linear(WearLaw):
+    type = "linear"
     k: Annotated[float, Quantity("1/Pa", above=0)]
     """Coefficient."""
     passes: int = 3
 
+    def rate(self, local: LocalConditions) -> WearRate:
+        raise NotImplementedError
 
-class Linear(WearLaw[LinearConfig]):
-    Config = LinearConfig
+
+class NoWear(WearLaw):
+    type = "none"
 
     def rate(self, local: LocalConditions) -> WearRate:
         raise NotImplementedError
 
 
-class NoneConfig(WearLawConfig):
-    type: Literal["none"] = "none"
-
-
-class NoWear(WearLaw[NoneConfig]):
-    Config = NoneConfig
-
-    def rate(self, local: LocalConditions) -> WearRate:
-        raise NotImplementedError
-
-
-class BlendConfig(WearLawConfig):
-    """A law made of laws: a slot within a slot."""
-
-    type: Literal["blend"] = "blend"
-    parts: tuple[Annotated[WearLawConfig, Slot("wear_law")], ...]
+class Blend(WearLaw):
+    type = "blend"
+    parts: tuple[Annotated[WearLaw, Slot("wear_law")], ...]
     weight: float | Literal["auto"] = "auto"
 
     @model_validator(mode="after")
-    def _not_empty(self) -> BlendConfig:
+    def _not_empty(self) -> Blend:
         if not self.parts:
             raise ValueError("give at least one part")
         return self
 
-
-class Blend(WearLaw[BlendConfig]):
-    Config = BlendConfig
-
     def rate(self, local: LocalConditions) -> WearRate:
         raise NotImplementedError
 
 
-class PlaneConfig(SurfaceConfig):
-    type: Literal["plane"] = "plane"
-
-
-class Plane(Surface[PlaneConfig]):
-    Config = PlaneConfig
+class Plane(Surface):
+    type = "plane"
 
     def height(self, grid: Grid) -> Array:
         raise NotImplementedError
 
 
-class CounterConfig(ObserverConfig):
-    type: Literal["counter"] = "counter"
+class Counter(Observer):
+    type = "counter"
     every: int = Field(default=1, ge=1)
 
 
-class Counter(Observer[CounterConfig]):
-    Config = CounterConfig
-
-
-def registry(*laws: type[WearLaw[WearLawConfig]]) -> Registry:
+def registry(*laws: type[WearLaw]) -> Registry:
     """The registry of these dummies, with other wear laws if any are given."""
     module = ModuleType("dummies")
     module.__version__ = "1.0"  # type: ignore[attr-defined]
@@ -107,17 +85,17 @@ class Frozen(BaseModel):
 
 class Body(Frozen):
     material: Material
-    surface: Annotated[SurfaceConfig, Slot("surface")] = PlaneConfig()
-    wear: Annotated[WearLawConfig, Slot("wear_law")] | None = None
+    surface: Annotated[Surface, Slot("surface")] = Plane()
+    wear: Annotated[WearLaw, Slot("wear_law")] | None = None
 
 
 class Slow(Frozen):
-    type: Literal["slow"] = "slow"
+    type = "slow"
     step: Annotated[float, Quantity("s", above=0)]
 
 
 class Fast(Frozen):
-    type: Literal["fast"] = "fast"
+    type = "fast"
     limit: int = 3
 
 
@@ -126,4 +104,4 @@ class Rig(Frozen):
     cells: tuple[int, int] = (8, 8)
     verbose: bool = False
     stepping: Annotated[Slow | Fast, Field(discriminator="type")] = Fast()
-    observers: tuple[Annotated[ObserverConfig, Slot("observer")], ...] = ()
+    observers: tuple[Annotated[Observer, Slot("observer")], ...] = ()

@@ -52,14 +52,14 @@ def error(validate: Callable[..., Any]) -> Callable[..., Any]:
 
 def test_a_table_becomes_the_configuration_its_type_names(dummies: Any, validate: Any) -> None:
     rig = validate(DATA)
-    assert rig.bodies["ball"].wear == dummies.LinearConfig(k=1e-15)
-    assert rig.bodies["disk"].wear.parts == (dummies.NoneConfig(), dummies.LinearConfig(k=1e-15))
-    assert rig.bodies["ball"].surface == dummies.PlaneConfig()
-    assert rig.observers == (dummies.CounterConfig(), dummies.CounterConfig(every=2))
+    assert rig.bodies["ball"].wear == dummies.Linear(k=1e-15)
+    assert rig.bodies["disk"].wear.parts == (dummies.NoWear(), dummies.Linear(k=1e-15))
+    assert rig.bodies["ball"].surface == dummies.Plane()
+    assert rig.observers == (dummies.Counter(), dummies.Counter(every=2))
 
 
 def test_an_instance_passes_through(dummies: Any) -> None:
-    wear = dummies.LinearConfig(k=1e-15)
+    wear = dummies.Linear(k=1e-15)
     assert dummies.Body(material=MATERIAL, wear=wear).wear is wear
 
 
@@ -165,8 +165,8 @@ def test_without_a_context_the_default_registry_is_asked(
 ) -> None:
     monkeypatch.setattr(slot, "default_registry", dummies.registry)
     monkeypatch.setattr(schema_module, "default_registry", dummies.registry)
-    assert dummies.Rig.model_validate(DATA).bodies["ball"].wear == dummies.LinearConfig(k=1e-15)
-    assert "LinearConfig" in str(dummies.Rig.model_json_schema())
+    assert dummies.Rig.model_validate(DATA).bodies["ball"].wear == dummies.Linear(k=1e-15)
+    assert "Linear" in str(dummies.Rig.model_json_schema())
 
 
 def test_a_worker_process_unpickles_without_any_registry(validate: Any) -> None:
@@ -228,22 +228,22 @@ def test_the_json_schema_discriminates_by_a_required_type(schema: dict[str, Any]
     assert choice["discriminator"] == {
         "propertyName": "type",
         "mapping": {
-            "blend": "#/$defs/BlendConfig",
-            "linear": "#/$defs/LinearConfig",
-            "none": "#/$defs/NoneConfig",
+            "blend": "#/$defs/Blend",
+            "linear": "#/$defs/Linear",
+            "none": "#/$defs/NoWear",
         },
     }
     assert choice["oneOf"] == [{"$ref": ref} for ref in choice["discriminator"]["mapping"].values()]
     assert names == {"type": "string", "enum": ["none"]}
     assert nothing == {"type": "null"}
-    assert schema["$defs"]["LinearConfig"]["required"] == ["type", "k"]
-    assert schema["$defs"]["LinearConfig"]["properties"]["k"]["description"] == "Coefficient."
-    assert schema["$defs"]["LinearConfig"]["properties"]["k"]["x-unit"] == "1/Pa"
+    assert schema["$defs"]["Linear"]["required"] == ["type", "k"]
+    assert schema["$defs"]["Linear"]["properties"]["k"]["description"] == "Coefficient."
+    assert schema["$defs"]["Linear"]["properties"]["k"]["x-unit"] == "1/Pa"
 
 
 def test_the_json_schema_follows_the_registry(dummies: Any) -> None:
     one = json_schema(dummies.Rig, dummies.registry(dummies.NoWear))
-    assert "LinearConfig" not in one["$defs"]
+    assert "Linear" not in one["$defs"]
     jsonschema.validate({"bodies": {"a": {"material": MATERIAL, "wear": "none"}}}, one)
     with pytest.raises(jsonschema.ValidationError):
         jsonschema.validate({"bodies": {"a": {"material": MATERIAL, "wear": DATA}}}, one)

@@ -12,7 +12,7 @@ from pydantic import ValidationError
 from tribo.contact import dcfft
 from tribo.contact.bounded import solve_bounded
 from tribo.contact.box import around
-from tribo.contact.dcfft import DcFftConfig
+from tribo.contact.dcfft import DcFft
 from tribo.contact.operator import HalfSpace
 from tribo.core.contact import ContactProblem, ContactSolution, WearCompliance
 from tribo.core.grid import Grid
@@ -128,7 +128,7 @@ def test_smallest_compliance_scales_with_the_cell() -> None:
 @pytest.mark.parametrize("tolerance", [0.0, 1e-15, 0.1])
 def test_tolerance_is_within_reason(tolerance: float) -> None:
     with pytest.raises(ValidationError):
-        DcFftConfig(tolerance=tolerance)
+        DcFft(tolerance=tolerance)
 
 
 def test_box_encloses_its_cells_with_the_margin_and_few_sizes() -> None:

@@ -7,7 +7,7 @@ import pytest
 from contact_problems import MODULUS, ball, problem
 
 from tribo.contact import hertz
-from tribo.contact.periodic import Periodic, PeriodicConfig, PeriodicHalfSpace
+from tribo.contact.periodic import Periodic, PeriodicHalfSpace
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
 from tribo.core.grid import Grid
@@ -17,7 +17,7 @@ WAVELENGTH, AMPLITUDE = 1e-4, 1e-6
 
 
 def solve(gap: Array, size: tuple[float, float], load: float) -> ContactSolution:
-    return Periodic(PeriodicConfig()).solve(problem(gap, size, load))
+    return Periodic().solve(problem(gap, size, load))
 
 
 def wave(ratio: float, cells: int) -> tuple[ContactSolution, sinusoid.Westergaard, Array]:
@@ -132,7 +132,7 @@ def test_between_the_limits_it_agrees_with_an_independent_computation(
 
 def test_far_from_its_images_a_ball_has_hertz_contact() -> None:
     case = ball(192, width=0.3e-3 * 4)
-    solution = Periodic(PeriodicConfig()).solve(case)
+    solution = Periodic().solve(case)
     exact = hertz.point(MODULUS, case.load, 200, 200)
     # Four diameters apart the images raise the peak by 0.2 %.
     assert solution.pressure.max() == pytest.approx(exact.peak_pressure, rel=3e-3)
@@ -140,7 +140,7 @@ def test_far_from_its_images_a_ball_has_hertz_contact() -> None:
 
 def test_the_smallest_compliance_is_that_of_the_chequerboard() -> None:
     case = ball(16)
-    stated = Periodic(PeriodicConfig()).smallest_compliance(case.system)
+    stated = Periodic().smallest_compliance(case.system)
     operator = PeriodicHalfSpace((16, 16), case.system.grid.spacing, MODULUS)
     signs = (-1.0) ** np.add.outer(np.arange(16), np.arange(16))
     assert operator.apply(signs) == pytest.approx(stated * signs, rel=1e-12, abs=0)

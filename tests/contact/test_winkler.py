@@ -10,7 +10,7 @@ from contact_problems import HARDNESS, MODULUS, RADIUS, ball, problem
 from pydantic import ValidationError
 
 from tribo.contact import hertz
-from tribo.contact.winkler import Layer, Winkler, WinklerConfig
+from tribo.contact.winkler import Layer, Winkler
 from tribo.core.contact import ContactProblem, ContactSystem, WearCompliance
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
@@ -21,11 +21,11 @@ SYSTEM = ContactSystem(Grid((1e-3, 2e-3), (8, 8)), MODULUS, 100.0, None, (200.0,
 
 
 def _fixed(modulus: float = FOUNDATION, *, plasticity: bool = True) -> Winkler:
-    return Winkler(WinklerConfig(modulus=modulus, plasticity=plasticity))
+    return Winkler(modulus=modulus, plasticity=plasticity)
 
 
 def _modulus(match: str, system: ContactSystem = SYSTEM) -> float:
-    return Winkler(WinklerConfig.model_validate({"match": match})).foundation_modulus(system)
+    return Winkler(Winkler.model_validate({"match": match})).foundation_modulus(system)
 
 
 def test_ball_on_a_foundation_converges_to_the_closed_form() -> None:
@@ -48,14 +48,14 @@ def test_matches_of_the_ball_are_the_textbook_ones() -> None:
     assert _modulus("contact_radius") == pytest.approx(16 / 3 * unit, rel=1e-12)
     assert _modulus("peak_pressure") == pytest.approx(3 * unit, rel=1e-12)
     assert _modulus("approach") == pytest.approx(4 / 3 * unit, rel=1e-12)
-    assert Winkler(WinklerConfig()).foundation_modulus(SYSTEM) == _modulus("contact_radius")
+    assert Winkler().foundation_modulus(SYSTEM) == _modulus("contact_radius")
 
 
 @pytest.mark.parametrize("match", ["contact_radius", "peak_pressure", "approach"])
 def test_matched_foundation_reproduces_that_feature_of_an_ellipse(match: str) -> None:
     case = ball(256, radii=(10e-3, 5e-3), width=1.2e-3)
     case = replace(case, system=replace(case.system, curvature=(100.0, 200.0)))
-    config = WinklerConfig.model_validate({"match": match})
+    config = Winkler.model_validate({"match": match})
     solution = Winkler(config).solve(case)
     exact = hertz.point(MODULUS, 100.0, 100.0, 200.0)
     found, wanted = {
@@ -75,7 +75,7 @@ def test_matched_foundation_reproduces_that_feature_of_a_line(match: str) -> Non
     x, y = Grid(size, cells).mesh
     case = problem(x**2 / (2 * RADIUS) + 0 * y, size, 100.0)
     case = replace(case, system=replace(case.system, curvature=(200.0, 0.0)))
-    config = WinklerConfig.model_validate({"match": match})
+    config = Winkler.model_validate({"match": match})
     solution = Winkler(config).solve(case)
     exact = hertz.line(MODULUS, 1e5, 200.0)
     if match == "peak_pressure":
@@ -90,7 +90,7 @@ def test_matched_foundation_reproduces_that_feature_of_a_line(match: str) -> Non
 def test_bonded_layer() -> None:
     layer = Layer(thickness=1.0, young=207e9, poisson=0.3)
     assert layer.foundation_modulus == pytest.approx(278.65e9, rel=1e-4)
-    solver = Winkler(WinklerConfig(layer=layer))
+    solver = Winkler(layer=layer)
     assert solver.smallest_compliance(SYSTEM) == pytest.approx(1 / 278.65e9, rel=1e-4, abs=0)
 
 
@@ -99,7 +99,7 @@ def test_without_curvature_there_is_nothing_to_match(
     curvature: tuple[float, float] | None,
 ) -> None:
     with pytest.raises(CaseError, match=r"Give modulus .* or layer"):
-        Winkler(WinklerConfig()).check(replace(SYSTEM, curvature=curvature))
+        Winkler().check(replace(SYSTEM, curvature=curvature))
     _fixed().check(replace(SYSTEM, curvature=curvature))
 
 
@@ -110,7 +110,7 @@ def test_approach_of_a_line_contact_cannot_be_matched() -> None:
 
 def test_two_sources_of_the_modulus_are_refused_by_name() -> None:
     with pytest.raises(ValidationError, match="modulus and match are given"):
-        WinklerConfig(modulus=1e15, match="approach")
+        Winkler(modulus=1e15, match="approach")
 
 
 @pytest.mark.parametrize("seed", range(12))

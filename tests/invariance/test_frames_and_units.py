@@ -12,17 +12,17 @@ from hypothesis import strategies as st
 from paper_models import flat, motion
 
 from tribo.config.stepping import ExplicitConfig, ImplicitConfig
-from tribo.contact.dcfft import DcFft, DcFftConfig
-from tribo.contact.periodic import Periodic, PeriodicConfig
-from tribo.contact.winkler import Winkler, WinklerConfig
+from tribo.contact.dcfft import DcFft
+from tribo.contact.periodic import Periodic
+from tribo.contact.winkler import Winkler
 from tribo.core.contact import ContactProblem
 from tribo.core.grid import Grid
 from tribo.core.material import Material
-from tribo.interfaces.surface import Surface, SurfaceConfig
+from tribo.interfaces.surface import Surface
 from tribo.simulation.assembly import assemble
 from tribo.simulation.march import begin, march
 from tribo.simulation.model import Body
-from tribo.wear.archard import Archard, ArchardConfig
+from tribo.wear.archard import Archard
 
 # The solver stops at a residual of 1e-10, far below what is held against the answers.
 TIGHT = 1e-10
@@ -39,13 +39,13 @@ few = settings(
 )
 
 
-class Bumps(Surface[SurfaceConfig]):
+class Bumps(Surface):
     """A ball with waves on it, given on the grid that it is asked for."""
 
-    Config = SurfaceConfig
+    Config = Surface
 
     def __init__(self, heights):
-        super().__init__(SurfaceConfig(type="test.bumps"))
+        super().__init__(Surface(type="test.bumps"))
         self.heights = heights
 
     def height(self, grid):
@@ -84,15 +84,15 @@ def model(test, *, swap=False, explicit=False):
     c, m = test["length"], test["modulus"]
     hardness = None if test["hardness"] is None else m * test["hardness"]
     material = Material(young=m * test["young"], poisson=test["poisson"], hardness=hardness)
-    laws = [Archard(ArchardConfig(k=k / m)) for k in test["k"]]
+    laws = [Archard(k=k / m) for k in test["k"]]
     bodies = [
         Body("ball", Bumps(c * test["heights"]), material, laws[0]),
         Body("disk", flat(), material, laws[1]),
     ]
     contact = {
-        DcFft: lambda: DcFft(DcFftConfig(tolerance=TIGHT)),
-        Periodic: lambda: Periodic(PeriodicConfig(tolerance=TIGHT)),
-        Winkler: lambda: Winkler(WinklerConfig(modulus=1.3e15 * m / c)),
+        DcFft: lambda: DcFft(tolerance=TIGHT),
+        Periodic: lambda: Periodic(tolerance=TIGHT),
+        Winkler: lambda: Winkler(modulus=1.3e15 * m / c),
     }[test["contact"]]
     # 0.1 m/s for 5 s, whatever the metre.
     stroke = 2e-3 * c

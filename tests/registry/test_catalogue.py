@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated
 
 import pytest
 from fake_distributions import distribute, observer, sources
@@ -11,7 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from tribo.core.errors import CaseError
 from tribo.core.units import Quantity
-from tribo.interfaces.observer import Observer, ObserverConfig
+from tribo.interfaces.observer import Observer
 from tribo.registry.catalogue import catalogue, describe, find
 from tribo.registry.records import ComponentRecord, PluginRecord
 from tribo.registry.registry import Registry
@@ -74,16 +74,12 @@ class Place(BaseModel):
     """The next one."""
 
 
-class SensorConfig(ObserverConfig):
-    type: Literal["cat.sensor"] = "cat.sensor"
+class Sensor(Observer):
+    type = "cat.sensor"
     names: list[str] = Field(default_factory=list)
     """What to call them."""
     places: dict[str, Place] | None = None
     """Where they sit."""
-
-
-class Sensor(Observer[SensorConfig]):
-    Config = SensorConfig
 
 
 def sensor() -> ComponentRecord:

@@ -6,14 +6,14 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
-from typing import Any, Literal
+from typing import Any
 
 import pytest
 from fake_distributions import distribute, observer, sources
 
 from tribo.core.errors import CaseError
-from tribo.interfaces.observer import Observer, ObserverConfig
-from tribo.interfaces.surface import Surface, SurfaceConfig
+from tribo.interfaces.observer import Observer
+from tribo.interfaces.surface import Surface
 from tribo.registry import loader
 from tribo.registry.builtin import __name__ as builtin_module
 from tribo.registry.hookspecs import hookimpl
@@ -22,24 +22,16 @@ from tribo.registry.registry import Registry, default_registry
 from tribo.registry.selection import selected
 
 
-class QuietConfig(ObserverConfig):
-    type: Literal["quiet"] = "quiet"
+class Quiet(Observer):
+    type = "quiet"
 
 
-class Quiet(Observer[QuietConfig]):
-    Config = QuietConfig
+class AlsoQuiet(Observer):
+    Config = Quiet
 
 
-class AlsoQuiet(Observer[QuietConfig]):
-    Config = QuietConfig
-
-
-class LoudConfig(ObserverConfig):
-    type: Literal["loud"] = "loud"
-
-
-class Loud(Observer[LoudConfig]):
-    Config = LoudConfig
+class Loud(Observer):
+    type = "loud"
 
 
 def plugin(name: str, **hooks: Callable[[], Any]) -> ModuleType:
@@ -87,19 +79,15 @@ def raises(error: BaseException) -> Callable[[], Any]:
     return hook
 
 
-class Bare(Surface[SurfaceConfig]):
+class Bare(Surface):
     pass
 
 
-class NamelessConfig(ObserverConfig):
+class Nameless(Observer):
     pass
 
 
-class Nameless(Observer[NamelessConfig]):
-    Config = NamelessConfig
-
-
-class Unconfigured(Observer[QuietConfig]):
+class Unconfigured(Observer):
     pass
 
 
@@ -118,10 +106,10 @@ class Unconfigured(Observer[QuietConfig]):
             plugin("bad", tribo_observers=lambda: [Bare]),
             "Bare, not a subclass of tribo.plugin.Observer",
         ),
-        (plugin("bad", tribo_observers=lambda: [Quiet(QuietConfig())]), "not a subclass of"),
+        (plugin("bad", tribo_observers=lambda: [Quiet()]), "not a subclass of"),
         (plugin("bad", tribo_surfaces=lambda: [Bare]), "Bare does not define height"),
         (plugin("bad", tribo_observers=lambda: [Unconfigured]), "Config is not a subclass of"),
-        (plugin("bad", tribo_observers=lambda: [Nameless]), "NamelessConfig needs a line: type"),
+        (plugin("bad", tribo_observers=lambda: [Nameless]), "Nameless needs a line: type"),
         (plugin("bad", tribo_observers=lambda: [Quiet, AlsoQuiet]), "returns 'quiet' twice"),
         (plugin("bad", tribo_observers=lambda x: [Quiet]), "PluginValidationError"),  # type: ignore[misc,arg-type]
     ],
@@ -322,13 +310,13 @@ def test_a_hook_of_another_version_may_be_optional() -> None:
 
 EFFECT = """
 from typing import Literal
-from tribo.plugin import Effect, EffectConfig, Field, hookimpl
+from tribo.plugin import Effect, Field, hookimpl
 
-class WarmConfig(EffectConfig):
-    type: Literal["{name}"] = "{name}"
+class Warm(Effect):
+    type = "{name}"
 
-class Warm(Effect[WarmConfig]):
-    Config = WarmConfig
+class Warm(Effect):
+    Config = Warm
     provides = (Field("warmth", "K", "How warm."),)
 
     def fields(self, conditions): ...

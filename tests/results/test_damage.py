@@ -13,7 +13,7 @@ from paper_models import archard, flat, motion, small, sphere, steel
 
 from tribo import Body, CaseError, Grid, Interrupted, Result, Simulation
 from tribo.core.errors import OutputError, TriboWarning
-from tribo.interfaces.observer import Observer, ObserverConfig
+from tribo.interfaces.observer import Observer
 from tribo.results.checkpoint import (
     checkpoint_path,
     previous_path,
@@ -165,9 +165,9 @@ def test_a_result_left_open_does_no_harm_at_the_end(sound):
     assert (done.returncode, done.stderr) == (0, b"")
 
 
-class StopAt(Observer[ObserverConfig]):
+class StopAt(Observer):
     def __init__(self, time):
-        super().__init__(ObserverConfig(type="test.stop_at"))
+        super().__init__(Observer(type="test.stop_at"))
         self.time = time
 
     def on_save(self, snapshot):

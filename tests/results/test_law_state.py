@@ -6,13 +6,13 @@ import h5py
 import numpy as np
 import pytest
 from paper_models import archard, flat, small, sphere, steel
-from strangers.running_in import RunningIn, RunningInConfig
+from strangers.running_in import RunningIn
 
 from tribo import Body, Result, Simulation
 from tribo.results.export import export_csv
 from tribo.simulation.predict import predict
 
-LAW = RunningIn(RunningInConfig(k_first=9e-16, k_last=3e-16, length=20.0))
+LAW = RunningIn(k_first=9e-16, k_last=3e-16, length=20.0)
 
 
 def model(**changes):

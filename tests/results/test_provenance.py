@@ -14,7 +14,7 @@ from tribo.cli.report import print_provenance
 from tribo.core.errors import PluginError
 from tribo.interfaces.component import Component
 from tribo.results.provenance import changed_components, origin, provenance, stated_facts
-from tribo.surfaces.sphere import Sphere, SphereConfig
+from tribo.surfaces.sphere import Sphere
 
 
 class Stated(Sphere):
@@ -27,7 +27,7 @@ class Stated(Sphere):
 
 
 def stated():
-    return Stated(SphereConfig(radius="5 mm"))
+    return Stated(Sphere(radius="5 mm"))
 
 
 def model():

@@ -1,7 +1,6 @@
 """In full contact a sinusoid wears off as exp(−k s/K̂); both steppings have their order."""
 
 from dataclasses import replace
-from typing import Literal
 
 import numpy as np
 import pytest
@@ -9,9 +8,9 @@ from paper_models import K, archard, flat, motion, small, steel
 
 from tribo import Simulation
 from tribo.config.stepping import ImplicitConfig
-from tribo.contact.periodic import Periodic, PeriodicConfig
+from tribo.contact.periodic import Periodic
 from tribo.core.grid import Grid
-from tribo.interfaces.surface import Surface, SurfaceConfig
+from tribo.interfaces.surface import Surface
 from tribo.simulation.model import Body
 from tribo.simulation.rates import Moment
 from tribo.simulation.step import (
@@ -26,12 +25,8 @@ WAVELENGTH = 1e-4
 GRID = Grid((4e-4, 4e-4), (32, 32))
 
 
-class WaveConfig(SurfaceConfig):
-    type: Literal["test.wave"] = "test.wave"
-
-
-class Wave(Surface[WaveConfig]):
-    Config = WaveConfig
+class Wave(Surface):
+    type = "test.wave"
 
     def height(self, grid):
         wave = 1e-8 * np.cos(2 * np.pi * grid.mesh[0] / WAVELENGTH)
@@ -42,8 +37,8 @@ def model():
     return small(
         grid=GRID,
         load=300.0,
-        bodies=[Body("wavy", Wave(WaveConfig()), steel(), archard()), Body("b", flat(), steel())],
-        contact=Periodic(PeriodicConfig()),
+        bodies=[Body("wavy", Wave(), steel(), archard()), Body("b", flat(), steel())],
+        contact=Periodic(),
         kinematics=motion(),
     )
 
@@ -98,7 +93,7 @@ def test_explicit_steps_decay_just_below_the_stated_limit_and_grow_just_above(pa
 def test_two_flats_that_repeat_wear_evenly():
     bodies = [Body("a", flat(), steel(), archard()), Body("b", flat(), steel())]
     result = Simulation(
-        small(grid=GRID, bodies=bodies, contact=Periodic(PeriodicConfig()), kinematics=motion())
+        small(grid=GRID, bodies=bodies, contact=Periodic(), kinematics=motion())
     ).run()
     save = result.saves()[-1]
     depth = K * 100.0 / (GRID.size[0] * GRID.size[1]) * save["distance_m"]
@@ -108,14 +103,14 @@ def test_two_flats_that_repeat_wear_evenly():
 
 
 def test_a_wave_worn_flat_goes_on_without_noise():
-    bodies = [Body("a", Wave(WaveConfig()), steel(), archard()), Body("b", flat(), steel())]
+    bodies = [Body("a", Wave(), steel(), archard()), Body("b", flat(), steel())]
     # Some 800 decay lengths: nothing is left of the wave but the rounding of the depth.
     result = Simulation(
         small(
             grid=GRID,
             load=300.0,
             bodies=bodies,
-            contact=Periodic(PeriodicConfig()),
+            contact=Periodic(),
             kinematics=motion(duration=7200),
         )
     ).run()

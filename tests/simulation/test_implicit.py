@@ -1,7 +1,5 @@
 """Implicit steps are backward Euler, whatever the law."""
 
-from typing import Literal
-
 import numpy as np
 import pytest
 from paper_models import (
@@ -20,15 +18,15 @@ from paper_models import (
 from tribo.config.stepping import ImplicitConfig
 from tribo.core.contact import ContactProblem
 from tribo.core.fields import ContactConditions, Field, WearRate
-from tribo.interfaces.effect import Effect, EffectConfig
-from tribo.interfaces.wear import WearLaw, WearLawConfig
+from tribo.interfaces.effect import Effect
+from tribo.interfaces.wear import WearLaw
 from tribo.simulation.model import Body
 from tribo.simulation.step import first_contact, geometry, implicit_step
-from tribo.wear.power import Power, PowerConfig
+from tribo.wear.power import Power
 
 
 def power(exponent):
-    return Power(PowerConfig(k=K, p_exponent=exponent, reference_pressure="1 GPa"))
+    return Power(k=K, p_exponent=exponent, reference_pressure="1 GPa")
 
 
 def bodies(ball, disk):
@@ -101,19 +99,16 @@ def test_a_body_without_a_law_does_not_wear():
     assert state.bodies["ball"].wear.max() > 0
 
 
-class RunningInConfig(WearLawConfig):
-    type: Literal["test.running-in"] = "test.running-in"
-    s0: float = 2.0
-
-
-class RunningIn(WearLaw[RunningInConfig]):
+class RunningIn(WearLaw):
     """k = k0 exp(−s/s0), with s the distance each point has slid under pressure."""
 
-    Config = RunningInConfig
+    type = "test.running-in"
+    s0: float = 2.0
+
     state_fields = (Field("slid", "m", "Distance slid under pressure."),)
 
     def rate(self, local):
-        k = K * np.exp(-local.state["slid"] / self.config.s0)
+        k = K * np.exp(-local.state["slid"] / self.s0)
         touching = (local.pressure > 0).astype(float)
         return WearRate(k * local.pressure, k, {"slid": touching})
 
@@ -122,7 +117,7 @@ def test_a_law_with_state_follows_its_integral():
     # Where a point is in contact from the start, its state is the distance;
     # V = F k0 s0 (1 − exp(−s/s0)) would hold for a uniform state.
     model = small(
-        bodies=bodies(RunningIn(RunningInConfig()), None),
+        bodies=bodies(RunningIn(), None),
         stepping=ImplicitConfig(depth_tolerance=2e-4, pressure_tolerance=0.02),
     )
     run = states(model)
@@ -134,12 +129,9 @@ def test_a_law_with_state_follows_its_integral():
     assert state.bodies["ball"].wear[24, 24] == pytest.approx(depth, rel=0.02)
 
 
-class WarmthConfig(EffectConfig):
-    type: Literal["test.warmth"] = "test.warmth"
+class Warmth(Effect):
+    type = "test.warmth"
 
-
-class Warmth(Effect[WarmthConfig]):
-    Config = WarmthConfig
     provides = (Field("warmth", "1", "Twice as much on the ball as on the disk."),)
 
     def fields(self, contact: ContactConditions):
@@ -147,12 +139,9 @@ class Warmth(Effect[WarmthConfig]):
         return {"warmth": {"ball": 2 * rise, "disk": rise}}
 
 
-class WarmConfig(WearLawConfig):
-    type: Literal["test.warm"] = "test.warm"
+class Warm(WearLaw):
+    type = "test.warm"
 
-
-class Warm(WearLaw[WarmConfig]):
-    Config = WarmConfig
     requires = ("warmth",)
 
     def rate(self, local):
@@ -161,8 +150,8 @@ class Warm(WearLaw[WarmConfig]):
 
 
 def test_a_law_gets_the_fields_it_requires_for_its_own_body():
-    law = Warm(WarmConfig())
-    model = small(bodies=bodies(law, law), effects=[Warmth(WarmthConfig())])
+    law = Warm()
+    model = small(bodies=bodies(law, law), effects=[Warmth()])
     state = one_step(model)
     p = state.contact.pressure
     rise = p / p.max()

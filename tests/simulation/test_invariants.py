@@ -12,22 +12,22 @@ from paper_models import K, archard, flat, half_space, last, motion, small, sphe
 from tribo import Result, Simulation
 from tribo.cli.show import show
 from tribo.config.stepping import ExplicitConfig, ImplicitConfig
-from tribo.contact.dcfft import DcFft, DcFftConfig
-from tribo.contact.periodic import Periodic, PeriodicConfig
+from tribo.contact.dcfft import DcFft
+from tribo.contact.periodic import Periodic
 from tribo.core.errors import NumericalError, TriboWarning
 from tribo.core.grid import Grid
-from tribo.interfaces.surface import Surface, SurfaceConfig
+from tribo.interfaces.surface import Surface
 from tribo.simulation.invariants import CHATTERING, VOLUME, handed_back
 from tribo.simulation.model import Body
 
 
-class Rough(Surface[SurfaceConfig]):
+class Rough(Surface):
     """White noise of 1 µm, down to single cells, on a ball or on nothing."""
 
-    Config = SurfaceConfig
+    Config = Surface
 
     def __init__(self, radius=np.inf):
-        super().__init__(SurfaceConfig(type="test.rough"))
+        super().__init__(Surface(type="test.rough"))
         self.radius = radius
 
     def height(self, grid):
@@ -70,7 +70,7 @@ def test_what_only_grows_or_fades_is_not_handed_back():
         {},
         {"stepping": ImplicitConfig(pressure_tolerance=1.0, depth_tolerance=0.1)},
         {"stepping": ExplicitConfig(time_step=0.9 * time_step(1.0))},
-        {"contact": Periodic(PeriodicConfig()), "load": 500.0, "surface": Rough()},
+        {"contact": Periodic(), "load": 500.0, "surface": Rough()},
         {"surface": Rough(5e-3), "grid": Grid((1.2e-3, 1.2e-3), (64, 64))},
         {"surface": Rough(5e-3), "stepping": ExplicitConfig(time_step=0.9 * time_step(1.0))},
     ],
@@ -140,7 +140,7 @@ def test_a_solver_that_owns_to_a_poor_contact_stops_the_run(what, tmp_path):
             poor = replace(solution.residuals, **{what: 0.05})
             return solution if self.calls < 6 else replace(solution, residuals=poor)
 
-    simulation = Simulation(one_body(contact=Sloppy(DcFftConfig())))
+    simulation = Simulation(one_body(contact=Sloppy(DcFft())))
     path = tmp_path / "run.h5"
     with pytest.raises(NumericalError, match=r"^step 3, at .*0\.05, and 0\.01 is allowed; .*toler"):
         simulation.run(path)
@@ -156,7 +156,7 @@ def test_the_load_balance_is_measured_and_not_taken_on_trust():
             best = replace(solution.residuals, force=0.0)
             return replace(solution, pressure=(1 + 3e-7) * solution.pressure, residuals=best)
 
-    result = Simulation(one_body(contact=Boasts(DcFftConfig()))).run()
+    result = Simulation(one_body(contact=Boasts(DcFft()))).run()
     assert result.worst()["force_error"] == pytest.approx(3e-7, rel=1e-3)
 
 

@@ -20,7 +20,7 @@ TESTS = Path(__file__).parents[1]
 MEASURE = """
     import json, sys, warnings
     from paper_models import *
-    from tribo.contact.periodic import Periodic, PeriodicConfig
+    from tribo.contact.periodic import Periodic
     from tribo.simulation.memory import memory_needed, memory_left
     from tribo.simulation.bodies import laws_of
     from tribo.simulation.run import Simulation
@@ -28,7 +28,7 @@ MEASURE = """
     case, cells = sys.argv[1], int(sys.argv[2])
     parts = dict(grid=Grid((1.3e-3, 1.3e-3), (cells, cells)), kinematics=motion(duration=5))
     if case == "periodic":
-        parts |= dict(contact=Periodic(PeriodicConfig()), load=5000.0)
+        parts |= dict(contact=Periodic(), load=5000.0)
     if case == "plastic":
         bodies = [Body(n, s(), steel("4 GPa"), archard()) for n, s in (("a", sphere), ("b", flat))]
         parts |= dict(bodies=bodies, load=900.0)

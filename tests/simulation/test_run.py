@@ -16,16 +16,16 @@ from tribo.config.stepping import ExplicitConfig, ImplicitConfig
 from tribo.config.stop import StopConfig
 from tribo.core.errors import OutputError, TriboWarning
 from tribo.interfaces.component import Component
-from tribo.interfaces.observer import Observer, ObserverConfig
+from tribo.interfaces.observer import Observer
 from tribo.observers import recorder
 from tribo.simulation.describe import describe
 
 
-class Stopper(Observer[ObserverConfig]):
+class Stopper(Observer):
     """Sends this process a signal after some steps, as Ctrl-C does."""
 
     def __init__(self, after, number=signal.SIGINT):
-        super().__init__(ObserverConfig(type="test.stopper"))
+        super().__init__(Observer(type="test.stopper"))
         self.after, self.number = after, number
 
     def on_step(self, snapshot):

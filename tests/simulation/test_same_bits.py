@@ -29,15 +29,15 @@ STOPPED = """
 import sys, warnings
 from tribo import Simulation
 from tribo.config.load import load_case
-from tribo.interfaces.observer import Observer, ObserverConfig
+from tribo.interfaces.observer import Observer
 warnings.simplefilter("ignore")
-class Stop(Observer[ObserverConfig]):
+class Stop(Observer):
     def on_step(self, snapshot):
         if snapshot.state.steps == 7:
             raise KeyboardInterrupt
 simulation = Simulation(load_case(sys.argv[1], overrides=sys.argv[2].split("|")))
 try:
-    simulation.run(sys.argv[3], observers=[Stop(ObserverConfig(type="stop"))])
+    simulation.run(sys.argv[3], observers=[Stop(Observer(type="stop"))])
 except BaseException:
     pass
 """

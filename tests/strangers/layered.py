@@ -5,7 +5,7 @@ the base, which is smooth on the scale of the layer's thickness.
 """
 
 from functools import lru_cache
-from typing import Annotated, Literal
+from typing import Annotated
 
 import numpy as np
 import scipy.fft
@@ -18,7 +18,6 @@ from tribo.plugin import (
     ContactProblem,
     ContactSolution,
     ContactSolver,
-    ContactSolverConfig,
     ContactSystem,
     HalfSpace,
     Quantity,
@@ -30,10 +29,74 @@ Modulus = Annotated[float, Quantity("Pa", above=0)]
 Poisson = Annotated[float, Quantity("1", above=-1, below=0.5)]
 
 
-class LayeredConfig(ContactSolverConfig):
-    """An elastic layer bonded to a base, pressed by a counter-body."""
+class LayeredHalfSpace:
+    """Layer, base and a half-space as counter-body: an operator for `solve_bounded`.
 
-    type: Literal["stranger.layered"] = "stranger.layered"
+    Parameters
+    ----------
+    shape, spacing : tuple
+        Cells of the box, and their edge lengths in m.
+    config : Layered
+        Layer and base.
+    counter : float
+        Compliance 1/E* of the counter-body, in 1/Pa; 0 if it is rigid.
+    """
+
+    def __init__(
+        self,
+        shape: tuple[int, int],
+        spacing: tuple[float, float],
+        config: Layered,
+        counter: float = 0.0,
+    ) -> None:
+        self.shape, self.spacing = shape, spacing
+        self._layer = HalfSpace(shape, spacing, 1 / (1 / config.modulus + counter))
+        self._padded = [scipy.fft.next_fast_len(2 * n - 1, real=True) for n in shape]
+        offsets = [np.minimum(np.arange(m), m - np.arange(m)) for m in self._padded]
+        kernel = self._base_kernel(config)[
+            np.ix_(*(np.minimum(o, n - 1) for o, n in zip(offsets, shape, strict=True)))
+        ]
+        self._own = float(kernel[0, 0])
+        self._spectrum = scipy.fft.rfft2(kernel)
+        qx = 2 * np.pi * np.fft.fftfreq(shape[0], spacing[0])
+        qy = 2 * np.pi * np.fft.rfftfreq(shape[1], spacing[1])
+        q = np.hypot(qx[:, None], qy[None, :])
+        q[0, 0] = 0.5 * min(qx[1], qy[1])
+        self._symbol = config.compliance(q) + 2 * counter / q
+
+    def _base_kernel(self, config: Layered) -> Array:
+        """Mean displacement of cells at offsets (i, j) under unit pressure on cell (0, 0)."""
+        h, (dx, dy) = config.thickness, self.spacing
+        reach = np.hypot(self.shape[0] * dx, self.shape[1] * dy) / h
+        # Dense near the load, and ever wider apart where the kernel falls like 1/r.
+        r = np.sinh(np.linspace(0, np.arcsinh(4 * reach), 400)) / 4
+        xi, weights = _panels(20.0, 8 + int(reach))
+        values = j0(np.outer(r, xi)) @ (weights * config.influence(xi))
+        green = CubicSpline(r, values / (np.pi * config.modulus * h))
+        x, wx = _between_cells(self.shape[0], dx / h)
+        y, wy = _between_cells(self.shape[1], dy / h)
+        distance = np.hypot(x[:, None, :, None], y[None, :, None, :])
+        return np.asarray(np.einsum("ijab,a,b->ij", green(distance), wx, wy) * dx * dy)
+
+    def apply(self, pressure: Array) -> Array:
+        """Return the displacement under `pressure`."""
+        modes = scipy.fft.rfft2(pressure, self._padded) * self._spectrum
+        nx, ny = self.shape
+        return self._layer.apply(pressure) + scipy.fft.irfft2(modes, self._padded)[:nx, :ny]
+
+    def symbol(self) -> Array:
+        """Return the compliance of the waves on the box."""
+        return np.array(self._symbol)
+
+    def diag(self) -> Array:
+        """Return displacement of each cell per pressure on itself."""
+        return self._layer.diag() + self._own
+
+
+class Layered(ContactSolver):
+    """Contact on a layered half-space, on the whole window."""
+
+    type = "stranger.layered"
     thickness: Annotated[float, Quantity("m", above=0)]
     """Thickness of the layer."""
     young: Modulus
@@ -73,80 +136,11 @@ class LayeredConfig(ContactSolverConfig):
         """Displacement per pressure of a wave of wavenumber q (1/m) on layer and base, in m/Pa."""
         return np.asarray(2 / (self.modulus * q) * (1 + self.influence(q * self.thickness)))
 
-
-class LayeredHalfSpace:
-    """Layer, base and a half-space as counter-body: an operator for `solve_bounded`.
-
-    Parameters
-    ----------
-    shape, spacing : tuple
-        Cells of the box, and their edge lengths in m.
-    config : LayeredConfig
-        Layer and base.
-    counter : float
-        Compliance 1/E* of the counter-body, in 1/Pa; 0 if it is rigid.
-    """
-
-    def __init__(
-        self,
-        shape: tuple[int, int],
-        spacing: tuple[float, float],
-        config: LayeredConfig,
-        counter: float = 0.0,
-    ) -> None:
-        self.shape, self.spacing = shape, spacing
-        self._layer = HalfSpace(shape, spacing, 1 / (1 / config.modulus + counter))
-        self._padded = [scipy.fft.next_fast_len(2 * n - 1, real=True) for n in shape]
-        offsets = [np.minimum(np.arange(m), m - np.arange(m)) for m in self._padded]
-        kernel = self._base_kernel(config)[
-            np.ix_(*(np.minimum(o, n - 1) for o, n in zip(offsets, shape, strict=True)))
-        ]
-        self._own = float(kernel[0, 0])
-        self._spectrum = scipy.fft.rfft2(kernel)
-        qx = 2 * np.pi * np.fft.fftfreq(shape[0], spacing[0])
-        qy = 2 * np.pi * np.fft.rfftfreq(shape[1], spacing[1])
-        q = np.hypot(qx[:, None], qy[None, :])
-        q[0, 0] = 0.5 * min(qx[1], qy[1])
-        self._symbol = config.compliance(q) + 2 * counter / q
-
-    def _base_kernel(self, config: LayeredConfig) -> Array:
-        """Mean displacement of cells at offsets (i, j) under unit pressure on cell (0, 0)."""
-        h, (dx, dy) = config.thickness, self.spacing
-        reach = np.hypot(self.shape[0] * dx, self.shape[1] * dy) / h
-        # Dense near the load, and ever wider apart where the kernel falls like 1/r.
-        r = np.sinh(np.linspace(0, np.arcsinh(4 * reach), 400)) / 4
-        xi, weights = _panels(20.0, 8 + int(reach))
-        values = j0(np.outer(r, xi)) @ (weights * config.influence(xi))
-        green = CubicSpline(r, values / (np.pi * config.modulus * h))
-        x, wx = _between_cells(self.shape[0], dx / h)
-        y, wy = _between_cells(self.shape[1], dy / h)
-        distance = np.hypot(x[:, None, :, None], y[None, :, None, :])
-        return np.asarray(np.einsum("ijab,a,b->ij", green(distance), wx, wy) * dx * dy)
-
-    def apply(self, pressure: Array) -> Array:
-        """Return the displacement under `pressure`."""
-        modes = scipy.fft.rfft2(pressure, self._padded) * self._spectrum
-        nx, ny = self.shape
-        return self._layer.apply(pressure) + scipy.fft.irfft2(modes, self._padded)[:nx, :ny]
-
-    def symbol(self) -> Array:
-        """Return the compliance of the waves on the box."""
-        return np.array(self._symbol)
-
-    def diag(self) -> Array:
-        """Return displacement of each cell per pressure on itself."""
-        return self._layer.diag() + self._own
-
-
-class Layered(ContactSolver[LayeredConfig]):
-    """Contact on a layered half-space, on the whole window."""
-
-    Config = LayeredConfig
     accepts_wear_compliance = True
     honours_cap = True
 
     def check(self, system: ContactSystem) -> None:
-        base = self.config.base_modulus
+        base = self.base_modulus
         if system.modulus > base * (1 + 1e-12):
             raise CaseError(
                 f"the bodies have a contact modulus of {system.modulus:.4g} Pa, but the base alone "
@@ -157,12 +151,12 @@ class Layered(ContactSolver[LayeredConfig]):
         self, problem: ContactProblem, start: ContactSolution | None = None
     ) -> ContactSolution:
         system = problem.system
-        counter = max(1 / system.modulus - 1 / self.config.base_modulus, 0.0)
+        counter = max(1 / system.modulus - 1 / self.base_modulus, 0.0)
         return solve_bounded(
             _operator(system.grid.cells, system.grid.spacing, self.config, counter),
             problem.gap,
             problem.load,
-            system.cap if self.config.plasticity else None,
+            system.cap if self.plasticity else None,
             problem.wear,
             start=None if start is None else start.pressure,
         )

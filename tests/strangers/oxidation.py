@@ -1,34 +1,24 @@
 """A stranger's effect: an oxide film that grows with the power of friction."""
 
 from collections.abc import Mapping
-from typing import Annotated, Literal
+from typing import Annotated
 
-from tribo.plugin import (
-    Array,
-    ContactConditions,
-    Effect,
-    EffectConfig,
-    Field,
-    Quantity,
-)
+from tribo.plugin import Array, ContactConditions, Effect, Field, Quantity
 
 OXIDE = "stranger_oxide"
 
 
-class OxideFilmConfig(EffectConfig):
-    type: Literal["stranger.oxide_film"] = "stranger.oxide_film"
+class OxideFilm(Effect):
+    """w/(w + power), with the power of friction w = μ p v."""
+
+    type = "stranger.oxide_film"
     power: Annotated[float, Quantity("W/m^2", above=0)]
     """Power of friction per area at which half the surface is oxidised."""
 
-
-class OxideFilm(Effect[OxideFilmConfig]):
-    """w/(w + power), with the power of friction w = μ p v."""
-
-    Config = OxideFilmConfig
     requires = ("friction_coefficient",)
     provides = (Field(OXIDE, "1", "Part of the surface under oxide."),)
 
     def fields(self, contact: ContactConditions) -> Mapping[str, Mapping[str, Array]]:
         friction = contact.fields["friction_coefficient"]
         heat = {name: mu * contact.pressure * contact.speed for name, mu in friction.items()}
-        return {OXIDE: {name: w / (w + self.config.power) for name, w in heat.items()}}
+        return {OXIDE: {name: w / (w + self.power) for name, w in heat.items()}}

@@ -1,16 +1,18 @@
 """A stranger's wear law with a state per material point: it runs in."""
 
-from typing import Annotated, Literal
+from typing import Annotated
 
 import numpy as np
 
-from tribo.plugin import Field, LocalConditions, Quantity, WearLaw, WearLawConfig, WearRate
+from tribo.plugin import Field, LocalConditions, Quantity, WearLaw, WearRate
 
 SpecificRate = Annotated[float, Quantity("1/Pa", at_least=0)]
 
 
-class RunningInConfig(WearLawConfig):
-    type: Literal["stranger.running_in"] = "stranger.running_in"
+class RunningIn(WearLaw):
+    """dh/ds = k p, k = k_last + (k_first − k_last) exp(−slip/length)."""
+
+    type = "stranger.running_in"
     k_first: SpecificRate
     """Specific wear rate of a fresh surface."""
     k_last: SpecificRate
@@ -18,14 +20,8 @@ class RunningInConfig(WearLawConfig):
     length: Annotated[float, Quantity("m", above=0)]
     """Slip over which it runs in."""
 
-
-class RunningIn(WearLaw[RunningInConfig]):
-    """dh/ds = k p, k = k_last + (k_first − k_last) exp(−slip/length)."""
-
-    Config = RunningInConfig
     state_fields = (Field("slip", "m", "How far this point has slid under pressure."),)
 
     def rate(self, local: LocalConditions) -> WearRate:
-        c = self.config
-        k = c.k_last + (c.k_first - c.k_last) * np.exp(-local.state["slip"] / c.length)
+        k = self.k_last + (self.k_first - self.k_last) * np.exp(-local.state["slip"] / self.length)
         return WearRate(k * local.pressure, k, {"slip": np.where(local.pressure > 0, 1.0, 0.0)})

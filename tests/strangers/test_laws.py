@@ -23,7 +23,7 @@ CONFIGS = {
 }
 STEEL = {"young": "207 GPa", "poisson": 0.3}
 EFFECTS = [{"type": "stranger.oxide_film", "power": "50 MW/m^2"}]
-LAWS = pytest.mark.parametrize("law", CONFIGS, ids=lambda law: law.type_name())
+LAWS = pytest.mark.parametrize("law", CONFIGS, ids=lambda law: law.type)
 
 
 @pytest.fixture(scope="module")
@@ -32,7 +32,7 @@ def registry():
 
 
 def case(law, **changes):
-    wear = {"type": law.type_name(), **CONFIGS[law]}
+    wear = {"type": law.type, **CONFIGS[law]}
     return {
         "grid": {"size": "0.7 mm", "cells": 32},
         "load": {"normal": "20 N"},
@@ -129,7 +129,7 @@ def test_what_an_effect_requires_of_the_case_is_named_too(registry):
 
 @LAWS
 def test_it_is_in_the_registry_and_in_the_schema(law, registry):
-    name = law.type_name()
+    name = law.type
     assert name in registry.names("wear_law")
     schema = json_schema(Case, registry)
     config = schema["$defs"][law.Config.__name__]
@@ -150,7 +150,7 @@ def test_it_takes_part_in_messages(law, registry):
             validate_case(tables, registry=registry)
         return str(caught.value)
 
-    name = law.type_name()
+    name = law.type
     misspelt = refused("type", "type", name.replace("stranger.", "strnger."))
     assert f"did you mean {name!r}?" in misspelt
     assert "stranger.transition (strangers.laws 1.0)" in misspelt
@@ -167,7 +167,7 @@ def test_it_is_in_the_provenance(law, registry):
     short["kinematics"]["duration"] = "1 s"
     with Simulation(short, registry=registry).run() as result:
         told = result.provenance["components"]
-    assert told["bodies.disk.wear"]["type"] == law.type_name()
+    assert told["bodies.disk.wear"]["type"] == law.type
     assert told["bodies.disk.wear"]["class"] == f"{law.__module__}.{law.__qualname__}"
     effects = [told[place]["type"] for place in told if place.startswith("effects")]
-    assert effects == ([OxideFilm.type_name()] if law.requires else [])
+    assert effects == ([OxideFilm.type] if law.requires else [])

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from strangers import layered
-from strangers.layered import LayeredConfig, LayeredHalfSpace
+from strangers.layered import Layered, LayeredHalfSpace
 
 from tribo import CaseError, Registry, Simulation
 from tribo.plugin import HalfSpace, solve_bounded
@@ -15,7 +15,7 @@ STIFF = {"young": 300e9, "poisson": 0.2}
 
 def config(layer, base, thickness=H):
     under = {f"base_{key}": value for key, value in base.items()}
-    return LayeredConfig(thickness=thickness, **layer, **under)
+    return Layered(thickness=thickness, **layer, **under)
 
 
 def wave(xi, layer, base):

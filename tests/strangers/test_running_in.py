@@ -2,15 +2,15 @@
 
 import numpy as np
 import pytest
-from strangers.running_in import RunningIn, RunningInConfig
+from strangers.running_in import RunningIn
 
 from tribo import Body, Grid, assemble
 from tribo.config.stepping import ImplicitConfig
-from tribo.contact.winkler import Winkler, WinklerConfig
+from tribo.contact.winkler import Winkler
 from tribo.core.material import Material
-from tribo.kinematics.unidirectional import Unidirectional, UnidirectionalConfig
+from tribo.kinematics.unidirectional import Unidirectional
 from tribo.simulation.step import first_contact, implicit_step
-from tribo.surfaces.flat import Flat, FlatConfig
+from tribo.surfaces.flat import Flat
 
 SIDE, LOAD, TRACK = 2e-3, 40.0, 8e-3
 FIRST, LAST, LENGTH = 8e-15, 1e-15, 0.7
@@ -20,15 +20,15 @@ END = 2.0
 @pytest.fixture(scope="module")
 def pin():
     """A square pin on a turning disk: the pressure is the same everywhere, and stays so."""
-    law = RunningIn(RunningInConfig(k_first=FIRST, k_last=LAST, length=LENGTH))
+    law = RunningIn(k_first=FIRST, k_last=LAST, length=LENGTH)
     steel = Material(young=207e9, poisson=0.3)
     motion = {"speed": 0.1, "track_length": TRACK, "distance": END}
     return assemble(
         grid=Grid((SIDE, SIDE), (8, 8)),
         load=LOAD,
-        bodies=[Body(name, Flat(FlatConfig()), steel, law) for name in ("pin", "disk")],
-        contact=Winkler(WinklerConfig(modulus=1e15)),
-        kinematics=Unidirectional(UnidirectionalConfig(**motion)),
+        bodies=[Body(name, Flat(), steel, law) for name in ("pin", "disk")],
+        contact=Winkler(modulus=1e15),
+        kinematics=Unidirectional(**motion),
         ends_at_window=True,
     )
 

@@ -1,26 +1,19 @@
 """A stranger's motion: two disks that roll on each other with slip."""
 
 from collections.abc import Mapping, Sequence
-from typing import Annotated, Literal
+from typing import Annotated
 
-from tribo.plugin import (
-    CaseError,
-    Exposure,
-    Grid,
-    Kinematics,
-    KinematicsConfig,
-    Quantity,
-    Track,
-    hookimpl,
-)
+from tribo.plugin import CaseError, Exposure, Grid, Kinematics, Quantity, Track, hookimpl
 
 Length = Annotated[float, Quantity("m", above=0)]
 
 
-class TwinDiskConfig(KinematicsConfig):
-    """Two disks, each with its own circumference."""
+class TwinDisk(Kinematics):
+    """Slides |u1 − u2| t. In one pass a point slides |u1 − u2|/u_i per metre of contact, and it
+    passes u_i/l_i times a second: per metre of sliding its share is dx/l_i, whatever the slip.
+    """
 
-    type: Literal["stranger.twin_disk"] = "stranger.twin_disk"
+    type = "stranger.twin_disk"
     speed: Annotated[float, Quantity("m/s", above=0)]
     """Mean of the two surface speeds."""
     slip: Annotated[float, Quantity("1", above=0, at_most=2)]
@@ -30,26 +23,18 @@ class TwinDiskConfig(KinematicsConfig):
     duration: Annotated[float, Quantity("s", above=0)]
     """How long they run."""
 
-
-class TwinDisk(Kinematics[TwinDiskConfig]):
-    """Slides |u1 − u2| t. In one pass a point slides |u1 − u2|/u_i per metre of contact, and it
-    passes u_i/l_i times a second: per metre of sliding its share is dx/l_i, whatever the slip.
-    """
-
-    Config = TwinDiskConfig
-
     @property
-    def duration(self) -> float:
-        return self.config.duration
+    def end_time(self) -> float:
+        return self.duration
 
-    def distance(self, time: float) -> float:
-        return self.config.slip * self.config.speed * time
+    def distance_at(self, time: float) -> float:
+        return self.slip * self.speed * time
 
-    def time(self, distance: float) -> float:
-        return distance / (self.config.slip * self.config.speed)
+    def time_at(self, distance: float) -> float:
+        return distance / (self.slip * self.speed)
 
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
-        given = self.config.circumference
+        given = self.circumference
         if set(given) != set(bodies):
             raise CaseError(
                 f"is given for {', '.join(given)}; the bodies are {', '.join(bodies)}",

@@ -153,9 +153,9 @@ def test_a_folder_with_another_case_is_left_alone(tmp_path):
 
 def test_a_run_that_was_interrupted_goes_on(tmp_path):
     from tribo import Interrupted
-    from tribo.interfaces.observer import Observer, ObserverConfig
+    from tribo.interfaces.observer import Observer
 
-    class StopAt(Observer[ObserverConfig]):
+    class StopAt(Observer):
         def on_step(self, snapshot):
             if snapshot.state.steps == 20:
                 raise KeyboardInterrupt
@@ -166,7 +166,7 @@ def test_a_run_that_was_interrupted_goes_on(tmp_path):
             case(),
             grid(axes),
             tmp_path,
-            observers=lambda: [StopAt(ObserverConfig(type="stop_at"))],
+            observers=lambda: [StopAt(Observer(type="stop_at"))],
         )
     with compare(case(), grid(axes), tmp_path) as resumed, compare(case(), grid(axes)) as whole:
         for a, b in zip(resumed.results.values(), whole.results.values(), strict=True):
@@ -174,13 +174,13 @@ def test_a_run_that_was_interrupted_goes_on(tmp_path):
 
 
 def test_a_run_that_was_killed_goes_on(tmp_path):
-    from tribo.interfaces.observer import Observer, ObserverConfig
+    from tribo.interfaces.observer import Observer
 
-    class Watch(Observer[ObserverConfig]):
+    class Watch(Observer):
         """Copies what a kill would leave after 150 s, and notes the times of all steps."""
 
         def __init__(self, copy=None):
-            super().__init__(ObserverConfig(type="watch"))
+            super().__init__(Observer(type="watch"))
             self.copy, self.times = copy, []
 
         def on_step(self, snapshot):

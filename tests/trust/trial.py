@@ -13,14 +13,14 @@ from pathlib import Path
 import h5py
 import numpy as np
 from paper_models import flat, half_space, motion, small, sphere, steel
-from strangers.running_in import RunningIn, RunningInConfig
+from strangers.running_in import RunningIn
 
 import tribo.simulation.run
 from tribo import Body, Grid, Simulation
 from tribo.core.errors import TriboError
-from tribo.interfaces.observer import Observer, ObserverConfig
+from tribo.interfaces.observer import Observer
 from tribo.observers import recorder
-from tribo.observers.recorder import RecorderConfig
+from tribo.observers.recorder import Recorder
 from tribo.results import sealed_writer
 
 SAVES = tuple(range(10, 100, 10))
@@ -33,7 +33,7 @@ WAITS = 0.2
 
 def simulation():
     """A hundred seconds of a ball on a disk, whose laws remember."""
-    law = RunningIn(RunningInConfig(k_first=9e-16, k_last=3e-16, length=5.0))
+    law = RunningIn(k_first=9e-16, k_last=3e-16, length=5.0)
     model = small(
         grid=Grid((0.7e-3, 0.7e-3), (24, 24)),
         contact=half_space(),
@@ -44,11 +44,11 @@ def simulation():
     return Simulation(model)
 
 
-class Acknowledge(Observer[ObserverConfig]):
+class Acknowledge(Observer):
     """Writes the time of each save to a pipe once the recorder has it."""
 
     def __init__(self, pipe):
-        super().__init__(ObserverConfig(type="trust.acknowledge"))
+        super().__init__(Observer(type="trust.acknowledge"))
         self.pipe = pipe
 
     def on_save(self, snapshot):
@@ -109,7 +109,7 @@ def start(work, *args):
         os.close(reading)
         warnings.simplefilter("ignore")
         recorder.SYNC_EVERY = WAITS
-        tribo.simulation.run.RecorderConfig = partial(RecorderConfig, checkpoint_every=CHECKPOINTS)
+        tribo.simulation.run.Recorder = partial(Recorder, checkpoint_every=CHECKPOINTS)
         work(*args, writing)
         code = 0
     except TriboError as error:

@@ -5,8 +5,8 @@ from pydantic import ValidationError
 from tribo.core.errors import CaseError
 from tribo.core.fields import LocalConditions
 from tribo.core.material import Material
-from tribo.wear.archard import Archard, ArchardConfig
-from tribo.wear.power import Power, PowerConfig
+from tribo.wear.archard import Archard
+from tribo.wear.power import Power
 
 STEEL = Material(young="207 GPa", poisson=0.3, hardness="4 GPa")
 PRESSURE = np.linspace(0, 3e9, 12).reshape(3, 4)
@@ -17,40 +17,40 @@ def at(pressure, material=STEEL):
 
 
 def test_archard_is_depth_k_p_s():
-    rate = Archard(ArchardConfig(k="3.11e-16 1/Pa")).rate(at(PRESSURE))
+    rate = Archard(k="3.11e-16 1/Pa").rate(at(PRESSURE))
     np.testing.assert_allclose(rate.depth, 3.11e-16 * PRESSURE)
 
 
 def test_archard_takes_k_as_coefficient_over_hardness():
-    from_material = Archard(ArchardConfig(K=1.244e-6)).rate(at(PRESSURE))
+    from_material = Archard(K=1.244e-6).rate(at(PRESSURE))
     np.testing.assert_allclose(from_material.depth, 3.11e-16 * PRESSURE)
-    own = Archard(ArchardConfig(K=1.244e-6, hardness="2 GPa")).rate(at(PRESSURE))
+    own = Archard(K=1.244e-6, hardness="2 GPa").rate(at(PRESSURE))
     np.testing.assert_allclose(own.depth, 2 * from_material.depth)
 
 
 def test_archard_needs_a_hardness_for_the_coefficient():
     soft = Material(young="207 GPa", poisson=0.3)
     with pytest.raises(CaseError, match="K needs a hardness"):
-        Archard(ArchardConfig(K=1e-6)).check(soft)
+        Archard(K=1e-6).check(soft)
 
 
 @pytest.mark.parametrize("given", [{}, {"k": 1e-15, "K": 1e-6}])
 def test_archard_takes_one_coefficient(given):
     with pytest.raises(ValidationError, match="exactly one of k"):
-        ArchardConfig(**given)
+        Archard(**given)
 
 
 def test_power_of_one_is_archard():
-    power = Power(PowerConfig(k="3.11e-16 1/Pa", p_exponent=1, reference_pressure="1 GPa"))
+    power = Power(k="3.11e-16 1/Pa", p_exponent=1, reference_pressure="1 GPa")
     np.testing.assert_allclose(power.rate(at(PRESSURE)).depth, 3.11e-16 * PRESSURE)
 
 
 @pytest.mark.parametrize(
     "law",
     [
-        Archard(ArchardConfig(k=3e-16)),
-        Power(PowerConfig(k=3e-16, p_exponent=1.5, reference_pressure="1 GPa")),
-        Power(PowerConfig(k=3e-16, p_exponent=3, reference_pressure="1 GPa")),
+        Archard(k=3e-16),
+        Power(k=3e-16, p_exponent=1.5, reference_pressure="1 GPa"),
+        Power(k=3e-16, p_exponent=3, reference_pressure="1 GPa"),
     ],
     ids=["archard", "p^1.5", "p^3"],
 )

@@ -6,14 +6,14 @@ import pytest
 from pydantic import AfterValidator, ConfigDict, PrivateAttr, field_serializer, model_validator
 from zoo_keeper import Zoo, case_of, expect_harmless, expect_one_message
 
-from tribo.plugin import CaseError, Observer, ObserverConfig
+from tribo.plugin import CaseError, Observer
 
 ZOO = Zoo()
 bad = ZOO.bad
 
 
-class Watcher(Observer[ObserverConfig]):
-    Config = ObserverConfig
+class Watcher(Observer):
+    Config = Observer
 
 
 def helper(value):
@@ -22,7 +22,7 @@ def helper(value):
 
 @bad("could not read its keys: LookupError: no such", code=2)
 class ValidatorRaises(Watcher):
-    class Config(ObserverConfig):
+    class Config(Observer):
         key: Annotated[str, AfterValidator(helper)] = "such"
         model_config = ConfigDict(validate_default=True)
 
@@ -30,7 +30,7 @@ class ValidatorRaises(Watcher):
 def validated(error):
     """Return a configuration whose validator raises `error`."""
 
-    class Config(ObserverConfig):
+    class Config(Observer):
         @model_validator(mode="after")
         def _check(self):
             raise error
@@ -65,7 +65,7 @@ class ValidatorRefuses(Watcher):
 
 @bad("could not read its keys: RuntimeError: no license", code=2)
 class InitialisationRaises(Watcher):
-    class Config(ObserverConfig):
+    class Config(Observer):
         _license: object = PrivateAttr(default_factory=lambda: None)
 
         def model_post_init(self, context):
@@ -86,7 +86,7 @@ class KeepsNoConfiguration(Watcher):
 
 @bad("Error calling function")
 class CannotBeWritten(Watcher):
-    class Config(ObserverConfig):
+    class Config(Observer):
         key: str = "value"
 
         @field_serializer("key")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from zoo_keeper import Zoo, expect_harmless, expect_one_message
 
-from tribo.plugin import CaseError, Effect, EffectConfig, Field
+from tribo.plugin import CaseError, Effect, Field
 
 ZOO = Zoo()
 
@@ -13,10 +13,10 @@ def bad(words):
     return ZOO.bad(words, saved=True)
 
 
-class Heat(Effect[EffectConfig]):
+class Heat(Effect):
     """A field of the pressure's shape for each body, and what is made of it."""
 
-    Config = EffectConfig
+    Config = Effect
     provides = (Field("zoo_heat", "W/m^2", "Power per area."),)
 
     def fields(self, contact):
@@ -118,8 +118,8 @@ def test_one_that_does_not_say_what_it_provides_is_not_loaded(run):
     zoo = Zoo()
 
     @zoo.bad("", code=2)
-    class Mute(Effect[EffectConfig]):
-        Config = EffectConfig
+    class Mute(Effect):
+        Config = Effect
 
         def fields(self, contact):
             return {}

@@ -14,31 +14,31 @@ bad = ZOO.bad
 
 @bad("to -2 m; it must slide on from 0")
 class Backwards(Unidirectional):
-    def distance(self, time):
-        return -super().distance(time)
+    def distance_at(self, time):
+        return -super().distance_at(time)
 
 
 @bad("slides from 1 m")
 class BeginsSomewhere(Unidirectional):
-    def distance(self, time):
-        return 1 + super().distance(time)
+    def distance_at(self, time):
+        return 1 + super().distance_at(time)
 
 
 @bad("slides from 0 m to 0 m")
 class StandsStill(Unidirectional):
-    def distance(self, time):
+    def distance_at(self, time):
         return 0.0
 
 
 @bad("a path at 0 s that is not a finite number: a NoneType")
 class NoPath(Unidirectional):
-    def distance(self, time):
+    def distance_at(self, time):
         return None
 
 
 @bad("that is not a finite number: nan")
 class PathNotANumber(Unidirectional):
-    def distance(self, time):
+    def distance_at(self, time):
         return np.nan * time
 
 
@@ -54,13 +54,13 @@ class EndsBefore(Unidirectional):
 
 @bad("time is not the inverse of its distance")
 class TimeIsNoInverse(Unidirectional):
-    def time(self, distance):
-        return 0.5 * super().time(distance)
+    def time_at(self, distance):
+        return 0.5 * super().time_at(distance)
 
 
 @bad("a time at 0.25 m that is not a finite number: a str")
 class TimeInWords(Unidirectional):
-    def time(self, distance):
+    def time_at(self, distance):
         return "soon"
 
 
@@ -92,22 +92,22 @@ class CannotExpose(Unidirectional):
 class TurnsBack(Unidirectional):
     """It does so between the times that are tried at first."""
 
-    def distance(self, time):
-        return super().distance(time) if abs(time - 7) > 0.1 else 0.0
+    def distance_at(self, time):
+        return super().distance_at(time) if abs(time - 7) > 0.1 else 0.0
 
 
 @bad("raised OverflowError: too late", saved=True)
 class StopsInTheMiddle(Unidirectional):
-    def distance(self, time):
+    def distance_at(self, time):
         if abs(time - 7) < 0.1:
             raise OverflowError("too late")
-        return super().distance(time)
+        return super().distance_at(time)
 
 
 @bad("puts 0.", saved=True)
 class LosesTheTime(Unidirectional):
-    def time(self, distance):
-        return super().time(distance) if 80 * distance % 1 == 0 else 0.0
+    def time_at(self, distance):
+        return super().time_at(distance) if 80 * distance % 1 == 0 else 0.0
 
 
 @bad("gave a int as its limitation")

@@ -6,13 +6,13 @@ from zoo_keeper import Zoo, case_of, expect_harmless, expect_one_message
 
 from tribo import Result, Simulation
 from tribo.contact.dcfft import DcFft
-from tribo.plugin import Observer, ObserverConfig
+from tribo.plugin import Observer
 
 ZOO, MEDDLERS = Zoo(), Zoo()
 
 
-class Watcher(Observer[ObserverConfig]):
-    Config = ObserverConfig
+class Watcher(Observer):
+    Config = Observer
 
 
 def bad(words):

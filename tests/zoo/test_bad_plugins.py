@@ -18,12 +18,12 @@ from tribo.registry.loader import installed, load
 LAW = """
 from typing import Literal
 import numpy as np
-from tribo.plugin import Field, LocalConditions, WearLaw, WearLawConfig, WearRate, hookimpl
+from tribo.plugin import Field, LocalConditions, WearLaw, WearRate, hookimpl
 
-class BadConfig(WearLawConfig):
-    type: Literal["zoo.bad"] = "zoo.bad"
+class BadConfig(WearLaw):
+    type = "zoo.bad"
 
-class Bad(WearLaw[BadConfig]):
+class Bad(WearLaw):
     Config = BadConfig
     {extra}
 

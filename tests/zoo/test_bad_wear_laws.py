@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from zoo_keeper import Zoo, expect_harmless, expect_one_message
 
-from tribo.plugin import Field, WearLaw, WearLawConfig, WearRate
+from tribo.plugin import Field, WearLaw, WearRate
 
 ZOO = Zoo()
 bad = ZOO.bad
@@ -14,10 +14,10 @@ def bad_later(words):
     return ZOO.bad(words, saved=True)
 
 
-class Law(WearLaw[WearLawConfig]):
+class Law(WearLaw):
     """Good for 20 calls; `spoilt` is what it answers after them."""
 
-    Config = WearLawConfig
+    Config = WearLaw
 
     def __init__(self, config):
         super().__init__(config)

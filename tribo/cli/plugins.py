@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
@@ -113,8 +113,8 @@ def check(name: str) -> None:
         raise NumericalError(f"{', '.join(failed)} does not conform; see above")
 
 
-def _files_needed(cls: type[Component[Any]]) -> list[str]:
-    fields = cls.Config.model_fields.items()
+def _files_needed(cls: type[Component]) -> list[str]:
+    fields = cls.model_fields.items()
     return [name for name, field in fields if field.is_required() and field.annotation is Path]
 
 

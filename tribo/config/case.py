@@ -14,12 +14,12 @@ from tribo.config.table import Table
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.core.units import Quantity
-from tribo.interfaces.contact import ContactSolverConfig
-from tribo.interfaces.effect import EffectConfig
-from tribo.interfaces.kinematics import KinematicsConfig
-from tribo.interfaces.observer import ObserverConfig
-from tribo.interfaces.surface import SurfaceConfig
-from tribo.interfaces.wear import WearLawConfig
+from tribo.interfaces.contact import ContactSolver
+from tribo.interfaces.effect import Effect
+from tribo.interfaces.kinematics import Kinematics
+from tribo.interfaces.observer import Observer
+from tribo.interfaces.surface import Surface
+from tribo.interfaces.wear import WearLaw
 
 Length = Annotated[float, Quantity("m", above=0)]
 Cells = Annotated[int, Field(ge=4, le=16384)]
@@ -61,11 +61,11 @@ class LoadConfig(Table):
 class BodyConfig(Table):
     """One of the two bodies."""
 
-    surface: Annotated[SurfaceConfig, Slot("surface")]
+    surface: Annotated[Surface, Slot("surface")]
     """Shape before it wears."""
     material: Material
     """What it is made of."""
-    wear: Annotated[WearLawConfig, Slot("wear_law")] | None = None
+    wear: Annotated[WearLaw, Slot("wear_law")] | None = None
     """How it wears; it does not if left out."""
 
 
@@ -92,18 +92,18 @@ class Case(Table):
     load: LoadConfig
     bodies: dict[str, BodyConfig]
     """The two bodies, by name."""
-    contact: Annotated[ContactSolverConfig, Slot("contact_solver")] = Field(
+    contact: Annotated[ContactSolver, Slot("contact_solver")] = Field(
         default="dcfft", validate_default=True
     )
     """How the normal contact is solved."""
-    kinematics: Annotated[KinematicsConfig, Slot("kinematics")]
+    kinematics: Annotated[Kinematics, Slot("kinematics")]
     """How the bodies move."""
     stepping: Stepping = ImplicitConfig()
     """How the run moves on in time."""
     friction: FrictionConfig | None = None
-    effects: tuple[Annotated[EffectConfig, Slot("effect")], ...] = ()
+    effects: tuple[Annotated[Effect, Slot("effect")], ...] = ()
     """What else the contact produces."""
-    observers: tuple[Annotated[ObserverConfig, Slot("observer")], ...] = ()
+    observers: tuple[Annotated[Observer, Slot("observer")], ...] = ()
     """Who watches the run."""
     output: OutputConfig = OutputConfig()
     stop: StopConfig = StopConfig()

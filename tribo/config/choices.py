@@ -11,12 +11,12 @@ from pydantic import BaseModel
 
 from tribo.core.errors import CaseError, TriboWarning
 from tribo.core.words import said
-from tribo.interfaces.component import ComponentConfig
+from tribo.interfaces.component import Component
 from tribo.registry.kinds import KINDS
 from tribo.registry.registry import Registry
 
 Mode = Literal["validation", "serialization"]
-Configs = dict[str, type[ComponentConfig]]
+Configs = dict[str, type[Component]]
 
 trying: ContextVar[bool] = ContextVar("trying", default=False)
 """Whether the schema of one configuration is tried, in which slots are of no interest."""
@@ -50,7 +50,7 @@ class Choices:
             self._found[kind] = {name: config for name, config in configs.items() if config}
         return self._found[kind]
 
-    def _config(self, kind: str, name: str) -> type[ComponentConfig] | None:
+    def _config(self, kind: str, name: str) -> type[Component] | None:
         try:
             record = self._registry.record(kind, name)
         except CaseError:
@@ -59,14 +59,14 @@ class Choices:
                 raise
             self._warn(f"{plugin} is left out: {plugin.reason}")
             return None
-        fault = _fault(record.cls.Config, self._mode)
+        fault = _fault(record.cls, self._mode)
         if fault:
             self._warn(
                 f"{KINDS[kind].words} {name!r} of {record.plugin} is left out: making the schema "
                 f"of its configuration raised {fault}"
             )
             return None
-        return record.cls.Config
+        return record.cls
 
     def _warn(self, message: str) -> None:
         if message not in self._told:

@@ -149,7 +149,7 @@ def _table(
         slot = next((mark for mark in marks if isinstance(mark, Slot)), None)
         if slot is not None and isinstance(tag, str):
             try:
-                return registry.lookup(slot.kind, tag).Config
+                return registry.lookup(slot.kind, tag)
             except CaseError:
                 return None
         if slot is None and _is_model(member):

@@ -14,7 +14,7 @@ from pydantic_core.core_schema import SerializationInfo, ValidationInfo
 from tribo.config.schema import slot_schema
 from tribo.core.errors import CaseError
 from tribo.core.words import said
-from tribo.interfaces.component import ComponentConfig
+from tribo.interfaces.component import Component
 from tribo.registry.kinds import KINDS
 from tribo.registry.registry import Registry, default_registry
 
@@ -23,7 +23,7 @@ from tribo.registry.registry import Registry, default_registry
 class Slot:
     """Marks a field that takes the configuration of any component of a kind.
 
-    Used as ``Annotated[WearLawConfig, Slot("wear_law")]``. The field takes a
+    Used as ``Annotated[WearLaw, Slot("wear_law")]``. The field takes a
     configuration, a table whose ``type`` names a component, or that name
     alone. Names are looked up, at validation time, in
     ``context={"registry": …}`` or else in the default registry.
@@ -42,7 +42,7 @@ class Slot:
         """Return how pydantic validates and serialises the field."""
         words = KINDS[self.kind].words
 
-        def validate(value: object, info: ValidationInfo) -> ComponentConfig:
+        def validate(value: object, info: ValidationInfo) -> Component:
             if isinstance(value, source):
                 return value  # type: ignore[no-any-return]
             registry = (info.context or {}).get("registry") or default_registry()
@@ -74,14 +74,14 @@ class Slot:
         return slot_schema(self.kind, handler)
 
 
-def _config(registry: Registry, slot: Slot, value: Mapping[Any, object]) -> type[ComponentConfig]:
+def _config(registry: Registry, slot: Slot, value: Mapping[Any, object]) -> type[Component]:
     if "type" not in value:
         raise _at_type(f"type is missing; {_choose(registry, slot)}", value)
     name = value["type"]
     if not isinstance(name, str):
         raise _at_type(f"type must be text; {_choose(registry, slot)}", name)
     try:
-        return registry.lookup(slot.kind, name).Config
+        return registry.lookup(slot.kind, name)
     except CaseError as error:
         raise _at_type(str(error), name) from None
 
@@ -99,9 +99,8 @@ def _at_type(text: str, value: object) -> ValidationError:
     return ValidationError.from_exception_data("Slot", [details])
 
 
-def _dump(value: ComponentConfig, info: SerializationInfo) -> dict[str, Any]:
-    # `type` is written even where defaults are left out: without it nothing can be read back.
-    dumped = value.model_dump(
+def _dump(value: Component, info: SerializationInfo) -> dict[str, Any]:
+    return value.model_dump(
         mode=info.mode,
         include=info.include,  # type: ignore[arg-type]
         exclude=info.exclude,  # type: ignore[arg-type]
@@ -112,4 +111,3 @@ def _dump(value: ComponentConfig, info: SerializationInfo) -> dict[str, Any]:
         exclude_none=info.exclude_none,
         round_trip=info.round_trip,
     )
-    return {"type": value.type, **dumped}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import lru_cache
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar
 
 import numpy as np
 from pydantic import Field
@@ -19,26 +19,14 @@ from tribo.core.arrays import Array, Mask
 from tribo.core.contact import ContactProblem, ContactSolution, ContactSystem, WearCompliance
 from tribo.core.errors import NumericalError
 from tribo.core.units import Quantity
-from tribo.interfaces.contact import ContactSolver, ContactSolverConfig
+from tribo.interfaces.contact import ContactSolver
 
 _MARGIN = 2
 _COARSEST = 64
 _COARSE_TOLERANCE = 1e-3
 
 
-class DcFftConfig(ContactSolverConfig):
-    """Elastic half-spaces with Love's kernel, solved by conjugate gradients."""
-
-    type: Literal["dcfft"] = "dcfft"
-
-    tolerance: Annotated[float, Quantity("1", above=1e-14, below=1e-2)] = 1e-8
-    """Largest residual of the contact conditions, relative to load and approach."""
-
-    max_iterations: int = Field(default=500, gt=0)
-    """Iterations after which a solve is given up."""
-
-
-class DcFft(ContactSolver[DcFftConfig]):
+class DcFft(ContactSolver):
     """Contact of two elastic half-spaces, yielding where the pressure reaches the hardness.
 
     Each cell is under uniform pressure (Love 1929); the convolution is exact
@@ -51,7 +39,14 @@ class DcFft(ContactSolver[DcFftConfig]):
     as long as no cell outside the box overlaps, which is checked.
     """
 
-    Config: ClassVar[type[DcFftConfig]] = DcFftConfig
+    type = "dcfft"
+
+    tolerance: Annotated[float, Quantity("1", above=1e-14, below=1e-2)] = 1e-8
+    """Largest residual of the contact conditions, relative to load and approach."""
+
+    max_iterations: int = Field(default=500, gt=0)
+    """Iterations after which a solve is given up."""
+
     accepts_wear_compliance: ClassVar[bool] = True
     honours_cap: ClassVar[bool] = True
 
@@ -69,14 +64,14 @@ class DcFft(ContactSolver[DcFftConfig]):
         guess = None if start is None else start.pressure
         # Before the window is cut down to a box, about which no message should speak.
         check_window(problem.system.grid, problem.load, self._cap(problem.system))
-        return self._solve(problem, guess, self.config.tolerance)
+        return self._solve(problem, guess, self.tolerance)
 
     def smallest_compliance(self, system: ContactSystem) -> float:
         """Return the compliance of the chequerboard mode, in m/Pa."""
         return nyquist_compliance(system.grid.spacing) / system.modulus
 
     def _cap(self, system: ContactSystem) -> float | None:
-        return system.cap if self.config.plasticity else None
+        return system.cap if self.plasticity else None
 
     def _solve(
         self, problem: ContactProblem, guess: Array | None, tolerance: float
@@ -99,7 +94,7 @@ class DcFft(ContactSolver[DcFftConfig]):
                 _wear_on(box, problem.wear),
                 start=None if guess is None else guess[box.slices],
                 tolerance=tolerance,
-                max_iterations=self.config.max_iterations,
+                max_iterations=self.max_iterations,
             )
             iterations += solution.iterations
             if not box.is_window:
@@ -119,9 +114,7 @@ class DcFft(ContactSolver[DcFftConfig]):
         if min(cells) < _COARSEST:
             return None
         try:
-            coarse = self._solve(
-                coarsen(problem), None, max(_COARSE_TOLERANCE, self.config.tolerance)
-            )
+            coarse = self._solve(coarsen(problem), None, max(_COARSE_TOLERANCE, self.tolerance))
         except NumericalError:
             # A start is worth having, not worth failing for.
             return None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import lru_cache
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar
 
 import numpy as np
 import scipy.fft
@@ -15,7 +15,7 @@ from tribo.contact.conditions import check_window
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactProblem, ContactSolution, ContactSystem
 from tribo.core.units import Quantity
-from tribo.interfaces.contact import ContactSolver, ContactSolverConfig
+from tribo.interfaces.contact import ContactSolver
 
 
 class PeriodicHalfSpace:
@@ -71,19 +71,7 @@ class PeriodicHalfSpace:
         return np.full(self.shape, self._self_compliance)
 
 
-class PeriodicConfig(ContactSolverConfig):
-    """Elastic half-spaces whose contact repeats with the window, along x and y."""
-
-    type: Literal["periodic"] = "periodic"
-
-    tolerance: Annotated[float, Quantity("1", above=1e-14, below=1e-2)] = 1e-8
-    """Largest residual of the contact conditions, relative to load and displacement."""
-
-    max_iterations: int = Field(default=500, gt=0)
-    """Iterations after which a solve is given up."""
-
-
-class Periodic(ContactSolver[PeriodicConfig]):
+class Periodic(ContactSolver):
     """Contact of two half-spaces that repeats with the window, for nominally flat surfaces.
 
     The window is one period along x and y, and its mean pressure the load over
@@ -93,7 +81,14 @@ class Periodic(ContactSolver[PeriodicConfig]):
     `dcfft`.
     """
 
-    Config: ClassVar[type[PeriodicConfig]] = PeriodicConfig
+    type = "periodic"
+
+    tolerance: Annotated[float, Quantity("1", above=1e-14, below=1e-2)] = 1e-8
+    """Largest residual of the contact conditions, relative to load and displacement."""
+
+    max_iterations: int = Field(default=500, gt=0)
+    """Iterations after which a solve is given up."""
+
     accepts_wear_compliance: ClassVar[bool] = True
     honours_cap: ClassVar[bool] = True
     periodic: ClassVar[bool] = True
@@ -116,8 +111,8 @@ class Periodic(ContactSolver[PeriodicConfig]):
             self._cap(problem.system),
             problem.wear,
             start=None if start is None else start.pressure,
-            tolerance=self.config.tolerance,
-            max_iterations=self.config.max_iterations,
+            tolerance=self.tolerance,
+            max_iterations=self.max_iterations,
         )
         return replace(solution, approach=solution.approach + lowest)
 
@@ -127,7 +122,7 @@ class Periodic(ContactSolver[PeriodicConfig]):
         return 2.0 / (system.modulus * np.pi * float(np.hypot(1 / dx, 1 / dy)))
 
     def _cap(self, system: ContactSystem) -> float | None:
-        return system.cap if self.config.plasticity else None
+        return system.cap if self.plasticity else None
 
 
 @lru_cache(maxsize=8)

@@ -12,7 +12,7 @@ from tribo.contact.foundation import solve_foundation
 from tribo.core.contact import ContactProblem, ContactSolution, ContactSystem
 from tribo.core.errors import CaseError
 from tribo.core.units import Quantity
-from tribo.interfaces.contact import ContactSolver, ContactSolverConfig
+from tribo.interfaces.contact import ContactSolver
 
 Match = Literal["contact_radius", "peak_pressure", "approach"]
 
@@ -38,10 +38,15 @@ class Layer(BaseModel):
         return self.young * (1 - nu) / ((1 + nu) * (1 - 2 * nu) * self.thickness)
 
 
-class WinklerConfig(ContactSolverConfig):
-    """Independent springs; give one of `modulus`, `layer` and `match`, or none."""
+class Winkler(ContactSolver):
+    """p = K_w times the local overlap, at most the hardness: independent springs.
 
-    type: Literal["winkler"] = "winkler"
+    Valid for a thin compliant layer on a stiff base (`layer`). For a half-space
+    it is a fit: matched to one quantity of the first contact, it misses the
+    others (Põdra & Andersson 1997, Wear 207, 79-85).
+    """
+
+    type = "winkler"
 
     modulus: Annotated[float, Quantity("Pa/m", above=0)] | None = None
     """Foundation modulus K_w, pressure per depth."""
@@ -54,7 +59,7 @@ class WinklerConfig(ContactSolverConfig):
     default when neither `modulus` nor `layer` is given), the peak pressure or the approach."""
 
     @model_validator(mode="after")
-    def _one_source(self) -> WinklerConfig:
+    def _one_source(self) -> Winkler:
         given = [name for name in ("modulus", "layer", "match") if getattr(self, name) is not None]
         if len(given) > 1:
             raise ValueError(
@@ -63,16 +68,6 @@ class WinklerConfig(ContactSolverConfig):
             )
         return self
 
-
-class Winkler(ContactSolver[WinklerConfig]):
-    """p = K_w times the local overlap, at most the hardness: independent springs.
-
-    Valid for a thin compliant layer on a stiff base (`layer`). For a half-space
-    it is a fit: matched to one quantity of the first contact, it misses the
-    others (Põdra & Andersson 1997, Wear 207, 79-85).
-    """
-
-    Config: ClassVar[type[WinklerConfig]] = WinklerConfig
     accepts_wear_compliance: ClassVar[bool] = True
     honours_cap: ClassVar[bool] = True
 
@@ -88,11 +83,11 @@ class Winkler(ContactSolver[WinklerConfig]):
         CaseError
             If it is to match Hertz's contact and `system` has no such contact.
         """
-        if self.config.modulus is not None:
-            return self.config.modulus
-        if self.config.layer is not None:
-            return self.config.layer.foundation_modulus
-        return matched_modulus(system, self.config.match or "contact_radius")
+        if self.modulus is not None:
+            return self.modulus
+        if self.layer is not None:
+            return self.layer.foundation_modulus
+        return matched_modulus(system, self.match or "contact_radius")
 
     def solve(
         self, problem: ContactProblem, start: ContactSolution | None = None
@@ -101,7 +96,7 @@ class Winkler(ContactSolver[WinklerConfig]):
         return solve_foundation(
             problem,
             self.foundation_modulus(problem.system),
-            problem.system.cap if self.config.plasticity else None,
+            problem.system.cap if self.plasticity else None,
             None if start is None else start.approach,
         )
 

@@ -1,46 +1,77 @@
-"""What every plug point has in common: a configuration and a class."""
+"""What every model has in common: fields that configure it, and a name for files."""
 
 from __future__ import annotations
 
+import inspect
 from abc import ABC
 from collections.abc import Mapping
-from typing import ClassVar, Generic, TypeVar
+from typing import Any, ClassVar
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    GetJsonSchemaHandler,
+    SerializerFunctionWrapHandler,
+    model_serializer,
+    model_validator,
+)
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema
 
 
-class ComponentConfig(BaseModel):
-    """Base of every component's configuration.
+class Component(BaseModel, ABC):
+    """A model: its fields are its configuration, its methods its physics.
 
-    A subclass narrows ``type`` to the ``Literal`` that names it in a case.
+    It is frozen and knows all its keys. What it caches is private and changes
+    no answer; what evolves in a run is never kept in it.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
 
-    type: str
+    type: ClassVar[str]
+    """The name that stands for the class in a case."""
 
+    @classmethod
+    def __pydantic_init_subclass__(cls, **kwargs: Any) -> None:
+        """Require a name of every class that can be made."""
+        is_kind = Component in cls.__bases__ or inspect.isabstract(cls)
+        if not is_kind and not isinstance(getattr(cls, "type", None), str):
+            raise TypeError(
+                f"{cls.__qualname__} has no name for cases; give it one, as in "
+                f"type = '{cls.__name__.lower()}'"
+            )
 
-C_co = TypeVar("C_co", bound=ComponentConfig, covariant=True)
+    @model_validator(mode="before")
+    @classmethod
+    def _without_its_type(cls, data: Any) -> Any:
+        if isinstance(data, Mapping) and data.get("type") == getattr(cls, "type", None):
+            return {key: value for key, value in data.items() if key != "type"}
+        return data
 
+    @model_serializer(mode="wrap")
+    def _with_its_type(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        return {"type": self.type, **handler(self)}
 
-class Component(ABC, Generic[C_co]):
-    """A configured model. It holds its configuration and caches, nothing that evolves.
+    @classmethod
+    def __get_pydantic_json_schema__(
+        cls, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        """Add the name to the schema of the fields."""
+        made = handler.resolve_ref_schema(handler(schema))
+        named = {"const": cls.type, "default": cls.type, "title": "Type", "type": "string"}
+        made["properties"] = {"type": named, **made.get("properties", {})}
+        return made
 
-    Parameters
-    ----------
-    config : ComponentConfig
-        An instance of the class's ``Config``.
-    """
+    def __eq__(self, other: object) -> bool:
+        """Whether both are of one class and configured alike; what they cache does not count."""
+        return type(self) is type(other) and dict(self) == dict(other)  # type: ignore[call-overload]
 
-    Config: ClassVar[type[ComponentConfig]]
+    def __hash__(self) -> int:
+        return hash((type(self), *(value for _, value in self)))
 
-    def __init__(self, config: C_co) -> None:
-        self._config = config
-
-    @property
-    def config(self) -> C_co:
-        """The configuration this component was made from."""
-        return self._config
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Travel to another process as a class and its configuration."""
+        return type(self).model_validate, (dict(self),)
 
     def facts(self) -> Mapping[str, str]:
         """Return what a user ought to see before a run, such as what a file was read as.
@@ -54,8 +85,3 @@ class Component(ABC, Generic[C_co]):
             Text by its name, as in ``{"size": "1.24 × 0.94 mm"}``.
         """
         return {}
-
-    @classmethod
-    def type_name(cls) -> str:
-        """Return the name of this component in a case."""
-        return str(cls.Config.model_fields["type"].default)

@@ -6,17 +6,10 @@ from abc import abstractmethod
 from typing import ClassVar
 
 from tribo.core.contact import ContactProblem, ContactSolution, ContactSystem
-from tribo.interfaces.component import C_co, Component, ComponentConfig
+from tribo.interfaces.component import Component
 
 
-class ContactSolverConfig(ComponentConfig):
-    """Base configuration of a contact solver."""
-
-    plasticity: bool = True
-    """Whether the pressure is limited to the hardness of the softer body."""
-
-
-class ContactSolver(Component[C_co]):
+class ContactSolver(Component):
     """Solves the normal contact of two bodies under a given load."""
 
     accepts_wear_compliance: ClassVar[bool] = False
@@ -27,6 +20,9 @@ class ContactSolver(Component[C_co]):
 
     periodic: ClassVar[bool] = False
     """Whether the contact repeats with the window, so that it may reach the window's edge."""
+
+    plasticity: bool = True
+    """Whether the pressure is limited to the hardness of the softer body."""
 
     def check(self, system: ContactSystem) -> None:
         """Raise `CaseError` if this configuration cannot serve `system`."""

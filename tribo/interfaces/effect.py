@@ -9,14 +9,10 @@ from typing import ClassVar
 from tribo.core.arrays import Array
 from tribo.core.fields import ContactConditions, Field
 from tribo.core.material import Material
-from tribo.interfaces.component import C_co, Component, ComponentConfig
+from tribo.interfaces.component import Component
 
 
-class EffectConfig(ComponentConfig):
-    """Base configuration of an effect."""
-
-
-class Effect(Component[C_co]):
+class Effect(Component):
     """Derives local fields, such as a temperature, from the solved contact.
 
     Effects run after the contact is solved and cannot alter load or gap. An

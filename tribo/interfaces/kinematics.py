@@ -6,29 +6,33 @@ from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 
 from tribo.core.grid import Grid
-from tribo.interfaces.component import C_co, Component, ComponentConfig
+from tribo.interfaces.component import Component
 from tribo.interfaces.exposure import Exposure
 
 
-class KinematicsConfig(ComponentConfig):
-    """Base configuration of a motion."""
-
-
-class Kinematics(Component[C_co]):
+class Kinematics(Component):
     """A sliding motion along x."""
 
     @property
     @abstractmethod
-    def duration(self) -> float:
+    def end_time(self) -> float:
         """Time at which the motion ends, in s."""
 
     @abstractmethod
-    def distance(self, time: float) -> float:
-        """Return the path slid from 0 to `time` (s), in m; never decreasing."""
+    def distance_at(self, time: float) -> float:
+        """Return the sliding distance from 0 to `time` (s), in m; never decreasing."""
 
-    @abstractmethod
-    def time(self, distance: float) -> float:
-        """Return the time at which the path reaches `distance` (m), in s."""
+    def time_at(self, distance: float) -> float:
+        """Return the time at which the sliding distance reaches `distance` (m), in s.
+
+        Found by bisection of `distance_at` unless overridden.
+        """
+        low, high = 0.0, self.end_time
+        while True:
+            middle = 0.5 * (low + high)
+            if not low < middle < high:
+                return high
+            low, high = (middle, high) if self.distance_at(middle) < distance else (low, middle)
 
     @abstractmethod
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:

@@ -3,14 +3,10 @@
 from __future__ import annotations
 
 from tribo.core.state import RunInfo, Snapshot
-from tribo.interfaces.component import C_co, Component, ComponentConfig
+from tribo.interfaces.component import Component
 
 
-class ObserverConfig(ComponentConfig):
-    """Base configuration of an observer."""
-
-
-class Observer(Component[C_co]):
+class Observer(Component):
     """Watches a run through read-only views; it has no say in the answer.
 
     An exception that an observer raises stops the run; one raised in `on_finish`

@@ -6,14 +6,10 @@ from abc import abstractmethod
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
-from tribo.interfaces.component import C_co, Component, ComponentConfig
+from tribo.interfaces.component import Component
 
 
-class SurfaceConfig(ComponentConfig):
-    """Base configuration of a surface."""
-
-
-class Surface(Component[C_co]):
+class Surface(Component):
     """The shape of a body before it wears."""
 
     @abstractmethod

@@ -7,14 +7,10 @@ from typing import ClassVar
 
 from tribo.core.fields import Field, LocalConditions, WearRate
 from tribo.core.material import Material
-from tribo.interfaces.component import C_co, Component, ComponentConfig
+from tribo.interfaces.component import Component
 
 
-class WearLawConfig(ComponentConfig):
-    """Base configuration of a wear law."""
-
-
-class WearLaw(Component[C_co]):
+class WearLaw(Component):
     """A pointwise law of wear.
 
     It knows nothing of grids, strokes or the other body: averaging along a

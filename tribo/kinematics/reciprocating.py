@@ -11,18 +11,26 @@ from pydantic import ConfigDict, model_validator
 from tribo.core.grid import Grid
 from tribo.core.units import Quantity
 from tribo.interfaces.exposure import Exposure
-from tribo.interfaces.kinematics import Kinematics, KinematicsConfig
+from tribo.interfaces.kinematics import Kinematics
 from tribo.kinematics.swept import one_swept_body
 
 
-class ReciprocatingConfig(KinematicsConfig):
-    """Give exactly one of ``duration``, ``cycles`` and ``distance``."""
+class Reciprocating(Kinematics):
+    """Stroke S at frequency f: mean speed 2 S f, one body swept over the stroke.
+
+    With ``waveform = "sinusoidal"`` the position is −(S/2) cos(2πft). The
+    track average is over positions, so the waveform changes only the path at
+    times inside a half cycle.
+
+    The track average holds at mid-stroke while the contact, of half-width b
+    along x, passes wholly over it: S >= 4 b.
+    """
 
     model_config = ConfigDict(
         json_schema_extra={"examples": [{"stroke": "2 mm", "frequency": "25 Hz", "cycles": 100}]}
     )
 
-    type: Literal["reciprocating"] = "reciprocating"
+    type = "reciprocating"
     stroke: Annotated[float, Quantity("m", above=0)]
     """Distance between the two points of reversal."""
     frequency: Annotated[float, Quantity("Hz", above=0)]
@@ -44,56 +52,39 @@ class ReciprocatingConfig(KinematicsConfig):
             raise ValueError("give exactly one of duration, cycles and distance")
         return self
 
-
-class Reciprocating(Kinematics[ReciprocatingConfig]):
-    """Stroke S at frequency f: mean speed 2 S f, one body swept over the stroke.
-
-    With ``waveform = "sinusoidal"`` the position is −(S/2) cos(2πft). The
-    track average is over positions, so the waveform changes only the path at
-    times inside a half cycle.
-
-    The track average holds at mid-stroke while the contact, of half-width b
-    along x, passes wholly over it: S >= 4 b.
-    """
-
-    Config = ReciprocatingConfig
-
     @property
-    def duration(self) -> float:
+    def end_time(self) -> float:
         """Time at which the motion ends, in s."""
-        c = self.config
-        if c.duration is not None:
-            return c.duration
-        if c.cycles is not None:
-            return c.cycles / c.frequency
-        assert c.distance is not None
-        return self.time(c.distance)
+        if self.duration is not None:
+            return self.duration
+        if self.cycles is not None:
+            return self.cycles / self.frequency
+        assert self.distance is not None
+        return self.time_at(self.distance)
 
-    def distance(self, time: float) -> float:
+    def distance_at(self, time: float) -> float:
         """Return the path slid until `time`, in m."""
-        c = self.config
-        half_cycles = 2 * c.frequency * time
-        if c.waveform == "constant_speed":
-            return half_cycles * c.stroke
+        half_cycles = 2 * self.frequency * time
+        if self.waveform == "constant_speed":
+            return half_cycles * self.stroke
         whole = math.floor(half_cycles)
-        return (whole + math.sin(0.5 * math.pi * (half_cycles - whole)) ** 2) * c.stroke
+        return (whole + math.sin(0.5 * math.pi * (half_cycles - whole)) ** 2) * self.stroke
 
-    def time(self, distance: float) -> float:
+    def time_at(self, distance: float) -> float:
         """Return the time at which `distance` is reached, in s."""
-        c = self.config
-        strokes = distance / c.stroke
-        if c.waveform == "sinusoidal":
+        strokes = distance / self.stroke
+        if self.waveform == "sinusoidal":
             whole = math.floor(strokes)
             strokes = whole + math.asin(math.sqrt(strokes - whole)) / (0.5 * math.pi)
-        return strokes / (2 * c.frequency)
+        return strokes / (2 * self.frequency)
 
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
         """Return a track as long as the stroke for the swept body."""
-        return one_swept_body(grid, bodies, self.config.swept, self.config.stroke)
+        return one_swept_body(grid, bodies, self.swept, self.stroke)
 
     def limitation(self, grid: Grid, half_width_x: float) -> str | None:
         """Return a warning once the contact is longer than half the stroke by over a cell."""
-        stroke = self.config.stroke
+        stroke = self.stroke
         if half_width_x <= stroke / 4 + grid.spacing[0]:
             return None
         return (

@@ -4,19 +4,23 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Annotated, Literal, Self
+from typing import Annotated, Self
 
 from pydantic import ConfigDict, model_validator
 
 from tribo.core.grid import Grid
 from tribo.core.units import Quantity
 from tribo.interfaces.exposure import Exposure
-from tribo.interfaces.kinematics import Kinematics, KinematicsConfig
+from tribo.interfaces.kinematics import Kinematics
 from tribo.kinematics.swept import one_swept_body
 
 
-class UnidirectionalConfig(KinematicsConfig):
-    """Give one of ``track_length`` and ``track_radius``, and one end of the motion."""
+class Unidirectional(Kinematics):
+    """Constant speed v round a track of length ℓ; one body swept over the track.
+
+    The curvature of the track inside the contact is neglected: valid for
+    contacts small beside the track radius.
+    """
 
     model_config = ConfigDict(
         json_schema_extra={
@@ -24,7 +28,7 @@ class UnidirectionalConfig(KinematicsConfig):
         }
     )
 
-    type: Literal["unidirectional"] = "unidirectional"
+    type = "unidirectional"
     speed: Annotated[float, Quantity("m/s", above=0)]
     """Sliding speed."""
     track_length: Annotated[float, Quantity("m", above=0)] | None = None
@@ -48,53 +52,41 @@ class UnidirectionalConfig(KinematicsConfig):
             raise ValueError("give exactly one of duration, revolutions and distance")
         return self
 
-
-class Unidirectional(Kinematics[UnidirectionalConfig]):
-    """Constant speed v round a track of length ℓ; one body swept over the track.
-
-    The curvature of the track inside the contact is neglected: valid for
-    contacts small beside the track radius.
-    """
-
-    Config = UnidirectionalConfig
+    @property
+    def lap(self) -> float:
+        """Length of the closed track, in m."""
+        if self.track_length is not None:
+            return self.track_length
+        assert self.track_radius is not None
+        return 2 * math.pi * self.track_radius
 
     @property
-    def track_length(self) -> float:
-        """Length of the track, in m."""
-        c = self.config
-        if c.track_length is not None:
-            return c.track_length
-        assert c.track_radius is not None
-        return 2 * math.pi * c.track_radius
-
-    @property
-    def duration(self) -> float:
+    def end_time(self) -> float:
         """Time at which the motion ends, in s."""
-        c = self.config
-        if c.duration is not None:
-            return c.duration
-        if c.revolutions is not None:
-            return c.revolutions * self.track_length / c.speed
-        assert c.distance is not None
-        return c.distance / c.speed
+        if self.duration is not None:
+            return self.duration
+        if self.revolutions is not None:
+            return self.revolutions * self.lap / self.speed
+        assert self.distance is not None
+        return self.distance / self.speed
 
-    def distance(self, time: float) -> float:
+    def distance_at(self, time: float) -> float:
         """Return the path slid until `time`, in m."""
-        return self.config.speed * time
+        return self.speed * time
 
-    def time(self, distance: float) -> float:
+    def time_at(self, distance: float) -> float:
         """Return the time at which `distance` is reached, in s."""
-        return distance / self.config.speed
+        return distance / self.speed
 
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
         """Return the closed track for the swept body."""
-        return one_swept_body(grid, bodies, self.config.swept, self.track_length)
+        return one_swept_body(grid, bodies, self.swept, self.lap)
 
     def limitation(self, grid: Grid, half_width_x: float) -> str | None:
         """Return a warning once the contact is longer than the track."""
-        if 2 * half_width_x <= self.track_length:
+        if 2 * half_width_x <= self.lap:
             return None
         return (
             f"the contact is {2e3 * half_width_x:.3g} mm long, longer than the track of "
-            f"{1e3 * self.track_length:.3g} mm: the track average no longer holds"
+            f"{1e3 * self.lap:.3g} mm: the track average no longer holds"
         )

@@ -5,41 +5,33 @@ from __future__ import annotations
 import math
 import sys
 import time
-from typing import Literal
 
+from pydantic import PrivateAttr
 from rich.console import Console
 from rich.live import Live
 from rich.text import Text
 
 from tribo.core.state import RunInfo, Snapshot
-from tribo.interfaces.observer import Observer, ObserverConfig
+from tribo.interfaces.observer import Observer
 
 QUIET = 2.0
 
 
-class ProgressConfig(ObserverConfig):
-    """Configuration of `Progress`."""
-
-    type: Literal["progress"] = "progress"
-
-
-class Progress(Observer[ProgressConfig]):
+class Progress(Observer):
     """A live line on stderr: time, step, pressure, worn depth, time to go.
 
     Runs shorter than two seconds stay silent. Where stderr is no terminal, a
     plain line is printed at each save.
     """
 
-    Config = ProgressConfig
+    type = "progress"
 
-    def __init__(self, config: ProgressConfig | None = None) -> None:
-        super().__init__(config or ProgressConfig())
-        self._console = Console(file=sys.stderr)
-        self._live: Live | None = None
-        self._run: RunInfo | None = None
-        self._begun = 0.0
-        self._steps = 0
-        self._previous = 0.0
+    _console: Console = PrivateAttr(default_factory=lambda: Console(file=sys.stderr))
+    _live: Live | None = None
+    _run: RunInfo | None = None
+    _begun: float = 0.0
+    _steps: int = 0
+    _previous: float = 0.0
 
     def on_start(self, run: RunInfo) -> None:
         """Start the clock."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
 
 from tribo.interfaces.contact import ContactSolver
 from tribo.interfaces.kinematics import Kinematics
@@ -14,7 +13,7 @@ from tribo.registry.hookspecs import hookimpl
 
 
 @hookimpl
-def tribo_contact_solvers() -> Iterable[type[ContactSolver[Any]]]:
+def tribo_contact_solvers() -> Iterable[type[ContactSolver]]:
     """Offer the elastic half-space, in free space and periodic, and the elastic foundation."""
     from tribo.contact.dcfft import DcFft
     from tribo.contact.periodic import Periodic
@@ -24,7 +23,7 @@ def tribo_contact_solvers() -> Iterable[type[ContactSolver[Any]]]:
 
 
 @hookimpl
-def tribo_wear_laws() -> Iterable[type[WearLaw[Any]]]:
+def tribo_wear_laws() -> Iterable[type[WearLaw]]:
     """Offer Archard's law and a power law."""
     from tribo.wear.archard import Archard
     from tribo.wear.power import Power
@@ -33,7 +32,7 @@ def tribo_wear_laws() -> Iterable[type[WearLaw[Any]]]:
 
 
 @hookimpl
-def tribo_kinematics() -> Iterable[type[Kinematics[Any]]]:
+def tribo_kinematics() -> Iterable[type[Kinematics]]:
     """Offer reciprocating and unidirectional sliding."""
     from tribo.kinematics.reciprocating import Reciprocating
     from tribo.kinematics.unidirectional import Unidirectional
@@ -42,7 +41,7 @@ def tribo_kinematics() -> Iterable[type[Kinematics[Any]]]:
 
 
 @hookimpl
-def tribo_surfaces() -> Iterable[type[Surface[Any]]]:
+def tribo_surfaces() -> Iterable[type[Surface]]:
     """Offer smooth surfaces of simple shape."""
     from tribo.surfaces.cylinder import Cylinder
     from tribo.surfaces.flat import Flat
@@ -53,7 +52,7 @@ def tribo_surfaces() -> Iterable[type[Surface[Any]]]:
 
 
 @hookimpl
-def tribo_observers() -> Iterable[type[Observer[Any]]]:
+def tribo_observers() -> Iterable[type[Observer]]:
     """Offer the recorder and the progress display."""
     from tribo.observers.progress import Progress
     from tribo.observers.recorder import Recorder

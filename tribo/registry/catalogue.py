@@ -90,7 +90,7 @@ def describe(component: ComponentRecord) -> str:
     words = KINDS[component.kind].words
     lines = [f"{component.name}: {words} from {component.plugin}", ""]
     lines += [component.description or "(it has no description)", ""]
-    parameters = [line for line in _parameters(cls.Config) if not line.startswith("type ")]
+    parameters = list(_parameters(cls))
     if parameters:
         lines += ["Parameters", "----------", *parameters, ""]
     lines += _facts(cls)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import pluggy
 
@@ -23,36 +23,36 @@ hookimpl = pluggy.HookimplMarker(PROJECT)
 
 
 @hookspec
-def tribo_contact_solvers() -> Iterable[type[ContactSolver[Any]]]:
+def tribo_contact_solvers() -> Iterable[type[ContactSolver]]:
     """Return the contact solvers that this plugin offers."""
     return ()
 
 
 @hookspec
-def tribo_wear_laws() -> Iterable[type[WearLaw[Any]]]:
+def tribo_wear_laws() -> Iterable[type[WearLaw]]:
     """Return the wear laws that this plugin offers."""
     return ()
 
 
 @hookspec
-def tribo_kinematics() -> Iterable[type[Kinematics[Any]]]:
+def tribo_kinematics() -> Iterable[type[Kinematics]]:
     """Return the motions that this plugin offers."""
     return ()
 
 
 @hookspec
-def tribo_surfaces() -> Iterable[type[Surface[Any]]]:
+def tribo_surfaces() -> Iterable[type[Surface]]:
     """Return the surfaces that this plugin offers."""
     return ()
 
 
 @hookspec
-def tribo_effects() -> Iterable[type[Effect[Any]]]:
+def tribo_effects() -> Iterable[type[Effect]]:
     """Return the effects that this plugin offers."""
     return ()
 
 
 @hookspec
-def tribo_observers() -> Iterable[type[Observer[Any]]]:
+def tribo_observers() -> Iterable[type[Observer]]:
     """Return the observers that this plugin offers."""
     return ()

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any
 
 from tribo.interfaces.component import Component
 from tribo.interfaces.contact import ContactSolver
@@ -35,7 +34,7 @@ class Kind:
     name: str
     words: str
     hook: str
-    interface: type[Component[Any]]
+    interface: type[Component]
 
 
 KINDS: Mapping[str, Kind] = MappingProxyType(

@@ -10,7 +10,6 @@ import pluggy
 
 from tribo.core.fields import Field
 from tribo.core.words import did_you_mean
-from tribo.interfaces.component import ComponentConfig
 from tribo.registry import hookspecs
 from tribo.registry.kinds import KINDS, Kind
 from tribo.registry.records import ComponentRecord, Name, PluginRecord
@@ -101,14 +100,8 @@ def _name(cls: Any, kind: Kind) -> str:
     if inspect.isabstract(cls):
         missing = ", ".join(sorted(cls.__abstractmethods__))
         raise TypeError(f"{shown} does not define {missing}")
-    config = getattr(cls, "Config", None)
-    if not (inspect.isclass(config) and issubclass(config, ComponentConfig)):
-        raise TypeError(f"{shown}.Config is not a subclass of tribo.plugin.ComponentConfig")
     _check_declarations(cls, kind, shown)
-    name = config.model_fields["type"].default
-    if not (isinstance(name, str) and name):
-        raise TypeError(f'{config.__qualname__} needs a line: type: Literal["NAME"] = "NAME"')
-    return name
+    return str(cls.type)
 
 
 def _check_declarations(cls: type, kind: Kind, shown: str) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from inspect import cleandoc
-from typing import Any, Literal
+from typing import Literal
 
 from tribo.interfaces.component import Component
 
@@ -71,7 +71,7 @@ class ComponentRecord:
 
     kind: str
     name: str
-    cls: type[Component[Any]]
+    cls: type[Component]
     plugin: PluginRecord
 
     @property

@@ -6,7 +6,6 @@ import warnings
 from collections.abc import Iterable
 from dataclasses import replace
 from functools import cache
-from typing import Any
 
 from tribo.core.errors import CaseError, TriboWarning
 from tribo.core.words import did_you_mean, suggestion
@@ -107,11 +106,11 @@ class Registry:
         plugin = self._records[number]
         return f"(all of {plugin.distribution}) {distribution_summary(plugin)}".rstrip()
 
-    def classes(self, kind: str) -> list[type[Component[Any]]]:
+    def classes(self, kind: str) -> list[type[Component]]:
         """Return the usable classes of one kind, sorted by name; imports their plugins."""
         return [self.lookup(kind, name) for name in self.names(kind)]
 
-    def lookup(self, kind: str, name: str) -> type[Component[Any]]:
+    def lookup(self, kind: str, name: str) -> type[Component]:
         """Return the class that `name` stands for; raises as `record` does."""
         return self.record(kind, name).cls
 

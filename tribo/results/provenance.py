@@ -15,7 +15,7 @@ from typing import Any
 
 from tribo.core.distributions import entry_points
 from tribo.core.errors import PluginError
-from tribo.interfaces.component import Component, ComponentConfig
+from tribo.interfaces.component import Component
 
 _IDENTITY = ("class", "distribution", "version", "code", "facts")
 PACKAGES = ("tribo", "numpy", "scipy", "h5py", "pydantic", "pluggy")
@@ -79,7 +79,7 @@ def changed_components(
     return changes
 
 
-def stated_facts(component: Component[ComponentConfig]) -> dict[str, str]:
+def stated_facts(component: Component) -> dict[str, str]:
     """Return what a component states of itself.
 
     Raises
@@ -91,9 +91,7 @@ def stated_facts(component: Component[ComponentConfig]) -> dict[str, str]:
     if not isinstance(facts, Mapping) or not all(
         isinstance(text, str) for pair in facts.items() for text in pair
     ):
-        raise PluginError(
-            f"{component.type_name()!r} states {facts!r} as its facts, not text by text"
-        )
+        raise PluginError(f"{component.type!r} states {facts!r} as its facts, not text by text")
     return dict(facts)
 
 
@@ -111,7 +109,7 @@ def _words(origin: Mapping[str, Any], differing: Sequence[str]) -> str:
     return words
 
 
-def origin(component: Component[ComponentConfig]) -> dict[str, object]:
+def origin(component: Component) -> dict[str, object]:
     """Return where a component came from and how it is configured, as plain data.
 
     Raises
@@ -122,14 +120,14 @@ def origin(component: Component[ComponentConfig]) -> dict[str, object]:
     cls = type(component)
     distribution = _distribution(cls.__module__)
     made: dict[str, object] = {
-        "type": cls.type_name(),
+        "type": cls.type,
         "class": f"{cls.__module__}.{cls.__qualname__}",
         "distribution": "",
         "version": "",
         "editable": False,
         # The version says nothing of what is edited in place.
         "code": _code(cls.__module__.split(".")[0]),
-        "config": component.config.model_dump(mode="json"),
+        "config": component.model_dump(mode="json"),
         "facts": stated_facts(component),
     }
     if distribution is not None:

@@ -16,10 +16,10 @@ from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError, located
 from tribo.core.grid import Grid
 from tribo.core.material import contact_modulus
-from tribo.interfaces.contact import ContactSolver, ContactSolverConfig
-from tribo.interfaces.effect import Effect, EffectConfig
-from tribo.interfaces.kinematics import Kinematics, KinematicsConfig
-from tribo.interfaces.observer import Observer, ObserverConfig
+from tribo.interfaces.contact import ContactSolver
+from tribo.interfaces.effect import Effect
+from tribo.interfaces.kinematics import Kinematics
+from tribo.interfaces.observer import Observer
 from tribo.simulation import motion
 from tribo.simulation.bodies import check_law, check_sliding, curvature, laws_of, surface_height
 from tribo.simulation.calling import calling
@@ -33,12 +33,12 @@ def assemble(
     grid: Grid,
     load: float,
     bodies: Sequence[Body],
-    contact: ContactSolver[ContactSolverConfig],
-    kinematics: Kinematics[KinematicsConfig],
+    contact: ContactSolver,
+    kinematics: Kinematics,
     stepping: ImplicitConfig | ExplicitConfig | None = None,
     friction_coefficient: float | None = None,
-    effects: Sequence[Effect[EffectConfig]] = (),
-    observers: Sequence[Observer[ObserverConfig]] = (),
+    effects: Sequence[Effect] = (),
+    observers: Sequence[Observer] = (),
     save_times: Sequence[float] = (),
     stop: StopConfig | None = None,
     ends_at_window: bool = False,
@@ -110,7 +110,7 @@ def assemble(
     if isinstance(stepping, ImplicitConfig) and not contact.accepts_wear_compliance:
         raise CaseError(
             f"'implicit' stepping adds wear to the contact's compliance, which contact.type = "
-            f"{contact.type_name()!r} does not take; use stepping.type = 'explicit' with a "
+            f"{contact.type!r} does not take; use stepping.type = 'explicit' with a "
             "time_step, or a contact type that does",
             "stepping.type",
         )
@@ -155,16 +155,16 @@ def varied(model: Model, **changes: Any) -> Model:
 
 
 def _plastic(
-    bodies: Sequence[Body], contact: ContactSolver[ContactSolverConfig]
+    bodies: Sequence[Body], contact: ContactSolver
 ) -> tuple[float | None, dict[str, float]]:
     hardness = {b.name: b.material.hardness for b in bodies if b.material.hardness is not None}
     with calling(contact):
-        plastic = contact.config.plasticity
+        plastic = contact.plasticity
     if not hardness or not plastic:
         return None, {body.name: 0.0 for body in bodies}
     if not contact.honours_cap:
         raise CaseError(
-            f"contact.type = {contact.type_name()!r} cannot limit the pressure to a hardness; "
+            f"contact.type = {contact.type!r} cannot limit the pressure to a hardness; "
             "set contact.plasticity = false, or leave hardness out",
             "contact.plasticity",
         )

@@ -10,7 +10,7 @@ from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, PluginError
 from tribo.core.grid import Grid
 from tribo.interfaces.exposure import Exposure
-from tribo.interfaces.wear import WearLaw, WearLawConfig
+from tribo.interfaces.wear import WearLaw
 from tribo.simulation import answers
 from tribo.simulation.calling import calling, named
 from tribo.simulation.model import Body
@@ -28,12 +28,12 @@ def check_sliding(body: Body, height: Array, exposure: Exposure) -> None:
     if not exposure.shape_stays and np.any(height != height[:1]):
         raise CaseError(
             f"body {body.name!r} is swept along x, so its surface must not vary along x, as "
-            f"{body.surface.type_name()!r} does; let kinematics.swept name the other body, or use "
+            f"{body.surface.type!r} does; let kinematics.swept name the other body, or use "
             "a 'flat' or a 'cylinder' with axis = 'x'"
         )
 
 
-def check_law(law: WearLaw[WearLawConfig], body: Body) -> None:
+def check_law(law: WearLaw, body: Body) -> None:
     """Raise `CaseError` if a law does not suit its body, `PluginError` if its state is none."""
     with calling(law, body.name):
         law.check(body.material)
@@ -66,6 +66,6 @@ def _curvature_of(body: Body) -> tuple[float, float] | None:
     return float(along), float(across)
 
 
-def laws_of(bodies: Sequence[Body]) -> list[WearLaw[WearLawConfig]]:
+def laws_of(bodies: Sequence[Body]) -> list[WearLaw]:
     """Return the wear laws of those that wear."""
     return [body.wear for body in bodies if body.wear is not None]

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from types import TracebackType
-from typing import Any
 
 from tribo.core.errors import Interrupted, NumericalError, PluginError, TriboError
 from tribo.core.words import said
 from tribo.interfaces.component import Component
 from tribo.registry.kinds import KINDS
 
-Called = Component[Any] | type[Component[Any]]
+Called = Component | type[Component]
 
 
 class named:  # noqa: N801
@@ -29,7 +28,7 @@ class named:  # noqa: N801
         component, body = self._component, self._body
         cls = component if isinstance(component, type) else type(component)
         words = next(kind.words for kind in KINDS.values() if issubclass(cls, kind.interface))
-        return f"{words} {cls.type_name()!r}" + (f" of body {body!r}" if body else "")
+        return f"{words} {cls.type!r}" + (f" of body {body!r}" if body else "")
 
 
 class calling:  # noqa: N801

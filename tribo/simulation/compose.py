@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
 from tribo.config.case import Case
 from tribo.core.errors import CaseError
-from tribo.interfaces.component import ComponentConfig
 from tribo.registry.registry import Registry, default_registry
 from tribo.simulation.assembly import assemble
-from tribo.simulation.calling import calling
 from tribo.simulation.effects import MissingFieldError
 from tribo.simulation.model import Body, Model
 
@@ -32,13 +27,8 @@ def compose(case: Case, registry: Registry | None = None) -> Model:
     """
     known = registry or default_registry()
 
-    def make(kind: str, config: ComponentConfig) -> Any:
-        cls = known.lookup(kind, config.type)
-        with calling(cls):
-            return cls(config)
-
     try:
-        return _assembled(case, make)
+        return _assembled(case)
     except MissingFieldError as error:
         providers = known.providers(error.missing)
         if not providers:
@@ -46,13 +36,13 @@ def compose(case: Case, registry: Registry | None = None) -> Model:
         raise CaseError(f"{error}; these do: {', '.join(providers)}") from error
 
 
-def _assembled(case: Case, make: Callable[[str, ComponentConfig], Any]) -> Model:
+def _assembled(case: Case) -> Model:
     bodies = [
         Body(
             name=name,
-            surface=make("surface", body.surface),
+            surface=body.surface,
             material=body.material,
-            wear=None if body.wear is None else make("wear_law", body.wear),
+            wear=body.wear,
         )
         for name, body in case.bodies.items()
     ]
@@ -60,12 +50,12 @@ def _assembled(case: Case, make: Callable[[str, ComponentConfig], Any]) -> Model
         grid=case.grid.to_grid(),
         load=case.load.normal,
         bodies=bodies,
-        contact=make("contact_solver", case.contact),
-        kinematics=make("kinematics", case.kinematics),
+        contact=case.contact,
+        kinematics=case.kinematics,
         stepping=case.stepping,
         friction_coefficient=case.friction.coefficient if case.friction else None,
-        effects=[make("effect", config) for config in case.effects],
-        observers=[make("observer", config) for config in case.observers],
+        effects=case.effects,
+        observers=case.observers,
         save_times=case.output.save_times,
         stop=case.stop,
         ends_at_window=case.grid.ends_at_window,

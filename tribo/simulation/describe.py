@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from tribo.interfaces.component import Component, ComponentConfig
+from tribo.interfaces.component import Component
 from tribo.simulation.calling import calling
 from tribo.simulation.model import Model
 
@@ -44,6 +44,6 @@ def describe(model: Model) -> dict[str, object]:
     }
 
 
-def _dump(component: Component[ComponentConfig], body: str | None = None) -> dict[str, Any]:
+def _dump(component: Component, body: str | None = None) -> dict[str, Any]:
     with calling(component, body):
-        return component.config.model_dump(mode="json")
+        return component.model_dump(mode="json")

@@ -6,16 +6,16 @@ from collections.abc import Sequence
 
 from tribo.core.errors import CaseError, located
 from tribo.core.fields import FRICTION_COEFFICIENT
-from tribo.interfaces.effect import Effect, EffectConfig
+from tribo.interfaces.effect import Effect
 from tribo.simulation.calling import calling
 from tribo.simulation.model import Body, Model
 
 
 def in_order(
-    effects: Sequence[Effect[EffectConfig]],
+    effects: Sequence[Effect],
     bodies: Sequence[Body],
     friction_coefficient: float | None,
-) -> tuple[Effect[EffectConfig], ...]:
+) -> tuple[Effect, ...]:
     """Return effects so that each comes after those that provide what it requires.
 
     Raises
@@ -26,14 +26,14 @@ def in_order(
         If a field is provided twice.
     """
     known = set() if friction_coefficient is None else {FRICTION_COEFFICIENT.name}
-    ordered: list[Effect[EffectConfig]] = []
+    ordered: list[Effect] = []
     waiting = list(effects)
     while waiting:
         ready = next((e for e in waiting if set(e.requires) <= known), None)
         if ready is None:
             first = waiting[0]
             missing = sorted(set(first.requires) - known)
-            text = _missing(f"effect {first.type_name()!r}", missing, waiting)
+            text = _missing(f"effect {first.type!r}", missing, waiting)
             raise MissingFieldError(text, "effects", missing)
         waiting.remove(ready)
         ordered.append(ready)
@@ -41,14 +41,14 @@ def in_order(
             if field.name in known:
                 raise CaseError(
                     f"{field.name!r} is provided twice, the second time by "
-                    f"{ready.type_name()!r}; keep one",
+                    f"{ready.type!r}; keep one",
                     "effects",
                 )
             known.add(field.name)
     for body in bodies:
         if body.wear is not None and not set(body.wear.requires) <= known:
             missing = sorted(set(body.wear.requires) - known)
-            text = _missing(f"wear law {body.wear.type_name()!r}", missing, [])
+            text = _missing(f"wear law {body.wear.type!r}", missing, [])
             raise MissingFieldError(text, f"bodies.{body.name}.wear", missing)
     return tuple(ordered)
 
@@ -61,13 +61,11 @@ class MissingFieldError(CaseError):
         self.missing = tuple(missing)
 
 
-def _missing(who: str, missing: Sequence[str], waiting: Sequence[Effect[EffectConfig]]) -> str:
+def _missing(who: str, missing: Sequence[str], waiting: Sequence[Effect]) -> str:
     if list(missing) == [FRICTION_COEFFICIENT.name]:
         return f"{who} needs a coefficient of friction: add [friction] coefficient = …"
     in_circle = [
-        effect.type_name()
-        for effect in waiting
-        if any(field.name in missing for field in effect.provides)
+        effect.type for effect in waiting if any(field.name in missing for field in effect.provides)
     ]
     if in_circle:
         return (

@@ -9,7 +9,7 @@ from tribo.core.contact import WearCompliance
 from tribo.core.errors import PluginError
 from tribo.core.grid import Grid
 from tribo.interfaces.exposure import Exposure
-from tribo.interfaces.kinematics import Kinematics, KinematicsConfig
+from tribo.interfaces.kinematics import Kinematics
 from tribo.simulation import answers
 from tribo.simulation.calling import calling, named
 
@@ -29,9 +29,7 @@ class CheckedExposure(Exposure):
         The window.
     """
 
-    def __init__(
-        self, exposure: Exposure, motion: Kinematics[KinematicsConfig], body: str, grid: Grid
-    ) -> None:
+    def __init__(self, exposure: Exposure, motion: Kinematics, body: str, grid: Grid) -> None:
         self.swept = exposure.swept
         self.shape_stays = exposure.shape_stays
         self._asked = exposure

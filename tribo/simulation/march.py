@@ -252,7 +252,7 @@ def _held_stable(model: Model, config: ExplicitConfig, state: State, moment: Mom
         if config.allow_unstable:
             return state
         raise CaseError(
-            f"contact.type = {model.contact.type_name()!r} does not state its smallest "
+            f"contact.type = {model.contact.type!r} does not state its smallest "
             "compliance, so the stability of explicit steps cannot be checked; set "
             "stepping.allow_unstable = true to go on without",
             "stepping.time_step",

@@ -9,11 +9,11 @@ from pathlib import Path
 
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
-from tribo.interfaces.effect import Effect, EffectConfig
-from tribo.interfaces.wear import WearLaw, WearLawConfig
+from tribo.interfaces.effect import Effect
+from tribo.interfaces.wear import WearLaw
 
-Law = WearLaw[WearLawConfig]
-AnyEffect = Effect[EffectConfig]
+Law = WearLaw
+AnyEffect = Effect
 
 FIELDS = 60
 """Arrays of the window's size that a run holds at its peak; 56 were measured."""

@@ -11,14 +11,14 @@ from tribo.core.arrays import Array
 from tribo.core.contact import ContactSystem
 from tribo.core.grid import Grid
 from tribo.core.material import Material
-from tribo.interfaces.component import Component, ComponentConfig
-from tribo.interfaces.contact import ContactSolver, ContactSolverConfig
-from tribo.interfaces.effect import Effect, EffectConfig
+from tribo.interfaces.component import Component
+from tribo.interfaces.contact import ContactSolver
+from tribo.interfaces.effect import Effect
 from tribo.interfaces.exposure import Exposure
-from tribo.interfaces.kinematics import Kinematics, KinematicsConfig
-from tribo.interfaces.observer import Observer, ObserverConfig
-from tribo.interfaces.surface import Surface, SurfaceConfig
-from tribo.interfaces.wear import WearLaw, WearLawConfig
+from tribo.interfaces.kinematics import Kinematics
+from tribo.interfaces.observer import Observer
+from tribo.interfaces.surface import Surface
+from tribo.interfaces.wear import WearLaw
 from tribo.simulation import motion
 
 
@@ -39,9 +39,9 @@ class Body:
     """
 
     name: str
-    surface: Surface[SurfaceConfig]
+    surface: Surface
     material: Material
-    wear: WearLaw[WearLawConfig] | None = None
+    wear: WearLaw | None = None
 
 
 @dataclass(frozen=True)
@@ -56,12 +56,12 @@ class Model:
     grid: Grid
     load: float
     bodies: tuple[Body, ...]
-    contact: ContactSolver[ContactSolverConfig]
-    kinematics: Kinematics[KinematicsConfig]
+    contact: ContactSolver
+    kinematics: Kinematics
     stepping: ImplicitConfig | ExplicitConfig
     friction_coefficient: float | None
-    effects: tuple[Effect[EffectConfig], ...]
-    observers: tuple[Observer[ObserverConfig], ...]
+    effects: tuple[Effect, ...]
+    observers: tuple[Observer, ...]
     save_times: tuple[float, ...]
     stop: StopConfig
     requires: tuple[str, ...]
@@ -85,7 +85,7 @@ class Model:
         """Whether the body's points pass through the contact."""
         return self.exposures[name].swept
 
-    def components(self) -> Iterator[tuple[str, Component[ComponentConfig]]]:
+    def components(self) -> Iterator[tuple[str, Component]]:
         """Yield every component with its place in a case."""
         for body in self.bodies:
             yield f"bodies.{body.name}.surface", body.surface

@@ -7,12 +7,12 @@ from collections.abc import Mapping, Sequence
 from tribo.core.errors import PluginError
 from tribo.core.grid import Grid
 from tribo.interfaces.exposure import Exposure
-from tribo.interfaces.kinematics import Kinematics, KinematicsConfig
+from tribo.interfaces.kinematics import Kinematics
 from tribo.simulation.answers import number
 from tribo.simulation.calling import calling, named
 from tribo.simulation.exposed import CheckedExposure
 
-Motion = Kinematics[KinematicsConfig]
+Motion = Kinematics
 
 SAMPLES = 8
 INVERSE = 1e-6
@@ -43,7 +43,7 @@ def exposures(motion: Motion, grid: Grid, bodies: Sequence[str]) -> dict[str, Ex
 def end_time(motion: Motion, distance: float | None) -> float:
     """Return when the motion ends, or reaches `distance` (m) if that is sooner, in s."""
     with calling(motion):
-        duration = motion.duration
+        duration = motion.end_time
     end = number(named(motion), "a duration", duration)
     if distance is not None:
         end = min(end, time_at(motion, distance))
@@ -55,14 +55,14 @@ def end_time(motion: Motion, distance: float | None) -> float:
 def path_at(motion: Motion, time: float) -> float:
     """Return the path slid from 0 to `time` (s), in m."""
     with calling(motion):
-        answer = motion.distance(time)
+        answer = motion.distance_at(time)
     return number(named(motion), f"a path at {time:g} s", answer)
 
 
 def time_at(motion: Motion, distance: float) -> float:
     """Return the time at which the path reaches `distance` (m), in s."""
     with calling(motion):
-        answer = motion.time(distance)
+        answer = motion.time_at(distance)
     return number(named(motion), f"a time at {distance:g} m", answer)
 
 

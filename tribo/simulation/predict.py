@@ -198,7 +198,7 @@ def _unstable(model: Model, state: State) -> str | None:
 
 def _unknown_stability(model: Model) -> str:
     return (
-        f"contact.type = {model.contact.type_name()!r} does not state its smallest compliance, so "
+        f"contact.type = {model.contact.type!r} does not state its smallest compliance, so "
         "explicit steps stop at once: set stepping.allow_unstable = true to go on without"
     )
 

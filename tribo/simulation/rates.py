@@ -13,12 +13,12 @@ from tribo.core.contact import ContactSolution
 from tribo.core.errors import PluginError
 from tribo.core.fields import FRICTION_COEFFICIENT, ContactConditions, LocalConditions, WearRate
 from tribo.core.state import State
-from tribo.interfaces.wear import WearLaw, WearLawConfig
+from tribo.interfaces.wear import WearLaw
 from tribo.simulation.answers import spread
 from tribo.simulation.calling import calling, named
 from tribo.simulation.model import Model
 
-Law = WearLaw[WearLawConfig]
+Law = WearLaw
 
 
 @dataclass(frozen=True)

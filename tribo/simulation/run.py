@@ -14,8 +14,8 @@ from tribo.config.case import Case
 from tribo.config.load import load_case, validate_case
 from tribo.core.errors import CaseError, Interrupted, TriboError, TriboWarning
 from tribo.core.state import BodyInfo, RunInfo, Snapshot, State
-from tribo.interfaces.observer import Observer, ObserverConfig
-from tribo.observers.recorder import Recorder, RecorderConfig
+from tribo.interfaces.observer import Observer
+from tribo.observers.recorder import Recorder
 from tribo.registry.records import PluginRecord
 from tribo.registry.registry import Registry, default_registry
 from tribo.results.checkpoint import read_checkpoint, tidied
@@ -68,7 +68,7 @@ class Simulation:
         self,
         output: str | Path | None = None,
         *,
-        observers: Sequence[Observer[ObserverConfig]] = (),
+        observers: Sequence[Observer] = (),
         overwrite: bool = False,
     ) -> Result:
         """Run from the beginning.
@@ -98,7 +98,7 @@ class Simulation:
             If it was stopped from outside; it can be resumed.
         """
         path = _checked_output(output, overwrite)
-        recorder = Recorder(RecorderConfig(path=path, overwrite=overwrite))
+        recorder = Recorder(path=path, overwrite=overwrite)
         state = begin(self.model)
         return self._follow(state, recorder, observers, resumed=False, wall_time=0.0)
 
@@ -106,7 +106,7 @@ class Simulation:
         self,
         output: str | Path,
         *,
-        observers: Sequence[Observer[ObserverConfig]] = (),
+        observers: Sequence[Observer] = (),
         allow_changed: bool = False,
     ) -> Result:
         """Go on with a run that was stopped, from its checkpoint.
@@ -135,7 +135,7 @@ class Simulation:
         self,
         output: str | Path,
         *,
-        observers: Sequence[Observer[ObserverConfig]] = (),
+        observers: Sequence[Observer] = (),
         allow_changed: bool = False,
     ) -> Callable[[], Result]:
         """Read the checkpoint of a stopped run, and return what goes on from it.
@@ -166,7 +166,7 @@ class Simulation:
         state, wall_time = read_checkpoint(path, case)
         kept = tuple(text for text in state.notices if not text.startswith(FAILED))
         state = replace(state, notices=kept)
-        recorder = Recorder(RecorderConfig(path=path))
+        recorder = Recorder(path=path)
         return partial(
             self._follow,
             state,
@@ -188,7 +188,7 @@ class Simulation:
         self,
         state: State,
         recorder: Recorder,
-        extra: Sequence[Observer[ObserverConfig]],
+        extra: Sequence[Observer],
         *,
         resumed: bool,
         wall_time: float,
@@ -217,7 +217,7 @@ class Simulation:
             raise
         except KeyboardInterrupt as error:
             reason = "interrupted"
-            where = recorder.config.path
+            where = recorder.path
             option = " --allow-changed" if changed else ""
             raise Interrupted(
                 f"stopped at {snapshot.measures.time:.6g} s of {self.model.end_time:g} s"

@@ -11,11 +11,11 @@ from tribo.core.contact import (
     WearCompliance,
 )
 from tribo.core.errors import PluginError
-from tribo.interfaces.contact import ContactSolver, ContactSolverConfig
+from tribo.interfaces.contact import ContactSolver
 from tribo.simulation.answers import field, number
 from tribo.simulation.calling import calling, named
 
-Solver = ContactSolver[ContactSolverConfig]
+Solver = ContactSolver
 
 LOAD_BALANCE = 1e-6
 ABOVE_CAP = 1e-6

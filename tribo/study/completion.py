@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from tribo.core.errors import CaseError, TriboWarning
-from tribo.interfaces.observer import Observer, ObserverConfig
+from tribo.interfaces.observer import Observer
 from tribo.results.read import Result
 from tribo.simulation.describe import describe
 from tribo.simulation.run import Simulation
@@ -30,9 +30,7 @@ def is_done(path: Path, simulation: Simulation) -> bool:
         return False
 
 
-def complete(
-    simulation: Simulation, path: Path, observers: Sequence[Observer[ObserverConfig]]
-) -> Result:
+def complete(simulation: Simulation, path: Path, observers: Sequence[Observer]) -> Result:
     """Go on with the run that a file was left by, or else run anew into it.
 
     Parameters

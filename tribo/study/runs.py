@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from tribo.core.errors import CaseError, OutputError, TriboError
-from tribo.interfaces.observer import Observer, ObserverConfig
+from tribo.interfaces.observer import Observer
 from tribo.registry.registry import Registry
 from tribo.results.read import Result
 from tribo.simulation.describe import describe
@@ -16,7 +16,7 @@ from tribo.simulation.run import Simulation
 from tribo.study.completion import complete, is_done
 from tribo.study.variation import Variant
 
-Observers = Callable[[], Sequence[Observer[ObserverConfig]]]
+Observers = Callable[[], Sequence[Observer]]
 _LONGEST_NAME = 100
 
 

@@ -11,33 +11,27 @@ from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.core.units import Quantity
-from tribo.interfaces.surface import Surface, SurfaceConfig
+from tribo.interfaces.surface import Surface
 
 
-class CylinderConfig(SurfaceConfig):
-    """Configuration of `Cylinder`."""
+class Cylinder(Surface):
+    """The exact arc z = √(R² − t²) − R, with t across the cylinder's axis."""
 
     model_config = ConfigDict(
         json_schema_extra={"examples": [{"radius": "5 mm"}, {"radius": "5 mm", "axis": "x"}]}
     )
 
-    type: Literal["cylinder"] = "cylinder"
+    type = "cylinder"
     radius: Annotated[float, Quantity("m", above=0)]
     """Radius of the cylinder."""
     axis: Literal["x", "y"] = "y"
     """Axis along which it lies; y is across the sliding direction."""
 
-
-class Cylinder(Surface[CylinderConfig]):
-    """The exact arc z = √(R² − t²) − R, with t across the cylinder's axis."""
-
-    Config = CylinderConfig
-
     def height(self, grid: Grid) -> Array:
         """Return the height of the arc; the window must lie inside the cylinder."""
         x, y = grid.mesh
-        across = x if self.config.axis == "y" else y
-        radius = self.config.radius
+        across = x if self.axis == "y" else y
+        radius = self.radius
         if float(np.max(np.abs(across))) >= radius:
             raise CaseError(
                 f"a cylinder of radius {1e3 * radius:.4g} mm does not reach over the window; "
@@ -50,5 +44,5 @@ class Cylinder(Surface[CylinderConfig]):
     @property
     def curvature(self) -> tuple[float, float]:
         """1/R across the axis, 0 along it."""
-        c = 1 / self.config.radius
-        return (c, 0.0) if self.config.axis == "y" else (0.0, c)
+        c = 1 / self.radius
+        return (c, 0.0) if self.axis == "y" else (0.0, c)

@@ -2,25 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
 import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
-from tribo.interfaces.surface import Surface, SurfaceConfig
+from tribo.interfaces.surface import Surface
 
 
-class FlatConfig(SurfaceConfig):
-    """Configuration of `Flat`."""
-
-    type: Literal["flat"] = "flat"
-
-
-class Flat(Surface[FlatConfig]):
+class Flat(Surface):
     """z = 0."""
 
-    Config = FlatConfig
+    type = "flat"
 
     def height(self, grid: Grid) -> Array:
         """Return zeros."""

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, Self
 
 from pydantic import ConfigDict, model_validator
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
 from tribo.core.units import Quantity
-from tribo.interfaces.surface import Surface, SurfaceConfig
+from tribo.interfaces.surface import Surface
 
 
-class ParaboloidConfig(SurfaceConfig):
-    """Give ``radius``, or ``radius_x`` and ``radius_y``."""
+class Paraboloid(Surface):
+    """z = −x²/2Rx − y²/2Ry."""
 
     model_config = ConfigDict(
         json_schema_extra={
@@ -21,7 +21,7 @@ class ParaboloidConfig(SurfaceConfig):
         }
     )
 
-    type: Literal["paraboloid"] = "paraboloid"
+    type = "paraboloid"
     radius: Annotated[float, Quantity("m", above=0)] | None = None
     """Radius of curvature at the top, in every direction."""
     radius_x: Annotated[float, Quantity("m", above=0)] | None = None
@@ -36,12 +36,6 @@ class ParaboloidConfig(SurfaceConfig):
             raise ValueError("give either radius, or both radius_x and radius_y")
         return self
 
-
-class Paraboloid(Surface[ParaboloidConfig]):
-    """z = −x²/2Rx − y²/2Ry."""
-
-    Config = ParaboloidConfig
-
     def height(self, grid: Grid) -> Array:
         """Return the height of the paraboloid."""
         x, y = grid.mesh
@@ -51,9 +45,8 @@ class Paraboloid(Surface[ParaboloidConfig]):
     @property
     def curvature(self) -> tuple[float, float]:
         """1/Rx and 1/Ry."""
-        c = self.config
-        if c.radius is not None:
-            return 1 / c.radius, 1 / c.radius
-        assert c.radius_x is not None
-        assert c.radius_y is not None
-        return 1 / c.radius_x, 1 / c.radius_y
+        if self.radius is not None:
+            return 1 / self.radius, 1 / self.radius
+        assert self.radius_x is not None
+        assert self.radius_y is not None
+        return 1 / self.radius_x, 1 / self.radius_y

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated
 
 import numpy as np
 from pydantic import ConfigDict
@@ -11,29 +11,23 @@ from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.core.units import Quantity
-from tribo.interfaces.surface import Surface, SurfaceConfig
+from tribo.interfaces.surface import Surface
 
 
-class SphereConfig(SurfaceConfig):
-    """Configuration of `Sphere`."""
+class Sphere(Surface):
+    """The exact cap z = √(R² − r²) − R of a ball of radius R, highest at the origin."""
 
     model_config = ConfigDict(json_schema_extra={"examples": [{"radius": "5 mm"}]})
 
-    type: Literal["sphere"] = "sphere"
+    type = "sphere"
     radius: Annotated[float, Quantity("m", above=0)]
     """Radius of the ball."""
-
-
-class Sphere(Surface[SphereConfig]):
-    """The exact cap z = √(R² − r²) − R of a ball of radius R, highest at the origin."""
-
-    Config = SphereConfig
 
     def height(self, grid: Grid) -> Array:
         """Return the height of the cap; the window must lie inside the ball."""
         x, y = grid.mesh
         r2 = x**2 + y**2
-        radius = self.config.radius
+        radius = self.radius
         if float(np.max(r2)) >= radius**2:
             raise CaseError(
                 f"a ball of radius {1e3 * radius:.4g} mm does not reach over a window of "
@@ -46,4 +40,4 @@ class Sphere(Surface[SphereConfig]):
     @property
     def curvature(self) -> tuple[float, float]:
         """1/R along both axes."""
-        return 1 / self.config.radius, 1 / self.config.radius
+        return 1 / self.radius, 1 / self.radius

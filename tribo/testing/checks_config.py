@@ -10,7 +10,7 @@ from pydantic import TypeAdapter, ValidationError, create_model
 
 from tribo.config.schema import json_schema
 from tribo.config.slot import Slot
-from tribo.interfaces.component import ComponentConfig
+from tribo.interfaces.component import Component
 from tribo.registry.hookspecs import hookimpl
 from tribo.registry.kinds import KINDS
 from tribo.registry.names import name_fault
@@ -81,7 +81,7 @@ def config_survives_without_defaults(subject: Subject) -> None:
     """Written without its defaults and read back, a configuration is the same."""
     config = subject.config
     short = config.model_dump(mode="json", exclude_defaults=True)
-    again = type(config).model_validate({"type": config.type, **short})
+    again = type(config).model_validate(short)
     _require_equal(again, config, "data without defaults")
 
 
@@ -104,15 +104,13 @@ def a_case_can_name_it(subject: Subject) -> None:
         for name in part.get("discriminator", {}).get("mapping", {})
     }
     words = KINDS[subject.kind].words
-    require(
-        subject.cls.type_name() in names, f"the schema's choice of a {words} is {sorted(names)}"
-    )
+    require(subject.cls.type in names, f"the schema's choice of a {words} is {sorted(names)}")
 
 
 @fact
 def name_has_a_prefix(subject: Subject) -> None:
     """Its name carries a prefix, as in acme.fretting; only tribo's own do without."""
-    fault = name_fault(subject.cls.type_name())
+    fault = name_fault(subject.cls.type)
     require(not fault or _is_builtin(subject), fault)
 
 
@@ -138,7 +136,7 @@ CONFIG_CHECKS: tuple[Check, ...] = (
 )
 
 
-def own_scales(config: ComponentConfig) -> list[str]:
+def own_scales(config: Component) -> list[str]:
     """Return the names of the numbers set in `config` that are not known to be without unit."""
     schema = type(config).model_json_schema()["properties"]
     found = []
@@ -153,7 +151,7 @@ def own_scales(config: ComponentConfig) -> list[str]:
     return found
 
 
-def has_unit(config: ComponentConfig, unit: str) -> list[float]:
+def has_unit(config: Component, unit: str) -> list[float]:
     """Return the values set in `config` whose unit is `unit`."""
     schema = type(config).model_json_schema()["properties"]
     return [
@@ -164,19 +162,19 @@ def has_unit(config: ComponentConfig, unit: str) -> list[float]:
     ]
 
 
-def _base(subject: Subject) -> type[ComponentConfig]:
+def _base(subject: Subject) -> type[Component]:
     """Return the configuration class of the interface, which is the nearest base of tribo's."""
     module = KINDS[subject.kind].interface.__module__
     for base in type(subject.config).__mro__:
-        if base.__module__ == module and issubclass(base, ComponentConfig):
+        if base.__module__ == module and issubclass(base, Component):
             return base
     words = KINDS[subject.kind].interface.__name__
-    raise CheckFailed(f"{type(subject.config).__name__} is not a subclass of {words}Config")
+    raise CheckFailed(f"{type(subject.config).__name__} is not a subclass of {words}")
 
 
 def _is_builtin(subject: Subject) -> bool:
     registry = Registry.with_plugins()
-    name = subject.cls.type_name()
+    name = subject.cls.type
     return (
         name in registry.names(subject.kind) and registry.lookup(subject.kind, name) is subject.cls
     )
@@ -192,10 +190,10 @@ def _registry(subject: Subject) -> Registry:
 
 
 def _dump(subject: Subject) -> dict[str, Any]:
-    return {"type": subject.config.type, **subject.config.model_dump(mode="json")}
+    return subject.config.model_dump(mode="json")
 
 
-def _require_equal(again: object, config: ComponentConfig, how: str) -> None:
+def _require_equal(again: object, config: Component, how: str) -> None:
     require(again == config, f"read back from {how} it is {again!r}, but it was {config!r}")
 
 

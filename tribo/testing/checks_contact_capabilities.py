@@ -19,7 +19,7 @@ def _ignores_cap(subject: Subject) -> str | None:
     solver = subject.make()
     if not solver.honours_cap:
         return "honours_cap is False"
-    return None if solver.config.plasticity else "its configuration has plasticity = false"
+    return None if solver.plasticity else "its configuration has plasticity = false"
 
 
 def _states_no_compliance(subject: Subject) -> str | None:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any, ClassVar, Literal
+from typing import Any
 
 import numpy as np
 
 from tribo.core.fields import ContactConditions, LocalConditions, WearRate
-from tribo.interfaces.wear import WearLaw, WearLawConfig
+from tribo.interfaces.wear import WearLaw
 from tribo.testing import samples
 from tribo.testing.checks_calls import Exercise, call_checks, locked
 from tribo.testing.compare import expect_array
@@ -78,37 +78,24 @@ def only_declared_fields_are_asked_for(subject: Subject) -> None:
         raise error
 
 
-class ReadsConfig(WearLawConfig):
-    """Configuration of `Reads`."""
+def _reads(names: Sequence[str]) -> WearLaw:
+    """Return a law that requires some fields and wears as if they were not there."""
 
-    type: Literal["tribo.testing.reads"] = "tribo.testing.reads"
+    class Reads(WearLaw):
+        type = "tribo.testing.reads"
+        requires = tuple(names)
 
+        def rate(self, local: LocalConditions) -> WearRate:
+            return samples.archard().rate(local)
 
-class Reads(WearLaw[ReadsConfig]):
-    """A law that requires some fields and wears as if they were not there.
-
-    Parameters
-    ----------
-    names : sequence of str
-        Names of the fields.
-    """
-
-    Config: ClassVar[type[ReadsConfig]] = ReadsConfig
-
-    def __init__(self, names: Sequence[str]) -> None:
-        super().__init__(ReadsConfig())
-        self.requires = tuple(names)  # type: ignore[misc]
-
-    def rate(self, local: LocalConditions) -> WearRate:
-        """Return Archard's rate."""
-        return samples.archard().rate(local)
+    return Reads()
 
 
 @fact
 def runs_in_a_case(subject: Subject) -> None:
     """In a small case a law gets the fields it requires in every step."""
     effect = subject.make()
-    law = Reads([field.name for field in effect.provides])
+    law = _reads([field.name for field in effect.provides])
     samples.expect_volume_balance(samples.small_model(subject, law=law, effects=[effect]))
 
 

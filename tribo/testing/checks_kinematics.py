@@ -29,7 +29,7 @@ def _inputs(subject: Subject, motion: Any, number: int) -> dict[str, Array]:
 
 
 def _call(motion: Any, inputs: Any) -> Mapping[str, Any]:
-    answers: dict[str, Any] = {"path": [motion.distance(p * motion.duration) for p in _PARTS]}
+    answers: dict[str, Any] = {"path": [motion.distance_at(p * motion.end_time) for p in _PARTS]}
     for name, exposure in motion.exposures(GRID, samples.BODIES).items():
         average = exposure.average(inputs["rate"])
         answers[name] = {
@@ -66,8 +66,8 @@ def motion_ends(subject: Subject) -> None:
     """The duration and the path slid by its end are positive and finite."""
     motion = subject.make()
     for what, value in (
-        ("duration", motion.duration),
-        ("distance(duration)", motion.distance(motion.duration)),
+        ("duration", motion.end_time),
+        ("distance(duration)", motion.distance_at(motion.end_time)),
     ):
         require(value > 0 and isfinite(value), f"{what} is {value!r}; it must be positive, finite")
 
@@ -75,7 +75,7 @@ def motion_ends(subject: Subject) -> None:
 @fact
 def path_begins_at_zero(subject: Subject) -> None:
     """Nothing has been slid at time 0."""
-    start = subject.make().distance(0.0)
+    start = subject.make().distance_at(0.0)
     require(start == 0, f"distance(0) is {start!r} m; it must be 0")
 
 
@@ -84,8 +84,8 @@ def path_never_shrinks(subject: Subject) -> None:
     """The path slid never decreases, also where the motion turns round."""
     motion = subject.make()
     # Whole durations, and closely over the first hundredth, where cycles are resolved.
-    for last in (motion.duration, 0.01 * motion.duration):
-        path = np.array([motion.distance(part * last) for part in _PARTS])
+    for last in (motion.end_time, 0.01 * motion.end_time):
+        path = np.array([motion.distance_at(part * last) for part in _PARTS])
         at = int(np.argmin(np.diff(path)))
         require(
             path[at + 1] >= path[at],
@@ -98,11 +98,11 @@ def path_never_shrinks(subject: Subject) -> None:
 def time_inverts_distance(subject: Subject) -> None:
     """The path slid by time(s) is s."""
     motion = subject.make()
-    total = motion.distance(motion.duration)
+    total = motion.distance_at(motion.end_time)
     for part in _PARTS:
         needed = part * total
-        time = motion.time(needed)
-        found = motion.distance(time)
+        time = motion.time_at(needed)
+        found = motion.distance_at(time)
         require(
             abs(found - needed) <= 1e-9 * total,
             f"time({needed:.6g} m) is {time:.6g} s, by when {found:.6g} m are slid",
@@ -114,10 +114,10 @@ def cycles_add_up(subject: Subject) -> None:
     """N cycles slide N times as far as one, from wherever they begin."""
     motion = subject.make()
     period = 1 / has_unit(subject.config, "Hz")[0]
-    one = motion.distance(period)
+    one = motion.distance_at(period)
     for start in (0.0, 0.3 * period):
         for count in (2, 7):
-            found = motion.distance(start + count * period) - motion.distance(start)
+            found = motion.distance_at(start + count * period) - motion.distance_at(start)
             require(
                 abs(found - count * one) <= 1e-9 * count * one,
                 f"{count} cycles from {start:.4g} s slide {found:.9g} m, one slides {one:.9g} m",
@@ -250,7 +250,7 @@ def limitation_is_said_in_words(subject: Subject) -> None:
 def runs_a_case(subject: Subject) -> None:
     """In a small case each body loses just what its law says."""
     motion = subject.make()
-    distance = min(3.0, 0.999 * motion.distance(motion.duration))
+    distance = min(3.0, 0.999 * motion.distance_at(motion.end_time))
     stop = StopConfig(distance=distance)
     samples.expect_volume_balance(samples.small_model(subject, kinematics=motion, stop=stop))
 

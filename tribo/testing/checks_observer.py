@@ -9,10 +9,12 @@ from copy import deepcopy
 from dataclasses import replace
 from functools import cache
 from tempfile import TemporaryDirectory
-from typing import Any, ClassVar, Literal
+from typing import Any
+
+from pydantic import PrivateAttr
 
 from tribo.core.state import RunInfo, Snapshot
-from tribo.interfaces.observer import Observer, ObserverConfig
+from tribo.interfaces.observer import Observer
 from tribo.simulation.run import Simulation
 from tribo.testing import samples
 from tribo.testing.checks_calls import Exercise, call_checks, locked
@@ -20,29 +22,31 @@ from tribo.testing.compare import first_difference
 from tribo.testing.subject import Subject, fact, require
 
 
-class KeepsConfig(ObserverConfig):
-    """Configuration of `Keeps`."""
-
-    type: Literal["tribo.testing.keeps"] = "tribo.testing.keeps"
-
-
-class Keeps(Observer[KeepsConfig]):
+class Keeps(Observer):
     """Keeps what a run shows to its observers."""
 
-    Config: ClassVar[type[KeepsConfig]] = KeepsConfig
+    type = "tribo.testing.keeps"
 
-    def __init__(self) -> None:
-        super().__init__(KeepsConfig())
-        self.run: RunInfo | None = None
-        self.snapshots: list[Snapshot] = []
+    _run: RunInfo | None = None
+    _snapshots: list[Snapshot] = PrivateAttr(default_factory=list)
+
+    @property
+    def run(self) -> RunInfo | None:
+        """What was told at the start."""
+        return self._run
+
+    @property
+    def snapshots(self) -> list[Snapshot]:
+        """Every step."""
+        return self._snapshots
 
     def on_start(self, run: RunInfo) -> None:
         """Keep what is told at the start."""
-        self.run = run
+        self._run = run
 
     def on_step(self, snapshot: Snapshot) -> None:
         """Keep every step."""
-        self.snapshots.append(snapshot)
+        self._snapshots.append(snapshot)
 
 
 def _watched(subject: Subject, *observers: Any) -> Keeps:
@@ -58,7 +62,7 @@ def _watched(subject: Subject, *observers: Any) -> Keeps:
 @cache
 def _plain(kind: str) -> tuple[RunInfo, tuple[Snapshot, ...]]:
     """Return what a small run shows that nothing watches."""
-    keeps = _watched(Subject(Keeps, kind, KeepsConfig(), {}, None, 0))  # type: ignore[arg-type]
+    keeps = _watched(Subject(Keeps, kind, Keeps(), {}, None, 0))  # type: ignore[arg-type]
     assert keeps.run is not None
     return keeps.run, tuple(keeps.snapshots)
 

@@ -14,7 +14,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from tribo.core.words import said
-from tribo.interfaces.component import Component, ComponentConfig
+from tribo.interfaces.component import Component
 from tribo.registry.kinds import KINDS, Kind
 from tribo.testing import (
     checks_contact_solver,
@@ -58,11 +58,11 @@ SUITES: Mapping[str, Suite] = MappingProxyType(
     }
 )
 
-Config = ComponentConfig | Mapping[str, Any]
+Config = Component | Mapping[str, Any]
 
 
 def check(
-    cls: type[Component[Any]],
+    cls: type[Component],
     configs: Sequence[Config],
     *,
     expected_failures: Mapping[str, str] = _NOTHING,
@@ -77,7 +77,7 @@ def check(
     cls : type
         The class; which checks it gets follows from the interface it
         subclasses.
-    configs : sequence of ComponentConfig or Mapping
+    configs : sequence of Component or Mapping
         Valid configurations, as objects or as in a case; ``type`` may be left
         out.
     expected_failures : Mapping[str, str], optional
@@ -114,12 +114,12 @@ def check(
             "model_config = ConfigDict(json_schema_extra={'examples': [{…}]})"
         )
         outcomes.append(Outcome(ENOUGH, "", "no configuration", "failed", needed))
-    name = f"{cls.__qualname__} ({cls.type_name()})"
+    name = f"{cls.__qualname__} ({cls.type})"
     return Report(name, kind.words, tuple(outcomes))
 
 
 def parametrize_checks(
-    cls: type[Component[Any]],
+    cls: type[Component],
     configs: Sequence[Config],
     *,
     expected_failures: Mapping[str, str] = _NOTHING,
@@ -174,13 +174,13 @@ def parametrize_checks(
     return test_conformance
 
 
-def example_configs(cls: type[Component[Any]]) -> list[dict[str, Any]]:
-    """Return configurations to check a class with, read off its configuration class.
+def example_configs(cls: type[Component]) -> list[dict[str, Any]]:
+    """Return configurations to check a class with, read off its schema.
 
     Parameters
     ----------
     cls : type
-        A class with a ``Config``.
+        The class.
 
     Returns
     -------
@@ -195,19 +195,17 @@ def example_configs(cls: type[Component[Any]]) -> list[dict[str, Any]]:
         If the schema cannot be made, or its examples are no list of tables.
     """
     try:
-        examples = cls.Config.model_json_schema().get("examples")
+        examples = cls.model_json_schema().get("examples")
     except KeyboardInterrupt:
         raise
     except BaseException as error:
-        raise ValueError(
-            f"making the schema of {cls.Config.__qualname__} raised {said(error)}"
-        ) from error
+        raise ValueError(f"making the schema of {cls.__qualname__} raised {said(error)}") from error
     if examples:
         if not (isinstance(examples, list) and all(isinstance(e, Mapping) for e in examples)):
             raise ValueError(f"they are {examples!r}; they must be a list of tables")
         return [dict(example) for example in examples]
     try:
-        cls.Config.model_validate({})
+        cls.model_validate({})
     except ValidationError:
         return []
     return [{}]
@@ -224,16 +222,11 @@ def kind_of(cls: object) -> Kind:
     if inspect.isabstract(cls):
         missing = ", ".join(sorted(getattr(cls, "__abstractmethods__", ())))
         raise TypeError(f"{cls.__qualname__} does not define {missing}")
-    config = getattr(cls, "Config", None)
-    if not (inspect.isclass(config) and issubclass(config, ComponentConfig)):
-        raise TypeError(f"{cls.__qualname__}.Config is not a subclass of ComponentConfig")
-    if not isinstance(config.model_fields["type"].default, str):
-        raise TypeError(f'{config.__qualname__} needs a line: type: Literal["NAME"] = "NAME"')
     return kinds[0]
 
 
 def subjects(
-    cls: type[Component[Any]], configs: Sequence[Config], fields: Mapping[str, FieldValue]
+    cls: type[Component], configs: Sequence[Config], fields: Mapping[str, FieldValue]
 ) -> list[Subject]:
     """Return the class with each of its configurations."""
     valid = list(_validated(cls, configs))
@@ -243,13 +236,13 @@ def subjects(
     return [Subject(cls, kind, config, fields, revival, i) for i, config in enumerate(valid)]
 
 
-def _validated(cls: type[Component[Any]], configs: Sequence[Config]) -> Iterator[ComponentConfig]:
+def _validated(cls: type[Component], configs: Sequence[Config]) -> Iterator[Component]:
     for number, config in enumerate(configs):
-        if isinstance(config, cls.Config):
+        if isinstance(config, cls):
             yield config
             continue
         try:
-            yield cls.Config.model_validate(config)
+            yield cls.model_validate(config)
         except ValidationError as error:
             what = f"configs[{number}] is not valid for {cls.__qualname__}"
             raise ValueError(f"{what}: {error}") from error
@@ -284,7 +277,7 @@ def _outcome(one: Check, subject: Subject, expected: Mapping[str, str]) -> Outco
     return came("passed")
 
 
-def _found(error: BaseException, cls: type[Component[Any]]) -> str:
+def _found(error: BaseException, cls: type[Component]) -> str:
     text = " ".join(str(error).split())
     if isinstance(error, CheckFailed):
         return text

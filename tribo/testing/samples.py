@@ -3,27 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, ClassVar, Literal
+from typing import Any
 
 import numpy as np
 
-from tribo.contact.winkler import Winkler, WinklerConfig
+from tribo.contact.winkler import Winkler
 from tribo.core.arrays import Array
 from tribo.core.fields import ContactConditions, Field, LocalConditions
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.core.state import State
-from tribo.interfaces.effect import Effect, EffectConfig
-from tribo.kinematics.reciprocating import Reciprocating, ReciprocatingConfig
+from tribo.interfaces.effect import Effect
+from tribo.kinematics.reciprocating import Reciprocating
 from tribo.simulation.assembly import assemble
 from tribo.simulation.march import begin, march
 from tribo.simulation.model import Body, Model
 from tribo.simulation.rates import Moment, law_states, wear_rates
-from tribo.surfaces.cylinder import Cylinder, CylinderConfig
-from tribo.surfaces.flat import Flat, FlatConfig
-from tribo.surfaces.sphere import Sphere, SphereConfig
+from tribo.surfaces.cylinder import Cylinder
+from tribo.surfaces.flat import Flat
+from tribo.surfaces.sphere import Sphere
 from tribo.testing.subject import FieldValue, Subject, require
-from tribo.wear.archard import Archard, ArchardConfig
+from tribo.wear.archard import Archard
 
 # Neither square nor of square cells, so that swapped axes are noticed.
 GRID = Grid((0.72e-3, 0.8e-3), (24, 20))
@@ -175,14 +175,8 @@ def contact_conditions(
     )
 
 
-class GivenConfig(EffectConfig):
-    """Configuration of `Given`."""
-
-    type: Literal["tribo.testing.given"] = "tribo.testing.given"
-
-
-class Given(Effect[GivenConfig]):
-    """Provides fields at sample values, for laws and effects that require them.
+def given(names: Sequence[str], values: Mapping[str, FieldValue]) -> Effect:
+    """Return an effect that provides fields at sample values.
 
     Parameters
     ----------
@@ -192,33 +186,27 @@ class Given(Effect[GivenConfig]):
         Typical values, where known.
     """
 
-    Config: ClassVar[type[GivenConfig]] = GivenConfig
-    provides: tuple[Field, ...] = ()  # type: ignore[misc]
+    class Given(Effect):
+        type = "tribo.testing.given"
+        provides = tuple(Field(name, "1", "A sample.") for name in names)
 
-    def __init__(self, names: Sequence[str], values: Mapping[str, FieldValue]) -> None:
-        super().__init__(GivenConfig())
-        self._values = values
-        self.provides = tuple(Field(name, "1", "A sample.") for name in names)
+        def fields(self, contact: ContactConditions) -> Mapping[str, Mapping[str, Array]]:
+            return {
+                name: dict.fromkeys(contact.materials, sample_field(name, values, contact.pressure))
+                for name in names
+            }
 
-    def fields(self, contact: ContactConditions) -> Mapping[str, Mapping[str, Array]]:
-        """Return the sample of each field for each body."""
-        samples = {
-            field.name: sample_field(field.name, self._values, contact.pressure)
-            for field in self.provides
-        }
-        return {name: dict.fromkeys(contact.materials, values) for name, values in samples.items()}
+    return Given()
 
 
 def archard() -> Archard:
     """Return a law that wears a third of the first approach within some metres."""
-    return Archard(ArchardConfig(k=1e-16))
+    return Archard(k=1e-16)
 
 
 def sliding(distance: float) -> Reciprocating:
     """Return back and forth sliding of 2 mm strokes."""
-    return Reciprocating(
-        ReciprocatingConfig(stroke=2e-3, frequency=SPEED / 4e-3, distance=distance)
-    )
+    return Reciprocating(stroke=2e-3, frequency=SPEED / 4e-3, distance=distance)
 
 
 def small_model(
@@ -235,13 +223,13 @@ def small_model(
     kinematics = kinematics or sliding(3.0)
     known = {"friction_coefficient"}.union(*({f.name for f in e.provides} for e in effects))
     needed = {*law.requires}.union(*(effect.requires for effect in effects)) - known
-    extra = [Given(sorted(needed), subject.fields)] if needed else []
+    extra = [given(sorted(needed), subject.fields)] if needed else []
     shapes = _shapes(kinematics)
     return assemble(
         grid=GRID,
         load=LOAD,
         bodies=[Body(n, s, STEEL, law) for n, s in zip(BODIES, shapes, strict=True)],
-        contact=Winkler(WinklerConfig(plasticity=False)),
+        contact=Winkler(plasticity=False),
         kinematics=kinematics,
         friction_coefficient=friction_coefficient(subject.fields),
         effects=[*extra, *effects],
@@ -255,10 +243,10 @@ def _shapes(kinematics: Any) -> list[Any]:
     """Return a surface for each body; those that pass as a whole do not vary along x."""
     exposures = kinematics.exposures(GRID, BODIES)
     passes = [not exposures[name].shape_stays for name in BODIES]
-    flat = Flat(FlatConfig())
+    flat = Flat()
     if all(passes):
-        return [Cylinder(CylinderConfig(radius=RADIUS, axis="x")), flat]
-    sphere = Sphere(SphereConfig(radius=RADIUS))
+        return [Cylinder(radius=RADIUS, axis="x"), flat]
+    sphere = Sphere(radius=RADIUS)
     return [flat, sphere] if passes[0] else [sphere, flat]
 
 

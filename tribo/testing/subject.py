@@ -10,7 +10,7 @@ from functools import cached_property, partial
 from typing import Any, overload
 
 from tribo.core.arrays import Array
-from tribo.interfaces.component import Component, ComponentConfig
+from tribo.interfaces.component import Component
 
 FieldValue = float | Callable[[Array], Array]
 """The value of a local field, or how it follows from the pressure."""
@@ -36,7 +36,7 @@ class Subject:
         The class.
     kind : str
         Its kind, as ``"wear_law"``.
-    config : ComponentConfig
+    config : Component
         One valid configuration.
     fields : Mapping[str, float or callable]
         Typical values of local fields, in SI, or functions of the pressure.
@@ -46,21 +46,22 @@ class Subject:
         Number of the configuration.
     """
 
-    cls: type[Component[Any]]
+    cls: type[Component]
     kind: str
-    config: ComponentConfig
+    config: Component
     fields: Mapping[str, FieldValue]
     revival: Revival
     index: int
 
     def make(self) -> Any:
         """Return a new component with the configuration."""
-        return self.cls(self.config)
+        return self.cls.model_validate(self.config.model_dump())
 
     @property
     def label(self) -> str:
         """The configuration as short text."""
-        values = self.config.model_dump(exclude_defaults=True, exclude={"type"})
+        values = self.config.model_dump(exclude_defaults=True)
+        del values["type"]
         text = ", ".join(f"{name}={value!r}" for name, value in values.items()) or "its defaults"
         return text if len(text) <= 60 else text[:59] + "…"
 
@@ -127,11 +128,11 @@ class Revival:
 
     Parameters
     ----------
-    configs : sequence of ComponentConfig
+    configs : sequence of Component
         The configurations.
     """
 
-    def __init__(self, configs: list[ComponentConfig]) -> None:
+    def __init__(self, configs: list[Component]) -> None:
         self._configs = configs
 
     @cached_property

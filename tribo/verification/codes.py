@@ -5,14 +5,13 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable
 from functools import partial
-from typing import ClassVar, Literal
 
 import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactProblem, ContactSolution, ContactSystem, Residuals
 from tribo.core.grid import Grid
-from tribo.interfaces.contact import ContactSolver, ContactSolverConfig
+from tribo.interfaces.contact import ContactSolver
 from tribo.registry.registry import default_registry
 from tribo.verification.check import Check, Found, Quantity
 from tribo.verification.plasticity import ONSET
@@ -35,39 +34,27 @@ CELLS = 48
 Solve = Callable[[Array, Grid, float], Array]
 
 
-class OtherConfig(ContactSolverConfig):
-    """Another code's solver, for the wear history."""
+class Other(ContactSolver):
+    """A contact solver from a function that knows only pressures."""
 
-    type: Literal["verification.other"] = "verification.other"
+    type = "verification.other"
 
-
-class Other(ContactSolver[OtherConfig]):
-    """A contact solver from a function that knows only pressures.
-
-    Parameters
-    ----------
-    pressure : callable
-        From gap (m), grid and load (N) to pressure (Pa), shape (nx, ny).
-    """
-
-    Config: ClassVar[type[OtherConfig]] = OtherConfig
-
-    def __init__(self, pressure: Solve) -> None:
-        super().__init__(OtherConfig(plasticity=False))
-        self._pressure = pressure
+    pressure: Solve
+    """From gap (m), grid and load (N) to pressure (Pa), shape (nx, ny)."""
+    plasticity: bool = False
 
     def solve(
         self, problem: ContactProblem, start: ContactSolution | None = None
     ) -> ContactSolution:
         """Solve one contact; the approach and the residuals are not known."""
-        pressure = self._pressure(problem.gap, problem.system.grid, problem.load)
+        pressure = self.pressure(problem.gap, problem.system.grid, problem.load)
         return ContactSolution(pressure, 0.0, np.zeros_like(pressure), 0, Residuals(0.0, 0.0, 0.0))
 
 
 def tamaas_free(gap: Array, grid: Grid, load: float, cap: float | None = None) -> Array:
     """Return tamaas's pressure in free space, through the plugin tribo-tamaas."""
     cls = default_registry().lookup("contact_solver", "tamaas.half_space")
-    solver = cls(cls.Config.model_validate({"type": cls.type_name(), "tolerance": 1e-9}))
+    solver = cls.model_validate({"tolerance": 1e-9})
     assert isinstance(solver, ContactSolver)
     system = ContactSystem(grid, MODULUS, load, cap)
     return solver.solve(ContactProblem(system, gap, load)).pressure
@@ -138,7 +125,7 @@ def _rough(solve: Solve, level: int, placement: float) -> Found:
 def _history(solve: Solve, level: int, placement: float) -> Found:
     distance, steps = 4.0, 20
     depths = []
-    for contact in (half_space(), Other(solve)):
+    for contact in (half_space(), Other(pressure=solve)):
         model = on_flat(
             ball(),
             Grid((0.7e-3, 0.7e-3), (CELLS, CELLS)),

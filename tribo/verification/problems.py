@@ -3,27 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, ClassVar, Literal
 
 import numpy as np
 
 from tribo.config.stepping import ExplicitConfig, ImplicitConfig
-from tribo.contact.dcfft import DcFft, DcFftConfig
-from tribo.contact.periodic import Periodic, PeriodicConfig
+from tribo.contact.dcfft import DcFft
+from tribo.contact.periodic import Periodic
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactProblem, ContactSolution, ContactSystem
 from tribo.core.grid import Grid
 from tribo.core.material import Material, contact_modulus
 from tribo.core.state import State
 from tribo.interfaces.contact import ContactSolver
-from tribo.interfaces.surface import Surface, SurfaceConfig
-from tribo.kinematics.unidirectional import Unidirectional, UnidirectionalConfig
+from tribo.interfaces.surface import Surface
+from tribo.kinematics.unidirectional import Unidirectional
 from tribo.simulation.assembly import assemble
 from tribo.simulation.model import Body, Model
 from tribo.simulation.step import explicit_step, first_contact, implicit_step
-from tribo.surfaces.flat import Flat, FlatConfig
-from tribo.surfaces.paraboloid import Paraboloid, ParaboloidConfig
-from tribo.wear.archard import Archard, ArchardConfig
+from tribo.surfaces.flat import Flat
+from tribo.surfaces.paraboloid import Paraboloid
+from tribo.wear.archard import Archard
 
 YOUNG, POISSON = 207e9, 0.3
 HARDNESS = 4e9
@@ -36,44 +35,31 @@ MODULUS = contact_modulus([STEEL, STEEL])
 SPEED = 0.1
 
 
-class ShapeConfig(SurfaceConfig):
-    """A height that only its maker knows."""
+class Shape(Surface):
+    """A surface from a function."""
 
-    type: Literal["verification.shape"] = "verification.shape"
+    type = "verification.shape"
 
-
-class Shape(Surface[ShapeConfig]):
-    """A surface from a function.
-
-    Parameters
-    ----------
-    height : callable
-        From the grid to heights in m, shape (nx, ny).
-    """
-
-    Config: ClassVar[type[ShapeConfig]] = ShapeConfig
-
-    def __init__(self, height: Callable[[Grid], Array]) -> None:
-        super().__init__(ShapeConfig())
-        self._height = height
+    heights: Callable[[Grid], Array]
+    """From the grid to heights in m, shape (nx, ny)."""
 
     def height(self, grid: Grid) -> Array:
         """Return the function's heights."""
-        return self._height(grid)
+        return self.heights(grid)
 
 
 def half_space(tolerance: float = 1e-10) -> DcFft:
     """Return the half-space in free space."""
-    return DcFft(DcFftConfig(tolerance=tolerance))
+    return DcFft(tolerance=tolerance)
 
 
 def periodic(tolerance: float = 1e-10) -> Periodic:
     """Return the half-space that repeats."""
-    return Periodic(PeriodicConfig(tolerance=tolerance))
+    return Periodic(tolerance=tolerance)
 
 
 def press(
-    contact: ContactSolver[Any], gap: Array, grid: Grid, load: float, cap: float | None = None
+    contact: ContactSolver, gap: Array, grid: Grid, load: float, cap: float | None = None
 ) -> ContactSolution:
     """Solve one contact of the checks' materials."""
     system = ContactSystem(grid, MODULUS, load, cap)
@@ -82,13 +68,13 @@ def press(
 
 def ball() -> Paraboloid:
     """Return the ball of 5 mm radius, as a paraboloid."""
-    return Paraboloid(ParaboloidConfig(radius=RADIUS))
+    return Paraboloid(radius=RADIUS)
 
 
 def on_flat(
-    surface: Surface[Any],
+    surface: Surface,
     grid: Grid,
-    contact: ContactSolver[Any],
+    contact: ContactSolver,
     *,
     load: float = LOAD,
     ball_k: float = WEAR_COEFFICIENT,
@@ -102,18 +88,16 @@ def on_flat(
         grid=grid,
         load=load,
         bodies=[
-            Body("ball", surface, material, Archard(ArchardConfig(k=ball_k))),
+            Body("ball", surface, material, Archard(k=ball_k)),
             Body(
                 "flat",
-                Flat(FlatConfig()),
+                Flat(),
                 material,
-                None if flat_k is None else Archard(ArchardConfig(k=flat_k)),
+                None if flat_k is None else Archard(k=flat_k),
             ),
         ],
         contact=contact,
-        kinematics=Unidirectional(
-            UnidirectionalConfig(speed=SPEED, track_length=track_length, distance=distance)
-        ),
+        kinematics=Unidirectional(speed=SPEED, track_length=track_length, distance=distance),
         # Unused by `slide`, but what does not go with the contact is refused.
         stepping=None if contact.accepts_wear_compliance else ExplicitConfig(time_step=1.0),
     )

@@ -33,7 +33,7 @@ STEP, STEPS = 0.5, 16
 def _rate(
     inside: Mask, grid: Grid, radius: float, contact: DcFft | Periodic, load: float, tilt: Array
 ) -> float:
-    shape = Shape(lambda _: np.where(inside, tilt, -1e-3))
+    shape = Shape(heights=lambda _: np.where(inside, tilt, -1e-3))
     model = on_flat(shape, grid, contact, load=load)
     unit = radius / (WEAR_COEFFICIENT * MODULUS)
     before, after = (

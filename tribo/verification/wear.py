@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from tribo.contact.winkler import Winkler, WinklerConfig
+from tribo.contact.winkler import Winkler
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
 from tribo.core.material import Material
@@ -40,7 +40,7 @@ def _foundation(steps: int, placement: float) -> Found:
     distance = 20.0
     hertz_radius = 148.837e-6
     stiffness = winkler.stiffness_for_half_width(MODULUS, hertz_radius)
-    springs = Winkler(WinklerConfig(modulus=stiffness))
+    springs = Winkler(modulus=stiffness)
     model = on_flat(ball(), Grid((0.7e-3, 0.7e-3), (129, 129)), springs)
     _, state = slide(model, distance, steps)
     pressure = state.contact.pressure
@@ -104,7 +104,7 @@ def _full_contact(steps: int, placement: float, *, explicit: bool) -> Found:
     compliance = float(sinusoid.compliance(2 * np.pi / WAVELENGTH, MODULUS))
     distance = compliance / K
     grid = Grid((WAVELENGTH, WAVELENGTH / 8), (16, 2))
-    model = on_flat(Shape(_wave), grid, periodic(1e-12), load=5.0)
+    model = on_flat(Shape(heights=_wave), grid, periodic(1e-12), load=5.0)
     _, state = slide(model, distance, steps, explicit=explicit)
     left = float(np.ptp(_wave(grid) - state.bodies["ball"].wear)) / float(np.ptp(_wave(grid)))
     factor = sinusoid.explicit_euler_factor if explicit else sinusoid.implicit_euler_factor

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, Self
 
 import numpy as np
 from pydantic import ConfigDict, model_validator
@@ -11,17 +11,26 @@ from tribo.core.errors import CaseError
 from tribo.core.fields import LocalConditions, WearRate
 from tribo.core.material import Material
 from tribo.core.units import Quantity
-from tribo.interfaces.wear import WearLaw, WearLawConfig
+from tribo.interfaces.wear import WearLaw
 
 
-class ArchardConfig(WearLawConfig):
-    """Give ``k``, or ``K`` and the hardness it refers to."""
+class Archard(WearLaw):
+    """dh/ds = k p, with k = K/H.
+
+    Valid for mild sliding wear in a steady regime: k independent of pressure,
+    speed and history.
+
+    References
+    ----------
+    Archard, J. F. (1953), Contact and rubbing of flat surfaces, J. Appl. Phys.
+    24, 981-988. Holm, R. (1958), Electric Contacts Handbook, Springer.
+    """
 
     model_config = ConfigDict(
         json_schema_extra={"examples": [{"k": "3.11e-16 1/Pa"}, {"K": 1e-6, "hardness": "4 GPa"}]}
     )
 
-    type: Literal["archard"] = "archard"
+    type = "archard"
     k: Annotated[float, Quantity("1/Pa", at_least=0)] | None = None
     """Specific wear rate, volume per load and sliding distance."""
     K: Annotated[float, Quantity("1", at_least=0)] | None = None
@@ -37,21 +46,6 @@ class ArchardConfig(WearLawConfig):
             raise ValueError("hardness goes with K; k does not use it")
         return self
 
-
-class Archard(WearLaw[ArchardConfig]):
-    """dh/ds = k p, with k = K/H.
-
-    Valid for mild sliding wear in a steady regime: k independent of pressure,
-    speed and history.
-
-    References
-    ----------
-    Archard, J. F. (1953), Contact and rubbing of flat surfaces, J. Appl. Phys.
-    24, 981-988. Holm, R. (1958), Electric Contacts Handbook, Springer.
-    """
-
-    Config = ArchardConfig
-
     def check(self, material: Material) -> None:
         """Require a hardness where only K is given."""
         self._coefficient(material)
@@ -62,11 +56,11 @@ class Archard(WearLaw[ArchardConfig]):
         return WearRate(k * local.pressure, np.full_like(local.pressure, k))
 
     def _coefficient(self, material: Material) -> float:
-        if self.config.k is not None:
-            return self.config.k
-        hardness = self.config.hardness or material.hardness
-        if hardness is None or self.config.K is None:
+        if self.k is not None:
+            return self.k
+        hardness = self.hardness or material.hardness
+        if hardness is None or self.K is None:
             raise CaseError(
                 "K needs a hardness: add hardness here or to the body's material, or give k"
             )
-        return self.config.K / hardness
+        return self.K / hardness

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from tribo.plugin import ContactConditions, Grid, LocalConditions, Material
 
-from tribo_energy.dissipation import Dissipation, DissipationConfig
-from tribo_energy.traction import FrictionTraction, FrictionTractionConfig
+from tribo_energy.dissipation import Dissipation
+from tribo_energy.traction import FrictionTraction
 
 MU = 0.1
 STEEL = Material(young="207 GPa", poisson=0.3)
@@ -25,12 +25,12 @@ def traction(pressure):
         swept=frozenset({"disk"}),
         fields={"friction_coefficient": {"ball": friction, "disk": friction}},
     )
-    return FrictionTraction(FrictionTractionConfig()).fields(contact)
+    return FrictionTraction().fields(contact)
 
 
 def rate(pressure, energy=0.0, **config):
     fields = {name: bodies["ball"] for name, bodies in traction(pressure).items()}
-    law = Dissipation(DissipationConfig(**{"alpha": "3.11e-6 mm^3/J", **config}))
+    law = Dissipation(**{"alpha": "3.11e-6 mm^3/J", **config})
     state = {"dissipated_energy": np.full_like(pressure, energy)}
     return law.rate(LocalConditions(pressure, 0.1, STEEL, fields, state))
 

@@ -4,24 +4,20 @@ import copy
 import runpy
 import tomllib
 from pathlib import Path
-from typing import Literal
 
 import numpy as np
 import pytest
 from tribo import CaseError, Simulation
-from tribo.plugin import Observer, ObserverConfig
+from tribo.plugin import Observer
 
 HERE = Path(__file__).parent
 EXAMPLE = HERE.parent / "examples" / "ball_on_disk.toml"
 ALPHA, MU, LOAD = 3.11e-15, 0.1, 100.0
 
 
-class LastConfig(ObserverConfig):
-    type: Literal["test.last"] = "test.last"
+class Last(Observer):
+    type = "test.last"
 
-
-class Last(Observer[LastConfig]):
-    Config = LastConfig
     state = None
 
     def on_step(self, snapshot):
@@ -39,7 +35,7 @@ def case(duration=200, **wear):
 
 
 def run(data):
-    simulation, last = Simulation(data), Last(LastConfig())
+    simulation, last = Simulation(data), Last()
     result = simulation.run(observers=[last])
     return simulation.model, last, result
 

@@ -15,7 +15,7 @@ from tribo.plugin import (
     WearCompliance,
 )
 
-from tribo_tamaas import Tamaas, TamaasConfig
+from tribo_tamaas import Tamaas
 
 tamaas = pytest.importorskip(
     "tamaas", reason="tamaas is not installed: it has wheels for Linux on x86-64 only"
@@ -57,7 +57,7 @@ def ball(cells=(48, 48), size=(0.7e-3, 0.7e-3), load=100.0, cap=None, modulus=MO
 
 
 def solver(**config):
-    return Tamaas(TamaasConfig(**config))
+    return Tamaas(**config)
 
 
 # Both solvers stop at residuals of 1e-8 of energy, which leaves the pressure of a

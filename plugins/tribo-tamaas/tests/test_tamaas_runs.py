@@ -10,7 +10,7 @@ from tribo import Simulation
 from tribo.plugin import CaseError, ContactSystem, Grid
 
 import tribo_tamaas.solver
-from tribo_tamaas import Tamaas, TamaasConfig
+from tribo_tamaas import Tamaas
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -84,7 +84,7 @@ def test_without_tamaas_the_error_says_what_to_do(monkeypatch):
     monkeypatch.setattr(tribo_tamaas.solver, "find_spec", lambda _: None)
     system = ContactSystem(Grid((1e-3, 1e-3), (8, 8)), 1e11, 100.0)
     with pytest.raises(CaseError, match=r"pip install tamaas .* x86-64 only.* 'dcfft'"):
-        Tamaas(TamaasConfig()).check(system)
+        Tamaas().check(system)
 
 
 def test_offering_the_solver_does_not_import_tamaas():

@@ -5,7 +5,7 @@ import pytest
 from pydantic import ValidationError
 from tribo.plugin import CaseError, ContactConditions, Grid, Material
 
-from tribo_thermal.flash import Flash, FlashConfig
+from tribo_thermal.flash import Flash
 
 STEEL = {"young": "207 GPa", "poisson": 0.3}
 HEAT = {"conductivity": "46 W/(m K)", "density": "7850 kg/m^3", "heat_capacity": "460 J/(kg K)"}
@@ -37,7 +37,7 @@ def contact(radius, swept=("disk",), material=None, load=100.0):
 
 def rises(where, **config):
     given = {"ambient": "90 degC", "source": "parabolic", "rise": "maximum", **config}
-    effect = Flash(FlashConfig(**given))
+    effect = Flash(**given)
     # As when a case is composed, before anything runs.
     effect.check(where.materials, where.swept)
     return effect.rises(where)
@@ -82,7 +82,7 @@ def test_a_poor_heat_path_sends_heat_into_the_other_body():
 
 
 def test_fields_are_the_temperature_and_its_rise_over_ambient():
-    fields = Flash(FlashConfig(ambient="90 degC")).fields(contact(WORN))
+    fields = Flash(ambient="90 degC").fields(contact(WORN))
     for name in ("ball", "disk"):
         difference = fields["temperature"][name] - fields["temperature_rise"][name]
         np.testing.assert_allclose(difference, 363.15)
@@ -124,4 +124,4 @@ def test_bodies_that_do_not_exist_are_refused(wrong):
 
 def test_all_the_heat_must_go_somewhere():
     with pytest.raises(ValidationError, match="all the heat is 1"):
-        FlashConfig(ambient=363.15, heat_fraction={"ball": 0.5, "disk": 0.4})
+        Flash(ambient=363.15, heat_fraction={"ball": 0.5, "disk": 0.4})

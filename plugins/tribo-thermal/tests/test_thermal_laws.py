@@ -7,8 +7,8 @@ import pytest
 from pydantic import ValidationError
 from tribo.plugin import CaseError, LocalConditions, Material
 
-from tribo_thermal.arrhenius import Arrhenius, ArrheniusConfig
-from tribo_thermal.softening import Softening, SofteningConfig
+from tribo_thermal.arrhenius import Arrhenius
+from tribo_thermal.softening import Softening
 
 STEEL = Material(young="207 GPa", poisson=0.3, hardness="4 GPa")
 PRESSURE = np.array([[0.0, 1e8, 2e9]])
@@ -23,14 +23,12 @@ def coefficient(law, temperature, material=STEEL):
 
 
 def arrhenius(energy="50 kJ/mol"):
-    return Arrhenius(
-        ArrheniusConfig(k=3e-16, activation_energy=energy, reference_temperature="90 degC")
-    )
+    return Arrhenius(Arrhenius(k=3e-16, activation_energy=energy, reference_temperature="90 degC"))
 
 
 def softening(**config):
     given = {"K": 1.2e-6, "softening": "0.001 1/K", "reference_temperature": 300.0, **config}
-    return Softening(SofteningConfig(**given))
+    return Softening(**given)
 
 
 def test_arrhenius_is_archard_at_the_reference_temperature():
@@ -55,7 +53,7 @@ def test_an_energy_is_per_mole(energy):
 
 
 def test_the_schema_says_per_mole():
-    schema = ArrheniusConfig.model_json_schema()["properties"]["activation_energy"]
+    schema = Arrhenius.model_json_schema()["properties"]["activation_energy"]
     assert schema["x-unit"] == "J/mol"
     assert arrhenius().config.activation_energy == 50e3
 

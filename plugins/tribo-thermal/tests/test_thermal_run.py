@@ -10,7 +10,7 @@ import pytest
 from tribo import CaseError, Simulation
 from tribo.plugin import ContactConditions
 
-from tribo_thermal.flash import Flash, FlashConfig
+from tribo_thermal.flash import Flash
 
 HERE = Path(__file__).parent
 EXAMPLE = HERE.parent / "examples" / "ball_on_disk.toml"
@@ -53,7 +53,7 @@ def test_a_warm_contact_wears_faster_than_archard():
         fields={"friction_coefficient": {"ball": friction}},
     )
     paths = {"ball": {"length": "5 mm", "area": "78.5 mm^2"}}
-    rise = Flash(FlashConfig(ambient="90 degC", heat_paths=paths)).rises(end)["ball"]
+    rise = Flash(ambient="90 degC", heat_paths=paths).rises(end)["ball"]
     least = math.exp(50e3 / 8.314462618 * (1 / 363.15 - 1 / (363.15 + rise)))
     archard = 3.11e-16 * 100 * 30
     ratio = result.saves()[-1]["bodies"]["ball"]["wear_volume_m3"] / archard

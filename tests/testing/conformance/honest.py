@@ -1,44 +1,35 @@
 """One sound implementation of each interface, for mutants to spoil."""
 
-from typing import Annotated, Literal
+from typing import Annotated
 
 import numpy as np
 
 from tribo.plugin import (
     ContactSolver,
-    ContactSolverConfig,
     Effect,
-    EffectConfig,
     Field,
     HalfSpace,
     Kinematics,
-    KinematicsConfig,
     Observer,
-    ObserverConfig,
     Quantity,
     Stationary,
     Surface,
-    SurfaceConfig,
     Track,
     WearLaw,
-    WearLawConfig,
     WearRate,
     solve_bounded,
 )
 
 
-class LawConfig(WearLawConfig):
-    type: Literal["honest.law"] = "honest.law"
+class Law(WearLaw):
+    """Rubbed points wear less; friction and pressure make more of it."""
+
+    type = "honest.law"
     k: Annotated[float, Quantity("1/Pa", above=0)] = 1e-16
     """Specific wear rate per coefficient of friction."""
     p_ref: Annotated[float, Quantity("Pa", above=0)] = 1e9
     """Pressure at which the wear rate has doubled."""
 
-
-class Law(WearLaw[LawConfig]):
-    """Rubbed points wear less; friction and pressure make more of it."""
-
-    Config = LawConfig
     requires = ("friction_coefficient",)
     state_fields = (Field("rubbed", "m", "Distance slid under pressure."),)
 
@@ -49,14 +40,11 @@ class Law(WearLaw[LawConfig]):
         return WearRate(k * p * (1 + p / c.p_ref), k * (1 + 2 * p / c.p_ref), rubbed)
 
 
-class SolverConfig(ContactSolverConfig):
-    type: Literal["honest.solver"] = "honest.solver"
-
-
-class Solver(ContactSolver[SolverConfig]):
+class Solver(ContactSolver):
     """Two half-spaces."""
 
-    Config = SolverConfig
+    type = "honest.solver"
+
     accepts_wear_compliance = True
     honours_cap = True
 
@@ -78,8 +66,10 @@ class Solver(ContactSolver[SolverConfig]):
         return 0.8 * 2 / (system.modulus * q)
 
 
-class MotionConfig(KinematicsConfig):
-    type: Literal["honest.motion"] = "honest.motion"
+class Motion(Kinematics):
+    """The second body goes back and forth."""
+
+    type = "honest.motion"
     stroke: Annotated[float, Quantity("m", above=0)] = 3e-3
     """Length of the stroke."""
     frequency: Annotated[float, Quantity("Hz", above=0)] = 10.0
@@ -87,59 +77,47 @@ class MotionConfig(KinematicsConfig):
     duration: Annotated[float, Quantity("s", above=0)] = 100.0
     """How long it runs."""
 
-
-class Motion(Kinematics[MotionConfig]):
-    """The second body goes back and forth."""
-
-    Config = MotionConfig
     track = Track
 
     @property
-    def duration(self):
-        return self.config.duration
+    def end_time(self):
+        return self.duration
 
-    def distance(self, time):
-        return 2 * self.config.stroke * self.config.frequency * time
+    def distance_at(self, time):
+        return 2 * self.stroke * self.frequency * time
 
-    def time(self, distance):
-        return distance / (2 * self.config.stroke * self.config.frequency)
+    def time_at(self, distance):
+        return distance / (2 * self.stroke * self.frequency)
 
     def exposures(self, grid, bodies):
-        return {bodies[0]: Stationary(grid), bodies[1]: self.track(grid, self.config.stroke)}
+        return {bodies[0]: Stationary(grid), bodies[1]: self.track(grid, self.stroke)}
 
     def limitation(self, grid, half_width_x):
-        return "the contact is too long" if 4 * half_width_x > self.config.stroke else None
+        return "the contact is too long" if 4 * half_width_x > self.stroke else None
 
 
-class HillConfig(SurfaceConfig):
-    type: Literal["honest.hill"] = "honest.hill"
+class Hill(Surface):
+    """An elliptic paraboloid whose top lies beside the centre."""
+
+    type = "honest.hill"
     radius: Annotated[float, Quantity("m", above=0)] = 8e-3
     """Radius along x; twice that along y."""
 
-
-class Hill(Surface[HillConfig]):
-    """An elliptic paraboloid whose top lies beside the centre."""
-
-    Config = HillConfig
-
     def height(self, grid):
         x, y = grid.mesh
-        c = 1 / self.config.radius
+        c = 1 / self.radius
         return -0.5 * c * (x - 4e-5) ** 2 - 0.25 * c * (y + 3e-5) ** 2
 
     @property
     def curvature(self):
-        return 1 / self.config.radius, 0.5 / self.config.radius
+        return 1 / self.radius, 0.5 / self.radius
 
 
-class TractionConfig(EffectConfig):
-    type: Literal["honest.traction"] = "honest.traction"
-
-
-class Traction(Effect[TractionConfig]):
+class Traction(Effect):
     """Friction."""
 
-    Config = TractionConfig
+    type = "honest.traction"
+
     provides = (Field("traction", "Pa", "Friction force per area."),)
     requires = ("friction_coefficient",)
 
@@ -148,14 +126,11 @@ class Traction(Effect[TractionConfig]):
         return {"traction": {name: mu[name] * contact.pressure for name in contact.materials}}
 
 
-class CountsConfig(ObserverConfig):
-    type: Literal["honest.counts"] = "honest.counts"
-
-
-class Counts(Observer[CountsConfig]):
+class Counts(Observer):
     """Counts the steps."""
 
-    Config = CountsConfig
+    type = "honest.counts"
+
     steps = 0
 
     def on_start(self, run):

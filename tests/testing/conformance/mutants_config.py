@@ -4,39 +4,39 @@ from typing import Annotated, Literal
 
 from pydantic import ConfigDict, field_validator
 from testing.conformance.caught import caught_by
-from testing.conformance.honest import Law, LawConfig
+from testing.conformance.honest import Law
 
 from tribo.plugin import Quantity
 
 
 @caught_by("config_is_frozen")
 class Thawed(Law):
-    class Config(LawConfig):
+    class Config(Law):
         model_config = ConfigDict(frozen=False)
 
 
 @caught_by("unknown_keys_are_refused")
 class TakesAnything(Law):
-    class Config(LawConfig):
+    class Config(Law):
         model_config = ConfigDict(extra="ignore")
 
 
 @caught_by("quantities_have_units")
 class WithoutUnit(Law):
-    class Config(LawConfig):
+    class Config(Law):
         q: float = 3.0
         """Something."""
 
 
 @caught_by("fields_are_described")
 class Undescribed(Law):
-    class Config(LawConfig):
+    class Config(Law):
         q: Annotated[float, Quantity("1")] = 3.0
 
 
 @caught_by("config_survives_json")
 class MillimetresEachTime(Law):
-    class Config(LawConfig):
+    class Config(Law):
         q: Annotated[float, Quantity("m")] = 3.0
         """A length in mm."""
 
@@ -48,7 +48,7 @@ class MillimetresEachTime(Law):
 
 @caught_by("config_survives_without_defaults")
 class DefaultsWithoutNeed(Law):
-    class Config(LawConfig):
+    class Config(Law):
         q: Annotated[float, Quantity("1")] | None = None
         """Where it is left out it is not what its default says."""
 
@@ -63,7 +63,7 @@ class DefaultsWithoutNeed(Law):
 
 @caught_by("a_case_can_name_it")
 class OfAnotherName(Law):
-    class Config(LawConfig):
+    class Config(Law):
         type: Literal["other.law", "other.name"] = "other.law"
 
         def model_post_init(self, context):
@@ -72,12 +72,12 @@ class OfAnotherName(Law):
 
 @caught_by("name_has_a_prefix")
 class WithoutPrefix(Law):
-    class Config(LawConfig):
-        type: Literal["law"] = "law"
+    class Config(Law):
+        type = "law"
 
 
 def _local():
-    class Config(LawConfig):
+    class Config(Law):
         """A class that no other process can find."""
 
     return Config

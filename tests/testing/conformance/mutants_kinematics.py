@@ -10,41 +10,41 @@ from tribo.plugin import Grid, NumericalError, Stationary, Track
 @caught_by("motion_ends")
 class Endless(Motion):
     @property
-    def duration(self):
+    def end_time(self):
         return np.inf
 
 
 @caught_by("path_begins_at_zero")
 class RunsIn(Motion):
-    def distance(self, time):
-        return super().distance(time) + 1e-3
+    def distance_at(self, time):
+        return super().distance_at(time) + 1e-3
 
 
 @caught_by("path_never_shrinks")
 class PositionAsPath(Motion):
-    def distance(self, time):
+    def distance_at(self, time):
         return abs(np.sin(time)) + time / 2
 
 
 @caught_by("time_inverts_distance")
 class CountsHalfCycles(Motion):
-    def time(self, distance):
-        return 2 * super().time(distance)
+    def time_at(self, distance):
+        return 2 * super().time_at(distance)
 
 
 @caught_by("cycles_add_up")
 class SlowsDown(Motion):
-    def distance(self, time):
+    def distance_at(self, time):
         return np.sqrt(1 + time) - 1
 
-    def time(self, distance):
+    def time_at(self, distance):
         return (distance + 1) ** 2 - 1
 
 
 @caught_by("every_body_is_exposed")
 class ForgetsABody(Motion):
     def exposures(self, grid, bodies):
-        return {bodies[1]: Track(grid, self.config.stroke)}
+        return {bodies[1]: Track(grid, self.stroke)}
 
 
 @caught_by("body_fields_fit_the_window")
@@ -104,5 +104,5 @@ class SaysYes(Motion):
 
 @caught_by("runs_a_case", NumericalError)
 class StandsStill(Motion):
-    def time(self, distance):
-        return super().time(distance) if distance == 0 or distance > 2.9 else 0.0
+    def time_at(self, distance):
+        return super().time_at(distance) if distance == 0 or distance > 2.9 else 0.0

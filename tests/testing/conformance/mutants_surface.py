@@ -15,7 +15,7 @@ class SwapsAxes(Hill):
 class SamplesCorners(Hill):
     def height(self, grid):
         x, y = (np.arange(n) * d for n, d in zip(grid.cells, grid.spacing, strict=True))
-        return -0.5 / self.config.radius * (x[:, None] ** 2 + 0.5 * y[None, :] ** 2)
+        return -0.5 / self.radius * (x[:, None] ** 2 + 0.5 * y[None, :] ** 2)
 
 
 @caught_by("smaller_window_sees_the_same_surface")
@@ -35,4 +35,4 @@ class InwardHeight(Hill):
 class RadiusAsCurvature(Hill):
     @property
     def curvature(self):
-        return self.config.radius, 2 * self.config.radius
+        return self.radius, 2 * self.radius

@@ -2,20 +2,20 @@
 
 import subprocess
 import sys
-from typing import Annotated, Literal
+from typing import Annotated
 
 import numpy as np
 import pytest
 from pydantic import ConfigDict
-from testing.conformance.honest import Counts, Hill, Law, LawConfig
+from testing.conformance.honest import Counts, Hill, Law
 from testing.conformance.mutants_wear_law import SecantAsDerivative
 
-from tribo.plugin import Quantity, Surface, SurfaceConfig, WearRate
+from tribo.plugin import Quantity, Surface, WearRate
 from tribo.surfaces.flat import Flat
 from tribo.testing import check, example_configs, parametrize_checks
 from tribo.testing.kit import ENOUGH, SUITES, subjects
 from tribo.testing.subject import CheckFailed
-from tribo.wear.archard import Archard, ArchardConfig
+from tribo.wear.archard import Archard
 
 
 def statuses(report):
@@ -89,7 +89,7 @@ def test_the_minimum_can_be_met_by_the_plainest_implementation():
         (Hill.Config, "exactly one of ContactSolver, WearLaw"),
         (3, "3 is not a class"),
         (type("Empty", (Surface,), {}), "Empty does not define height"),
-        (type("Bare", (Flat,), {"Config": SurfaceConfig}), "needs a line: type: Literal"),
+        (type("Bare", (Flat,), {"Config": Surface}), "needs a line: type: Literal"),
     ],
 )
 def test_what_is_no_component_is_refused(cls, message):
@@ -106,19 +106,15 @@ def test_what_the_author_got_wrong_is_named():
         check(Hill, [{}], expected_failures={"name_has_a_prefix": " "})
 
 
-class ShownConfig(LawConfig):
+class Shown(Law):
     model_config = ConfigDict(json_schema_extra={"examples": [{"q": 1}, {"q": 2}]})
-    type: Literal["shown.law"] = "shown.law"
+    type = "shown.law"
     q: Annotated[float, Quantity("1")]
     """Something."""
 
 
-class Shown(Law):
-    Config = ShownConfig
-
-
 class Hidden(Law):
-    class Config(ShownConfig):
+    class Config(Shown):
         model_config = ConfigDict(json_schema_extra=None)
 
 
@@ -129,7 +125,7 @@ def test_examples_come_from_the_schema():
 
 
 def test_defaults_that_are_not_valid_are_no_example():
-    class OneOfTwoConfig(ArchardConfig):
+    class OneOfTwoConfig(Archard):
         model_config = ConfigDict(json_schema_extra=None)
 
     class OneOfTwo(Archard):

@@ -12,7 +12,7 @@ from typing import Any
 
 from tribo.core.errors import CaseError, Interrupted, TriboError
 from tribo.core.state import Snapshot
-from tribo.interfaces.observer import Observer, ObserverConfig
+from tribo.interfaces.observer import Observer
 from tribo.simulation.run import Simulation
 from tribo.study.completion import complete, is_done
 from tribo.study.sweeping.locks import BusyError, locked
@@ -100,7 +100,7 @@ def _run(task: Task, path: Path, stop: Path) -> None:
         ) from error
     if is_done(path, simulation):
         return
-    complete(simulation, path, [_StopFile(stop)]).close()
+    complete(simulation, path, [_StopFile(path=stop)]).close()
 
 
 @contextmanager
@@ -117,18 +117,17 @@ def _alone(path: Path, stop: Path) -> Iterator[None]:
             time.sleep(GLANCE)
 
 
-class _StopFile(Observer[ObserverConfig]):
+class _StopFile(Observer):
     """Stops a run when a file appears."""
 
-    def __init__(self, path: Path) -> None:
-        super().__init__(ObserverConfig(type="stop_file"))
-        self._path = path
-        self._last = 0.0
+    type = "stop_file"
+    path: Path
+    _last: float = 0.0
 
     def on_step(self, snapshot: Snapshot) -> None:
         """Now and then look for the file."""
         now = time.monotonic()
         if now - self._last > GLANCE:
             self._last = now
-            if self._path.exists():
+            if self.path.exists():
                 raise KeyboardInterrupt

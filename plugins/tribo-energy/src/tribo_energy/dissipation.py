@@ -2,44 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated
 
 import numpy as np
 from pydantic import ConfigDict
-from tribo.plugin import Field, LocalConditions, Quantity, WearLaw, WearLawConfig, WearRate
+from tribo.plugin import Field, LocalConditions, Quantity, WearLaw, WearRate
 
 ENERGY = Field("dissipated_energy", "J/m^2", "Friction energy dissipated per area so far.")
 
 
-class DissipationConfig(WearLawConfig):
-    """The thresholds may be left out, used alone or together."""
-
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [
-                {"type": "energy.dissipation", "alpha": "3.11e-6 mm^3/J"},
-                {
-                    "type": "energy.dissipation",
-                    "alpha": "3.11e-6 mm^3/J",
-                    "threshold_traction": "50 MPa",
-                    "threshold_energy": "10 MJ/m^2",
-                },
-            ]
-        }
-    )
-
-    type: Literal["energy.dissipation"] = "energy.dissipation"
-    alpha: Annotated[float, Quantity("m^3/J", at_least=0)]
-    """Energy wear coefficient: volume per dissipated energy. k/μ for Archard's k."""
-    threshold_traction: Annotated[float, Quantity("Pa", at_least=0)] = 0.0
-    """Friction traction below which nothing wears."""
-    threshold_energy: Annotated[float, Quantity("J/m^2", at_least=0)] = 0.0
-    """Energy per area that a point dissipates before it wears."""
-    threshold_spread: Annotated[float, Quantity("1", above=0, at_most=2)] = 0.05
-    """Width of the onset of wear around ``threshold_energy``, relative to it."""
-
-
-class Dissipation(WearLaw[DissipationConfig]):
+class Dissipation(WearLaw):
     """dh/ds = α max(τ − τ_th, 0) φ(E), with dE/ds = τ.
 
     φ rises from 0 to 1, in proportion to the energy E that a point has
@@ -58,21 +30,43 @@ class Dissipation(WearLaw[DissipationConfig]):
     Zapfenreibung, Der Civilingenieur 4, 235-255.
     """
 
-    Config = DissipationConfig
+    model_config = ConfigDict(
+        json_schema_extra={
+            "examples": [
+                {"type": "energy.dissipation", "alpha": "3.11e-6 mm^3/J"},
+                {
+                    "type": "energy.dissipation",
+                    "alpha": "3.11e-6 mm^3/J",
+                    "threshold_traction": "50 MPa",
+                    "threshold_energy": "10 MJ/m^2",
+                },
+            ]
+        }
+    )
+
+    type = "energy.dissipation"
+    alpha: Annotated[float, Quantity("m^3/J", at_least=0)]
+    """Energy wear coefficient: volume per dissipated energy. k/μ for Archard's k."""
+    threshold_traction: Annotated[float, Quantity("Pa", at_least=0)] = 0.0
+    """Friction traction below which nothing wears."""
+    threshold_energy: Annotated[float, Quantity("J/m^2", at_least=0)] = 0.0
+    """Energy per area that a point dissipates before it wears."""
+    threshold_spread: Annotated[float, Quantity("1", above=0, at_most=2)] = 0.05
+    """Width of the onset of wear around ``threshold_energy``, relative to it."""
+
     requires = ("friction_traction", "friction_traction_slope")
     state_fields = (ENERGY,)
 
     def rate(self, local: LocalConditions) -> WearRate:
         """Return the rate, α φ dτ/dp where it wears, and τ as the rate of E."""
-        c = self.config
         traction = np.where(local.pressure > 0, local.fields["friction_traction"], 0.0)
         slope = local.fields["friction_traction_slope"]
-        alpha = np.full_like(traction, c.alpha)
-        if c.threshold_energy > 0:
-            spread = c.threshold_spread * c.threshold_energy
-            onset = (local.state[ENERGY.name] - c.threshold_energy) / spread + 0.5
+        alpha = np.full_like(traction, self.alpha)
+        if self.threshold_energy > 0:
+            spread = self.threshold_spread * self.threshold_energy
+            onset = (local.state[ENERGY.name] - self.threshold_energy) / spread + 0.5
             alpha *= np.clip(onset, 0.0, 1.0)
-        excess = traction - c.threshold_traction
+        excess = traction - self.threshold_traction
         return WearRate(
             depth=alpha * np.maximum(excess, 0.0),
             derivative=alpha * np.where(excess >= 0, slope, 0.0),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
 
 from tribo.plugin import Effect, WearLaw, hookimpl
 
@@ -12,12 +11,12 @@ from tribo_energy.traction import FrictionTraction
 
 
 @hookimpl
-def tribo_wear_laws() -> Iterable[type[WearLaw[Any]]]:
+def tribo_wear_laws() -> Iterable[type[WearLaw]]:
     """Offer wear by dissipated energy."""
     return (Dissipation,)
 
 
 @hookimpl
-def tribo_effects() -> Iterable[type[Effect[Any]]]:
+def tribo_effects() -> Iterable[type[Effect]]:
     """Offer the friction traction."""
     return (FrictionTraction,)

@@ -3,21 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Literal
 
-from tribo.plugin import Array, ContactConditions, Effect, EffectConfig, Field
+from tribo.plugin import Array, ContactConditions, Effect, Field
 
 TRACTION = Field("friction_traction", "Pa", "Magnitude of the friction traction, for both bodies.")
 SLOPE = Field("friction_traction_slope", "1", "Derivative of the friction traction in pressure.")
 
 
-class FrictionTractionConfig(EffectConfig):
-    """The coefficient of friction is the case's, ``[friction] coefficient``."""
-
-    type: Literal["energy.friction_traction"] = "energy.friction_traction"
-
-
-class FrictionTraction(Effect[FrictionTractionConfig]):
+class FrictionTraction(Effect):
     """τ = μ p, in Pa, and its slope dτ/dp = μ.
 
     Valid for gross sliding with a coefficient of friction μ that does not
@@ -29,7 +22,8 @@ class FrictionTraction(Effect[FrictionTractionConfig]):
     Johnson, K. L. (1985), Contact Mechanics, Cambridge, section 7.1.
     """
 
-    Config = FrictionTractionConfig
+    type = "energy.friction_traction"
+
     provides = (TRACTION, SLOPE)
     requires = ("friction_coefficient",)
 

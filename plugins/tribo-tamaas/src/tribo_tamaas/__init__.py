@@ -1,5 +1,5 @@
 """tamaas as a contact solver for tribo."""
 
-from tribo_tamaas.solver import Tamaas, TamaasConfig
+from tribo_tamaas.solver import Tamaas
 
-__all__ = ["Tamaas", "TamaasConfig"]
+__all__ = ["Tamaas"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import lru_cache
 from importlib.util import find_spec
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,6 @@ from tribo.plugin import (
     ContactProblem,
     ContactSolution,
     ContactSolver,
-    ContactSolverConfig,
     ContactSystem,
     HalfSpace,
     NumericalError,
@@ -32,19 +31,7 @@ _ATTEMPTS = 4
 _SHARPER = 0.1
 
 
-class TamaasConfig(ContactSolverConfig):
-    """Elastic half-spaces, or elastic-perfectly-plastic ones, solved by tamaas."""
-
-    type: Literal["tamaas.half_space"] = "tamaas.half_space"
-
-    tolerance: Annotated[float, Quantity("1", above=1e-13, below=1e-2)] = 1e-8
-    """Largest residual of the contact conditions, relative to load and approach."""
-
-    max_iterations: Annotated[int, Field(gt=0)] = 2000
-    """Iterations after which tamaas is stopped."""
-
-
-class Tamaas(ContactSolver[TamaasConfig]):
+class Tamaas(ContactSolver):
     """Contact of two half-spaces in free space, each cell under uniform pressure.
 
     tamaas finds the pressure; tribo's operator judges it. It runs on the whole
@@ -58,7 +45,14 @@ class Tamaas(ContactSolver[TamaasConfig]):
     Source Softw. 5 (2020) 2121.
     """
 
-    Config: ClassVar[type[TamaasConfig]] = TamaasConfig
+    type = "tamaas.half_space"
+
+    tolerance: Annotated[float, Quantity("1", above=1e-13, below=1e-2)] = 1e-8
+    """Largest residual of the contact conditions, relative to load and approach."""
+
+    max_iterations: Annotated[int, Field(gt=0)] = 2000
+    """Iterations after which tamaas is stopped."""
+
     accepts_wear_compliance: ClassVar[bool] = False
     honours_cap: ClassVar[bool] = True
 
@@ -66,7 +60,7 @@ class Tamaas(ContactSolver[TamaasConfig]):
         """Raise `CaseError` if tamaas is missing or the window cannot bear the load."""
         if find_spec("tamaas") is None:
             raise CaseError(
-                f"{self.type_name()!r} needs tamaas, which is not installed: pip install tamaas "
+                f"{self.type!r} needs tamaas, which is not installed: pip install tamaas "
                 "(there are wheels for Linux on x86-64 only), or use type = 'dcfft'"
             )
         _check_bearable(system, system.load, self._cap(system))
@@ -77,7 +71,7 @@ class Tamaas(ContactSolver[TamaasConfig]):
         """Solve one contact problem; see `ContactSolver.solve`."""
         if problem.wear is not None:
             raise CaseError(
-                f"{self.type_name()!r} takes no wear compliance; use stepping.type = 'explicit'"
+                f"{self.type!r} takes no wear compliance; use stepping.type = 'explicit'"
             )
         cap = self._cap(problem.system)
         _check_bearable(problem.system, problem.load, cap)
@@ -98,14 +92,14 @@ class Tamaas(ContactSolver[TamaasConfig]):
         return float(np.min(_half_space((64, 64), system.grid.spacing, system.modulus).symbol()))
 
     def _cap(self, system: ContactSystem) -> float | None:
-        return system.cap if self.config.plasticity else None
+        return system.cap if self.plasticity else None
 
     def _reach(
         self, problem: ContactProblem, cap: float | None, guess: Array | None, iterations: int = 0
     ) -> ContactSolution:
         """Ask tamaas until its answer meets the tolerance."""
         grid, modulus = problem.system.grid, problem.system.modulus
-        tolerance = self.config.tolerance
+        tolerance = self.tolerance
         for _ in range(_ATTEMPTS):
             guess, used = pressure(
                 problem.gap,
@@ -115,18 +109,18 @@ class Tamaas(ContactSolver[TamaasConfig]):
                 cap,
                 start=guess,
                 tolerance=tolerance,
-                max_iterations=self.config.max_iterations,
+                max_iterations=self.max_iterations,
             )
             iterations += used
             solution = _judged(problem, guess, cap, iterations)
-            if solution.residuals.worst <= self.config.tolerance:
+            if solution.residuals.worst <= self.tolerance:
                 return solution
-            if used >= self.config.max_iterations:
+            if used >= self.max_iterations:
                 break
             tolerance *= _SHARPER
         raise NumericalError(
             f"tamaas did not converge in {iterations} iterations: the residual is "
-            f"{solution.residuals.worst:.1e}, the tolerance {self.config.tolerance:.1e}. Raise "
+            f"{solution.residuals.worst:.1e}, the tolerance {self.tolerance:.1e}. Raise "
             "contact.max_iterations or contact.tolerance"
         )
 

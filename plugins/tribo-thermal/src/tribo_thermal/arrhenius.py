@@ -2,18 +2,28 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated
 
 import numpy as np
 from pydantic import ConfigDict
-from tribo.plugin import LocalConditions, Quantity, WearLaw, WearLawConfig, WearRate
+from tribo.plugin import LocalConditions, Quantity, WearLaw, WearRate
 
 GAS_CONSTANT = 8.314462618
 """In J/(mol K)."""
 
 
-class ArrheniusConfig(WearLawConfig):
-    """Configuration of `Arrhenius`."""
+class Arrhenius(WearLaw):
+    """dh/ds = k exp(−(Q/R) (1/T − 1/T_ref)) p, in m/m.
+
+    k in 1/Pa, Q in J/mol, R the gas constant, T in K. Valid where one
+    thermally activated process, such as oxidation or the failure of a boundary
+    film, sets the wear rate, over the temperatures at which Q was fitted.
+
+    References
+    ----------
+    Quinn, T. F. J. (1983), Review of oxidational wear, Part I, Tribology
+    International 16, 257-271.
+    """
 
     model_config = ConfigDict(
         json_schema_extra={
@@ -28,7 +38,7 @@ class ArrheniusConfig(WearLawConfig):
         }
     )
 
-    type: Literal["thermal.arrhenius"] = "thermal.arrhenius"
+    type = "thermal.arrhenius"
     k: Annotated[float, Quantity("1/Pa", at_least=0)]
     """Specific wear rate at the reference temperature."""
     activation_energy: Annotated[float, Quantity("J/mol", at_least=0)]
@@ -36,26 +46,10 @@ class ArrheniusConfig(WearLawConfig):
     reference_temperature: Annotated[float, Quantity("K", above=0)]
     """Temperature at which the law equals Archard's with the same k."""
 
-
-class Arrhenius(WearLaw[ArrheniusConfig]):
-    """dh/ds = k exp(−(Q/R) (1/T − 1/T_ref)) p, in m/m.
-
-    k in 1/Pa, Q in J/mol, R the gas constant, T in K. Valid where one
-    thermally activated process, such as oxidation or the failure of a boundary
-    film, sets the wear rate, over the temperatures at which Q was fitted.
-
-    References
-    ----------
-    Quinn, T. F. J. (1983), Review of oxidational wear, Part I, Tribology
-    International 16, 257-271.
-    """
-
-    Config = ArrheniusConfig
     requires = ("temperature",)
 
     def rate(self, local: LocalConditions) -> WearRate:
         """Return k(T) p and k(T)."""
-        c = self.config
-        difference = 1 / local.fields["temperature"] - 1 / c.reference_temperature
-        k = c.k * np.exp(-c.activation_energy / GAS_CONSTANT * difference)
+        difference = 1 / local.fields["temperature"] - 1 / self.reference_temperature
+        k = self.k * np.exp(-self.activation_energy / GAS_CONSTANT * difference)
         return WearRate(k * local.pressure, k)

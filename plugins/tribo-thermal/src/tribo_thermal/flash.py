@@ -3,20 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, Literal, Self
+from typing import Annotated, Self
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, model_validator
-from tribo.plugin import (
-    Array,
-    CaseError,
-    ContactConditions,
-    Effect,
-    EffectConfig,
-    Field,
-    Material,
-    Quantity,
-)
+from tribo.plugin import Array, CaseError, ContactConditions, Effect, Field, Material, Quantity
 
 from tribo_thermal.sources import Profile, Rise, rise_per_power, source_radius
 
@@ -35,46 +26,7 @@ class HeatPath(BaseModel):
     """Nominal cross-section A of the path."""
 
 
-class FlashConfig(EffectConfig):
-    """Without ``heat_fraction`` both bodies have the same temperature in the contact."""
-
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [
-                {"type": "thermal.flash", "ambient": "90 degC"},
-                {
-                    "type": "thermal.flash",
-                    "ambient": "20 degC",
-                    "source": "parabolic",
-                    "rise": "maximum",
-                },
-            ]
-        }
-    )
-
-    type: Literal["thermal.flash"] = "thermal.flash"
-    ambient: Annotated[float, Quantity("K", above=0)]
-    """Temperature of the surroundings and of every heat sink."""
-    source: Profile = "uniform"
-    """How heat is spread over the contact: ``uniform``, as when worn, or ``parabolic``, as by
-    Hertz."""
-    rise: Rise = "mean"
-    """Whether the temperature is the ``mean`` or the ``maximum`` over the contact."""
-    heat_paths: dict[str, HeatPath] | None = None
-    """Heat path of each body, by name; a body without one is a half-space at ambient."""
-    heat_fraction: dict[str, Annotated[float, Quantity("1", at_least=0, at_most=1)]] | None = None
-    """Part of the heat that each body takes, by name, in sum 1; by partition if left out."""
-
-    @model_validator(mode="after")
-    def _all_heat_goes_somewhere(self) -> Self:
-        fractions = self.heat_fraction
-        if fractions is not None and abs(sum(fractions.values()) - 1) > 1e-9:
-            total = sum(fractions.values())
-            raise ValueError(f"heat_fraction adds up to {total:g}; all the heat is 1")
-        return self
-
-
-class Flash(Effect[FlashConfig]):
+class Flash(Effect):
     """T = T₀ + r μ F v (R_flash + l/(A K)), with R_flash after Tian & Kennedy.
 
     The contact is a circular heat source of power μ F v, at rest on the
@@ -98,15 +50,49 @@ class Flash(Effect[FlashConfig]):
     frictional heating in dry sliding, Tribology Transactions 34, 577-587.
     """
 
-    Config = FlashConfig
+    model_config = ConfigDict(
+        json_schema_extra={
+            "examples": [
+                {"type": "thermal.flash", "ambient": "90 degC"},
+                {
+                    "type": "thermal.flash",
+                    "ambient": "20 degC",
+                    "source": "parabolic",
+                    "rise": "maximum",
+                },
+            ]
+        }
+    )
+
+    type = "thermal.flash"
+    ambient: Annotated[float, Quantity("K", above=0)]
+    """Temperature of the surroundings and of every heat sink."""
+    source: Profile = "uniform"
+    """How heat is spread over the contact: ``uniform``, as when worn, or ``parabolic``, as by
+    Hertz."""
+    rise: Rise = "mean"
+    """Whether the temperature is the ``mean`` or the ``maximum`` over the contact."""
+    heat_paths: dict[str, HeatPath] | None = None
+    """Heat path of each body, by name; a body without one is a half-space at ambient."""
+    heat_fraction: dict[str, Annotated[float, Quantity("1", at_least=0, at_most=1)]] | None = None
+    """Part of the heat that each body takes, by name, in sum 1; by partition if left out."""
+
+    @model_validator(mode="after")
+    def _all_heat_goes_somewhere(self) -> Self:
+        fractions = self.heat_fraction
+        if fractions is not None and abs(sum(fractions.values()) - 1) > 1e-9:
+            total = sum(fractions.values())
+            raise ValueError(f"heat_fraction adds up to {total:g}; all the heat is 1")
+        return self
+
     provides = (TEMPERATURE, RISE)
     requires = ("friction_coefficient",)
 
     def check(self, materials: Mapping[str, Material], swept: frozenset[str]) -> None:
         """Require thermal properties, bodies that exist, and one that stays in contact."""
         bodies = set(materials)
-        fractions = self.config.heat_fraction
-        paths = self.config.heat_paths or {}
+        fractions = self.heat_fraction
+        paths = self.heat_paths or {}
         if not set(paths) <= bodies:
             raise CaseError(_which("heat_paths", paths, bodies))
         if fractions is not None and set(fractions) != bodies:
@@ -127,7 +113,7 @@ class Flash(Effect[FlashConfig]):
         rises = self.rises(contact)
         rise = {name: np.full((1, 1), value) for name, value in rises.items()}
         return {
-            TEMPERATURE.name: {name: self.config.ambient + value for name, value in rise.items()},
+            TEMPERATURE.name: {name: self.ambient + value for name, value in rise.items()},
             RISE.name: rise,
         }
 
@@ -142,22 +128,21 @@ class Flash(Effect[FlashConfig]):
             name: self._resistance(name, material, contact)
             for name, material in contact.materials.items()
         }
-        fractions = self.config.heat_fraction
+        fractions = self.heat_fraction
         if fractions is None:
             together = 1 / sum(1 / r for r in resistance.values())
             return dict.fromkeys(resistance, power * together)
         return {name: fractions[name] * power * r for name, r in resistance.items()}
 
     def _resistance(self, name: str, material: Material, contact: ContactConditions) -> float:
-        c = self.config
         conductivity = _needed(name, material, "conductivity")
-        radius = source_radius(contact.pressure, contact.grid.cell_area, c.source)
+        radius = source_radius(contact.pressure, contact.grid.cell_area, self.source)
         peclet = 0.0
         if name in contact.swept:
             capacity = _needed(name, material, "density") * _needed(name, material, "heat_capacity")
             peclet = contact.speed * radius * capacity / (2 * conductivity)
-        flash = rise_per_power(radius, conductivity, peclet, c.source, c.rise)
-        path = (c.heat_paths or {}).get(name)
+        flash = rise_per_power(radius, conductivity, peclet, self.source, self.rise)
+        path = (self.heat_paths or {}).get(name)
         return flash if path is None else flash + path.length / (path.area * conductivity)
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
 
 from tribo.plugin import Effect, WearLaw, hookimpl
 
@@ -13,12 +12,12 @@ from tribo_thermal.softening import Softening
 
 
 @hookimpl
-def tribo_effects() -> Iterable[type[Effect[Any]]]:
+def tribo_effects() -> Iterable[type[Effect]]:
     """Offer the contact temperature."""
     return (Flash,)
 
 
 @hookimpl
-def tribo_wear_laws() -> Iterable[type[WearLaw[Any]]]:
+def tribo_wear_laws() -> Iterable[type[WearLaw]]:
     """Offer Archard's law with a coefficient, or a hardness, that follows the temperature."""
     return Arrhenius, Softening

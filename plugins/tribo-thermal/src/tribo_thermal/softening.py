@@ -2,51 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated
 
 import numpy as np
 from pydantic import ConfigDict
-from tribo.plugin import (
-    CaseError,
-    LocalConditions,
-    Material,
-    Quantity,
-    WearLaw,
-    WearLawConfig,
-    WearRate,
-)
+from tribo.plugin import CaseError, LocalConditions, Material, Quantity, WearLaw, WearRate
 
 
-class SofteningConfig(WearLawConfig):
-    """Configuration of `Softening`."""
-
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [
-                {
-                    "type": "thermal.softening",
-                    "K": 1.24e-6,
-                    "softening": "0.001 1/K",
-                    "reference_temperature": "20 degC",
-                }
-            ]
-        }
-    )
-
-    type: Literal["thermal.softening"] = "thermal.softening"
-    K: Annotated[float, Quantity("1", at_least=0)]
-    """Archard's dimensionless wear coefficient."""
-    hardness: Annotated[float, Quantity("Pa", above=0)] | None = None
-    """Hardness H₀ at the reference temperature; the material's hardness if left out."""
-    softening: Annotated[float, Quantity("1/K", at_least=0)]
-    """Part β of the hardness lost per kelvin."""
-    reference_temperature: Annotated[float, Quantity("K", above=0)]
-    """Temperature at which the hardness is H₀."""
-    least_hardness: Annotated[float, Quantity("1", above=0, at_most=1)] = 0.1
-    """Part of H₀ below which the hardness does not fall."""
-
-
-class Softening(WearLaw[SofteningConfig]):
+class Softening(WearLaw):
     """dh/ds = K p/H(T), with H(T) = H₀ max(1 − β (T − T_ref), c).
 
     In m/m; p and H in Pa, β in 1/K, T in K, c the least part of the hardness.
@@ -61,7 +24,31 @@ class Softening(WearLaw[SofteningConfig]):
     (1987), Wear-mechanism maps, Acta Metallurgica 35, 1-24.
     """
 
-    Config = SofteningConfig
+    model_config = ConfigDict(
+        json_schema_extra={
+            "examples": [
+                {
+                    "type": "thermal.softening",
+                    "K": 1.24e-6,
+                    "softening": "0.001 1/K",
+                    "reference_temperature": "20 degC",
+                }
+            ]
+        }
+    )
+
+    type = "thermal.softening"
+    K: Annotated[float, Quantity("1", at_least=0)]
+    """Archard's dimensionless wear coefficient."""
+    hardness: Annotated[float, Quantity("Pa", above=0)] | None = None
+    """Hardness H₀ at the reference temperature; the material's hardness if left out."""
+    softening: Annotated[float, Quantity("1/K", at_least=0)]
+    """Part β of the hardness lost per kelvin."""
+    reference_temperature: Annotated[float, Quantity("K", above=0)]
+    """Temperature at which the hardness is H₀."""
+    least_hardness: Annotated[float, Quantity("1", above=0, at_most=1)] = 0.1
+    """Part of H₀ below which the hardness does not fall."""
+
     requires = ("temperature",)
 
     def check(self, material: Material) -> None:
@@ -70,14 +57,13 @@ class Softening(WearLaw[SofteningConfig]):
 
     def rate(self, local: LocalConditions) -> WearRate:
         """Return k(T) p and k(T), with k = K/H(T)."""
-        c = self.config
-        warmer = local.fields["temperature"] - c.reference_temperature
-        part = np.maximum(1 - c.softening * warmer, c.least_hardness)
-        k = c.K / (self._hardness(local.material) * part)
+        warmer = local.fields["temperature"] - self.reference_temperature
+        part = np.maximum(1 - self.softening * warmer, self.least_hardness)
+        k = self.K / (self._hardness(local.material) * part)
         return WearRate(k * local.pressure, k)
 
     def _hardness(self, material: Material) -> float:
-        hardness = self.config.hardness or material.hardness
+        hardness = self.hardness or material.hardness
         if hardness is None:
             raise CaseError("a hardness is needed: add it here or to the body's material")
         return hardness

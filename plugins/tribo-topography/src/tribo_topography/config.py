@@ -6,16 +6,16 @@ from pathlib import Path
 from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
-from tribo.plugin import Quantity, SurfaceConfig
+from tribo.plugin import Quantity, Surface
 
 Length = Annotated[float, Quantity("m")]
 PositiveLength = Annotated[float, Quantity("m", above=0)]
 
 
-class MeasuredConfig(SurfaceConfig):
+class MeasuredConfig(Surface):
     """A height map from an instrument's file: where it is and how to take it."""
 
-    type: Literal["topography.file"] = "topography.file"
+    type = "topography.file"
 
     path: Path
     """The file; a relative path starts at the current directory."""

@@ -16,7 +16,7 @@ from tribo_topography.sample import resolution, sampled
 _MUCH = 4.0
 
 
-class Measured(Surface[MeasuredConfig]):
+class Measured(Surface):
     """Heights that an instrument measured, sampled on the window's cells.
 
     A warning tells the scale of a file whose size and range the case does not
@@ -42,7 +42,7 @@ class Measured(Surface[MeasuredConfig]):
     def height(self, grid: Grid) -> Array:
         """Return the measured height; the window must lie inside the measured area."""
         heights, size, found = self._measured()
-        values = sampled(heights, size, grid, self.config.centre)
+        values = sampled(heights, size, grid, self.centre)
         if not self._told:
             self._told = True
             self._tell(found, *resolution(heights.shape, size, grid))
@@ -53,12 +53,12 @@ class Measured(Surface[MeasuredConfig]):
             found = read(self.config)
             scale = facts(found, self.config)
             check(scale, self.config)
-            whole = filled(detrended(found.heights, self.config.detrend), self.config)
+            whole = filled(detrended(found.heights, self.detrend), self.config)
             self._read = (*turned(whole, found.size, self.config), scale)
         return self._read
 
     def _tell(self, found: Facts, fewest: float, most: float) -> None:
-        if self.config.expect_size is None or self.config.expect_range is None:
+        if self.expect_size is None or self.expect_range is None:
             warnings.warn(
                 f"{found}. If that is right, say so with expect_size and expect_range",
                 TriboWarning,
