@@ -1,6 +1,7 @@
 """Small models of the paper's test, made from objects."""
 
-from tribo.config.stepping import ImplicitConfig
+from tribo.config.case import Body, Case, Output
+from tribo.config.stepping import Implicit
 from tribo.contact.dcfft import DcFft
 from tribo.contact.winkler import Winkler
 from tribo.core.grid import Grid
@@ -8,7 +9,6 @@ from tribo.core.material import Material
 from tribo.kinematics.reciprocating import Reciprocating
 from tribo.simulation.assembly import assemble
 from tribo.simulation.march import begin, march
-from tribo.simulation.model import Body
 from tribo.surfaces.flat import Flat
 from tribo.surfaces.paraboloid import Paraboloid
 from tribo.surfaces.sphere import Sphere
@@ -47,25 +47,39 @@ def foundation(**values):
 
 
 def motion(**values):
-    return Reciprocating(
-        Reciprocating(**{"stroke": "2 mm", "frequency": 25, "duration": 200, **values})
-    )
+    return Reciprocating(**{"stroke": "2 mm", "frequency": 25, "duration": 200, **values})
 
 
-def small(**changes):
+def named(name, surface, material, wear=None):
+    return name, Body(surface=surface, material=material, wear=wear)
+
+
+def case(*, ends_at_window=False, save_times=(), friction_coefficient=None, **changes):
     """The paper's test for 200 s on 48² cells, with changes."""
     parts = {
         "grid": Grid((0.7e-3, 0.7e-3), (48, 48)),
         "load": 100.0,
         "bodies": [
-            Body("ball", sphere(), steel(), archard()),
-            Body("disk", flat(), steel(), archard()),
+            named("ball", sphere(), steel(), archard()),
+            named("disk", flat(), steel(), archard()),
         ],
         "contact": half_space(),
         "kinematics": motion(),
-        "stepping": ImplicitConfig(),
+        "stepping": Implicit(),
+        **changes,
     }
-    return assemble(**{**parts, **changes})
+    grid = parts.pop("grid").model_copy(update={"ends_at_window": ends_at_window})
+    return Case(
+        grid=grid,
+        bodies=dict(parts.pop("bodies")),
+        friction=friction_coefficient,
+        output=Output(save_times=save_times),
+        **parts,
+    )
+
+
+def small(**changes):
+    return assemble(case(**changes))
 
 
 def states(model):

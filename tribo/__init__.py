@@ -9,6 +9,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from tribo.config.case import Body as Body
     from tribo.config.case import Case as Case
     from tribo.config.load import load_case as load_case
     from tribo.core.errors import CaseError as CaseError
@@ -21,12 +22,10 @@ if TYPE_CHECKING:
     from tribo.registry.hookspecs import hookimpl as hookimpl
     from tribo.registry.registry import Registry as Registry
     from tribo.results.read import Result as Result
-    from tribo.simulation.assembly import assemble as assemble
-    from tribo.simulation.model import Body as Body
     from tribo.simulation.run import Simulation as Simulation
 
 _HOME = {
-    "Body": "tribo.simulation.model",
+    "Body": "tribo.config.case",
     "Case": "tribo.config.case",
     "CaseError": "tribo.core.errors",
     "Grid": "tribo.core.grid",
@@ -38,7 +37,6 @@ _HOME = {
     "Simulation": "tribo.simulation.run",
     "TriboError": "tribo.core.errors",
     "TriboWarning": "tribo.core.errors",
-    "assemble": "tribo.simulation.assembly",
     "hookimpl": "tribo.registry.hookspecs",
     "load_case": "tribo.config.load",
 }

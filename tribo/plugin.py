@@ -7,7 +7,6 @@ A plugin is a module with hooks that return its classes::
 and entry points that declare their names (see the page *Write a plugin*).
 """
 
-from tribo.config.table import Table
 from tribo.contact.bounded import solve_bounded
 from tribo.contact.conditions import residuals
 from tribo.contact.love import nyquist_compliance
@@ -26,6 +25,7 @@ from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.core.measures import BodyMeasures, Measures
 from tribo.core.state import BodyInfo, BodyState, RunInfo, Snapshot, State
+from tribo.core.table import Table
 from tribo.core.units import Quantity
 from tribo.interfaces.component import Component
 from tribo.interfaces.contact import ContactSolver

@@ -22,7 +22,7 @@ from tribo.cli.main import COMMANDS
 from tribo.cli.main import tribo as command_line
 from tribo.config.case import BodyConfig, Case
 from tribo.config.slot import Slot
-from tribo.config.stepping import ExplicitConfig, ImplicitConfig
+from tribo.config.stepping import Explicit, Implicit
 from tribo.core.dimensions import _PREFIXES, _SYMBOLS, _UNPREFIXED
 from tribo.core.errors import TriboError
 from tribo.core.units import _KINDS, Quantity
@@ -76,7 +76,7 @@ def case_page(registry: Registry) -> Iterator[str]:
                 (found,) = _slots(*_typed(BodyConfig.model_fields[slot]))
                 yield from _components(registry, found.kind, "####")
         elif name == "stepping":
-            for config in (ImplicitConfig, ExplicitConfig):
+            for config in (Implicit, Explicit):
                 yield f'### `type = "{config.model_fields["type"].default}"`\n'
                 yield f"{_summary(config)}\n"
                 yield from _table(config)
@@ -194,7 +194,7 @@ def _about(field: FieldInfo) -> Iterator[str]:
         yield f"{field.description}\n"
     if not field.is_required():
         default = field.default
-        if isinstance(default, Component | ImplicitConfig):
+        if isinstance(default, Component | Implicit):
             yield f'Optional; `type = "{default.type}"` if left out.\n'
         elif isinstance(default, str):
             yield f'Optional; `type = "{default}"` if left out.\n'

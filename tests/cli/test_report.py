@@ -4,10 +4,10 @@ import io
 
 import pytest
 from made_results import made
-from paper_models import archard, flat, foundation, small, sphere, steel
+from paper_models import archard, case, flat, foundation, named, sphere, steel
 from rich.console import Console
 
-from tribo import Body, Grid, Simulation
+from tribo import Grid, Simulation
 from tribo.cli.report import print_report
 from tribo.kinematics.reciprocating import Reciprocating
 
@@ -25,11 +25,11 @@ def row(text, label):
 
 def brief(**changes):
     bodies = [
-        Body("ball", sphere(), steel(4e9), archard()),
-        Body("disk", flat(), steel(4e9), archard()),
+        named("ball", sphere(), steel(4e9), archard()),
+        named("disk", flat(), steel(4e9), archard()),
     ]
     kinematics = Reciprocating(stroke=2e-3, frequency=25, duration=1)
-    return Simulation(small(**{"bodies": bodies, "kinematics": kinematics, **changes})).run()
+    return Simulation(case(**{"bodies": bodies, "kinematics": kinematics, **changes})).run()
 
 
 @pytest.mark.parametrize("width", [44, 60, 80])

@@ -12,7 +12,7 @@ import trials
 from fuzz import fuzzing, trial
 from fuzz.generate import mutated, plausible, toml, valid_cases
 from fuzz.trial import schema
-from paper_models import motion, small
+from paper_models import case, motion
 
 from tribo import CaseError, Result, Simulation
 from tribo.config.load import validate_case
@@ -110,7 +110,7 @@ def test_an_end_that_is_not_documented_is_seen(monkeypatch, tmp_path, end, words
 )
 def test_a_result_that_cannot_be_is_seen(monkeypatch, tmp_path, name, wrong, words):
     path = tmp_path / "run.h5"
-    Simulation(small(kinematics=motion(duration=5))).run(path).close()
+    Simulation(case(kinematics=motion(duration=5))).run(path).close()
     assert trial.broken(path, 0) is None
     monkeypatch.setattr(Result, name, wrong)
     assert trial.broken(path, 0).startswith(words)

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from paper_models import flat, motion
+from paper_models import flat, motion, named
 
-from tribo.config.stepping import ExplicitConfig, ImplicitConfig
+from tribo.config.stepping import Explicit, Implicit
 from tribo.contact.dcfft import DcFft
 from tribo.contact.periodic import Periodic
 from tribo.contact.winkler import Winkler
@@ -21,7 +21,6 @@ from tribo.core.material import Material
 from tribo.interfaces.surface import Surface
 from tribo.simulation.assembly import assemble
 from tribo.simulation.march import begin, march
-from tribo.simulation.model import Body
 from tribo.wear.archard import Archard
 
 # The solver stops at a residual of 1e-10, far below what is held against the answers.
@@ -86,8 +85,8 @@ def model(test, *, swap=False, explicit=False):
     material = Material(young=m * test["young"], poisson=test["poisson"], hardness=hardness)
     laws = [Archard(k=k / m) for k in test["k"]]
     bodies = [
-        Body("ball", Bumps(c * test["heights"]), material, laws[0]),
-        Body("disk", flat(), material, laws[1]),
+        named("ball", Bumps(c * test["heights"]), material, laws[0]),
+        named("disk", flat(), material, laws[1]),
     ]
     contact = {
         DcFft: lambda: DcFft(tolerance=TIGHT),
@@ -102,7 +101,7 @@ def model(test, *, swap=False, explicit=False):
         bodies=bodies[::-1] if swap else bodies,
         contact=contact(),
         kinematics=motion(stroke=stroke, duration=5, swept="disk"),
-        stepping=ExplicitConfig(time_step=0.5) if explicit else ImplicitConfig(),
+        stepping=Explicit(time_step=0.5) if explicit else Implicit(),
         ends_at_window=True,
     )
 

@@ -9,9 +9,10 @@ import h5py
 import numpy as np
 import pytest
 from edited import edited
-from paper_models import archard, flat, motion, small, sphere, steel
+from paper_models import archard, flat, motion, named, small, sphere, steel
+from tribo.simulation.describe import describe
 
-from tribo import Body, CaseError, Grid, Interrupted, Result, Simulation
+from tribo import CaseError, Grid, Interrupted, Result, Simulation
 from tribo.core.errors import OutputError, TriboWarning
 from tribo.interfaces.observer import Observer
 from tribo.results.checkpoint import (
@@ -22,19 +23,21 @@ from tribo.results.checkpoint import (
 )
 from tribo.results.columns import COLUMNS
 from tribo.results.store import read_text, write_text
-from tribo.simulation.describe import describe
 from tribo.simulation.march import begin
 
 
 @pytest.fixture(scope="module")
 def sound(tmp_path_factory):
     path = tmp_path_factory.mktemp("damage") / "run.h5"
-    Simulation(model()).run(path).close()
+    Simulation(model().case).run(path).close()
     return path
 
 
 def model():
-    bodies = [Body("ball", sphere(), steel(), archard()), Body("disk", flat(), steel(), archard())]
+    bodies = [
+        named("ball", sphere(), steel(), archard()),
+        named("disk", flat(), steel(), archard()),
+    ]
     # Fields large enough that their middles share no page with another.
     grid = Grid((0.7e-3, 0.7e-3), (96, 96))
     return small(grid=grid, bodies=bodies, kinematics=motion(duration=60), save_times=(20,))
@@ -156,7 +159,7 @@ def test_a_checkpoint_that_cannot_be_is_not_gone_on_with(sound, tmp_path, change
     with edited(checkpoint_path(path)) as file:
         change(file)
     with pytest.raises(CaseError, match=rf"no checkpoint to resume from: .*{words}.*tribo run"):
-        Simulation(model()).resume(path)
+        Simulation(model().case).resume(path)
 
 
 def test_a_result_left_open_does_no_harm_at_the_end(sound):
@@ -179,7 +182,7 @@ class StopAt(Observer):
 def stopped(tmp_path):
     path = tmp_path / "stopped.h5"
     with pytest.raises(Interrupted):
-        Simulation(model()).run(path, observers=[StopAt(20)])
+        Simulation(model().case).run(path, observers=[StopAt(20)])
     return path
 
 
@@ -195,7 +198,7 @@ def test_a_flipped_bit_in_a_checkpoint_is_noticed_and_the_one_before_is_used(sou
     with pytest.warns(
         TriboWarning, match=r"ckpt is (damaged|not a whole).*: going on from stopped.h5.ckpt.pr"
     ):
-        Simulation(model()).resume(stopped).close()
+        Simulation(model().case).resume(stopped).close()
     with Result.open(stopped) as result, Result.open(sound) as whole:
         np.testing.assert_array_equal(result.pressure(-1), whole.pressure(-1))
         np.testing.assert_array_equal(result.times, whole.times)
@@ -205,14 +208,14 @@ def test_two_damaged_checkpoints_are_an_error_that_names_both(stopped):
     for path in (checkpoint_path(stopped), previous_path(stopped)):
         flip(path, 2000)
     with pytest.raises(CaseError, match=r"no checkpoint .*ckpt is damaged.*prev is damaged"):
-        Simulation(model()).resume(stopped)
+        Simulation(model().case).resume(stopped)
 
 
 def test_a_damaged_result_is_not_gone_on_with(stopped):
     offset, size = chunk(stopped, "pressure", 0)
     flip(stopped, offset + size // 2)
     with pytest.raises(CaseError, match="'pressure' of save 0 cannot be read"):
-        Simulation(model()).resume(stopped)
+        Simulation(model().case).resume(stopped)
 
 
 @pytest.mark.parametrize(
@@ -220,7 +223,7 @@ def test_a_damaged_result_is_not_gone_on_with(stopped):
 )
 def test_an_output_that_cannot_be_written_is_one_message(tmp_path, name):
     with pytest.raises(OutputError, match=r"cannot write .*too long.*choose another place"):
-        Simulation(model()).run(tmp_path / name)
+        Simulation(model().case).run(tmp_path / name)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -228,14 +231,14 @@ def test_a_device_is_not_replaced(tmp_path):
     link = tmp_path / "pipe"
     os.mkfifo(link)
     with pytest.raises(CaseError, match="not a file that could be replaced"):
-        Simulation(model()).run(link, overwrite=True)
+        Simulation(model().case).run(link, overwrite=True)
 
 
 def test_a_result_may_be_a_link(sound, tmp_path):
     link, there = tmp_path / "link.h5", tmp_path / "there.h5"
     there.write_text("old")
     link.symlink_to(there)
-    Simulation(model()).run(link, overwrite=True).close()
+    Simulation(model().case).run(link, overwrite=True).close()
     assert link.is_symlink()
     with Result.open(there) as result, Result.open(sound) as whole:
         np.testing.assert_array_equal(result.pressure(-1), whole.pressure(-1))

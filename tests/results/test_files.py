@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 import xarray
 from made_results import made
-from paper_models import archard, flat, small, sphere, steel
+from paper_models import archard, flat, named, small, sphere, steel
 
-from tribo import Body, CaseError, Material, Result, Simulation
+from tribo import CaseError, Material, Result, Simulation
 
 
 @pytest.fixture(scope="module")
@@ -16,9 +16,12 @@ def path(tmp_path_factory):
     path = tmp_path_factory.mktemp("result") / "run.h5"
     model = small(
         save_times=(20,),
-        bodies=[Body("ball", sphere(), dense, archard()), Body("disk", flat(), steel(), archard())],
+        bodies=[
+            named("ball", sphere(), dense, archard()),
+            named("disk", flat(), steel(), archard()),
+        ],
     )
-    Simulation(model).run(path).close()
+    Simulation(model.case).run(path).close()
     return path
 
 

@@ -5,10 +5,10 @@ import csv
 import h5py
 import numpy as np
 import pytest
-from paper_models import archard, flat, small, sphere, steel
+from paper_models import archard, case, flat, named, small, sphere, steel
 from strangers.running_in import RunningIn
 
-from tribo import Body, Result, Simulation
+from tribo import Result, Simulation
 from tribo.results.export import export_csv
 from tribo.simulation.predict import predict
 
@@ -16,14 +16,14 @@ LAW = RunningIn(k_first=9e-16, k_last=3e-16, length=20.0)
 
 
 def model(**changes):
-    bodies = [Body("ball", sphere(), steel(), LAW), Body("disk", flat(), steel(), LAW)]
+    bodies = [named("ball", sphere(), steel(), LAW), named("disk", flat(), steel(), LAW)]
     return small(bodies=bodies, save_times=(20,), **changes)
 
 
 @pytest.fixture(scope="module")
 def path(tmp_path_factory):
     path = tmp_path_factory.mktemp("state") / "run.h5"
-    Simulation(model()).run(path).close()
+    Simulation(model().case).run(path).close()
     return path
 
 
@@ -60,8 +60,8 @@ def test_it_is_exported_in_the_profiles(path, tmp_path):
 
 
 def test_a_law_without_state_keeps_none():
-    bodies = [Body("ball", sphere(), steel(), archard()), Body("disk", flat(), steel())]
-    with Simulation(small(bodies=bodies)).run() as result:
+    bodies = [named("ball", sphere(), steel(), archard()), named("disk", flat(), steel())]
+    with Simulation(case(bodies=bodies)).run() as result:
         assert result.body("ball").state == result.body("disk").state == {}
 
 
@@ -69,7 +69,10 @@ def test_the_predicted_size_counts_it(path):
     def size(grid_model):
         return predict(grid_model).file_size
 
-    bodies = [Body("ball", sphere(), steel(), archard()), Body("disk", flat(), steel(), archard())]
+    bodies = [
+        named("ball", sphere(), steel(), archard()),
+        named("disk", flat(), steel(), archard()),
+    ]
     without = small(bodies=bodies, save_times=(20,))
     # Three saves of a field on the ball and of a line on the disk.
     assert size(model()) - size(without) == 3 * 8 * (48 * 48 + 48)

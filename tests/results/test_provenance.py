@@ -6,10 +6,10 @@ from copy import deepcopy
 
 import pytest
 from edited import edited
-from paper_models import archard, flat, small, steel
+from paper_models import archard, flat, named, small, steel
 from rich.console import Console
 
-from tribo import Body, CaseError, Simulation
+from tribo import CaseError, Simulation
 from tribo.cli.report import print_provenance
 from tribo.core.errors import PluginError
 from tribo.interfaces.component import Component
@@ -31,7 +31,7 @@ def stated():
 
 
 def model():
-    bodies = [Body("ball", stated(), steel(), archard()), Body("disk", flat(), steel())]
+    bodies = [named("ball", stated(), steel(), archard()), named("disk", flat(), steel())]
     return small(bodies=bodies, save_times=(20,))
 
 
@@ -42,7 +42,7 @@ def made(**changes):
 
 
 def test_each_component_of_a_model_made_of_objects_has_its_configuration_and_facts():
-    with Simulation(model()).run() as result:
+    with Simulation(model().case).run() as result:
         components = result.provenance["components"]
         bodies = result.case["bodies"]
     ball = components["bodies.ball.surface"]
@@ -54,7 +54,7 @@ def test_each_component_of_a_model_made_of_objects_has_its_configuration_and_fac
 
 
 def test_show_prints_configuration_and_facts_of_each():
-    with Simulation(model()).run() as result:
+    with Simulation(model().case).run() as result:
         console = Console(file=io.StringIO(), width=60, highlight=False)
         print_provenance(result, console)
     text = console.file.getvalue()
@@ -106,13 +106,13 @@ def test_all_of_it_is_plain_data():
 
 def test_a_run_does_not_go_on_with_another_file_behind_its_surface(tmp_path, monkeypatch):
     path = tmp_path / "stopped.h5"
-    Simulation(model()).run(path).close()
+    Simulation(model().case).run(path).close()
     # As if it had been stopped.
     with edited(path) as file:
         file.attrs["status"] = "interrupted"
     monkeypatch.setattr(Stated, "serial", "8")
     with pytest.raises(CaseError, match=r"was .*\(with serial number 7\), is .*number 8\)"):
-        Simulation(model()).resume(path)
+        Simulation(model().case).resume(path)
 
 
 @pytest.mark.parametrize("facts", [None, ["size"], {"size": 1.0}, {1: "m"}])

@@ -8,7 +8,7 @@ from contextlib import closing
 from hashlib import sha256
 
 import pytest
-from paper_models import motion, small
+from paper_models import case, motion
 
 from tribo import CaseError, Simulation
 from tribo.core.errors import TriboWarning
@@ -264,7 +264,7 @@ def test_what_another_process_is_writing_keeps_its_checkpoint(tmp_path):
         closing(SealedWriter.create(path)),
         pytest.raises(CaseError, match="in use"),
     ):
-        Simulation(small()).run(path, overwrite=True)
+        Simulation(case()).run(path, overwrite=True)
     assert checkpoint_path(path).exists()
 
 
@@ -288,7 +288,7 @@ def test_a_file_system_without_locks_is_told_of_once(tmp_path, monkeypatch):
     path = tmp_path / "run.h5"
     path.write_bytes(b"an older one")
     with pytest.warns(TriboWarning, match=r"run\.h5: its file system has no locks") as told:
-        Simulation(small(kinematics=motion(duration=1))).run(path, overwrite=True).close()
+        Simulation(case(kinematics=motion(duration=1))).run(path, overwrite=True).close()
     assert len([each for each in told if "locks" in str(each.message)]) == 1
 
 

@@ -4,14 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from paper_models import K, archard, flat, motion, small, steel
+from paper_models import K, archard, flat, motion, named, small, steel
 
 from tribo import Simulation
-from tribo.config.stepping import ImplicitConfig
+from tribo.config.stepping import Implicit
 from tribo.contact.periodic import Periodic
 from tribo.core.grid import Grid
 from tribo.interfaces.surface import Surface
-from tribo.simulation.model import Body
 from tribo.simulation.rates import Moment
 from tribo.simulation.step import (
     explicit_step,
@@ -37,7 +36,7 @@ def model():
     return small(
         grid=GRID,
         load=300.0,
-        bodies=[Body("wavy", Wave(), steel(), archard()), Body("b", flat(), steel())],
+        bodies=[named("wavy", Wave(), steel(), archard()), named("b", flat(), steel())],
         contact=Periodic(),
         kinematics=motion(),
     )
@@ -55,7 +54,7 @@ def amplitude_after(step, steps, distance):
 
 
 def implicit(*args):
-    return implicit_step(*args, config=ImplicitConfig()).state
+    return implicit_step(*args, config=Implicit()).state
 
 
 @pytest.mark.parametrize("step", [implicit, explicit_step], ids=["implicit", "explicit"])
@@ -91,7 +90,7 @@ def test_explicit_steps_decay_just_below_the_stated_limit_and_grow_just_above(pa
 
 
 def test_two_flats_that_repeat_wear_evenly():
-    bodies = [Body("a", flat(), steel(), archard()), Body("b", flat(), steel())]
+    bodies = [named("a", flat(), steel(), archard()), named("b", flat(), steel())]
     result = Simulation(
         small(grid=GRID, bodies=bodies, contact=Periodic(), kinematics=motion())
     ).run()
@@ -103,7 +102,7 @@ def test_two_flats_that_repeat_wear_evenly():
 
 
 def test_a_wave_worn_flat_goes_on_without_noise():
-    bodies = [Body("a", Wave(), steel(), archard()), Body("b", flat(), steel())]
+    bodies = [named("a", Wave(), steel(), archard()), named("b", flat(), steel())]
     # Some 800 decay lengths: nothing is left of the wave but the rounding of the depth.
     result = Simulation(
         small(

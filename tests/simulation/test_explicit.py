@@ -1,21 +1,20 @@
 import numpy as np
 import pytest
-from paper_models import K, archard, flat, half_space, last, motion, small, sphere, steel
+from paper_models import K, archard, flat, half_space, last, motion, named, small, sphere, steel
 
-from tribo.config.stepping import ExplicitConfig
+from tribo.config.stepping import Explicit
 from tribo.core.errors import CaseError
-from tribo.simulation.model import Body
 from tribo.simulation.rates import Moment
 from tribo.simulation.run import Simulation
 from tribo.simulation.step import first_contact, largest_stable_increment
 
 
 def ball_only():
-    return [Body("ball", sphere(), steel(), archard()), Body("disk", flat(), steel())]
+    return [named("ball", sphere(), steel(), archard()), named("disk", flat(), steel())]
 
 
 def test_explicit_agrees_with_implicit(paper_small):
-    explicit = last(small(stepping=ExplicitConfig(time_step="0.5 s")))
+    explicit = last(small(stepping=Explicit(time_step="0.5 s")))
     for name in ("ball", "disk"):
         assert explicit.bodies[name].wear.max() == pytest.approx(
             paper_small[-1].bodies[name].wear.max(), rel=5e-3
@@ -23,7 +22,7 @@ def test_explicit_agrees_with_implicit(paper_small):
 
 
 def test_a_step_beyond_the_stability_limit_is_refused_with_the_largest():
-    model = small(bodies=ball_only(), stepping=ExplicitConfig(time_step="60 s"))
+    model = small(bodies=ball_only(), stepping=Explicit(time_step="60 s"))
     # Δs < 2 · 0.58069 Δ/(k E*)
     spacing = model.grid.spacing[0]
     limit = 2 * 0.58069 * spacing / (K * model.system.modulus) / 0.1
@@ -41,7 +40,7 @@ def test_the_limit_is_where_the_pressure_begins_to_chatter(factor, stable):
         small(
             bodies=ball_only(),
             kinematics=motion(duration=400),
-            stepping=ExplicitConfig(time_step=step, allow_unstable=True),
+            stepping=Explicit(time_step=step, allow_unstable=True),
         )
     )
     pressure = run.contact.pressure[18:30, 18:30]
@@ -54,12 +53,12 @@ def test_unknown_compliance_is_said_so():
     contact = half_space()
     contact.smallest_compliance = lambda system: None
     with pytest.raises(CaseError, match="does not state its smallest compliance"):
-        last(small(contact=contact, stepping=ExplicitConfig(time_step=1)))
+        last(small(contact=contact, stepping=Explicit(time_step=1)))
 
 
 def test_where_only_the_track_wears_the_limit_counts_the_part_of_it_in_contact():
     # λ <= k (2b/ℓ)/K̂: a point of the track is in contact for 2b of every ℓ slid.
-    bodies = [Body("ball", sphere(), steel()), Body("disk", flat(), steel(), archard())]
+    bodies = [named("ball", sphere(), steel()), named("disk", flat(), steel(), archard())]
     model = small(bodies=bodies)
     state = first_contact(model)
     touching = np.count_nonzero(state.contact.pressure > 0, axis=0).max()
@@ -71,7 +70,7 @@ def test_where_only_the_track_wears_the_limit_counts_the_part_of_it_in_contact()
 
 @pytest.mark.parametrize(("step", "words"), [("60 s", "largest stable"), (1e-30, "steps")])
 def test_a_time_step_that_cannot_do_is_refused_before_anything_is_written(tmp_path, step, words):
-    model = small(stepping=ExplicitConfig(time_step=step), save_times=(1.0, 2.0))
+    model = small(stepping=Explicit(time_step=step), save_times=(1.0, 2.0))
     with pytest.raises(CaseError, match=words):
-        Simulation(model).run(tmp_path / "run.h5")
+        Simulation(model.case).run(tmp_path / "run.h5")
     assert list(tmp_path.iterdir()) == []

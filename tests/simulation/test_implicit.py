@@ -9,18 +9,18 @@ from paper_models import (
     foundation,
     half_space,
     last,
+    named,
     small,
     sphere,
     states,
     steel,
 )
 
-from tribo.config.stepping import ImplicitConfig
+from tribo.config.stepping import Implicit
 from tribo.core.contact import ContactProblem
 from tribo.core.fields import ContactConditions, Field, WearRate
 from tribo.interfaces.effect import Effect
 from tribo.interfaces.wear import WearLaw
-from tribo.simulation.model import Body
 from tribo.simulation.step import first_contact, geometry, implicit_step
 from tribo.wear.power import Power
 
@@ -30,12 +30,12 @@ def power(exponent):
 
 
 def bodies(ball, disk):
-    return [Body("ball", sphere(), steel(), ball), Body("disk", flat(), steel(), disk)]
+    return [named("ball", sphere(), steel(), ball), named("disk", flat(), steel(), disk)]
 
 
 def one_step(model, increment=1.0):
     state = first_contact(model)
-    return implicit_step(model, state, increment, increment / 0.1, config=ImplicitConfig()).state
+    return implicit_step(model, state, increment, increment / 0.1, config=Implicit()).state
 
 
 LAWS = [(archard(), archard()), (power(1.5), power(1.5)), (power(2), archard()), (power(3), None)]
@@ -80,7 +80,7 @@ def test_volumes_are_k_f_s(paper_small):
 def test_halving_tolerances_changes_the_answer_within_them(paper_small):
     # The default tolerances claim 0.5 % in depth and 2 % in centre pressure.
     fine = last(
-        small(stepping=ImplicitConfig(depth_tolerance=1e-4, pressure_tolerance=0.02, settle=0.002))
+        small(stepping=Implicit(depth_tolerance=1e-4, pressure_tolerance=0.02, settle=0.002))
     )
     coarse = paper_small[-1]
     for name in ("ball", "disk"):
@@ -118,7 +118,7 @@ def test_a_law_with_state_follows_its_integral():
     # V = F k0 s0 (1 − exp(−s/s0)) would hold for a uniform state.
     model = small(
         bodies=bodies(RunningIn(), None),
-        stepping=ImplicitConfig(depth_tolerance=2e-4, pressure_tolerance=0.02),
+        stepping=Implicit(depth_tolerance=2e-4, pressure_tolerance=0.02),
     )
     run = states(model)
     state = run[-1]

@@ -7,18 +7,29 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from paper_models import K, archard, flat, half_space, last, motion, small, sphere, states, steel
+from paper_models import (
+    K,
+    archard,
+    flat,
+    half_space,
+    last,
+    motion,
+    named,
+    small,
+    sphere,
+    states,
+    steel,
+)
 
 from tribo import Result, Simulation
 from tribo.cli.show import show
-from tribo.config.stepping import ExplicitConfig, ImplicitConfig
+from tribo.config.stepping import Explicit, Implicit
 from tribo.contact.dcfft import DcFft
 from tribo.contact.periodic import Periodic
 from tribo.core.errors import NumericalError, TriboWarning
 from tribo.core.grid import Grid
 from tribo.interfaces.surface import Surface
 from tribo.simulation.invariants import CHATTERING, VOLUME, handed_back
-from tribo.simulation.model import Body
 
 
 class Rough(Surface):
@@ -37,8 +48,8 @@ class Rough(Surface):
 
 
 def one_body(surface=None, law=None, **changes):
-    ball = Body("ball", surface or sphere(), steel(), law or archard())
-    return small(bodies=[ball, Body("disk", flat(), steel())], **changes)
+    ball = named("ball", surface or sphere(), steel(), law or archard())
+    return small(bodies=[ball, named("disk", flat(), steel())], **changes)
 
 
 def time_step(factor):
@@ -48,7 +59,7 @@ def time_step(factor):
 
 
 def unstable(factor):
-    return ExplicitConfig(time_step=time_step(factor), allow_unstable=True)
+    return Explicit(time_step=time_step(factor), allow_unstable=True)
 
 
 def test_half_of_a_chequerboard_is_handed_back():
@@ -68,11 +79,11 @@ def test_what_only_grows_or_fades_is_not_handed_back():
     "changes",
     [
         {},
-        {"stepping": ImplicitConfig(pressure_tolerance=1.0, depth_tolerance=0.1)},
-        {"stepping": ExplicitConfig(time_step=0.9 * time_step(1.0))},
+        {"stepping": Implicit(pressure_tolerance=1.0, depth_tolerance=0.1)},
+        {"stepping": Explicit(time_step=0.9 * time_step(1.0))},
         {"contact": Periodic(), "load": 500.0, "surface": Rough()},
         {"surface": Rough(5e-3), "grid": Grid((1.2e-3, 1.2e-3), (64, 64))},
-        {"surface": Rough(5e-3), "stepping": ExplicitConfig(time_step=0.9 * time_step(1.0))},
+        {"surface": Rough(5e-3), "stepping": Explicit(time_step=0.9 * time_step(1.0))},
     ],
     ids=["ball", "long steps", "explicit", "periodic", "rough ball", "rough, explicit"],
 )
@@ -87,7 +98,7 @@ def test_nothing_is_held_against_a_sound_run(changes):
 def test_chattering_stops_a_run_whose_solver_overstates_its_stability():
     contact = half_space()
     contact.smallest_compliance = lambda system: 1.0
-    model = one_body(contact=contact, stepping=ExplicitConfig(time_step=time_step(1.5)))
+    model = one_body(contact=contact, stepping=Explicit(time_step=time_step(1.5)))
     with pytest.raises(NumericalError, match=r"^step \d+, at .* s .*pressure chatters: \d+ %.*'im"):
         last(model)
 

@@ -7,12 +7,11 @@ import textwrap
 from pathlib import Path
 
 import pytest
-from paper_models import archard, flat, small, sphere, steel
+from paper_models import archard, flat, named, small, sphere, steel
 
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.simulation import memory
-from tribo.simulation.model import Body
 from tribo.simulation.predict import predict
 from tribo.templates import template
 
@@ -30,10 +29,10 @@ MEASURE = """
     if case == "periodic":
         parts |= dict(contact=Periodic(), load=5000.0)
     if case == "plastic":
-        bodies = [Body(n, s(), steel("4 GPa"), archard()) for n, s in (("a", sphere), ("b", flat))]
+        bodies = [named(n, s(), steel("4 GPa"), archard()) for n, s in (("a", sphere), ("b", flat))]
         parts |= dict(bodies=bodies, load=900.0)
     if case == "flat punch":
-        bodies = [Body(n, flat(), steel(), archard()) for n in "ab"]
+        bodies = [named(n, flat(), steel(), archard()) for n in "ab"]
         parts |= dict(bodies=bodies, ends_at_window=True)
     def most():
         # Not ru_maxrss, which begins with that of the process this one was forked from.
@@ -41,7 +40,7 @@ MEASURE = """
         return next(int(line.split()[1]) for line in lines if line.startswith("VmHWM"))
     first = most()
     model = small(**parts)
-    Simulation(model).run(sys.argv[3]).close()
+    Simulation(model.case).run(sys.argv[3]).close()
     peak = most()
     plastic = model.system.cap is not None
     needed = memory_needed(model.grid, laws_of(model.bodies), model.effects, plastic=plastic)
@@ -74,7 +73,7 @@ def test_more_than_there_is_is_refused_with_the_estimate(tight):
 
 
 def test_yielding_takes_more(tight):
-    bodies = [Body("ball", sphere(), steel("4 GPa"), archard()), Body("disk", flat(), steel())]
+    bodies = [named("ball", sphere(), steel("4 GPa"), archard()), named("disk", flat(), steel())]
     assert predict(small(bodies=bodies)).memory > predict(small()).memory
 
 
@@ -118,7 +117,7 @@ def test_running_out_of_memory_all_the_same_is_one_message():
     surface = sphere()
     surface.height = height
     with pytest.raises(Exception, match=r"surface 'sphere' .*ran out of memory; lower grid\.cells"):
-        small(bodies=[Body("ball", surface, steel(), archard()), Body("disk", flat(), steel())])
+        small(bodies=[named("ball", surface, steel(), archard()), named("disk", flat(), steel())])
 
 
 def test_what_this_process_may_take_is_known():

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from paper_models import archard, flat, motion, small, sphere, states, steel
+from paper_models import archard, flat, motion, named, small, sphere, states, steel
 
-from tribo import Body, Grid
+from tribo import Grid
 from tribo.core.contact import ContactProblem
 from tribo.simulation.step import first_contact, geometry, start_sliding
 
@@ -18,8 +18,8 @@ def yielding(load=1000.0, hardness=("4 GPa", "4 GPa"), **changes):
         "grid": Grid((1.2e-3, 1.2e-3), (60, 60)),
         "load": load,
         "bodies": [
-            Body("ball", sphere(), steel(hardness[0]), archard()),
-            Body("disk", flat(), steel(hardness[1]), archard()),
+            named("ball", sphere(), steel(hardness[0]), archard()),
+            named("disk", flat(), steel(hardness[1]), archard()),
         ],
         "kinematics": motion(duration=50),
     }

@@ -3,18 +3,18 @@
 import re
 
 import pytest
-from paper_models import K, archard, flat, half_space, motion, small, sphere, steel
+from paper_models import K, archard, flat, half_space, motion, named, small, sphere, steel
 
-from tribo import Body, CaseError, Grid, NumericalError, Simulation
-from tribo.config.stepping import ExplicitConfig
+from tribo import CaseError, Grid, NumericalError, Simulation
+from tribo.config.stepping import Explicit
 from tribo.simulation import step
 from tribo.simulation.predict import predict
 
 
 def bodies(k=K, hardness=None):
     return [
-        Body("ball", sphere(), steel(hardness), archard(k)),
-        Body("disk", flat(), steel(hardness), archard(k)),
+        named("ball", sphere(), steel(hardness), archard(k)),
+        named("disk", flat(), steel(hardness), archard(k)),
     ]
 
 
@@ -36,7 +36,7 @@ def test_a_window_that_the_contact_outgrows_is_foreseen_with_the_time():
     problem = only_problem(model)
     assert "make grid.size larger" in problem
     with pytest.raises(NumericalError) as stopped:
-        Simulation(model).run()
+        Simulation(model.case).run()
     foreseen, actual = (
         number(r"about ([\d.e+]+) s", problem),
         number(r"at ([\d.]+) s", str(stopped.value)),
@@ -67,25 +67,25 @@ def test_a_wear_coefficient_in_the_wrong_unit_is_suspected():
 
 def test_the_largest_stable_step_is_the_one_the_run_takes():
     def model(time_step):
-        stepping = ExplicitConfig(type="explicit", time_step=time_step)
+        stepping = Explicit(type="explicit", time_step=time_step)
         return small(stepping=stepping)
 
     problem = only_problem(model(50))
     assert "stop at once" in problem
     largest = number(r"largest stable step is ([\d.]+) s", problem)
     with pytest.raises(CaseError, match="stability limit"):
-        Simulation(model(1.01 * largest)).run()
+        Simulation(model(1.01 * largest).case).run()
     assert "stability" in only_problem(model(1.01 * largest))
     assert predict(model(0.99 * largest)).problems == ()
 
 
 def test_a_step_too_short_to_end_is_a_problem():
-    stepping = ExplicitConfig(type="explicit", time_step=1e-9)
+    stepping = Explicit(type="explicit", time_step=1e-9)
     assert "would take 2e+11 steps" in only_problem(small(stepping=stepping))
 
 
 def test_a_step_allowed_to_be_unstable_is_still_said_to_be():
-    stepping = ExplicitConfig(type="explicit", time_step=100, allow_unstable=True)
+    stepping = Explicit(type="explicit", time_step=100, allow_unstable=True)
     assert "oscillate" in only_problem(small(stepping=stepping))
 
 

@@ -9,16 +9,16 @@ import h5py
 import numpy as np
 import pytest
 from edited import edited
-from paper_models import K, archard, flat, motion, small, sphere, states, steel
+from paper_models import K, archard, case, flat, motion, named, small, sphere, states, steel
+from tribo.simulation.describe import describe
 
-from tribo import Body, CaseError, Grid, Interrupted, NumericalError, Result, Simulation
-from tribo.config.stepping import ExplicitConfig, ImplicitConfig
-from tribo.config.stop import StopConfig
+from tribo import CaseError, Grid, Interrupted, NumericalError, Result, Simulation
+from tribo.config.stepping import Explicit, Implicit
+from tribo.config.stop import Stop
 from tribo.core.errors import OutputError, TriboWarning
 from tribo.interfaces.component import Component
 from tribo.interfaces.observer import Observer
 from tribo.observers import recorder
-from tribo.simulation.describe import describe
 
 
 class Stopper(Observer):
@@ -47,13 +47,13 @@ def contents(path):
 
 
 def test_saves_are_at_the_times_asked_for_the_start_and_the_end():
-    result = Simulation(small(save_times=(20, 100.5))).run()
+    result = Simulation(case(save_times=(20, 100.5))).run()
     np.testing.assert_array_equal(result.times, [0, 20, 100.5, 200])
     np.testing.assert_allclose(result.distances, [0, 2, 10.05, 20], rtol=1e-14)
 
 
 def test_every_save_carries_the_load_without_overlap():
-    for save in Simulation(small(save_times=(50,))).run().saves():
+    for save in Simulation(case(save_times=(50,))).run().saves():
         assert save["force_error"] < 1e-12
         assert save["complementarity_error"] < 1e-7
         assert save["penetration_error"] < 1e-7
@@ -64,13 +64,13 @@ def test_every_save_carries_the_load_without_overlap():
 def test_a_stopped_run_resumes_to_the_same_bits(tmp_path, number, after):
     whole, parts = tmp_path / "whole.h5", tmp_path / "parts.h5"
     model = small(save_times=(20, 100))
-    Simulation(model).run(whole).close()
+    Simulation(model.case).run(whole).close()
     with pytest.raises(Interrupted, match="tribo resume"):
-        Simulation(model).run(parts, observers=[Stopper(after, number)])
+        Simulation(model.case).run(parts, observers=[Stopper(after, number)])
     with Result.open(parts) as result:
         assert result.status == "interrupted"
         assert result.times[-1] < 200
-    with Simulation(model).resume(parts) as result:
+    with Simulation(model.case).resume(parts) as result:
         assert result.status == "done"
     first, second = contents(whole), contents(parts)
     assert first.keys() == second.keys()
@@ -82,12 +82,12 @@ def test_a_stopped_run_resumes_to_the_same_bits(tmp_path, number, after):
 def test_a_run_stopped_twice_resumes_to_the_same_bits(tmp_path):
     whole, parts = tmp_path / "whole.h5", tmp_path / "parts.h5"
     model = small(save_times=(20, 100))
-    Simulation(model).run(whole).close()
+    Simulation(model.case).run(whole).close()
     with pytest.raises(Interrupted):
-        Simulation(model).run(parts, observers=[Stopper(5)])
+        Simulation(model.case).run(parts, observers=[Stopper(5)])
     with pytest.raises(Interrupted):
-        Simulation(model).resume(parts, observers=[Stopper(11)])
-    Simulation(model).resume(parts).close()
+        Simulation(model.case).resume(parts, observers=[Stopper(11)])
+    Simulation(model.case).resume(parts).close()
     first, second = contents(whole), contents(parts)
     for name in first:
         np.testing.assert_array_equal(first[name], second[name], err_msg=name)
@@ -98,23 +98,23 @@ def test_a_run_gone_on_with_changed_components_and_stopped_again_says_how_to_go_
 ):
     path = tmp_path / "run.h5"
     with pytest.raises(Interrupted, match=r"tribo resume \S+$"):
-        Simulation(small()).run(path, observers=[Stopper(3)])
+        Simulation(case()).run(path, observers=[Stopper(3)])
     monkeypatch.setattr(Component, "facts", lambda self: {"serial number": "8"})
     with pytest.raises(Interrupted, match=r"tribo resume \S+ --allow-changed$"):
-        Simulation(small()).resume(path, observers=[Stopper(6)], allow_changed=True)
-    Simulation(small()).resume(path, allow_changed=True).close()
+        Simulation(case()).resume(path, observers=[Stopper(6)], allow_changed=True)
+    Simulation(case()).resume(path, allow_changed=True).close()
 
 
 def test_a_torn_checkpoint_falls_back_on_the_one_before(tmp_path):
     whole, parts = tmp_path / "whole.h5", tmp_path / "parts.h5"
     model = small(save_times=(20, 100))
-    Simulation(model).run(whole).close()
+    Simulation(model.case).run(whole).close()
     with pytest.raises(Interrupted):
-        Simulation(model).run(parts, observers=[Stopper(30)])
+        Simulation(model.case).run(parts, observers=[Stopper(30)])
     checkpoint = tmp_path / "parts.h5.ckpt"
     checkpoint.write_bytes(checkpoint.read_bytes()[:2000])
     with pytest.warns(TriboWarning, match=r"ckpt is not a whole.*: going on from .*prev"):
-        Simulation(model).resume(parts).close()
+        Simulation(model.case).resume(parts).close()
     first, second = contents(whole), contents(parts)
     for name in first:
         np.testing.assert_array_equal(first[name], second[name], err_msg=name)
@@ -123,41 +123,41 @@ def test_a_torn_checkpoint_falls_back_on_the_one_before(tmp_path):
 def test_only_a_stopped_run_of_the_same_case_is_resumed(tmp_path):
     path = tmp_path / "run.h5"
     with pytest.raises(Interrupted):
-        Simulation(small()).run(path, observers=[Stopper(3)])
+        Simulation(case()).run(path, observers=[Stopper(3)])
     with pytest.raises(CaseError, match="another case"):
-        Simulation(small(load=50.0)).resume(path)
-    Simulation(small()).resume(path).close()
+        Simulation(case(load=50.0)).resume(path)
+    Simulation(case()).resume(path).close()
     with pytest.raises(CaseError, match="nothing to resume"):
-        Simulation(small()).resume(path)
+        Simulation(case()).resume(path)
 
 
 def test_an_existing_result_is_replaced_only_when_told(tmp_path):
     path = tmp_path / "run.h5"
     path.write_text("mine")
     with pytest.raises(CaseError, match=r"exists; .*--force"):
-        Simulation(small()).run(path)
+        Simulation(case()).run(path)
     assert path.read_text() == "mine"
-    Simulation(small(kinematics=motion(duration=1))).run(path, overwrite=True).close()
+    Simulation(case(kinematics=motion(duration=1))).run(path, overwrite=True).close()
     assert Result.open(path).status == "done"
 
 
 def test_watching_does_not_change_a_bit():
     plain, watched = (
-        Simulation(small()).run(observers=observers) for observers in ([], [Stopper(10**9)])
+        Simulation(case()).run(observers=observers) for observers in ([], [Stopper(10**9)])
     )
     np.testing.assert_array_equal(plain.pressure(-1), watched.pressure(-1))
 
 
 def test_a_run_may_end_at_a_distance():
-    result = Simulation(small(stop=StopConfig(distance="7 m"))).run()
+    result = Simulation(case(stop=Stop(distance="7 m"))).run()
     assert result.distances[-1] == pytest.approx(7, rel=1e-12)
     assert result.times[-1] == pytest.approx(70, rel=1e-12)
 
 
-@pytest.mark.parametrize("stepping", [{}, {"stepping": ExplicitConfig(time_step=2)}])
+@pytest.mark.parametrize("stepping", [{}, {"stepping": Explicit(time_step=2)}])
 @pytest.mark.parametrize("body", ["ball", "disk"])
 def test_a_run_may_end_at_a_depth(stepping, body):
-    result = Simulation(small(stop=StopConfig(depth="0.4 um", body=body), **stepping)).run()
+    result = Simulation(case(stop=Stop(depth="0.4 um", body=body), **stepping)).run()
     depth = result.saves()[-1]["bodies"][body]["max_wear_depth_m"]
     assert depth == pytest.approx(0.4e-6, rel=2e-6, abs=0)
     assert result.status == "done"
@@ -167,7 +167,7 @@ def test_a_contact_that_reaches_the_edge_stops_the_run_with_what_was_saved(tmp_p
     path = tmp_path / "run.h5"
     model = small(grid=Grid((0.4e-3, 0.4e-3), (32, 32)), save_times=(5,))
     with pytest.raises(NumericalError, match=r"reached the edge .*grid\.size"):
-        Simulation(model).run(path)
+        Simulation(model.case).run(path)
     with Result.open(path) as result:
         assert result.status == "failed"
         assert list(result.times[:2]) == [0, 5]
@@ -178,9 +178,9 @@ def test_a_contact_that_reaches_the_edge_stops_the_run_with_what_was_saved(tmp_p
     ("k", "failure"), [(1e-2, "miss their tolerances"), (1e-6, "reached the edge of the window")]
 )
 def test_a_run_that_fails_asks_for_the_unit_of_a_wear_coefficient_that_is_absurd(k, failure):
-    bodies = [Body("ball", sphere(), steel(), archard(k=k)), Body("disk", flat(), steel())]
+    bodies = [named("ball", sphere(), steel(), archard(k=k)), named("disk", flat(), steel())]
     with pytest.raises(NumericalError, match=failure) as failed:
-        Simulation(small(bodies=bodies)).run()
+        Simulation(case(bodies=bodies)).run()
     assert "ball would wear about" in str(failed.value)
     assert "in the unit that was meant" in str(failed.value)
 
@@ -191,19 +191,19 @@ def test_a_question_that_cannot_be_asked_hides_no_failure(monkeypatch):
 
     monkeypatch.setattr("tribo.simulation.doubt.wear_rates", raising)
     with pytest.raises(NumericalError, match="reached the edge"):
-        Simulation(small(grid=Grid((0.4e-3, 0.4e-3), (32, 32)))).run()
+        Simulation(case(grid=Grid((0.4e-3, 0.4e-3), (32, 32)))).run()
 
 
 def test_a_window_that_is_merely_small_raises_no_doubt_about_the_unit():
     with pytest.raises(NumericalError, match="reached the edge") as failed:
-        Simulation(small(grid=Grid((0.4e-3, 0.4e-3), (32, 32)))).run()
+        Simulation(case(grid=Grid((0.4e-3, 0.4e-3), (32, 32)))).run()
     assert "unit" not in str(failed.value)
 
 
 def test_a_window_too_small_for_the_first_contact_is_refused(tmp_path):
     path = tmp_path / "run.h5"
     with pytest.raises(CaseError, match=r"^grid\.size: the first contact reaches the edge"):
-        Simulation(small(grid=Grid((0.25e-3, 0.25e-3), (32, 32)))).run(path)
+        Simulation(case(grid=Grid((0.25e-3, 0.25e-3), (32, 32)))).run(path)
     assert not path.exists()
 
 
@@ -211,7 +211,7 @@ def test_a_body_that_ends_at_the_window_wears_evenly():
     # A flat pin: h = k p s everywhere.
     model = small(
         grid=Grid((1e-3, 1e-3), (8, 8)),
-        bodies=[Body("pin", flat(), steel(), archard()), Body("disk", flat(), steel())],
+        bodies=[named("pin", flat(), steel(), archard()), named("disk", flat(), steel())],
         contact=__import__("paper_models").foundation(),
         ends_at_window=True,
     )
@@ -224,7 +224,7 @@ def test_few_cells_and_a_short_stroke_are_warned_of_once():
         grid=Grid((0.7e-3, 0.7e-3), (14, 14)), kinematics=motion(stroke="0.6 mm", frequency=50)
     )
     with pytest.warns(TriboWarning) as caught:
-        result = Simulation(model).run()
+        result = Simulation(model.case).run()
     texts = [str(w.message) for w in caught if issubclass(w.category, TriboWarning)]
     assert len(texts) == 2
     assert "cells wide" in texts[0]
@@ -240,7 +240,7 @@ def test_a_model_made_of_objects_describes_the_case_that_makes_it():
 
 def test_a_swept_body_must_not_vary_along_the_track():
     with pytest.raises(CaseError, match=r"bodies\.disk\.surface: .*kinematics\.swept"):
-        small(bodies=[Body("ball", flat(), steel()), Body("disk", sphere(), steel())])
+        small(bodies=[named("ball", flat(), steel()), named("disk", sphere(), steel())])
 
 
 def test_a_run_stopped_before_its_first_checkpoint_says_so_and_can_start_again(
@@ -254,28 +254,28 @@ def test_a_run_stopped_before_its_first_checkpoint_says_so_and_can_start_again(
             pytest.warns(TriboWarning, match="No space left"),
             pytest.raises(OutputError, match="No space left on device; free space or choose"),
         ):
-            Simulation(small()).run(path)
+            Simulation(case()).run(path)
     with Result.open(path) as result:
         assert list(result.times) == [0]
     with pytest.raises(CaseError, match=r"stopped before the first was written; .* run --force"):
-        Simulation(small()).resume(path)
-    assert Simulation(small()).run(path, overwrite=True).status == "done"
+        Simulation(case()).resume(path)
+    assert Simulation(case()).run(path, overwrite=True).status == "done"
 
 
 def test_the_checkpoint_of_another_case_is_not_gone_on_with(tmp_path):
     ours, theirs = tmp_path / "ours.h5", tmp_path / "theirs.h5"
     for path, load in ((ours, 100.0), (theirs, 80.0)):
         with pytest.raises(Interrupted):
-            Simulation(small(load=load)).run(path, observers=[Stopper(5)])
+            Simulation(case(load=load)).run(path, observers=[Stopper(5)])
     theirs.replace(ours)
     with pytest.raises(CaseError, match="belongs to another case"):
-        Simulation(small(load=80.0)).resume(ours)
+        Simulation(case(load=80.0)).resume(ours)
 
 
 def test_replacing_a_result_drops_its_checkpoints(tmp_path):
     path = tmp_path / "run.h5"
     with pytest.raises(Interrupted):
-        Simulation(small()).run(path, observers=[Stopper(5)])
+        Simulation(case()).run(path, observers=[Stopper(5)])
     short = small(load=50.0, kinematics=motion(duration=1))
     Simulation(short).run(path, overwrite=True).close()
     assert [p.name for p in tmp_path.iterdir()] == ["run.h5"]
@@ -284,12 +284,12 @@ def test_replacing_a_result_drops_its_checkpoints(tmp_path):
 def test_a_result_that_lost_rows_is_not_padded(tmp_path):
     path = tmp_path / "run.h5"
     with pytest.raises(Interrupted):
-        Simulation(small()).run(path, observers=[Stopper(5)])
+        Simulation(case()).run(path, observers=[Stopper(5)])
     with edited(path) as file:
         file["history/time"].resize(2, axis=0)
     with pytest.warns(TriboWarning, match=r"ckpt counts rows that run\.h5 lacks: going on from"):
-        resumed = Simulation(small()).resume(path)
-    with resumed, Simulation(small()).run() as whole:
+        resumed = Simulation(case()).resume(path)
+    with resumed, Simulation(case()).run() as whole:
         for name, column in whole.table("history").items():
             np.testing.assert_array_equal(resumed.table("history")[name], column)
 
@@ -297,33 +297,33 @@ def test_a_result_that_lost_rows_is_not_padded(tmp_path):
 def test_a_failed_run_says_why_in_its_result(tmp_path):
     path = tmp_path / "run.h5"
     with pytest.raises(NumericalError):
-        Simulation(small(grid=Grid((0.4e-3, 0.4e-3), (32, 32)))).run(path)
+        Simulation(case(grid=Grid((0.4e-3, 0.4e-3), (32, 32)))).run(path)
     with Result.open(path) as result:
         assert result.notices[-1].startswith("failed: at ")
         assert "grid.size" in result.notices[-1]
 
 
 def test_a_depth_that_ends_a_run_is_told_in_the_result():
-    result = Simulation(small(stop=StopConfig(depth="0.4 um"))).run()
+    result = Simulation(case(stop=Stop(depth="0.4 um"))).run()
     assert result.notices[-1].startswith("stop: ended at ")
 
 
 def test_steps_shorten_before_a_save_and_are_long_again_after_it():
-    times = Simulation(small(save_times=(100,))).run().table("history")["distance_m"]
+    times = Simulation(case(save_times=(100,))).run().table("history")["distance_m"]
     steps = np.diff(times)
     at = int(np.flatnonzero(np.isclose(times, 10.0))[0])
     assert steps[at - 1] <= 1.5 * 0.01 * 10.0
     assert steps[at] > 2 * steps[at - 1]
 
 
-@pytest.mark.parametrize("stepping", [ImplicitConfig(), ExplicitConfig(time_step=0.25)])
+@pytest.mark.parametrize("stepping", [Implicit(), Explicit(time_step=0.25)])
 @pytest.mark.parametrize("before", [1e-7, 1e-8, 1e-9, 1e-12])
 def test_a_save_just_before_a_reversal_or_the_end_is_made(stepping, before):
     # There the path of a sine grows by less than its rounding.
     saves = (5 - before, 5.0, 10 - before)
     given = motion(frequency=1, duration=10, waveform="sinusoidal")
     model = small(kinematics=given, save_times=saves, stepping=stepping)
-    with Simulation(model).run() as result:
+    with Simulation(model.case).run() as result:
         assert tuple(result.times) == (0.0, *saves, 10.0)
         assert np.all(np.diff(result.distances) >= 0)
         assert result.distances[[1, 2, 4]] == pytest.approx([0.02, 0.02, 0.04], rel=1e-9)

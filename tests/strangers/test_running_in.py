@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from strangers.running_in import RunningIn
 
-from tribo import Body, Grid, assemble
-from tribo.config.stepping import ImplicitConfig
+from tribo import Grid, assemble
+from tribo.config.stepping import Implicit
 from tribo.contact.winkler import Winkler
 from tribo.core.material import Material
 from tribo.kinematics.unidirectional import Unidirectional
@@ -26,7 +26,7 @@ def pin():
     return assemble(
         grid=Grid((SIDE, SIDE), (8, 8)),
         load=LOAD,
-        bodies=[Body(name, Flat(), steel, law) for name in ("pin", "disk")],
+        bodies=[named(name, Flat(), steel, law) for name in ("pin", "disk")],
         contact=Winkler(modulus=1e15),
         kinematics=Unidirectional(**motion),
         ends_at_window=True,
@@ -38,7 +38,7 @@ def slid(model, steps):
     state = first_contact(model)
     for i in range(1, steps + 1):
         increment, time = END / steps, END / 0.1 * i / steps
-        state = implicit_step(model, state, increment, time, config=ImplicitConfig()).state
+        state = implicit_step(model, state, increment, time, config=Implicit()).state
     return state
 
 

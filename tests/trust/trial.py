@@ -12,11 +12,11 @@ from pathlib import Path
 
 import h5py
 import numpy as np
-from paper_models import flat, half_space, motion, small, sphere, steel
+from paper_models import flat, half_space, motion, named, small, sphere, steel
 from strangers.running_in import RunningIn
 
 import tribo.simulation.run
-from tribo import Body, Grid, Simulation
+from tribo import Grid, Simulation
 from tribo.core.errors import TriboError
 from tribo.interfaces.observer import Observer
 from tribo.observers import recorder
@@ -37,11 +37,11 @@ def simulation():
     model = small(
         grid=Grid((0.7e-3, 0.7e-3), (24, 24)),
         contact=half_space(),
-        bodies=[Body("ball", sphere(), steel(), law), Body("disk", flat(), steel(), law)],
+        bodies=[named("ball", sphere(), steel(), law), named("disk", flat(), steel(), law)],
         kinematics=motion(duration=100),
         save_times=SAVES,
     )
-    return Simulation(model)
+    return Simulation(model.case)
 
 
 class Acknowledge(Observer):

@@ -2,20 +2,31 @@
 
 import numpy as np
 import pytest
-from paper_models import FOUNDATION, K, archard, flat, foundation, motion, paraboloid, small, steel
+from paper_models import (
+    FOUNDATION,
+    K,
+    archard,
+    case,
+    flat,
+    foundation,
+    motion,
+    named,
+    paraboloid,
+    steel,
+)
 
-from tribo import Body, Grid, Simulation
-from tribo.config.stepping import ImplicitConfig
+from tribo import Grid, Simulation
+from tribo.config.stepping import Implicit
 from tribo.testing.reference import ball_wear, winkler
 
 
 def ball_only(**changes):
     parts = {
         "grid": Grid((1.3e-3, 1.3e-3), (128, 128)),
-        "bodies": [Body("ball", paraboloid(), steel(), archard()), Body("disk", flat(), steel())],
+        "bodies": [named("ball", paraboloid(), steel(), archard()), named("disk", flat(), steel())],
         "kinematics": motion(duration=3600),
     }
-    return Simulation(small(**{**parts, **changes})).run()
+    return Simulation(case(**{**parts, **changes})).run()
 
 
 @pytest.fixture(scope="module")
@@ -23,7 +34,7 @@ def on_foundation():
     return ball_only(
         contact=foundation(),
         save_times=(10, 200),
-        stepping=ImplicitConfig(pressure_tolerance=0.01, depth_tolerance=1e-4),
+        stepping=Implicit(pressure_tolerance=0.01, depth_tolerance=1e-4),
     )
 
 
@@ -60,7 +71,7 @@ def test_the_error_of_a_step_is_of_first_order():
             contact=foundation(),
             grid=Grid((0.7e-3, 0.7e-3), (200, 200)),
             kinematics=motion(duration=200),
-            stepping=ImplicitConfig(pressure_tolerance=tolerance, depth_tolerance=0.1, settle=1.0),
+            stepping=Implicit(pressure_tolerance=tolerance, depth_tolerance=0.1, settle=1.0),
         )
         errors.append(run.saves()[-1]["centre_pressure_Pa"] / exact - 1)
     orders = np.log2(np.array(errors[:-1]) / np.array(errors[1:]))

@@ -1,12 +1,12 @@
 """The errors that the study of a case states are those that a finer run shows."""
 
 import pytest
-from paper_models import archard, flat, foundation, motion, paraboloid, small, steel
+from paper_models import archard, flat, foundation, motion, named, paraboloid, small, steel
 
-from tribo import Body, Grid, Simulation
+from tribo import Grid, Simulation
 from tribo.config.load import load_case
-from tribo.config.stepping import ExplicitConfig, ImplicitConfig
-from tribo.config.stop import StopConfig
+from tribo.config.stepping import Explicit, Implicit
+from tribo.config.stop import Stop
 from tribo.core.errors import CaseError, NumericalError
 from tribo.templates import template
 from tribo.verification import refinement
@@ -16,7 +16,7 @@ from tribo.verification.refinement import refine
 def worn(**changes):
     parts = {
         "grid": Grid((0.7e-3, 0.7e-3), (49, 49)),
-        "bodies": [Body("ball", paraboloid(), steel(), archard()), Body("disk", flat(), steel())],
+        "bodies": [named("ball", paraboloid(), steel(), archard()), named("disk", flat(), steel())],
         "contact": foundation(),
         "kinematics": motion(duration=200),
     }
@@ -40,7 +40,7 @@ def test_levels_are_the_cases_own_and_two_coarser_of_the_same_parity(implicit):
 
 
 def test_stated_uncertainties_cover_a_much_finer_run(implicit):
-    stepping = ImplicitConfig(pressure_tolerance=0.005, depth_tolerance=1e-5, settle=1e-3)
+    stepping = Implicit(pressure_tolerance=0.005, depth_tolerance=1e-5, settle=1e-3)
     fine = refinement._run(worn(), (245, 245), stepping)
     exact = refinement._quantities(worn(), fine.end)
     for name, estimate in by_name(implicit).items():
@@ -88,7 +88,7 @@ def test_the_volume_is_exact_and_a_counted_width_good_to_half_a_cell(implicit):
 
 
 def test_explicit_steps_are_made_shorter_and_show_first_order():
-    study = refine(worn(stepping=ExplicitConfig(time_step=2.0)))
+    study = refine(worn(stepping=Explicit(time_step=2.0)))
     assert [level.steps for level in study.steps] == [100, 150, 225]
     assert study.grids[2] is study.steps[0]
     depth = by_name(study)["ball: largest depth"]
@@ -112,7 +112,7 @@ def test_as_many_steps_at_looser_tolerances_are_no_refinement(monkeypatch):
 
 
 def test_of_a_run_that_ends_at_a_depth_the_path_is_what_is_uncertain(implicit):
-    found = by_name(refine(worn(stop=StopConfig(depth="2 um"))))
+    found = by_name(refine(worn(stop=Stop(depth="2 um"))))
     assert found["ball: largest depth"].uncertainty < 1e-4 * found["ball: largest depth"].value
     path = found["path slid"]
     assert 0 < path.uncertainty < 0.1 * path.value < 2

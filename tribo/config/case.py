@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Annotated, Any
 
 from packaging.requirements import InvalidRequirement, Requirement
-from pydantic import Field, field_validator
+from pydantic import field_validator
 
 from tribo.config.slot import Slot
-from tribo.config.stepping import ImplicitConfig, Stepping
-from tribo.config.stop import StopConfig
-from tribo.config.table import Table
+from tribo.config.stepping import Explicit, Implicit, Stepping
+from tribo.config.stop import Stop
+from tribo.contact.dcfft import DcFft
 from tribo.core.grid import Grid
 from tribo.core.material import Material
+from tribo.core.table import Table
 from tribo.core.units import Quantity
+from tribo.interfaces.component import Component
 from tribo.interfaces.contact import ContactSolver
 from tribo.interfaces.effect import Effect
 from tribo.interfaces.kinematics import Kinematics
@@ -21,44 +24,15 @@ from tribo.interfaces.observer import Observer
 from tribo.interfaces.surface import Surface
 from tribo.interfaces.wear import WearLaw
 
-Length = Annotated[float, Quantity("m", above=0)]
-Cells = Annotated[int, Field(ge=4, le=16384)]
 
-
-def _or_one(schema: dict[str, Any]) -> None:
-    """Let a schema for a pair also take one value for both."""
-    pair = {key: schema.pop(key) for key in list(schema) if key != "description"}
-    schema["anyOf"] = [pair["prefixItems"][0], pair]
-
-
-class GridConfig(Table):
-    """The window on the contact; one number stands for both axes."""
-
-    size: tuple[Length, Length] = Field(json_schema_extra=_or_one)
-    """Edge lengths along x, the sliding direction, and y."""
-    cells: tuple[Cells, Cells] = Field(json_schema_extra=_or_one)
-    """Number of cells along x and y."""
-    ends_at_window: bool = False
-    """Whether a body ends at the window's edge, as a flat pin does: contact may then reach it."""
-
-    @field_validator("size", "cells", mode="before")
-    @classmethod
-    def _both_axes(cls, value: Any) -> Any:
-        return (value, value) if isinstance(value, int | float | str) else value
-
-    def to_grid(self) -> Grid:
-        """Return the grid."""
-        return Grid(self.size, self.cells)
-
-
-class LoadConfig(Table):
+class Load(Table):
     """The load on the contact."""
 
     normal: Annotated[float, Quantity("N", above=0)]
     """Normal load, constant in time."""
 
 
-class BodyConfig(Table):
+class Body(Table):
     """One of the two bodies."""
 
     surface: Annotated[Surface, Slot("surface")]
@@ -69,14 +43,14 @@ class BodyConfig(Table):
     """How it wears; it does not if left out."""
 
 
-class FrictionConfig(Table):
+class Friction(Table):
     """Friction, for the laws and effects that ask for it; it does not act on the contact."""
 
     coefficient: Annotated[float, Quantity("1", at_least=0)]
     """Coefficient of friction, uniform and constant."""
 
 
-class OutputConfig(Table):
+class Output(Table):
     """What is kept."""
 
     save_times: tuple[Annotated[float, Quantity("s", at_least=0)], ...] = ()
@@ -86,27 +60,54 @@ class OutputConfig(Table):
 class Case(Table):
     """A case: two bodies, a load, a motion, and how to compute."""
 
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            *,
+            grid: Grid,
+            load: Load | float | str,
+            bodies: Mapping[str, Body],
+            kinematics: Kinematics,
+            contact: ContactSolver = ...,
+            stepping: Implicit | Explicit = ...,
+            friction: Friction | float | None = None,
+            effects: Sequence[Effect] = (),
+            observers: Sequence[Observer] = (),
+            output: Output = ...,
+            stop: Stop = ...,
+            requires: Sequence[str] = (),
+        ) -> None: ...
+
     requires: tuple[str, ...] = ()
     """Distributions that must be installed, as ``"acme-tribo>=1.2"``."""
-    grid: GridConfig
-    load: LoadConfig
-    bodies: dict[str, BodyConfig]
+    grid: Grid
+    load: Load
+    bodies: dict[str, Body]
     """The two bodies, by name."""
-    contact: Annotated[ContactSolver, Slot("contact_solver")] = Field(
-        default="dcfft", validate_default=True
-    )
+    contact: Annotated[ContactSolver, Slot("contact_solver")] = DcFft()
     """How the normal contact is solved."""
     kinematics: Annotated[Kinematics, Slot("kinematics")]
     """How the bodies move."""
-    stepping: Stepping = ImplicitConfig()
+    stepping: Stepping = Implicit()
     """How the run moves on in time."""
-    friction: FrictionConfig | None = None
+    friction: Friction | None = None
     effects: tuple[Annotated[Effect, Slot("effect")], ...] = ()
     """What else the contact produces."""
     observers: tuple[Annotated[Observer, Slot("observer")], ...] = ()
     """Who watches the run."""
-    output: OutputConfig = OutputConfig()
-    stop: StopConfig = StopConfig()
+    output: Output = Output()
+    stop: Stop = Stop()
+
+    @field_validator("load", mode="before")
+    @classmethod
+    def _normal_load(cls, load: Any) -> Any:
+        return {"normal": load} if isinstance(load, int | float | str) else load
+
+    @field_validator("friction", mode="before")
+    @classmethod
+    def _coefficient(cls, friction: Any) -> Any:
+        return {"coefficient": friction} if isinstance(friction, int | float) else friction
 
     @field_validator("requires")
     @classmethod
@@ -122,7 +123,7 @@ class Case(Table):
 
     @field_validator("bodies")
     @classmethod
-    def _two_bodies(cls, bodies: dict[str, BodyConfig]) -> dict[str, BodyConfig]:
+    def _two_bodies(cls, bodies: dict[str, Body]) -> dict[str, Body]:
         if len(bodies) != 2:
             raise ValueError(
                 f"a contact needs two bodies, as [bodies.ball] and [bodies.disk]; "
@@ -134,3 +135,16 @@ class Case(Table):
                     f"{name!r} is no good as a body's name; use letters, digits, - and _"
                 )
         return bodies
+
+    def components(self) -> Iterator[tuple[str, Component]]:
+        """Yield every component with its place in the case."""
+        for name, body in self.bodies.items():
+            yield f"bodies.{name}.surface", body.surface
+            if body.wear is not None:
+                yield f"bodies.{name}.wear", body.wear
+        yield "contact", self.contact
+        yield "kinematics", self.kinematics
+        for i, effect in enumerate(self.effects):
+            yield f"effects[{i}]", effect
+        for i, observer in enumerate(self.observers):
+            yield f"observers[{i}]", observer

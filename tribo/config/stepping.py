@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import ConfigDict, Field
 
-from tribo.config.table import Table
+from tribo.core.table import Table
 from tribo.core.units import Quantity
 
 
@@ -15,7 +15,7 @@ def _type_required(schema: dict[str, Any]) -> None:
     schema.setdefault("required", []).append("type")
 
 
-class ImplicitConfig(Table):
+class Implicit(Table):
     """Backward Euler, with increments chosen by error; stable at any length."""
 
     model_config = ConfigDict(json_schema_extra=_type_required)
@@ -33,7 +33,7 @@ class ImplicitConfig(Table):
     """Solves a step may take to do so; more rejects it."""
 
 
-class ExplicitConfig(Table):
+class Explicit(Table):
     """Forward Euler with a fixed time step, as in the paper; limited by stability."""
 
     model_config = ConfigDict(json_schema_extra=_type_required)
@@ -45,4 +45,4 @@ class ExplicitConfig(Table):
     """Go on beyond the stability limit, at your own risk."""
 
 
-Stepping = Annotated[ImplicitConfig | ExplicitConfig, Field(discriminator="type")]
+Stepping = Annotated[Implicit | Explicit, Field(discriminator="type")]

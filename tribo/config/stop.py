@@ -6,11 +6,11 @@ from typing import Annotated, Self
 
 from pydantic import model_validator
 
-from tribo.config.table import Table
+from tribo.core.table import Table
 from tribo.core.units import Quantity
 
 
-class StopConfig(Table):
+class Stop(Table):
     """Ends the run at the first condition that is met."""
 
     distance: Annotated[float, Quantity("m", above=0)] | None = None

@@ -2,30 +2,57 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
+from pydantic import Field, field_validator
 
 from tribo.core.arrays import Array
+from tribo.core.table import Table
+from tribo.core.units import Quantity
+
+Length = Annotated[float, Quantity("m", above=0)]
+Cells = Annotated[int, Field(ge=4, le=16384)]
 
 
-@dataclass(frozen=True)
-class Grid:
-    """A window centred on the origin of the contact frame.
+def _or_one(schema: dict[str, Any]) -> None:
+    """Let a schema for a pair also take one value for both."""
+    pair = {key: schema.pop(key) for key in list(schema) if key != "description"}
+    schema["anyOf"] = [pair["prefixItems"][0], pair]
+
+
+class Grid(Table):
+    """A window centred on the origin of the contact frame; one number stands for both axes.
 
     Arrays on a grid have shape ``cells`` = (nx, ny), axis 0 along the sliding
     direction x, and hold values at cell centres.
-
-    Parameters
-    ----------
-    size : tuple of float
-        Edge lengths along x and y, in m.
-    cells : tuple of int
-        Number of cells along x and y.
     """
 
-    size: tuple[float, float]
-    cells: tuple[int, int]
+    size: tuple[Length, Length] = Field(json_schema_extra=_or_one)
+    """Edge lengths along x, the sliding direction, and y."""
+    cells: tuple[Cells, Cells] = Field(json_schema_extra=_or_one)
+    """Number of cells along x and y."""
+    ends_at_window: bool = False
+    """Whether a body ends at the window's edge, as a flat pin does: contact may then reach it."""
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            size: float | str | tuple[float, float],
+            cells: int | tuple[int, int],
+            ends_at_window: bool = False,
+        ) -> None: ...
+
+    else:
+
+        def __init__(self, *values: Any, **named: Any) -> None:
+            super().__init__(**dict(zip(type(self).model_fields, values, strict=False)), **named)
+
+    @field_validator("size", "cells", mode="before")
+    @classmethod
+    def _both_axes(cls, value: Any) -> Any:
+        return (value, value) if isinstance(value, int | float | str) else value
 
     @property
     def spacing(self) -> tuple[float, float]:

@@ -64,7 +64,7 @@ class Component(BaseModel, ABC):
 
     def __eq__(self, other: object) -> bool:
         """Whether both are of one class and configured alike; what they cache does not count."""
-        return type(self) is type(other) and dict(self) == dict(other)  # type: ignore[call-overload]
+        return type(self) is type(other) and dict(self) == dict(other)
 
     def __hash__(self) -> int:
         return hash((type(self), *(value for _, value in self)))

@@ -2,43 +2,44 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, PluginError
 from tribo.core.grid import Grid
+from tribo.core.material import Material
 from tribo.interfaces.exposure import Exposure
+from tribo.interfaces.surface import Surface
 from tribo.interfaces.wear import WearLaw
 from tribo.simulation import answers
 from tribo.simulation.calling import calling, named
-from tribo.simulation.model import Body
 
 
-def surface_height(body: Body, grid: Grid) -> Array:
+def surface_height(body: str, surface: Surface, grid: Grid) -> Array:
     """Return the height of a body's surface before it wears, shape (nx, ny), in m."""
-    with calling(body.surface, body.name):
-        answer = body.surface.height(grid)
-    return answers.field(named(body.surface, body.name), "a height map", answer, grid.cells)[0]
+    with calling(surface, body):
+        answer = surface.height(grid)
+    return answers.field(named(surface, body), "a height map", answer, grid.cells)[0]
 
 
-def check_sliding(body: Body, height: Array, exposure: Exposure) -> None:
+def check_sliding(body: str, surface: Surface, height: Array, exposure: Exposure) -> None:
     """Raise `CaseError` if the motion moves a shape that would not stay as it is."""
     if not exposure.shape_stays and np.any(height != height[:1]):
         raise CaseError(
-            f"body {body.name!r} is swept along x, so its surface must not vary along x, as "
-            f"{body.surface.type!r} does; let kinematics.swept name the other body, or use "
+            f"body {body!r} is swept along x, so its surface must not vary along x, as "
+            f"{surface.type!r} does; let kinematics.swept name the other body, or use "
             "a 'flat' or a 'cylinder' with axis = 'x'"
         )
 
 
-def check_law(law: WearLaw, body: Body) -> None:
+def check_law(body: str, law: WearLaw, material: Material) -> None:
     """Raise `CaseError` if a law does not suit its body, `PluginError` if its state is none."""
-    with calling(law, body.name):
-        law.check(body.material)
+    with calling(law, body):
+        law.check(material)
         given = law.initial_state()
-    who = named(law, body.name)
+    who = named(law, body)
     declared = {field.name for field in law.state_fields}
     if not isinstance(given, Mapping) or set(given) != declared:
         raise PluginError(
@@ -48,24 +49,19 @@ def check_law(law: WearLaw, body: Body) -> None:
         answers.number(who, f"an initial {name!r}", value)
 
 
-def curvature(bodies: Sequence[Body]) -> tuple[float, float] | None:
+def curvature(surfaces: Mapping[str, Surface]) -> tuple[float, float] | None:
     """Return the curvature of the gap along x and y, in 1/m; None if a surface states none."""
-    known = [_curvature_of(body) for body in bodies]
+    known = [_curvature_of(body, surface) for body, surface in surfaces.items()]
     if any(c is None for c in known):
         return None
     return sum(c[0] for c in known if c), sum(c[1] for c in known if c)
 
 
-def _curvature_of(body: Body) -> tuple[float, float] | None:
-    with calling(body.surface, body.name):
-        answer = body.surface.curvature
+def _curvature_of(body: str, surface: Surface) -> tuple[float, float] | None:
+    with calling(surface, body):
+        answer = surface.curvature
     if answer is None:
         return None
-    who = named(body.surface, body.name)
+    who = named(surface, body)
     along, across = answers.field(who, "a curvature", answer, (2,))[0]
     return float(along), float(across)
-
-
-def laws_of(bodies: Sequence[Body]) -> list[WearLaw]:
-    """Return the wear laws of those that wear."""
-    return [body.wear for body in bodies if body.wear is not None]

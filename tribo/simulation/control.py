@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from tribo.config.stepping import ImplicitConfig
+from tribo.config.stepping import Implicit
 from tribo.core.state import State
 from tribo.simulation.model import Model
 from tribo.simulation.rates import Moment, law_states, wear_rates
@@ -27,7 +27,7 @@ def first_increment(model: Model, state: State, remaining: float) -> float:
     return min(remaining, part / fastest) if fastest > 0 and part > 0 else remaining
 
 
-def step_error(config: ImplicitConfig, before: State, step: ImplicitStep) -> tuple[float, float]:
+def step_error(config: Implicit, before: State, step: ImplicitStep) -> tuple[float, float]:
     """Return the step's depth and pressure errors as multiples of their tolerances.
 
     The local error of backward Euler in depth is half of what its wear

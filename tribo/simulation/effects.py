@@ -4,19 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from tribo.config.case import Case
 from tribo.core.errors import CaseError, located
 from tribo.core.fields import FRICTION_COEFFICIENT
 from tribo.interfaces.effect import Effect
 from tribo.simulation.calling import calling
-from tribo.simulation.model import Body, Model
+from tribo.simulation.model import Model
 
 
-def in_order(
-    effects: Sequence[Effect],
-    bodies: Sequence[Body],
-    friction_coefficient: float | None,
-) -> tuple[Effect, ...]:
-    """Return effects so that each comes after those that provide what it requires.
+def in_order(case: Case) -> tuple[Effect, ...]:
+    """Return the effects of a case so that each comes after those that provide what it requires.
 
     Raises
     ------
@@ -25,9 +22,9 @@ def in_order(
     CaseError
         If a field is provided twice.
     """
-    known = set() if friction_coefficient is None else {FRICTION_COEFFICIENT.name}
+    known = set() if case.friction is None else {FRICTION_COEFFICIENT.name}
     ordered: list[Effect] = []
-    waiting = list(effects)
+    waiting = list(case.effects)
     while waiting:
         ready = next((e for e in waiting if set(e.requires) <= known), None)
         if ready is None:
@@ -45,11 +42,11 @@ def in_order(
                     "effects",
                 )
             known.add(field.name)
-    for body in bodies:
+    for name, body in case.bodies.items():
         if body.wear is not None and not set(body.wear.requires) <= known:
             missing = sorted(set(body.wear.requires) - known)
             text = _missing(f"wear law {body.wear.type!r}", missing, [])
-            raise MissingFieldError(text, f"bodies.{body.name}.wear", missing)
+            raise MissingFieldError(text, f"bodies.{name}.wear", missing)
     return tuple(ordered)
 
 
@@ -80,7 +77,7 @@ def _missing(who: str, missing: Sequence[str], waiting: Sequence[Effect]) -> str
 
 def check_effects(model: Model) -> None:
     """Raise `CaseError` if an effect does not suit the bodies or how they move."""
-    materials = {body.name: body.material for body in model.bodies}
+    materials = {name: body.material for name, body in model.bodies.items()}
     swept = frozenset(name for name in materials if model.is_swept(name))
     for effect in model.effects:
         with located("effects"), calling(effect):

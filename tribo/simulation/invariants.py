@@ -12,7 +12,7 @@ from math import isfinite
 
 import numpy as np
 
-from tribo.config.stepping import ExplicitConfig
+from tribo.config.stepping import Explicit
 from tribo.core.arrays import Array, union
 from tribo.core.errors import NumericalError
 from tribo.core.fields import WearRate
@@ -159,7 +159,7 @@ def chattering_words(state: State) -> str:
 
 
 def _may_chatter(model: Model) -> bool:
-    return isinstance(model.stepping, ExplicitConfig) and model.stepping.allow_unstable
+    return isinstance(model.stepping, Explicit) and model.stepping.allow_unstable
 
 
 def _not_finite(state: State) -> str | None:

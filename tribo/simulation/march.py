@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tribo.config.stepping import ExplicitConfig, ImplicitConfig
+from tribo.config.stepping import Explicit, Implicit
 from tribo.core.errors import CaseError, NumericalError, PluginError
 from tribo.core.measures import Invariants, half_widths, reaches_border
 from tribo.core.state import State
@@ -60,7 +60,7 @@ def begin(model: Model) -> State:
         If the contact cannot be solved.
     """
     state = hold(model, None, first_contact(model))
-    if isinstance(model.stepping, ExplicitConfig):
+    if isinstance(model.stepping, Explicit):
         _check_time_step(model, model.stepping, state)
     return _noticed(model, replace(state, saves=1))
 
@@ -77,7 +77,7 @@ def march(model: Model, state: State) -> Iterator[Accepted]:
         If a time step exceeds the stability limit.
     """
     # Which stops are left follows from the time alone, so a resumed run sees the same.
-    stops = [t for t in model.save_times if 0 < t < model.end_time]
+    stops = [t for t in model.case.output.save_times if 0 < t < model.end_time]
     for stop in [*stops, model.end_time]:
         while state.time < stop:
             state = hold(model, state, _step_towards(model, state, stop))
@@ -104,7 +104,7 @@ def _step_towards(model: Model, state: State, stop: float) -> State:
     if _rests(model, state, stop):
         return replace(state, time=stop, steps=state.steps + 1, invariants=Invariants())
     state = start_sliding(model, state)
-    if isinstance(model.stepping, ExplicitConfig):
+    if isinstance(model.stepping, Explicit):
         return _explicit(model, model.stepping, state, stop)
     return _implicit(model, model.stepping, state, stop)
 
@@ -116,7 +116,7 @@ def _rests(model: Model, state: State, stop: float) -> bool:
     return abs(path_at(model.kinematics, stop) - state.distance) <= SMALLEST * state.distance
 
 
-def _explicit(model: Model, config: ExplicitConfig, state: State, stop: float) -> State:
+def _explicit(model: Model, config: Explicit, state: State, stop: float) -> State:
     time = state.time + config.time_step
     if stop - time < 1e-6 * config.time_step:
         time = stop
@@ -126,7 +126,7 @@ def _explicit(model: Model, config: ExplicitConfig, state: State, stop: float) -
     return _stop_at_depth(model, state, explicit_step, increment, time)
 
 
-def _implicit(model: Model, config: ImplicitConfig, state: State, stop: float) -> State:
+def _implicit(model: Model, config: Implicit, state: State, stop: float) -> State:
     target = _path_until(model, state, stop)
     remaining = target - state.distance
     natural = state.increment or first_increment(model, state, remaining)
@@ -224,7 +224,7 @@ def _depth(model: Model, state: State) -> float:
     return max(float(np.max(state.bodies[name].wear)) for name in names)
 
 
-def _check_time_step(model: Model, config: ExplicitConfig, state: State) -> None:
+def _check_time_step(model: Model, config: Explicit, state: State) -> None:
     steps = model.end_time / config.time_step
     if steps > MOST_STEPS:
         raise CaseError(
@@ -237,7 +237,7 @@ def _check_time_step(model: Model, config: ExplicitConfig, state: State) -> None
     _held_stable(model, config, state, moment)
 
 
-def _held_stable(model: Model, config: ExplicitConfig, state: State, moment: Moment) -> State:
+def _held_stable(model: Model, config: Explicit, state: State, moment: Moment) -> State:
     """Return `state`, told if the step from it to `moment` is beyond the stability limit.
 
     Raises
@@ -287,8 +287,8 @@ def _check_window(model: Model, state: State) -> None:
 
 def _track_changes(model: Model) -> bool:
     return any(
-        model.is_swept(body.name) and (body.wear or model.plastic_share[body.name] > 0)
-        for body in model.bodies
+        model.is_swept(name) and (body.wear or model.plastic_share[name] > 0)
+        for name, body in model.bodies.items()
     )
 
 

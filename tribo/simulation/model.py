@@ -1,99 +1,106 @@
-"""A case made of objects: everything checked, nothing solved yet."""
+"""A case with what follows from it: everything checked, nothing solved yet."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
-from tribo.config.stepping import ExplicitConfig, ImplicitConfig
-from tribo.config.stop import StopConfig
+from tribo.config.case import Body, Case
+from tribo.config.stepping import Explicit, Implicit
+from tribo.config.stop import Stop
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSystem
 from tribo.core.grid import Grid
-from tribo.core.material import Material
-from tribo.interfaces.component import Component
 from tribo.interfaces.contact import ContactSolver
 from tribo.interfaces.effect import Effect
 from tribo.interfaces.exposure import Exposure
 from tribo.interfaces.kinematics import Kinematics
-from tribo.interfaces.observer import Observer
-from tribo.interfaces.surface import Surface
 from tribo.interfaces.wear import WearLaw
 from tribo.simulation import motion
 
 
 @dataclass(frozen=True)
-class Body:
-    """One of the two bodies.
+class Model:
+    """A case, and what a run derives from it once; made by `assemble`.
 
     Parameters
     ----------
-    name : str
-        Its name.
-    surface : Surface
-        Its shape before it wears.
-    material : Material
-        What it is made of.
-    wear : WearLaw, optional
-        How it wears; it does not if left out.
+    case : Case
+        The case.
+    effects : tuple of Effect
+        Its effects, each after those that provide what it requires.
+    exposures : Mapping[str, Exposure]
+        How each body, by name, meets the contact.
+    plastic_share : Mapping[str, float]
+        Part of the plastic overlap that each body, by name, takes.
+    system : ContactSystem
+        The constants of the contact.
+    gap : ndarray, shape (nx, ny)
+        Initial gap, in m, with minimum 0.
     """
 
-    name: str
-    surface: Surface
-    material: Material
-    wear: WearLaw | None = None
-
-
-@dataclass(frozen=True)
-class Model:
-    """The composed case; make one with `assemble`.
-
-    Besides what `assemble` takes, it holds what follows from it: `exposures`
-    and `plastic_share` by body name, the constants of the contact `system`,
-    and the initial `gap` in m, shape (nx, ny), with minimum 0.
-    """
-
-    grid: Grid
-    load: float
-    bodies: tuple[Body, ...]
-    contact: ContactSolver
-    kinematics: Kinematics
-    stepping: ImplicitConfig | ExplicitConfig
-    friction_coefficient: float | None
+    case: Case
     effects: tuple[Effect, ...]
-    observers: tuple[Observer, ...]
-    save_times: tuple[float, ...]
-    stop: StopConfig
-    requires: tuple[str, ...]
-    ends_at_window: bool
     exposures: Mapping[str, Exposure]
     plastic_share: Mapping[str, float]
     system: ContactSystem
     gap: Array
 
     @property
+    def grid(self) -> Grid:
+        """The window."""
+        return self.case.grid
+
+    @property
+    def load(self) -> float:
+        """Normal load, in N."""
+        return self.case.load.normal
+
+    @property
+    def bodies(self) -> Mapping[str, Body]:
+        """The bodies, by name."""
+        return self.case.bodies
+
+    @property
+    def contact(self) -> ContactSolver:
+        """How the contact is solved."""
+        return self.case.contact
+
+    @property
+    def kinematics(self) -> Kinematics:
+        """How the bodies move."""
+        return self.case.kinematics
+
+    @property
+    def stepping(self) -> Implicit | Explicit:
+        """How the run moves on."""
+        return self.case.stepping
+
+    @property
+    def stop(self) -> Stop:
+        """What ends the run early."""
+        return self.case.stop
+
+    @property
+    def friction_coefficient(self) -> float | None:
+        """Coefficient of friction, if the case has one."""
+        return None if self.case.friction is None else self.case.friction.coefficient
+
+    @property
     def may_reach_edge(self) -> bool:
         """Whether the contact may reach the edge of the window."""
-        return self.ends_at_window or self.contact.periodic
+        return self.grid.ends_at_window or self.contact.periodic
 
     @property
     def end_time(self) -> float:
         """When the run ends if no depth stops it earlier, in s."""
         return motion.end_time(self.kinematics, self.stop.distance)
 
+    @property
+    def laws(self) -> list[WearLaw]:
+        """The wear laws of the bodies that wear."""
+        return [body.wear for body in self.bodies.values() if body.wear is not None]
+
     def is_swept(self, name: str) -> bool:
         """Whether the body's points pass through the contact."""
         return self.exposures[name].swept
-
-    def components(self) -> Iterator[tuple[str, Component]]:
-        """Yield every component with its place in a case."""
-        for body in self.bodies:
-            yield f"bodies.{body.name}.surface", body.surface
-            if body.wear is not None:
-                yield f"bodies.{body.name}.wear", body.wear
-        yield "contact", self.contact
-        yield "kinematics", self.kinematics
-        for i, effect in enumerate(self.effects):
-            yield f"effects[{i}]", effect
-        for i, observer in enumerate(self.observers):
-            yield f"observers[{i}]", observer

@@ -6,14 +6,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from tribo.analysis.first_contact import HertzContact, hertz_contact
-from tribo.config.stepping import ExplicitConfig, ImplicitConfig
+from tribo.config.case import Output
+from tribo.config.stepping import Explicit, Implicit
 from tribo.core.errors import CaseError, NumericalError
 from tribo.core.grid import Grid
 from tribo.core.measures import Measures
 from tribo.core.state import State
 from tribo.results.provenance import stated_facts
-from tribo.simulation.assembly import varied
-from tribo.simulation.bodies import laws_of
+from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.calling import calling
 from tribo.simulation.doubt import too_deep
 from tribo.simulation.march import FEW_CELLS, MOST_STEPS, begin, march
@@ -26,7 +26,7 @@ from tribo.simulation.step import first_contact, largest_stable_increment, start
 
 COARSE = 72
 MARGINS = (1.5, 1.0)
-LOOSE = ImplicitConfig(depth_tolerance=2e-2, pressure_tolerance=0.5, settle=0.1)
+LOOSE = Implicit(depth_tolerance=2e-2, pressure_tolerance=0.5, settle=0.1)
 BARE_FILE = 1e6
 
 
@@ -119,7 +119,7 @@ def predict(model: Model) -> Prediction:
     if coarse.failure is not None and not problems:
         problems.append(f"a trial run on a coarse grid failed: {coarse.failure}")
     facts = {}
-    for place, component in model.components():
+    for place, component in model.case.components():
         with calling(component):
             facts[place] = stated_facts(component)
     return Prediction(
@@ -130,7 +130,7 @@ def predict(model: Model) -> Prediction:
         window_holds=holds,
         limitation=limitation,
         memory=memory_needed(
-            model.grid, laws_of(model.bodies), model.effects, plastic=model.system.cap is not None
+            model.grid, model.laws, model.effects, plastic=model.system.cap is not None
         ),
         file_size=_file_size(model),
         facts={place: stated for place, stated in facts.items() if stated},
@@ -141,12 +141,12 @@ def predict(model: Model) -> Prediction:
 def _file_size(model: Model) -> float:
     """Return the size of the result file without compression, in bytes."""
     nx, ny = model.grid.cells
-    saves = len({0.0, model.end_time, *model.save_times})
+    saves = len({0.0, model.end_time, *model.case.output.save_times})
     # Per save: the pressure, and of each body its plastic depth, its wear and its state.
     field = 8.0 * nx * ny
     each = field
-    for body in model.bodies:
-        own = field / nx if model.is_swept(body.name) else field
+    for name, body in model.bodies.items():
+        own = field / nx if model.is_swept(name) else field
         states = len(body.wear.state_fields) if body.wear is not None else 0
         each += field + (1 + states) * own
     heights = field * len(model.bodies)
@@ -172,7 +172,7 @@ def _unsettled(model: Model, state: State) -> str | None:
 
 def _unstable(model: Model, state: State) -> str | None:
     config = model.stepping
-    if not isinstance(config, ExplicitConfig):
+    if not isinstance(config, Explicit):
         return None
     time = config.time_step
     steps = model.end_time / time
@@ -228,12 +228,13 @@ def _coarsened(model: Model, margin: float) -> Model:
     largest = max(model.grid.size)
     nx, ny = (max(8, 2 * round(0.5 * COARSE * size / largest)) for size in model.grid.size)
     lx, ly = (margin * size for size in model.grid.size)
-    return varied(
-        model,
-        grid=Grid((lx, ly), (nx, ny)),
-        stepping=LOOSE if model.contact.accepts_wear_compliance else model.stepping,
-        save_times=(),
-        ends_at_window=True,
+    return assemble(
+        varied(
+            model.case,
+            grid=Grid((lx, ly), (nx, ny), ends_at_window=True),
+            stepping=LOOSE if model.contact.accepts_wear_compliance else model.stepping,
+            output=Output(),
+        )
     )
 
 

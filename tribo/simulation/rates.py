@@ -74,7 +74,7 @@ def wear_rates(
     everywhere = whole(model.grid.cells)
     near = around_region(contact.extent, model.grid.cells, MARGIN)
     rates = {}
-    for body in model.bodies:
+    for who, body in model.bodies.items():
         if body.wear is None:
             continue
         # A law is pointwise, so it need not be asked where nothing touches; its state
@@ -84,18 +84,18 @@ def wear_rates(
             pressure=pressure[box.slices],
             speed=moment.speed,
             material=body.material,
-            fields={name: fields[name][body.name][box.slices] for name in body.wear.requires},
+            fields={name: fields[name][who][box.slices] for name in body.wear.requires},
             state={
                 name: readonly(np.broadcast_to(values, pressure.shape)[box.slices])
-                for name, values in law_states[body.name].items()
+                for name, values in law_states[who].items()
             },
         )
-        with calling(body.wear, body.name):
+        with calling(body.wear, who):
             answer = body.wear.rate(local)
-        rate = _checked(named(body.wear, body.name), body.wear, answer, local.pressure, moment)
+        rate = _checked(named(body.wear, who), body.wear, answer, local.pressure, moment)
         if not box.is_window:
             rate = WearRate(box.embed(rate.depth), box.embed(rate.derivative))
-        rates[body.name] = rate
+        rates[who] = rate
     return rates
 
 
@@ -104,7 +104,7 @@ def _effect_fields(model: Model, pressure: Array, moment: Moment) -> dict[str, d
     fields: dict[str, dict[str, Array]] = {}
     if model.friction_coefficient is not None:
         uniform = readonly(np.full(shape, model.friction_coefficient))
-        fields[FRICTION_COEFFICIENT.name] = {body.name: uniform for body in model.bodies}
+        fields[FRICTION_COEFFICIENT.name] = dict.fromkeys(model.bodies, uniform)
     for effect in model.effects:
         conditions = ContactConditions(
             grid=model.grid,
@@ -113,8 +113,8 @@ def _effect_fields(model: Model, pressure: Array, moment: Moment) -> dict[str, d
             time=moment.time,
             distance=moment.distance,
             friction_coefficient=model.friction_coefficient,
-            materials={body.name: body.material for body in model.bodies},
-            swept=frozenset(b.name for b in model.bodies if model.is_swept(b.name)),
+            materials={name: body.material for name, body in model.bodies.items()},
+            swept=frozenset(name for name in model.bodies if model.is_swept(name)),
             fields={name: dict(of_bodies) for name, of_bodies in fields.items()},
         )
         with calling(effect):
@@ -126,12 +126,12 @@ def _effect_fields(model: Model, pressure: Array, moment: Moment) -> dict[str, d
             fields[field.name] = {}
             for body in model.bodies:
                 of_bodies = answer.get(field.name, {})
-                values = of_bodies.get(body.name) if isinstance(of_bodies, Mapping) else None
-                what = f"{field.name!r} for body {body.name!r}"
+                values = of_bodies.get(body) if isinstance(of_bodies, Mapping) else None
+                what = f"{field.name!r} for body {body!r}"
                 if values is None:
                     raise PluginError(f"{who} gave no {what}")
                 array, _, _ = spread(who, what, values, shape, moment.words)
-                fields[field.name][body.name] = readonly(array)
+                fields[field.name][body] = readonly(array)
     return fields
 
 

@@ -21,10 +21,10 @@ from tribo.registry.registry import Registry, default_registry
 from tribo.results.checkpoint import read_checkpoint, tidied
 from tribo.results.provenance import changed_components, origin, provenance
 from tribo.results.read import Result
+from tribo.simulation.assembly import assemble
 from tribo.simulation.bodies import surface_height
 from tribo.simulation.calling import calling
-from tribo.simulation.compose import compose
-from tribo.simulation.describe import describe
+from tribo.simulation.effects import MissingFieldError
 from tribo.simulation.interrupt import InterruptGuard
 from tribo.simulation.march import begin, march
 from tribo.simulation.measure import measure
@@ -40,9 +40,8 @@ class Simulation:
 
     Parameters
     ----------
-    case : Case, Mapping, str, Path or Model
-        A validated case, one as plain data, a TOML file, or a model made of
-        objects with `assemble`.
+    case : Case, Mapping, str or Path
+        A case, one as plain data, or a TOML file.
     registry : Registry, optional
         Where to look classes up; the installed plugins if left out.
 
@@ -59,7 +58,7 @@ class Simulation:
 
     def __init__(
         self,
-        case: Case | Mapping[str, Any] | str | Path | Model,
+        case: Case | Mapping[str, Any] | str | Path,
         registry: Registry | None = None,
     ) -> None:
         self.model, self._plugins = _model(case, registry)
@@ -161,7 +160,7 @@ class Simulation:
                 "with --allow-changed"
             )
         # Another version of a component may have other keys.
-        if case != describe(self.model) and not changes:
+        if case != self.model.case.model_dump(mode="json") and not changes:
             raise CaseError(f"{path} is the result of another case; resume that one")
         state, wall_time = read_checkpoint(path, case)
         kept = tuple(text for text in state.notices if not text.startswith(FAILED))
@@ -194,7 +193,7 @@ class Simulation:
         wall_time: float,
         changed: bool = False,
     ) -> Result:
-        audience = Audience((recorder, *self.model.observers, *extra))
+        audience = Audience((recorder, *self.model.case.observers, *extra))
         snapshot = self._snapshot(state)
         info = self._info(snapshot if resumed else None, wall_time)
         reason = "failed"
@@ -232,7 +231,7 @@ class Simulation:
 
     def _provenance(self) -> dict[str, object]:
         components = {}
-        for place, component in self.model.components():
+        for place, component in self.model.case.components():
             with calling(component):
                 components[place] = origin(component)
         return provenance(components, map(asdict, self._plugins))
@@ -243,17 +242,17 @@ class Simulation:
             system=model.system,
             bodies=tuple(
                 BodyInfo(
-                    name=body.name,
-                    swept=model.is_swept(body.name),
+                    name=name,
+                    swept=model.is_swept(name),
                     density=body.material.density,
-                    height=surface_height(body, model.grid),
+                    height=surface_height(name, body.surface, model.grid),
                     state_fields=() if body.wear is None else tuple(body.wear.state_fields),
                 )
-                for body in model.bodies
+                for name, body in model.bodies.items()
             ),
             end_time=model.end_time,
             end_distance=path_at(model.kinematics, model.end_time),
-            case=describe(model),
+            case=model.case.model_dump(mode="json"),
             provenance=self._provenance(),
             resumed_from=resumed_from,
             wall_time=wall_time,
@@ -261,17 +260,23 @@ class Simulation:
 
 
 def _model(
-    case: Case | Mapping[str, Any] | str | Path | Model, registry: Registry | None
+    case: Case | Mapping[str, Any] | str | Path, registry: Registry | None
 ) -> tuple[Model, tuple[PluginRecord, ...]]:
     """Return the model and the plugins that took part in finding its components."""
-    if isinstance(case, Model):
-        return case, ()
+    if isinstance(case, Case) and registry is None:
+        return assemble(case), ()
     known = registry or default_registry()
     if isinstance(case, str | Path):
         case = load_case(case, registry=known)
     elif not isinstance(case, Case):
         case = validate_case(case, registry=known)
-    return compose(case, known), known.plugins
+    try:
+        return assemble(case), known.plugins
+    except MissingFieldError as error:
+        providers = known.providers(error.missing)
+        if not providers:
+            raise
+        raise CaseError(f"{error}; these do: {', '.join(providers)}") from error
 
 
 def _with_notice(snapshot: Snapshot, text: str) -> Snapshot:

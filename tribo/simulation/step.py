@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tribo.config.stepping import ImplicitConfig
+from tribo.config.stepping import Implicit
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactProblem, ContactSolution, WearCompliance
 from tribo.core.errors import CaseError, NumericalError, PluginError
@@ -58,13 +58,13 @@ def first_contact(model: Model) -> State:
             "grid.size",
         )
     bodies = {}
-    for body in model.bodies:
-        unworn = np.zeros_like(model.exposures[body.name].average(model.gap))
+    for name, body in model.bodies.items():
+        unworn = np.zeros_like(model.exposures[name].average(model.gap))
         initial = body.wear.initial_state() if body.wear is not None else {}
-        bodies[body.name] = BodyState(
+        bodies[name] = BodyState(
             wear=unworn,
-            plastic=model.plastic_share[body.name] * solution.overlap,
-            law={name: np.full_like(unworn, value) for name, value in initial.items()},
+            plastic=model.plastic_share[name] * solution.overlap,
+            law={field: np.full_like(unworn, value) for field, value in initial.items()},
         )
     return State(
         time=0.0,
@@ -87,7 +87,7 @@ def geometry(model: Model, bodies: Mapping[str, BodyState]) -> Array:
 
 
 def implicit_step(
-    model: Model, state: State, increment: float, time: float, *, config: ImplicitConfig
+    model: Model, state: State, increment: float, time: float, *, config: Implicit
 ) -> ImplicitStep:
     """Take one backward Euler step.
 
@@ -106,7 +106,7 @@ def implicit_step(
         Sliding increment, in m; positive.
     time : float
         Time at the end, in s.
-    config : ImplicitConfig
+    config : Implicit
         Tolerances.
 
     Raises

@@ -10,7 +10,6 @@ from pathlib import Path
 from tribo.core.errors import CaseError, TriboWarning
 from tribo.interfaces.observer import Observer
 from tribo.results.read import Result
-from tribo.simulation.describe import describe
 from tribo.simulation.run import Simulation
 
 
@@ -23,7 +22,7 @@ def is_done(path: Path, simulation: Simulation) -> bool:
             result.check()
             return (
                 result.status == "done"
-                and result.case == describe(simulation.model)
+                and result.case == simulation.model.case.model_dump(mode="json")
                 and not simulation.changed_since(result)
             )
     except CaseError:

@@ -11,7 +11,6 @@ from tribo.core.errors import CaseError, OutputError, TriboError
 from tribo.interfaces.observer import Observer
 from tribo.registry.registry import Registry
 from tribo.results.read import Result
-from tribo.simulation.describe import describe
 from tribo.simulation.run import Simulation
 from tribo.study.completion import complete, is_done
 from tribo.study.variation import Variant
@@ -106,7 +105,7 @@ def _check_own(path: Path | None, simulation: Simulation) -> None:
     otherwise = "choose another folder with -o, or run all anew with --force"
     try:
         with Result.open(path) as result:
-            own = result.case == describe(simulation.model)
+            own = result.case == simulation.model.case.model_dump(mode="json")
     except CaseError as error:
         raise CaseError(f"{error}; {otherwise}") from error
     if not own:

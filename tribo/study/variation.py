@@ -162,7 +162,7 @@ def check_saved(variant: Variant, times: Sequence[float], registry: Registry | N
     if not times or variant.case.stop.depth is not None:
         return
     model = Simulation(variant.case, registry).model
-    saved = sorted({0.0, *model.save_times, model.end_time})
+    saved = sorted({0.0, *model.case.output.save_times, model.end_time})
     for time in times:
         if not any(abs(time - each) <= SAME_TIME * model.end_time for each in saved):
             raise CaseError(

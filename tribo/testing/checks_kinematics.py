@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from tribo.config.stop import StopConfig
+from tribo.config.stop import Stop
 from tribo.core.arrays import Array
 from tribo.core.contact import WearCompliance
 from tribo.core.grid import Grid
@@ -251,7 +251,7 @@ def runs_a_case(subject: Subject) -> None:
     """In a small case each body loses just what its law says."""
     motion = subject.make()
     distance = min(3.0, 0.999 * motion.distance_at(motion.end_time))
-    stop = StopConfig(distance=distance)
+    stop = Stop(distance=distance)
     samples.expect_volume_balance(samples.small_model(subject, kinematics=motion, stop=stop))
 
 

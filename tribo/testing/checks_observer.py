@@ -13,6 +13,7 @@ from typing import Any
 
 from pydantic import PrivateAttr
 
+from tribo.config.case import Output
 from tribo.core.state import RunInfo, Snapshot
 from tribo.interfaces.observer import Observer
 from tribo.simulation.run import Simulation
@@ -52,10 +53,10 @@ class Keeps(Observer):
 def _watched(subject: Subject, *observers: Any) -> Keeps:
     """Return what a small run shows, with `observers` watching it."""
     keeps = Keeps()
-    model = samples.small_model(subject, observers=observers, save_times=(5.0,))
+    model = samples.small_model(subject, observers=observers, output=Output(save_times=(5.0,)))
     with _elsewhere(), warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        Simulation(model).run(observers=[keeps]).close()
+        Simulation(model.case).run(observers=[keeps]).close()
     return keeps
 
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from tribo.config.case import Body, Case
 from tribo.contact.winkler import Winkler
 from tribo.core.arrays import Array
 from tribo.core.fields import ContactConditions, Field, LocalConditions
@@ -17,7 +18,7 @@ from tribo.interfaces.effect import Effect
 from tribo.kinematics.reciprocating import Reciprocating
 from tribo.simulation.assembly import assemble
 from tribo.simulation.march import begin, march
-from tribo.simulation.model import Body, Model
+from tribo.simulation.model import Model
 from tribo.simulation.rates import Moment, law_states, wear_rates
 from tribo.surfaces.cylinder import Cylinder
 from tribo.surfaces.flat import Flat
@@ -226,16 +227,20 @@ def small_model(
     extra = [given(sorted(needed), subject.fields)] if needed else []
     shapes = _shapes(kinematics)
     return assemble(
-        grid=GRID,
-        load=LOAD,
-        bodies=[Body(n, s, STEEL, law) for n, s in zip(BODIES, shapes, strict=True)],
-        contact=Winkler(plasticity=False),
-        kinematics=kinematics,
-        friction_coefficient=friction_coefficient(subject.fields),
-        effects=[*extra, *effects],
-        observers=observers,
-        ends_at_window=True,
-        **more,
+        Case(
+            grid=GRID.model_copy(update={"ends_at_window": True}),
+            load=LOAD,
+            bodies={
+                name: Body(surface=surface, material=STEEL, wear=law)
+                for name, surface in zip(BODIES, shapes, strict=True)
+            },
+            contact=Winkler(plasticity=False),
+            kinematics=kinematics,
+            friction=friction_coefficient(subject.fields),
+            effects=[*extra, *effects],
+            observers=observers,
+            **more,
+        )
     )
 
 

@@ -6,7 +6,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from tribo.config.stepping import ExplicitConfig, ImplicitConfig
+from tribo.config.case import Body, Case
+from tribo.config.stepping import Explicit, Implicit
 from tribo.contact.dcfft import DcFft
 from tribo.contact.periodic import Periodic
 from tribo.core.arrays import Array
@@ -18,7 +19,7 @@ from tribo.interfaces.contact import ContactSolver
 from tribo.interfaces.surface import Surface
 from tribo.kinematics.unidirectional import Unidirectional
 from tribo.simulation.assembly import assemble
-from tribo.simulation.model import Body, Model
+from tribo.simulation.model import Model
 from tribo.simulation.step import explicit_step, first_contact, implicit_step
 from tribo.surfaces.flat import Flat
 from tribo.surfaces.paraboloid import Paraboloid
@@ -84,22 +85,20 @@ def on_flat(
     material: Material = STEEL,
 ) -> Model:
     """Return the model of a body named "ball" that slides on a flat along a track."""
+    flat_wear = None if flat_k is None else Archard(k=flat_k)
     return assemble(
-        grid=grid,
-        load=load,
-        bodies=[
-            Body("ball", surface, material, Archard(k=ball_k)),
-            Body(
-                "flat",
-                Flat(),
-                material,
-                None if flat_k is None else Archard(k=flat_k),
-            ),
-        ],
-        contact=contact,
-        kinematics=Unidirectional(speed=SPEED, track_length=track_length, distance=distance),
-        # Unused by `slide`, but what does not go with the contact is refused.
-        stepping=None if contact.accepts_wear_compliance else ExplicitConfig(time_step=1.0),
+        Case(
+            grid=grid,
+            load=load,
+            bodies={
+                "ball": Body(surface=surface, material=material, wear=Archard(k=ball_k)),
+                "flat": Body(surface=Flat(), material=material, wear=flat_wear),
+            },
+            contact=contact,
+            kinematics=Unidirectional(speed=SPEED, track_length=track_length, distance=distance),
+            # Unused by `slide`, but what does not go with the contact is refused.
+            stepping=Implicit() if contact.accepts_wear_compliance else Explicit(time_step=1.0),
+        )
     )
 
 
@@ -108,7 +107,7 @@ def slide(
 ) -> tuple[State, State]:
     """Slide in equal steps; return the last two states."""
     before = state = first_contact(model)
-    config = ImplicitConfig()
+    config = Implicit()
     for i in range(steps):
         time = distance * (i + 1) / steps / SPEED
         before = state

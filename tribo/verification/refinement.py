@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from tribo.config.stepping import ExplicitConfig, ImplicitConfig
+from tribo.config.case import Output
+from tribo.config.stepping import Explicit, Implicit
 from tribo.core.errors import CaseError, NumericalError
-from tribo.core.grid import Grid
 from tribo.core.measures import Measures
-from tribo.simulation.assembly import varied
+from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.march import begin, march
 from tribo.simulation.measure import measure
 from tribo.simulation.model import Model
@@ -98,7 +98,7 @@ def refine(model: Model, started: Callable[[str], None] = lambda _: None) -> Ref
     stepping = _steppings(model.stepping)
     own = next(i for i, config in enumerate(stepping) if config == model.stepping)
 
-    def run(cells: tuple[int, int], config: ImplicitConfig | ExplicitConfig) -> Level:
+    def run(cells: tuple[int, int], config: Implicit | Explicit) -> Level:
         what = f"{cells[0]} × {cells[1]} cells, " + _step_words(config)
         started(what)
         try:
@@ -131,10 +131,10 @@ def _coarser(cells: tuple[int, int], factor: float) -> tuple[int, int]:
 
 
 def _steppings(
-    config: ImplicitConfig | ExplicitConfig,
-) -> tuple[ImplicitConfig | ExplicitConfig, ...]:
+    config: Implicit | Explicit,
+) -> tuple[Implicit | Explicit, ...]:
     """Return three steppings from long steps to short, the case's own among them."""
-    if isinstance(config, ExplicitConfig):
+    if isinstance(config, Explicit):
         return tuple(
             config.model_copy(update={"time_step": config.time_step / RATIO**power})
             for power in range(3)
@@ -142,7 +142,7 @@ def _steppings(
     return (_looser(config, RATIO**2), _looser(config, RATIO), config)
 
 
-def _looser(config: ImplicitConfig, factor: float) -> ImplicitConfig:
+def _looser(config: Implicit, factor: float) -> Implicit:
     # The depth error of a step grows as its square, the pressure's in proportion.
     update = {
         "depth_tolerance": config.depth_tolerance * factor**2,
@@ -152,14 +152,21 @@ def _looser(config: ImplicitConfig, factor: float) -> ImplicitConfig:
     return config.model_copy(update=update)
 
 
-def _step_words(config: ImplicitConfig | ExplicitConfig) -> str:
-    if isinstance(config, ExplicitConfig):
+def _step_words(config: Implicit | Explicit) -> str:
+    if isinstance(config, Explicit):
         return f"steps of {config.time_step:.4g} s"
     return f"pressure_tolerance {config.pressure_tolerance:.3g}"
 
 
-def _run(model: Model, cells: tuple[int, int], config: ImplicitConfig | ExplicitConfig) -> Level:
-    level = varied(model, grid=Grid(model.grid.size, cells), stepping=config, save_times=())
+def _run(model: Model, cells: tuple[int, int], config: Implicit | Explicit) -> Level:
+    level = assemble(
+        varied(
+            model.case,
+            grid=model.grid.model_copy(update={"cells": cells}),
+            stepping=config,
+            output=Output(),
+        )
+    )
     state = begin(level)
     for accepted in march(level, state):
         state = accepted.state

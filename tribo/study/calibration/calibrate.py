@@ -126,7 +126,7 @@ def calibrate(
 
 
 def _check_entry(model: Model, entry: Measured, place: str) -> None:
-    names = [body.name for body in model.bodies]
+    names = list(model.bodies)
     if entry.body not in names:
         raise CaseError(
             f"there is no body {entry.body!r}{suggestion(did_you_mean(entry.body, names))} "
@@ -159,8 +159,8 @@ def _predicted(model: Model, measured: Sequence[Measured]) -> list[Predicted]:
         if entry.time is None or entry.time >= model.end_time * (1 - 1e-12)
     }
     return [
-        (body.name, quantity)
+        (body, quantity)
         for body in model.bodies
         for quantity in QUANTITIES
-        if (body.name, quantity) not in known and is_available(model, body.name, quantity)
+        if (body, quantity) not in known and is_available(model, body, quantity)
     ]

@@ -11,9 +11,9 @@ from pydantic import ValidationError, ValidationInfo, field_validator, model_val
 
 from tribo.config.explain import case_error
 from tribo.config.load import read_toml
-from tribo.config.table import Table
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
+from tribo.core.table import Table
 from tribo.core.units import Quantity
 from tribo.study.calibration.quantities import PROFILES, unit_of
 

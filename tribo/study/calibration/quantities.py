@@ -167,7 +167,7 @@ def check_available(model: Model, body: str, name: str) -> None:
     CaseError
         If they do not; the message says why.
     """
-    (found,) = (b for b in model.bodies if b.name == body)
+    found = model.bodies[body]
     if found.wear is None:
         raise CaseError(
             f"body {body!r} does not wear in this case; give it a wear law, bodies.{body}.wear"

@@ -11,8 +11,8 @@ from pydantic import Field, ValidationError
 from tribo.config.explain import case_error
 from tribo.config.load import read_toml
 from tribo.config.overrides import apply_settings
-from tribo.config.table import Table
 from tribo.core.errors import CaseError
+from tribo.core.table import Table
 
 Values = Annotated[tuple[Any, ...], Field(min_length=1)]
 _RANGE = frozenset({"low", "high"})

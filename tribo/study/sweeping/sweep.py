@@ -226,6 +226,6 @@ def _task(run: Run, stop: Path) -> Task:
 
 def _makers(run: Run) -> str:
     """Return the distributions that the components of a run come from."""
-    made = [origin(component) for _, component in Simulation(run.case).model.components()]
+    made = [origin(component) for _, component in Simulation(run.case).model.case.components()]
     origins = {f"{each['distribution']} {each['version']}" for each in made}
     return ", ".join(sorted(origins))
