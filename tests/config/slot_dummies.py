@@ -90,12 +90,12 @@ class Body(Frozen):
 
 
 class Slow(Frozen):
-    type = "slow"
+    type: Literal["slow"] = "slow"
     step: Annotated[float, Quantity("s", above=0)]
 
 
 class Fast(Frozen):
-    type = "fast"
+    type: Literal["fast"] = "fast"
     limit: int = 3
 
 

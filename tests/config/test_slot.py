@@ -60,7 +60,7 @@ def test_a_table_becomes_the_configuration_its_type_names(dummies: Any, validate
 
 def test_an_instance_passes_through(dummies: Any) -> None:
     wear = dummies.Linear(k=1e-15)
-    assert dummies.named(material=MATERIAL, wear=wear).wear is wear
+    assert dummies.Body(material=MATERIAL, wear=wear).wear is wear
 
 
 def test_the_input_is_left_unchanged(validate: Any) -> None:

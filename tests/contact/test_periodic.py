@@ -39,7 +39,7 @@ def egg_box(ratio: float, cells: int) -> tuple[ContactSolution, sinusoid.WavyLim
     return solve(-AMPLITUDE * np.cos(x) * np.cos(y), size, mean * size[0] * size[1]), limits
 
 
-@pytest.mark.parametrize("shape", [(12, 10), (9, 7), (16, 1)])
+@pytest.mark.parametrize("shape", [(12, 10), (9, 7), (16, 4)])
 def test_each_mode_is_displaced_by_two_over_modulus_and_wavenumber(shape: tuple[int, int]) -> None:
     spacing = (2e-6, 3e-6)
     operator = PeriodicHalfSpace(shape, spacing, MODULUS)

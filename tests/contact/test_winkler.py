@@ -25,7 +25,7 @@ def _fixed(modulus: float = FOUNDATION, *, plasticity: bool = True) -> Winkler:
 
 
 def _modulus(match: str, system: ContactSystem = SYSTEM) -> float:
-    return Winkler(Winkler.model_validate({"match": match})).foundation_modulus(system)
+    return Winkler.model_validate({"match": match}).foundation_modulus(system)
 
 
 def test_ball_on_a_foundation_converges_to_the_closed_form() -> None:
@@ -55,8 +55,7 @@ def test_matches_of_the_ball_are_the_textbook_ones() -> None:
 def test_matched_foundation_reproduces_that_feature_of_an_ellipse(match: str) -> None:
     case = ball(256, radii=(10e-3, 5e-3), width=1.2e-3)
     case = replace(case, system=replace(case.system, curvature=(100.0, 200.0)))
-    config = Winkler.model_validate({"match": match})
-    solution = Winkler(config).solve(case)
+    solution = Winkler.model_validate({"match": match}).solve(case)
     exact = hertz.point(MODULUS, 100.0, 100.0, 200.0)
     found, wanted = {
         "contact_radius": (
@@ -75,8 +74,7 @@ def test_matched_foundation_reproduces_that_feature_of_a_line(match: str) -> Non
     x, y = Grid(size, cells).mesh
     case = problem(x**2 / (2 * RADIUS) + 0 * y, size, 100.0)
     case = replace(case, system=replace(case.system, curvature=(200.0, 0.0)))
-    config = Winkler.model_validate({"match": match})
-    solution = Winkler(config).solve(case)
+    solution = Winkler.model_validate({"match": match}).solve(case)
     exact = hertz.line(MODULUS, 1e5, 200.0)
     if match == "peak_pressure":
         assert solution.pressure.max() == pytest.approx(exact.peak_pressure, rel=1e-3)

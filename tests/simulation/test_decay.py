@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from paper_models import K, archard, flat, motion, named, small, steel
+from paper_models import K, archard, case, flat, motion, named, small, steel
 
 from tribo import Simulation
 from tribo.config.stepping import Implicit
@@ -43,14 +43,14 @@ def model():
 
 
 def amplitude_after(step, steps, distance):
-    case = model()
-    state = first_contact(case)
+    wavy = model()
+    state = first_contact(wavy)
     for i in range(steps):
         s = distance * (i + 1) / steps
-        state = step(case, state, distance / steps, s / 0.1)
-    surface = case.bodies[0].surface.height(GRID) - state.bodies["wavy"].wear
+        state = step(wavy, state, distance / steps, s / 0.1)
+    surface = wavy.bodies["wavy"].surface.height(GRID) - state.bodies["wavy"].wear
     # The wave is sampled beside its crests; relative to its start that cancels.
-    return 1e-8 * np.ptp(surface) / np.ptp(case.bodies[0].surface.height(GRID))
+    return 1e-8 * np.ptp(surface) / np.ptp(wavy.bodies["wavy"].surface.height(GRID))
 
 
 def implicit(*args):
@@ -70,29 +70,29 @@ def test_a_sinusoid_decays_at_the_exact_rate_with_first_order(step):
 
 @pytest.mark.parametrize(("part", "grows"), [(0.98, False), (1.02, True)])
 def test_explicit_steps_decay_just_below_the_stated_limit_and_grow_just_above(part, grows):
-    case = model()
-    state = first_contact(case)
+    wavy = model()
+    state = first_contact(wavy)
     chequer = (-1.0) ** np.add.outer(*map(np.arange, GRID.cells))
     ball = state.bodies["wavy"]
     state = replace(
         state, bodies={**state.bodies, "wavy": replace(ball, wear=ball.wear + 1e-13 * chequer)}
     )
-    state = explicit_step(case, state, 1e-9, 1e-8)
-    limit = largest_stable_increment(case, state, Moment(1.0, 1.0, 1.0))
+    state = explicit_step(wavy, state, 1e-9, 1e-8)
+    limit = largest_stable_increment(wavy, state, Moment(1.0, 1.0, 1.0))
 
     def content(state):
         return abs(np.sum(state.contact.pressure * chequer))
 
     before = content(state)
     for i in range(20):
-        state = explicit_step(case, state, part * limit, i + 1.0)
+        state = explicit_step(wavy, state, part * limit, i + 1.0)
     assert (content(state) > before) == grows
 
 
 def test_two_flats_that_repeat_wear_evenly():
     bodies = [named("a", flat(), steel(), archard()), named("b", flat(), steel())]
     result = Simulation(
-        small(grid=GRID, bodies=bodies, contact=Periodic(), kinematics=motion())
+        case(grid=GRID, bodies=bodies, contact=Periodic(), kinematics=motion())
     ).run()
     save = result.saves()[-1]
     depth = K * 100.0 / (GRID.size[0] * GRID.size[1]) * save["distance_m"]
@@ -105,7 +105,7 @@ def test_a_wave_worn_flat_goes_on_without_noise():
     bodies = [named("a", Wave(), steel(), archard()), named("b", flat(), steel())]
     # Some 800 decay lengths: nothing is left of the wave but the rounding of the depth.
     result = Simulation(
-        small(
+        case(
             grid=GRID,
             load=300.0,
             bodies=bodies,

@@ -48,16 +48,16 @@ def test_a_step_is_exact_backward_euler(laws, contact):
     state = one_step(model)
     pressure = state.contact.pressure
     # The wear is the law's at the new pressure ...
-    for body in model.bodies:
+    for name, body in model.bodies.items():
         if body.wear is None:
             continue
         local = type("Local", (), {"pressure": pressure, "material": body.material})
         rate = body.wear.rate(local).depth
         np.testing.assert_allclose(
-            state.bodies[body.name].wear,
-            1.0 * model.exposures[body.name].average(rate),
+            state.bodies[name].wear,
+            1.0 * model.exposures[name].average(rate),
             rtol=1e-6,
-            atol=1e-7 * state.bodies[body.name].wear.max(),
+            atol=1e-7 * state.bodies[name].wear.max(),
         )
     # ... and the pressure is that of the worn geometry.
     again = contact.solve(ContactProblem(model.system, geometry(model, state.bodies), model.load))

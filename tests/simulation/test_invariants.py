@@ -35,11 +35,8 @@ from tribo.simulation.invariants import CHATTERING, VOLUME, handed_back
 class Rough(Surface):
     """White noise of 1 µm, down to single cells, on a ball or on nothing."""
 
-    Config = Surface
-
-    def __init__(self, radius=np.inf):
-        super().__init__(Surface(type="test.rough"))
-        self.radius = radius
+    type = "test.rough"
+    radius: float = np.inf
 
     def height(self, grid):
         x, y = grid.mesh

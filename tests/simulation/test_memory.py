@@ -13,6 +13,7 @@ from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.simulation import memory
 from tribo.simulation.predict import predict
+from tribo.surfaces.sphere import Sphere
 from tribo.templates import template
 
 TESTS = Path(__file__).parents[1]
@@ -21,7 +22,6 @@ MEASURE = """
     from paper_models import *
     from tribo.contact.periodic import Periodic
     from tribo.simulation.memory import memory_needed, memory_left
-    from tribo.simulation.bodies import laws_of
     from tribo.simulation.run import Simulation
     warnings.simplefilter("ignore")
     case, cells = sys.argv[1], int(sys.argv[2])
@@ -43,7 +43,7 @@ MEASURE = """
     Simulation(model.case).run(sys.argv[3]).close()
     peak = most()
     plastic = model.system.cap is not None
-    needed = memory_needed(model.grid, laws_of(model.bodies), model.effects, plastic=plastic)
+    needed = memory_needed(model.grid, model.laws, model.effects, plastic=plastic)
     print(json.dumps([1024 * (peak - first), needed]))
 """
 
@@ -111,11 +111,11 @@ def test_the_limits_of_control_groups_are_read(tmp_path):
 
 
 def test_running_out_of_memory_all_the_same_is_one_message():
-    def height(grid):
-        raise MemoryError
+    class Huge(Sphere):
+        def height(self, grid):
+            raise MemoryError
 
-    surface = sphere()
-    surface.height = height
+    surface = Huge(radius="5 mm")
     with pytest.raises(Exception, match=r"surface 'sphere' .*ran out of memory; lower grid\.cells"):
         small(bodies=[named("ball", surface, steel(), archard()), named("disk", flat(), steel())])
 

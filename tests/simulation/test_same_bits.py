@@ -32,12 +32,13 @@ from tribo.config.load import load_case
 from tribo.interfaces.observer import Observer
 warnings.simplefilter("ignore")
 class Stop(Observer):
+    type = "stop"
     def on_step(self, snapshot):
         if snapshot.state.steps == 7:
             raise KeyboardInterrupt
 simulation = Simulation(load_case(sys.argv[1], overrides=sys.argv[2].split("|")))
 try:
-    simulation.run(sys.argv[3], observers=[Stop(Observer(type="stop"))])
+    simulation.run(sys.argv[3], observers=[Stop()])
 except BaseException:
     pass
 """

@@ -20,11 +20,11 @@ SURFACES = [
 
 @pytest.mark.parametrize("surface", SURFACES, ids=lambda s: type(s).__name__)
 def test_heights_are_outward_and_have_the_stated_curvature(surface):
-    grid = Grid((2e-5, 2e-5), (3, 3))
+    grid = Grid((2e-5, 2e-5), (5, 5))
     z = surface.height(grid)
     dx, dy = grid.spacing
-    cx = -(z[2, 1] - 2 * z[1, 1] + z[0, 1]) / dx**2
-    cy = -(z[1, 2] - 2 * z[1, 1] + z[1, 0]) / dy**2
+    cx = -(z[3, 2] - 2 * z[2, 2] + z[1, 2]) / dx**2
+    cy = -(z[2, 3] - 2 * z[2, 2] + z[2, 1]) / dy**2
     assert (cx, cy) == pytest.approx(surface.curvature, rel=1e-4, abs=1e-9)
 
 

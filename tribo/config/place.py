@@ -14,6 +14,7 @@ from pydantic_core import ErrorDetails
 
 from tribo.config.slot import Slot
 from tribo.core.errors import CaseError
+from tribo.interfaces.component import Component
 from tribo.registry.registry import Registry
 
 Key = str | int
@@ -89,7 +90,10 @@ class Place:
 
     def fields(self) -> list[str]:
         """Return the keys that the table may have."""
-        return list(_fields(self.table)) if self.table else []
+        if self.table is None:
+            return []
+        named = ["type"] if issubclass(self.table, Component) else []
+        return [*named, *_fields(self.table)]
 
     def tags(self) -> list[str]:
         """Return the types among which this place chooses."""

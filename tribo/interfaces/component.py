@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import inspect
+import re
 from abc import ABC
 from collections.abc import Mapping
 from typing import Any, ClassVar
@@ -29,17 +29,13 @@ class Component(BaseModel, ABC):
     model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
 
     type: ClassVar[str]
-    """The name that stands for the class in a case."""
+    """The name that stands for the class in a case; its own in snake case if left out."""
 
     @classmethod
     def __pydantic_init_subclass__(cls, **kwargs: Any) -> None:
-        """Require a name of every class that can be made."""
-        is_kind = Component in cls.__bases__ or inspect.isabstract(cls)
-        if not is_kind and not isinstance(getattr(cls, "type", None), str):
-            raise TypeError(
-                f"{cls.__qualname__} has no name for cases; give it one, as in "
-                f"type = '{cls.__name__.lower()}'"
-            )
+        """Name a class that does not name itself after itself, as in ``hot_wear``."""
+        if Component not in cls.__bases__ and not hasattr(cls, "type"):
+            cls.type = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", cls.__name__).lower()
 
     @model_validator(mode="before")
     @classmethod
