@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from pydantic import create_model
@@ -71,8 +71,10 @@ class Zoo:
 
         def keep(cls: Any) -> Any:
             name = "zoo." + re.sub(r"(?<!^)(?=[A-Z])", "_", cls.__name__).lower()
-            fields = {"type": (Literal[name], name), **self._config}
-            cls.Config = create_model(f"{cls.__name__}Config", __base__=cls.Config, **fields)
+            cls = create_model(
+                cls.__name__, __base__=cls, __module__=cls.__module__, **self._config
+            )
+            cls.type = name
             cls.words, cls.code, cls.saved = words, code, saved
             self.kept.append(cls)
             return cls

@@ -19,7 +19,6 @@ from tribo.core.contact import ContactProblem
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.interfaces.surface import Surface
-from tribo.simulation.assembly import assemble
 from tribo.simulation.march import begin, march
 from tribo.wear.archard import Archard
 
@@ -41,11 +40,7 @@ few = settings(
 class Bumps(Surface):
     """A ball with waves on it, given on the grid that it is asked for."""
 
-    Config = Surface
-
-    def __init__(self, heights):
-        super().__init__(Surface(type="test.bumps"))
-        self.heights = heights
+    heights: Any
 
     def height(self, grid):
         return self.heights
@@ -85,7 +80,7 @@ def model(test, *, swap=False, explicit=False):
     material = Material(young=m * test["young"], poisson=test["poisson"], hardness=hardness)
     laws = [Archard(k=k / m) for k in test["k"]]
     bodies = [
-        named("ball", Bumps(c * test["heights"]), material, laws[0]),
+        named("ball", Bumps(heights=c * test["heights"]), material, laws[0]),
         named("disk", flat(), material, laws[1]),
     ]
     contact = {
@@ -95,7 +90,7 @@ def model(test, *, swap=False, explicit=False):
     }[test["contact"]]
     # 0.1 m/s for 5 s, whatever the metre.
     stroke = 2e-3 * c
-    return assemble(
+    return small(
         grid=Grid((1e-3 * c, 1e-3 * c), test["heights"].shape),
         load=m * c**2 * test["load"],
         bodies=bodies[::-1] if swap else bodies,

@@ -27,7 +27,7 @@ class Quiet(Observer):
 
 
 class AlsoQuiet(Observer):
-    Config = Quiet
+    type = "quiet"
 
 
 class Loud(Observer):
@@ -316,7 +316,6 @@ class Warm(Effect):
     type = "{name}"
 
 class Warm(Effect):
-    Config = Warm
     provides = (Field("warmth", "K", "How warm."),)
 
     def fields(self, conditions): ...

@@ -169,9 +169,7 @@ def test_a_result_left_open_does_no_harm_at_the_end(sound):
 
 
 class StopAt(Observer):
-    def __init__(self, time):
-        super().__init__(Observer(type="test.stop_at"))
-        self.time = time
+    time: float
 
     def on_save(self, snapshot):
         if snapshot.state.time == self.time:
@@ -182,7 +180,7 @@ class StopAt(Observer):
 def stopped(tmp_path):
     path = tmp_path / "stopped.h5"
     with pytest.raises(Interrupted):
-        Simulation(model().case).run(path, observers=[StopAt(20)])
+        Simulation(model().case).run(path, observers=[StopAt(time=20)])
     return path
 
 

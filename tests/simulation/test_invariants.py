@@ -79,8 +79,8 @@ def test_what_only_grows_or_fades_is_not_handed_back():
         {"stepping": Implicit(pressure_tolerance=1.0, depth_tolerance=0.1)},
         {"stepping": Explicit(time_step=0.9 * time_step(1.0))},
         {"contact": Periodic(), "load": 500.0, "surface": Rough()},
-        {"surface": Rough(5e-3), "grid": Grid((1.2e-3, 1.2e-3), (64, 64))},
-        {"surface": Rough(5e-3), "stepping": Explicit(time_step=0.9 * time_step(1.0))},
+        {"surface": Rough(radius=5e-3), "grid": Grid((1.2e-3, 1.2e-3), (64, 64))},
+        {"surface": Rough(radius=5e-3), "stepping": Explicit(time_step=0.9 * time_step(1.0))},
     ],
     ids=["ball", "long steps", "explicit", "periodic", "rough ball", "rough, explicit"],
 )

@@ -273,7 +273,7 @@ def test_replacing_a_result_drops_its_checkpoints(tmp_path):
     path = tmp_path / "run.h5"
     with pytest.raises(Interrupted):
         Simulation(case()).run(path, observers=[Stopper(after=5)])
-    short = small(load=50.0, kinematics=motion(duration=1))
+    short = case(load=50.0, kinematics=motion(duration=1))
     Simulation(short).run(path, overwrite=True).close()
     assert [p.name for p in tmp_path.iterdir()] == ["run.h5"]
 

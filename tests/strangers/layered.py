@@ -4,6 +4,8 @@ The kernel is that of a half-space of the layer's material plus the effect of
 the base, which is smooth on the scale of the layer's thickness.
 """
 
+from __future__ import annotations
+
 from functools import lru_cache
 from typing import Annotated
 
@@ -153,7 +155,7 @@ class Layered(ContactSolver):
         system = problem.system
         counter = max(1 / system.modulus - 1 / self.base_modulus, 0.0)
         return solve_bounded(
-            _operator(system.grid.cells, system.grid.spacing, self.config, counter),
+            _operator(system.grid.cells, system.grid.spacing, self, counter),
             problem.gap,
             problem.load,
             system.cap if self.plasticity else None,

@@ -2,9 +2,10 @@
 
 import numpy as np
 import pytest
+from paper_models import named, small
 from strangers.running_in import RunningIn
 
-from tribo import Grid, assemble
+from tribo import Grid
 from tribo.config.stepping import Implicit
 from tribo.contact.winkler import Winkler
 from tribo.core.material import Material
@@ -23,7 +24,7 @@ def pin():
     law = RunningIn(k_first=FIRST, k_last=LAST, length=LENGTH)
     steel = Material(young=207e9, poisson=0.3)
     motion = {"speed": 0.1, "track_length": TRACK, "distance": END}
-    return assemble(
+    return small(
         grid=Grid((SIDE, SIDE), (8, 8)),
         load=LOAD,
         bodies=[named(name, Flat(), steel, law) for name in ("pin", "disk")],

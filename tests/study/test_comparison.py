@@ -179,24 +179,23 @@ def test_a_run_that_was_killed_goes_on(tmp_path):
     class Watch(Observer):
         """Copies what a kill would leave after 150 s, and notes the times of all steps."""
 
-        def __init__(self, copy=None):
-            super().__init__(Observer(type="watch"))
-            self.copy, self.times = copy, []
+        kept: Path | None = None
+        _times: list[float] = PrivateAttr(default_factory=list)
 
         def on_step(self, snapshot):
-            self.times.append(snapshot.state.time)
-            if self.copy and self.times[-1] > 150 and not self.copy.exists():
-                shutil.copytree(tmp_path / "whole", self.copy)
+            self._times.append(snapshot.state.time)
+            if self.kept and self._times[-1] > 150 and not self.kept.exists():
+                shutil.copytree(tmp_path / "whole", self.kept)
 
     axes = [Axis("contact.type", ("dcfft", "winkler"))]
-    first, second = Watch(tmp_path / "killed"), Watch()
+    first, second = Watch(kept=tmp_path / "killed"), Watch()
     with (
         compare(case(), grid(axes), tmp_path / "whole", observers=lambda: [first]) as whole,
         compare(case(), grid(axes), tmp_path / "killed", observers=lambda: [second]) as resumed,
     ):
         # The second variant begins anew.
-        assert second.times[0] >= 100
-        assert min(second.times) == 0
+        assert second._times[0] >= 100
+        assert min(second._times) == 0
         for a, b in zip(resumed.results.values(), whole.results.values(), strict=True):
             assert a.status == "done"
             assert np.array_equal(a.pressure(-1), b.pressure(-1))

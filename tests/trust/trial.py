@@ -47,20 +47,18 @@ def simulation():
 class Acknowledge(Observer):
     """Writes the time of each save to a pipe once the recorder has it."""
 
-    def __init__(self, pipe):
-        super().__init__(Observer(type="trust.acknowledge"))
-        self.pipe = pipe
+    pipe: int
 
     def on_save(self, snapshot):
         os.write(self.pipe, np.float64(snapshot.state.time).tobytes())
 
 
 def run(path, pipe):
-    simulation().run(path, observers=[Acknowledge(pipe)], overwrite=True).close()
+    simulation().run(path, observers=[Acknowledge(pipe=pipe)], overwrite=True).close()
 
 
 def resume(path, pipe):
-    simulation().resume(path, observers=[Acknowledge(pipe)]).close()
+    simulation().resume(path, observers=[Acknowledge(pipe=pipe)]).close()
 
 
 def dying(work, at):

@@ -21,14 +21,12 @@ def bad_later(words):
 class Solver(DcFft):
     """Good for 20 solves; `spoilt` is what it answers after them."""
 
-    def __init__(self, config):
-        super().__init__(config)
-        self.solves = 0
+    _solves: object = 0
 
     def solve(self, problem, start=None):
-        self.solves += 1
+        self._solves += 1
         solution = super().solve(problem, start)
-        return self.spoilt(solution, problem) if self.solves > 20 else solution
+        return self.spoilt(solution, problem) if self._solves > 20 else solution
 
     def spoilt(self, solution, problem):
         return replace(solution, **self.changed(solution))

@@ -16,7 +16,6 @@ def bad(words):
 class Heat(Effect):
     """A field of the pressure's shape for each body, and what is made of it."""
 
-    Config = Effect
     provides = (Field("zoo_heat", "W/m^2", "Power per area."),)
 
     def fields(self, contact):
@@ -119,8 +118,6 @@ def test_one_that_does_not_say_what_it_provides_is_not_loaded(run):
 
     @zoo.bad("", code=2)
     class Mute(Effect):
-        Config = Effect
-
         def fields(self, contact):
             return {}
 

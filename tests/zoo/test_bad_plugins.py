@@ -16,15 +16,11 @@ from tribo import Result
 from tribo.registry.loader import installed, load
 
 LAW = """
-from typing import Literal
 import numpy as np
 from tribo.plugin import Field, LocalConditions, WearLaw, WearRate, hookimpl
 
-class BadConfig(WearLaw):
-    type = "zoo.bad"
-
 class Bad(WearLaw):
-    Config = BadConfig
+    type = "zoo.bad"
     {extra}
 
     def rate(self, local: LocalConditions) -> WearRate:

@@ -17,17 +17,13 @@ def bad_later(words):
 class Law(WearLaw):
     """Good for 20 calls; `spoilt` is what it answers after them."""
 
-    Config = WearLaw
-
-    def __init__(self, config):
-        super().__init__(config)
-        self.calls = 0
+    _calls: object = 0
 
     def rate(self, local):
-        self.calls += 1
+        self._calls += 1
         k = np.full_like(local.pressure, 3e-16)
         good = WearRate(k * local.pressure, k, {f.name: k for f in self.state_fields})
-        return self.spoilt(good, local) if self.calls > 20 else good
+        return self.spoilt(good, local) if self._calls > 20 else good
 
 
 @bad_later("of body 'ball' gave a NoneType instead of a WearRate")

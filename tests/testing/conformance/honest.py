@@ -1,6 +1,6 @@
 """One sound implementation of each interface, for mutants to spoil."""
 
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 import numpy as np
 
@@ -34,7 +34,7 @@ class Law(WearLaw):
     state_fields = (Field("rubbed", "m", "Distance slid under pressure."),)
 
     def rate(self, local):
-        p, c = local.pressure, self.config
+        p, c = local.pressure, self
         k = c.k * local.fields["friction_coefficient"] * (1 + np.exp(-local.state["rubbed"]))
         rubbed = {"rubbed": (p > 0).astype(float)}
         return WearRate(k * p * (1 + p / c.p_ref), k * (1 + 2 * p / c.p_ref), rubbed)
@@ -77,7 +77,7 @@ class Motion(Kinematics):
     duration: Annotated[float, Quantity("s", above=0)] = 100.0
     """How long it runs."""
 
-    track = Track
+    track: ClassVar[type[Track]] = Track
 
     @property
     def end_time(self):

@@ -1,5 +1,8 @@
 """Components that are wrong whatever they answer, by the example of a wear law."""
 
+from itertools import count
+
+from pydantic import PrivateAttr
 from testing.conformance.caught import caught_by
 from testing.conformance.honest import Law
 
@@ -12,12 +15,7 @@ class StatesNumbers(Law):
 
 @caught_by("facts_are_text_and_stay")
 class StatesAnotherEachTime(Law):
-    made = 0
-
-    def __init__(self, config):
-        super().__init__(config)
-        StatesAnotherEachTime.made += 1
-        self.number = StatesAnotherEachTime.made
+    _number: int = PrivateAttr(default_factory=count().__next__)
 
     def facts(self):
-        return {"number": str(self.number)}
+        return {"number": str(self._number)}

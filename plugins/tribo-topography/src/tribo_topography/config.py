@@ -1,4 +1,4 @@
-"""The configuration of a measured surface."""
+"""What a case says of a measured surface's file."""
 
 from __future__ import annotations
 
@@ -12,10 +12,8 @@ Length = Annotated[float, Quantity("m")]
 PositiveLength = Annotated[float, Quantity("m", above=0)]
 
 
-class MeasuredConfig(Surface):
+class MeasuredFile(Surface):
     """A height map from an instrument's file: where it is and how to take it."""
-
-    type = "topography.file"
 
     path: Path
     """The file; a relative path starts at the current directory."""

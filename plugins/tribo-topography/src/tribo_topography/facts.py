@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from tribo.plugin import CaseError
 
-from tribo_topography.config import MeasuredConfig
+from tribo_topography.config import MeasuredFile
 from tribo_topography.form import detrended
 from tribo_topography.read import Map, read
 
@@ -81,12 +81,12 @@ class Facts:
         return {**stated, "sha256": self.sha256}
 
 
-def describe(what: MeasuredConfig | str | Path) -> Facts:
+def describe(what: MeasuredFile | str | Path) -> Facts:
     """Return the scale of a file as tribo takes it.
 
     Parameters
     ----------
-    what : MeasuredConfig or path
+    what : MeasuredFile or path
         The surface of a case, or a file that states its own scale.
 
     Raises
@@ -94,12 +94,12 @@ def describe(what: MeasuredConfig | str | Path) -> Facts:
     CaseError
         If it cannot be read.
     """
-    config = what if isinstance(what, MeasuredConfig) else MeasuredConfig(path=Path(what))
+    config = what if isinstance(what, MeasuredFile) else MeasuredFile(path=Path(what))
     found = read(config)
     return facts(found, config)
 
 
-def facts(found: Map, config: MeasuredConfig) -> Facts:
+def facts(found: Map, config: MeasuredFile) -> Facts:
     """Return the scale of a map; its form is taken off here."""
     heights = detrended(found.heights, config.detrend)
     nx, ny = heights.shape
@@ -118,7 +118,7 @@ def facts(found: Map, config: MeasuredConfig) -> Facts:
     )
 
 
-def check(found: Facts, config: MeasuredConfig) -> None:
+def check(found: Facts, config: MeasuredFile) -> None:
     """Raise `CaseError` where the scale is not the expected one, or absurd.
 
     Readers of the same file have been seen to disagree by a factor of 8 in

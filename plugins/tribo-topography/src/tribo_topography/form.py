@@ -7,7 +7,7 @@ from scipy.interpolate import griddata
 from scipy.ndimage import binary_dilation
 from tribo.plugin import Array, CaseError
 
-from tribo_topography.config import MeasuredConfig
+from tribo_topography.config import MeasuredFile
 
 _TERMS = {"none": 0, "mean": 1, "tilt": 3, "curvature": 6}
 
@@ -35,7 +35,7 @@ def detrended(heights: Array, form: str) -> Array:
     return np.asarray(heights - np.tensordot(factors, basis, axes=1))
 
 
-def filled(heights: Array, config: MeasuredConfig) -> Array:
+def filled(heights: Array, config: MeasuredFile) -> Array:
     """Return `heights` without holes.
 
     Raises
@@ -70,7 +70,7 @@ def filled(heights: Array, config: MeasuredConfig) -> Array:
 
 
 def turned(
-    heights: Array, size: tuple[float, float], config: MeasuredConfig
+    heights: Array, size: tuple[float, float], config: MeasuredFile
 ) -> tuple[Array, tuple[float, float]]:
     """Return the map and its size along the x and y of the contact frame."""
     if config.mirror:

@@ -15,7 +15,7 @@ from typing import Any, BinaryIO
 import numpy as np
 from tribo.plugin import Array, CaseError
 
-from tribo_topography.config import MeasuredConfig
+from tribo_topography.config import MeasuredFile
 
 MAX_BYTES = 2**30
 """Size of the largest file that is read, also when unpacked."""
@@ -49,7 +49,7 @@ class Map:
     sha256: str
 
 
-def read(config: MeasuredConfig) -> Map:
+def read(config: MeasuredFile) -> Map:
     """Read the map that `config` names, without changing its form.
 
     Raises
@@ -176,7 +176,7 @@ def _channel(path: Path, reader: Any, wanted: int | str | None) -> int:
     raise CaseError(f"{path} has no channel {wanted!r}, or several; its channels are {listed}")
 
 
-def _checked_channel(path: Path, channel: Any, config: MeasuredConfig) -> tuple[float, float]:
+def _checked_channel(path: Path, channel: Any, config: MeasuredFile) -> tuple[float, float]:
     """Return the sizes in the file's unit; of no meaning where the case gives them."""
     if channel.dim != 2 or channel.is_uniform is False:
         raise CaseError(f"{path}, channel {channel.name!r}, is not a map on a regular grid")
@@ -199,7 +199,7 @@ def _checked_channel(path: Path, channel: Any, config: MeasuredConfig) -> tuple[
     return float(sx), float(sy)
 
 
-def _metre(path: Path, stated: str | None, config: MeasuredConfig) -> float:
+def _metre(path: Path, stated: str | None, config: MeasuredFile) -> float:
     """Return the file's unit, in m."""
     from SurfaceTopography.Support.UnitConversion import get_unit_conversion_factor
 

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import warnings
-from typing import ClassVar
+from tribo.plugin import Array, Grid, TriboWarning
 
-from tribo.plugin import Array, Grid, Surface, TriboWarning
-
-from tribo_topography.config import MeasuredConfig
+from tribo_topography.config import MeasuredFile
 from tribo_topography.facts import Facts, check, facts
 from tribo_topography.form import detrended, filled, turned
 from tribo_topography.read import read
@@ -16,19 +14,17 @@ from tribo_topography.sample import resolution, sampled
 _MUCH = 4.0
 
 
-class Measured(Surface):
+class Measured(MeasuredFile):
     """Heights that an instrument measured, sampled on the window's cells.
 
     A warning tells the scale of a file whose size and range the case does not
     state as expected.
     """
 
-    Config: ClassVar[type[MeasuredConfig]] = MeasuredConfig
+    type = "topography.file"
 
-    def __init__(self, config: MeasuredConfig) -> None:
-        super().__init__(config)
-        self._read: tuple[Array, tuple[float, float], Facts] | None = None
-        self._told = False
+    _read: tuple[Array, tuple[float, float], Facts] | None = None
+    _told: bool = False
 
     @property
     def scale(self) -> Facts:
@@ -50,11 +46,11 @@ class Measured(Surface):
 
     def _measured(self) -> tuple[Array, tuple[float, float], Facts]:
         if self._read is None:
-            found = read(self.config)
-            scale = facts(found, self.config)
-            check(scale, self.config)
-            whole = filled(detrended(found.heights, self.detrend), self.config)
-            self._read = (*turned(whole, found.size, self.config), scale)
+            found = read(self)
+            scale = facts(found, self)
+            check(scale, self)
+            whole = filled(detrended(found.heights, self.detrend), self)
+            self._read = (*turned(whole, found.size, self), scale)
         return self._read
 
     def _tell(self, found: Facts, fewest: float, most: float) -> None:
