@@ -51,7 +51,7 @@ class Tribo(Package):
         cls = default_registry().lookup(
             "contact_solver", "periodic" if contact.periodic else "dcfft"
         )
-        self.solver: Any = cls(cls.Config(tolerance=tolerance))
+        self.solver: Any = cls(tolerance=tolerance)
         grid = Grid((contact.width, contact.width), contact.gap.shape)
         self.system = ContactSystem(grid, MODULUS, contact.load, contact.cap)
 

@@ -50,14 +50,14 @@ class Hour:
     def __init__(self, cells: int, duration: float) -> None:
         self.case = load_case(CASE, overrides=[f"grid.cells={cells}", *_lasting(duration)])
         self.model = Simulation(self.case).model
-        ball, disk = self.model.bodies
+        ball, disk = self.model.bodies.values()
         assert ball.wear is not None
         assert disk.wear is not None
-        self.ball_rate = float(ball.wear.config.k)
-        self.track_rate = float(disk.wear.config.k) / float(self.model.kinematics.config.stroke)
+        self.ball_rate = float(ball.wear.k)
+        self.track_rate = float(disk.wear.k) / float(self.model.kinematics.stroke)
         self.ends = [
             self.model.kinematics.distance_at(time)
-            for time in sorted({*self.model.save_times, self.model.end_time})
+            for time in sorted({*self.model.case.output.save_times, self.model.end_time})
             if time > 0
         ]
         self.solves = 0

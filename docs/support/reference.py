@@ -20,7 +20,7 @@ import tribo
 import tribo.plugin
 from tribo.cli.main import COMMANDS
 from tribo.cli.main import tribo as command_line
-from tribo.config.case import BodyConfig, Case
+from tribo.config.case import Body, Case
 from tribo.config.slot import Slot
 from tribo.config.stepping import Explicit, Implicit
 from tribo.core.dimensions import _PREFIXES, _SYMBOLS, _UNPREFIXED
@@ -65,15 +65,15 @@ def case_page(registry: Registry) -> Iterator[str]:
         yield f"## `{many.format(path)}`\n"
         yield from _about(field)
         if name == "bodies":
-            yield from _table(BodyConfig)
+            yield from _table(Body)
             yield f"### `[{path}.material]`\n"
-            material = BodyConfig.model_fields["material"].annotation
+            material = Body.model_fields["material"].annotation
             yield f"{_summary(material)}\n"
             yield from _table(material)
             for slot in ("surface", "wear"):
                 yield f"### `[{path}.{slot}]`\n"
-                yield f"{BodyConfig.model_fields[slot].description}\n"
-                (found,) = _slots(*_typed(BodyConfig.model_fields[slot]))
+                yield f"{Body.model_fields[slot].description}\n"
+                (found,) = _slots(*_typed(Body.model_fields[slot]))
                 yield from _components(registry, found.kind, "####")
         elif name == "stepping":
             for config in (Implicit, Explicit):
@@ -183,10 +183,7 @@ def _components(registry: Registry, kind: str, heading: str) -> Iterator[str]:
         cls = registry.lookup(kind, name)
         yield f'{heading} `type = "{name}"`\n'
         yield f"{_prose(cls)}\n"
-        note = _summary(cls.Config)
-        if not note.startswith("Configuration of"):
-            yield f"{note}\n"
-        yield from _table(cls.Config)
+        yield from _table(cls)
 
 
 def _about(field: FieldInfo) -> Iterator[str]:

@@ -119,14 +119,6 @@ def test_profile_run(tmp_path):
     assert len(modules) <= 15
 
 
-def test_the_cost_of_the_plugin_layer_is_measured(tmp_path):
-    (rows,) = figures("plugin_cost", tmp_path, "--cells", "32", "--repeats", "6").values()
-    composition, checks, both = rows
-    assert composition["percent"] > 0
-    for row in (composition, checks, both):
-        assert row["low"] <= row["percent"] <= row["high"]
-
-
 def test_time_schemes(tmp_path):
     options = ("--cells", "32", "--duration", "200", "--growth", "0.4")
     (rows,) = figures("time_schemes", tmp_path, *options).values()

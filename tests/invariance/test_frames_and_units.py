@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from paper_models import flat, motion, named
+from paper_models import flat, motion, named, small
 
 from tribo.config.stepping import Explicit, Implicit
 from tribo.contact.dcfft import DcFft
@@ -40,7 +40,7 @@ few = settings(
 class Bumps(Surface):
     """A ball with waves on it, given on the grid that it is asked for."""
 
-    heights: Any
+    heights: object
 
     def height(self, grid):
         return self.heights

@@ -4,9 +4,11 @@ import json
 import shutil
 import tomllib
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
+from pydantic import PrivateAttr
 
 from tribo import Registry, Result, Simulation, TriboWarning
 from tribo.core.errors import CaseError, NumericalError

@@ -55,7 +55,7 @@ def test_an_energy_is_per_mole(energy):
 def test_the_schema_says_per_mole():
     schema = Arrhenius.model_json_schema()["properties"]["activation_energy"]
     assert schema["x-unit"] == "J/mol"
-    assert arrhenius().config.activation_energy == 50e3
+    assert arrhenius().activation_energy == 50e3
 
 
 @pytest.mark.parametrize(

@@ -48,7 +48,7 @@ def test_a_warm_contact_wears_faster_than_archard():
         time=300.0,
         distance=30.0,
         friction_coefficient=0.1,
-        materials={body.name: body.material for body in model.bodies},
+        materials={name: body.material for name, body in model.bodies.items()},
         swept=frozenset({"disk"}),
         fields={"friction_coefficient": {"ball": friction}},
     )

@@ -40,7 +40,7 @@ def test_size_range_sq_and_every_pixel_come_back(write, heights, kind):
     assert facts.sq == pytest.approx(0.2e-6, rel=1e-5)
     values = measured.height(Grid(SIZE, PIXELS))
     np.testing.assert_allclose(values, heights, rtol=0, atol=2e-12)
-    assert describe(measured.config) == facts
+    assert describe(measured) == facts
 
 
 @pytest.mark.parametrize("kind", ["opd", "sur", "x3p", "asc", "npy"])

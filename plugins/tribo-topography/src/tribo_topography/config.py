@@ -6,13 +6,13 @@ from pathlib import Path
 from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
-from tribo.plugin import Quantity, Surface
+from tribo.plugin import Quantity, Table
 
 Length = Annotated[float, Quantity("m")]
 PositiveLength = Annotated[float, Quantity("m", above=0)]
 
 
-class MeasuredFile(Surface):
+class MeasuredFile(Table):
     """A height map from an instrument's file: where it is and how to take it."""
 
     path: Path

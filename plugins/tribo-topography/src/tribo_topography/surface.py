@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import warnings
-from tribo.plugin import Array, Grid, TriboWarning
+
+from tribo.plugin import Array, Grid, Surface, TriboWarning
 
 from tribo_topography.config import MeasuredFile
 from tribo_topography.facts import Facts, check, facts
@@ -14,7 +15,7 @@ from tribo_topography.sample import resolution, sampled
 _MUCH = 4.0
 
 
-class Measured(MeasuredFile):
+class Measured(Surface, MeasuredFile):
     """Heights that an instrument measured, sampled on the window's cells.
 
     A warning tells the scale of a file whose size and range the case does not
