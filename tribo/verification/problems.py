@@ -17,6 +17,7 @@ from tribo.core.material import Material, contact_modulus
 from tribo.core.state import State
 from tribo.interfaces.contact import ContactSolver
 from tribo.interfaces.surface import Surface, SurfaceConfig
+from tribo.interfaces.wear import WearLaw
 from tribo.kinematics.unidirectional import Unidirectional, UnidirectionalConfig
 from tribo.simulation.assembly import assemble
 from tribo.simulation.model import Body, Model
@@ -93,20 +94,26 @@ def on_flat(
     load: float = LOAD,
     ball_k: float = WEAR_COEFFICIENT,
     flat_k: float | None = None,
+    ball_law: WearLaw[Any] | None = None,
     track_length: float = 2e-3,
     distance: float = 1.0,
     material: Material = STEEL,
+    flat_material: Material | None = None,
 ) -> Model:
-    """Return the model of a body named "ball" that slides on a flat along a track."""
+    """Return the model of a body named "ball" that slides on a flat along a track.
+
+    The ball wears by Archard's law with `ball_k` if no other is given; the flat is of the ball's
+    material likewise.
+    """
     return assemble(
         grid=grid,
         load=load,
         bodies=[
-            Body("ball", surface, material, Archard(ArchardConfig(k=ball_k))),
+            Body("ball", surface, material, ball_law or Archard(ArchardConfig(k=ball_k))),
             Body(
                 "flat",
                 Flat(FlatConfig()),
-                material,
+                flat_material or material,
                 None if flat_k is None else Archard(ArchardConfig(k=flat_k)),
             ),
         ],
