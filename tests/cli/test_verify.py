@@ -96,6 +96,21 @@ def test_a_case_gets_an_uncertainty_for_each_result(case):
         assert word in shown
 
 
+def test_where_values_diverge_nothing_is_quoted(case):
+    # Only the own cells resolve a peak at which the bodies yield.
+    yields = [*SMALL, "--set", "grid.cells=48", "--set", "grid.size=0.6 mm"]
+    for body in ("ball", "disk"):
+        yields += ["--set", f"bodies.{body}.material.hardness=2.15 GPa"]
+    data = json.loads(invoke(case, *yields, "--json").stdout)
+    (yielded,) = (e for e in data["estimates"] if e["name"] == "ball: largest plastic depth")
+    assert yielded["grid"]["behaviour"] == "diverges"
+    assert yielded["uncertainty"] is yielded["grid"]["uncertainty"] is None
+    shown = invoke(case, *yields).stdout
+    row = next(line for line in shown.splitlines() if line.startswith(" ball: largest plastic"))
+    assert row.split()[4:] == ["–", "–", "diverges", "–", "exact"]
+    assert "Where values diverge no uncertainty can be quoted" in shown
+
+
 def test_options_that_do_not_go_together_are_refused(case):
     assert invoke(case, "--only", "Hertz").exit_code == 2
     assert invoke("--set", "grid.cells=8").exit_code == 2

@@ -74,8 +74,23 @@ def test_oscillation_has_no_order_and_three_times_its_range_as_uncertainty(value
     assert found.uncertainty == pytest.approx(0.6)
 
 
-@pytest.mark.parametrize("values", [(1.0, 1.1, 1.3), (1.0, 1.0, 1.1), (1.0, 1.1, 1.2)])
-def test_differences_that_grow_are_no_convergence(values):
+@pytest.mark.parametrize("values", [(1.0, 1.1, 1.3), (1.0, 1.0, 1.1), (1.0, 1.1, 1.2), (0, 0, 1)])
+def test_of_what_diverges_nothing_is_quoted(values):
     found = convergence(values, (4, 2, 1), formal_order=1.0)
-    assert (found.behaviour, found.order) == ("diverges", None)
-    assert found.uncertainty == pytest.approx(3 * (values[2] - values[0]))
+    assert (found.behaviour, found.order, found.limit) == ("diverges", None, None)
+    assert (found.gci, found.uncertainty) == (None, None)
+
+
+def test_a_range_of_a_percent_or_of_what_is_counted_is_no_divergence():
+    sizes = (4, 2, 1)
+    small = convergence((1.0, 1.001, 1.01), sizes, formal_order=1.0)
+    assert (small.behaviour, small.uncertainty) == ("scatters", pytest.approx(0.03))
+    assert convergence((1.0, 1.0, 1.1), sizes, formal_order=1.0, scatter=0.05).uncertainty is None
+    counted = convergence((1.0, 1.0, 1.1), sizes, formal_order=1.0, scatter=0.11)
+    assert (counted.behaviour, counted.uncertainty) == ("scatters", pytest.approx(0.3))
+
+
+def test_what_vanishes_at_the_finest_level_has_an_uncertainty():
+    found = convergence((0.3, 0.1, 0.0), (4, 2, 1), formal_order=1.0)
+    assert found.gci is None
+    assert found.uncertainty > 0

@@ -1,7 +1,7 @@
 """The errors that the study of a case states are those that a finer run shows."""
 
 import pytest
-from paper_models import archard, flat, foundation, motion, named, paraboloid, small, steel
+from paper_models import archard, flat, foundation, motion, named, paraboloid, small, sphere, steel
 
 from tribo import Grid, Simulation
 from tribo.config.load import load_case
@@ -77,7 +77,8 @@ def test_orders_by_chance_do_not_hide_an_error(tmp_path, exact, cells, irregular
         assert found[irregular].grid.order > 6
     for name in ("peak pressure", irregular or "peak pressure"):
         error = abs(found[name].value - exact[name][1])
-        assert 0 < error <= found[name].uncertainty < 0.2 * found[name].value
+        if found[name].grid.behaviour != "diverges":
+            assert 0 < error <= found[name].uncertainty < 0.2 * found[name].value
 
 
 def test_the_volume_is_exact_and_a_counted_width_good_to_half_a_cell(implicit):
@@ -121,6 +122,18 @@ def test_of_a_run_that_ends_at_a_depth_the_path_is_what_is_uncertain(implicit):
 
 def test_a_body_that_does_not_wear_is_left_out(implicit):
     assert not [name for name in by_name(implicit) if name.startswith("disk")]
+
+
+def test_what_only_some_levels_have_is_zero_at_the_others():
+    # Only the own cells are fine enough to resolve a peak of 2.15 GPa.
+    hard = steel(hardness="2.15 GPa")
+    bodies = [named("ball", sphere(), hard, archard()), named("disk", flat(), hard, archard())]
+    case = small(
+        grid=Grid((0.6e-3, 0.6e-3), (48, 48)), bodies=bodies, kinematics=motion(duration=20)
+    )
+    yielded = by_name(refine(case))["ball: largest plastic depth"]
+    assert yielded.grid.values[0] == 0 < yielded.value
+    assert (yielded.grid.behaviour, yielded.uncertainty) == ("diverges", None)
 
 
 def test_five_runs_are_announced():

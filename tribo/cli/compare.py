@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 @click.option("--set", "overrides", multiple=True, metavar="PATH=VALUE", help="Change a value.")
 @click.option("-o", "--output", type=click.Path(path_type=Path), help="Folder; CASE-compare.")
 @click.option("--at", "at", multiple=True, metavar="TIME", help="Save to show, as '1 h'.")
+@click.option("--match", multiple=True, metavar="NAME=NAME", help="First's body=another's.")
 @click.option("--force", is_flag=True, help="Run all anew.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object, in SI units.")
 @click.option("--no-plots", is_flag=True, help="Write no pictures.")
@@ -29,6 +30,7 @@ def compare(
     overrides: tuple[str, ...],
     output: Path | None,
     at: tuple[str, ...],
+    match: tuple[str, ...],
     force: bool,
     as_json: bool,
     no_plots: bool,
@@ -39,7 +41,8 @@ def compare(
     between what takes turns, or it is a TOML list in brackets. Several --vary
     multiply. X.type=A,B replaces the table X by the defaults of each type that is
     not the case's own. What is done already in the folder is not run again. The
-    first variant or file is what the others are compared with.
+    first variant or file is what the others are compared with. Bodies are matched
+    by name, else by role (swept or not); --match ball=pin says which is which.
 
     \b
     Example:
@@ -51,7 +54,7 @@ def compare(
 
     folder = output or files[0].with_name(files[0].stem + "-compare")
     times = _times(at)
-    with _comparison(files, vary, overrides, folder, times, force) as comparison:
+    with _comparison(files, vary, overrides, folder, times, _matches(match), force) as comparison:
         chosen = comparison.chosen_times(times)
         if not as_json:
             print_comparison(comparison, chosen)
@@ -73,12 +76,21 @@ def _times(at: tuple[str, ...]) -> list[float]:
         return [Quantity("s", at_least=0).read(parse_value(text)) for text in at]
 
 
+def _matches(given: tuple[str, ...]) -> dict[str, str]:
+    pairs = [text.partition("=") for text in given]
+    for text, (name, _, own) in zip(given, pairs, strict=True):
+        if not name or not own:
+            raise CaseError(f"{text!r} is not of the form NAME=NAME, as in ball=pin", "--match")
+    return {name: own for name, _, own in pairs}
+
+
 def _comparison(
     files: tuple[Path, ...],
     vary: tuple[str, ...],
     overrides: tuple[str, ...],
     folder: Path,
     times: list[float],
+    match: dict[str, str],
     force: bool,
 ) -> Comparison:
     from tribo.study.comparison import compare as run
@@ -97,6 +109,7 @@ def _comparison(
             grid([Axis.parse(text) for text in vary]),
             folder,
             times=times,
+            match=match,
             observers=lambda: [Progress()],
             tell=lambda text: click.echo(text, err=True),
             overwrite=force,
@@ -108,7 +121,7 @@ def _comparison(
         )
     if overrides or force:
         raise CaseError("--set and --force are for a case that varies, with --vary")
-    return compare_files(files)
+    return compare_files(files, match=match)
 
 
 def _draw(comparison: Comparison, times: list[float], folder: Path) -> list[Path]:

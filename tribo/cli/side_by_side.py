@@ -121,10 +121,8 @@ def _fields(
         yield (
             f"{name} field",
             [
-                f"{_percent(found[label][field].l2)}, {_percent(found[label][field].largest)} %"
-                if label in found
-                else NOTHING
-                for label in labels
+                f"{_percent(off.l2)}, {_percent(off.largest)} %" if off else NOTHING
+                for off in (found.get(label, {}).get(field) for label in labels)
             ],
         )
 

@@ -152,12 +152,12 @@ def _print_study(study: Refinement) -> None:
     widths = {"value": 10, "±": 7, "%": 5, "grid": 10, "GCI %": 5, "steps": 10}
     table = _table(header=True, quantity=0, **widths)
     for estimate in study.estimates:
-        share = 100 * estimate.uncertainty / abs(estimate.value) if estimate.value else 0.0
+        quoted = estimate.uncertainty
         table.add_row(
             _named(estimate.name, estimate.unit),
             f"{estimate.value:.5g}",
-            f"{estimate.uncertainty:.1e}",
-            _percent(share),
+            NOTHING if quoted is None else f"{quoted:.1e}",
+            _share(quoted, estimate.value),
             _order(estimate.grid),
             NOTHING if estimate.grid.gci is None else _percent(100 * estimate.grid.gci),
             _order(estimate.steps),
@@ -170,6 +170,10 @@ def _print_study(study: Refinement) -> None:
         "±: the uncertainty to quote, of grid and steps together. GCI: grid convergence index of "
         "the finest grid (Celik et al. 2008)."
     )
+    if any(estimate.uncertainty is None for estimate in study.estimates):
+        console.print(
+            "Where values diverge no uncertainty can be quoted: use more cells, or shorter steps."
+        )
 
 
 def _table(*, header: bool, **widths: int) -> Table:
@@ -190,6 +194,12 @@ def _order(found: Convergence) -> str:
         return found.behaviour
     order = f"{found.order:.2f}"
     return order if found.behaviour == "converges" else f"{order}, {found.behaviour}"
+
+
+def _share(uncertainty: float | None, value: float) -> str:
+    if uncertainty is None or (uncertainty and not value):
+        return NOTHING
+    return _percent(100 * uncertainty / abs(value) if value else 0.0)
 
 
 def _percent(share: float) -> str:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 from pathlib import Path
-from types import TracebackType
+from types import MappingProxyType, TracebackType
 from typing import Any, Self
 
 from tribo.config.load import read_toml
@@ -15,6 +15,7 @@ from tribo.core.errors import CaseError
 from tribo.registry.registry import Registry
 from tribo.results.read import Result
 from tribo.study.differences import common_bodies, common_times, differences, same_grid
+from tribo.study.matching import left_out, matched, own_names
 from tribo.study.runs import Observers, run_variants
 from tribo.study.variation import check_saved, short_labels, variants
 
@@ -31,7 +32,8 @@ class Comparison:
     Parameters
     ----------
     results : Mapping
-        The open results by their labels.
+        The open results by their labels; bodies go by their names in the first,
+        see `tribo.study.matching`.
     settings : Mapping
         What sets each apart, by label: values by path; empty where not known.
     """
@@ -93,8 +95,9 @@ class Comparison:
         if apart:
             notes.append(
                 f"{', '.join(apart)}: not on the grid of {self.reference}, so that only scalars "
-                "and sections are compared, the latter interpolated"
+                "and sections are compared, the latter interpolated where both windows reach"
             )
+        notes += self._notes_on_bodies()
         last = self.times[-1]
         notes += [
             f"{label} goes on to {result.times[-1]:g} s, beyond the last common save"
@@ -112,6 +115,16 @@ class Comparison:
                 warned.setdefault(notice, []).append(label)
         notes += [f"{'; '.join(labels)}: {notice}" for notice, labels in warned.items()]
         return notes
+
+    def _notes_on_bodies(self) -> Iterator[str]:
+        for label, result in self.results.items():
+            other = {name: own for name, own in own_names(result).items() if own != name}
+            if other:
+                pairs = ", ".join(f"{own!r} with {name!r}" for name, own in other.items())
+                yield f"{label}: compares {pairs}; --match NAME=NAME pairs them otherwise"
+            alone = [*left_out(result), *(n for n in result.body_names if n not in self.bodies)]
+            if alone:
+                yield f"{label}: not in all others: {', '.join(map(repr, alone))}"
 
     def chosen_times(self, times: Sequence[float] = ()) -> list[float]:
         """Return the times to show: those given, else the first and the last common one.
@@ -150,6 +163,7 @@ class Comparison:
                     "file": result.name,
                     "settings": dict(self.settings.get(label, {})),
                     "status": result.status,
+                    "bodies": own_names(result),
                     "totals": dict(result.totals()),
                 }
                 for label, result in self.results.items()
@@ -182,6 +196,7 @@ def compare(
     *,
     labels: Sequence[str] | None = None,
     times: Sequence[float] = (),
+    match: Mapping[str, str] = MappingProxyType({}),
     registry: Registry | None = None,
     observers: Observers = list,
     tell: Callable[[str], None] = lambda text: None,
@@ -203,6 +218,8 @@ def compare(
         What to call the variants; the values that differ if left out.
     times : sequence of float, optional
         Times, in s, at which all variants must save, so that they can be shown.
+    match : Mapping, optional
+        Which body of the others is one of the first, see `compare_files`.
     registry : Registry, optional
         Where to look components up; the installed plugins if left out.
     observers, tell, overwrite : optional
@@ -247,11 +264,14 @@ def compare(
         overwrite=overwrite,
     )
     return Comparison(
-        dict(zip(names, results, strict=True)), dict(zip(names, settings, strict=True))
+        matched(dict(zip(names, results, strict=True)), match),
+        dict(zip(names, settings, strict=True)),
     )
 
 
-def compare_files(paths: Sequence[str | Path]) -> Comparison:
+def compare_files(
+    paths: Sequence[str | Path], *, match: Mapping[str, str] = MappingProxyType({})
+) -> Comparison:
     """Set result files side by side.
 
     Parameters
@@ -259,11 +279,15 @@ def compare_files(paths: Sequence[str | Path]) -> Comparison:
     paths : sequence of str or Path
         The files, named after their stems, or whole where stems are alike. The
         first is what the others are compared with.
+    match : Mapping, optional
+        Names of bodies in other files, by names in the first. Bodies without
+        one are matched by name, else by role (swept or not), else in order.
 
     Raises
     ------
     CaseError
-        If one is not a result file, or damaged, or they have no save in common.
+        If one is not a result file, or damaged, or they have no save in common,
+        or `match` names a body that there is not.
     """
     files = [Path(path) for path in paths]
     twice = [str(path) for path, count in Counter(files).items() if count > 1]
@@ -277,6 +301,6 @@ def compare_files(paths: Sequence[str | Path]) -> Comparison:
         }
         for result in results.values():
             result.check()
-        comparison = Comparison(results)
+        comparison = Comparison(matched(results, match))
         unless_kept.pop_all()
     return comparison

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from tribo.core.arrays import Array
+from tribo.core.grid import Grid
 from tribo.results.export import profile
 from tribo.results.read import SAME_TIME, Result
 
@@ -61,8 +62,9 @@ def differences(result: Result, reference: Result, time: float) -> list[Differen
     """Return how far the pressure and the wear depths are from the reference.
 
     On the same grid the norms run over all cells; else over the sections along
-    and across sliding through the centre, put on to the reference's positions
-    by linear interpolation.
+    and across sliding through the centre, at those of the reference's positions
+    that lie in both windows. Values there are interpolated linearly, and
+    extrapolated over the last half cell.
 
     Parameters
     ----------
@@ -77,41 +79,47 @@ def differences(result: Result, reference: Result, time: float) -> list[Differen
         Without those fields that are zero in the reference.
     """
     whole = same_grid(result, reference)
+    save, of_reference = result.save_at(time), reference.save_at(time)
+    fields = {PRESSURE: (result.pressure(save), reference.pressure(of_reference))}
+    for name in common_bodies([reference, result]):
+        fields[f"bodies.{name}.wear_depth"] = (
+            result.wear_depth(name, save),
+            reference.wear_depth(name, of_reference),
+        )
     found = []
-    pairs = zip(_fields(result, reference, time), _fields(reference, reference, time), strict=True)
-    for (name, field), (_, of_reference) in pairs:
-        if whole:
-            values, expected = field, of_reference
-        else:
-            values = _sections(field, result, reference)
-            expected = _sections(of_reference, reference, reference)
-        largest = float(np.max(np.abs(expected)))
+    for field, (values, expected) in fields.items():
+        if not whole:
+            values, expected = _sections(values, expected, result.grid, reference.grid)
+        largest = float(np.max(np.abs(expected), initial=0.0))
         if largest > 0:
-            off = values - expected
+            # Relative from here on, for squares of small depths may underflow.
+            off, expected = (values - expected) / largest, expected / largest
             found.append(
                 Difference(
-                    name,
+                    field,
                     l2=float(np.sqrt(np.sum(off**2) / np.sum(expected**2))),
-                    largest=float(np.max(np.abs(off))) / largest,
+                    largest=float(np.max(np.abs(off))),
                 )
             )
     return found
 
 
-def _fields(result: Result, reference: Result, time: float) -> Iterator[tuple[str, Array]]:
-    save = result.save_at(time)
-    yield PRESSURE, result.pressure(save)
-    for name in common_bodies([reference, result]):
-        yield f"bodies.{name}.wear_depth", result.wear_depth(name, save)
+def _sections(field: Array, expected: Array, grid: Grid, on: Grid) -> tuple[Array, Array]:
+    """Return both sections of two fields where the windows of both reach, on the grid `on`."""
+    values, there = [], []
+    for axis in (0, 1):
+        own, positions = (grid.x, grid.y)[axis], (on.x, on.y)[axis]
+        inside = np.abs(positions) <= 0.5 * grid.size[axis]
+        values.append(_to_the_edge(own, profile(field, axis), positions[inside]))
+        there.append(profile(expected, axis)[inside])
+    return np.concatenate(values), np.concatenate(there)
 
 
-def _sections(field: Array, result: Result, reference: Result) -> Array:
-    """Return both sections of a field at the reference's positions; nothing is outside a window."""
-    grids = (result.grid, reference.grid)
-    (x, y), (at_x, at_y) = ((grid.x, grid.y) for grid in grids)
-    return np.concatenate(
-        [
-            np.interp(at_x, x, profile(field, 0), left=0.0, right=0.0),
-            np.interp(at_y, y, profile(field, 1), left=0.0, right=0.0),
-        ]
-    )
+def _to_the_edge(positions: Array, values: Array, at: Array) -> Array:
+    """Interpolate linearly, and extrapolate so beyond the outermost of `positions`."""
+    if len(positions) == 1:
+        return np.full(at.shape, values[0])
+    cell = np.clip(np.searchsorted(positions, at) - 1, 0, len(positions) - 2)
+    left, right = positions[cell], positions[cell + 1]
+    part = (at - left) / (right - left)
+    return np.asarray(values[cell] + part * (values[cell + 1] - values[cell]))

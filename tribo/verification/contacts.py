@@ -8,10 +8,24 @@ import numpy as np
 
 from tribo.contact import hertz
 from tribo.core.grid import Grid
+from tribo.core.material import Material
 from tribo.core.measures import contact_area
+from tribo.simulation.step import first_contact
 from tribo.testing.reference import cone, punch
 from tribo.verification.check import Check, Found, Quantity
-from tribo.verification.problems import LOAD, MODULUS, RADIUS, half_space, norm, periodic, press
+from tribo.verification.problems import (
+    LOAD,
+    MODULUS,
+    POISSON,
+    RADIUS,
+    YOUNG,
+    ball,
+    half_space,
+    norm,
+    on_flat,
+    periodic,
+    press,
+)
 
 PLACEMENTS = 5
 SHAPE = "sum |p - p_exact| / sum p"
@@ -24,12 +38,16 @@ PRESSURE = Quantity(SHAPE, "1", 2e-3, 1.5, "the root at the edge bounds the orde
 
 def square(width: float, cells: int, placement: float) -> Grid:
     """Return a grid on which the edge of a contact moves by about a cell with the placement."""
-    size = width * (1 + 3 * placement / cells)
-    return Grid((size, size), (cells, cells))
+    return oblong(width, width, cells, placement)
 
 
-def _ellipse(radius_x: float, cells: int, placement: float) -> Found:
-    grid = square(0.5e-3, cells, placement)
+def oblong(width: float, breadth: float, cells: int, placement: float) -> Grid:
+    """Return a grid as `square`, of as many cells along as across."""
+    larger = 1 + 3 * placement / cells
+    return Grid((larger * width, larger * breadth), (cells, cells))
+
+
+def _ellipse(radius_x: float, grid: Grid) -> Found:
     x, y = grid.mesh
     exact = hertz.point(MODULUS, LOAD, 1 / radius_x, 1 / RADIUS)
     a, b = exact.semi_axes
@@ -44,11 +62,24 @@ def _ellipse(radius_x: float, cells: int, placement: float) -> Found:
 
 
 def _circular(cells: int, placement: float) -> Found:
-    return _ellipse(RADIUS, cells, placement)
+    return _ellipse(RADIUS, square(0.5e-3, cells, placement))
 
 
 def _elliptical(cells: int, placement: float) -> Found:
-    return _ellipse(2 * RADIUS, cells, placement)
+    # Cells as oblong as this show which of their sides is which.
+    return _ellipse(2 * RADIUS, oblong(0.5e-3, 0.3e-3, cells, placement))
+
+
+def _unlike(cells: int, placement: float) -> Found:
+    other = Material(young=70e9, poisson=0.2)
+    modulus = 1 / ((1 - POISSON**2) / YOUNG + (1 - 0.2**2) / 70e9)
+    exact = hertz.point(modulus, LOAD, 1 / RADIUS, 1 / RADIUS)
+    model = on_flat(ball(), square(0.6e-3, cells, placement), half_space(), flat_material=other)
+    found = first_contact(model).contact
+    return {
+        PEAK.name: (exact.peak_pressure, float(np.max(found.pressure))),
+        APPROACH.name: (exact.approach, found.approach),
+    }
 
 
 def _line(cells: int, placement: float) -> Found:
@@ -116,10 +147,18 @@ CHECKS = (
         placements=PLACEMENTS,
     ),
     Check(
-        "Hertz, elliptical (radii 2 : 1)",
+        "Hertz, elliptical (radii 2 : 1), on oblong cells (5 : 3)",
         "Johnson (1985), section 4.2",
         _elliptical,
         (PEAK, APPROACH, AREA, PRESSURE),
+        levels=(31, 93, 279),
+        placements=PLACEMENTS,
+    ),
+    Check(
+        "Hertz, ball and flat of two materials",
+        "Johnson (1985), section 4.2",
+        _unlike,
+        (PEAK, APPROACH),
         levels=(31, 93, 279),
         placements=PLACEMENTS,
     ),

@@ -20,12 +20,16 @@ from typing import Literal
 
 from scipy.optimize import brentq
 
-Behaviour = Literal["exact", "converges", "not asymptotic", "oscillates", "diverges", "unrefined"]
+Behaviour = Literal[
+    "exact", "converges", "not asymptotic", "oscillates", "scatters", "diverges", "unrefined"
+]
 
 SAFETY, DOUBTFUL_SAFETY = 1.25, 3.0
 MET = 0.1
 """Part of the formal order by which the observed one may differ and still be said to meet it."""
 ROUND_OFF = 1e-10
+SCATTER = 0.01
+"""Range of the values, in parts of the largest, that is no sign of divergence."""
 
 
 @dataclass(frozen=True)
@@ -40,7 +44,8 @@ class Convergence:
         "exact" if the values agree to round-off; "converges" if their
         differences shrink and keep their sign; "not asymptotic" if they do so
         at an order far from the formal one; "oscillates" if the sign changes;
-        "diverges" if they do not shrink; "unrefined" if the sizes do not fall,
+        "diverges" if they do not shrink, and "scatters" if nor do they exceed
+        the scatter of such values; "unrefined" if the sizes do not fall,
         whatever the values do.
     order : float or None
         Observed order; only of what converges, or is not asymptotic.
@@ -49,8 +54,8 @@ class Convergence:
     gci : float or None
         Grid convergence index of the finest level, relative to its value; only
         of what converges.
-    uncertainty : float
-        Of the value at the case's own level, in its unit.
+    uncertainty : float or None
+        Of the value at the case's own level, in its unit; None of what diverges.
     """
 
     values: tuple[float, float, float]
@@ -58,11 +63,16 @@ class Convergence:
     order: float | None
     limit: float | None
     gci: float | None
-    uncertainty: float
+    uncertainty: float | None
 
 
 def convergence(
-    values: Sequence[float], sizes: Sequence[float], *, formal_order: float, own: int = -1
+    values: Sequence[float],
+    sizes: Sequence[float],
+    *,
+    formal_order: float,
+    own: int = -1,
+    scatter: float = 0.0,
 ) -> Convergence:
     """Estimate the error of discretisation.
 
@@ -79,8 +89,9 @@ def convergence(
     level, which is GCI times φ₁ at the finest. A p below half of the formal
     order, or more than 1 above it, says that the levels are not in the
     asymptotic range, and that nothing can be extrapolated: the uncertainty is
-    three times the range of the values, as of those that oscillate or do not
-    converge, and of levels that are no refinement (Eça & Hoekstra).
+    three times the range of the values, as of those that oscillate or scatter,
+    and of levels that are no refinement (Eça & Hoekstra). Of values that
+    diverge no range bounds the error, and there is none.
 
     Parameters
     ----------
@@ -92,6 +103,9 @@ def convergence(
         Order of the method.
     own : int, optional
         Index of the level whose uncertainty is wanted; the finest if left out.
+    scatter : float, optional
+        Range of the values, in their unit, that is no sign of divergence; 1 %
+        of the largest if that is more.
 
     Returns
     -------
@@ -113,7 +127,9 @@ def convergence(
         return doubtful("oscillates")
     order = _observed_order(rough, close, sizes)
     if order is None:
-        return doubtful("diverges")
+        if spread <= max(scatter, SCATTER * max(map(abs, values))):
+            return doubtful("scatters")
+        return Convergence((coarse, middle, fine), "diverges", None, None, None, None)
     if not 0.5 * formal_order <= order <= formal_order + 1:
         return doubtful("not asymptotic", order)
     safety = SAFETY if abs(order - formal_order) <= MET * formal_order else DOUBTFUL_SAFETY

@@ -17,6 +17,7 @@ from tribo.core.material import Material, contact_modulus
 from tribo.core.state import State
 from tribo.interfaces.contact import ContactSolver
 from tribo.interfaces.surface import Surface
+from tribo.interfaces.wear import WearLaw
 from tribo.kinematics.unidirectional import Unidirectional
 from tribo.simulation.assembly import assemble
 from tribo.simulation.model import Model
@@ -80,19 +81,26 @@ def on_flat(
     load: float = LOAD,
     ball_k: float = WEAR_COEFFICIENT,
     flat_k: float | None = None,
+    ball_law: WearLaw | None = None,
     track_length: float = 2e-3,
     distance: float = 1.0,
     material: Material = STEEL,
+    flat_material: Material | None = None,
 ) -> Model:
-    """Return the model of a body named "ball" that slides on a flat along a track."""
+    """Return the model of a body named "ball" that slides on a flat along a track.
+
+    The ball wears by Archard's law with `ball_k` if no other is given; the flat is of the ball's
+    material likewise.
+    """
+    ball_wear = ball_law or Archard(k=ball_k)
     flat_wear = None if flat_k is None else Archard(k=flat_k)
     return assemble(
         Case(
             grid=grid,
             load=load,
             bodies={
-                "ball": Body(surface=surface, material=material, wear=Archard(k=ball_k)),
-                "flat": Body(surface=Flat(), material=material, wear=flat_wear),
+                "ball": Body(surface=surface, material=material, wear=ball_wear),
+                "flat": Body(surface=Flat(), material=flat_material or material, wear=flat_wear),
             },
             contact=contact,
             kinematics=Unidirectional(speed=SPEED, track_length=track_length, distance=distance),

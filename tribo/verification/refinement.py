@@ -47,9 +47,10 @@ class Estimate:
     floor : float
         What no refinement takes away at these cells: a counted width is good
         to half a cell.
-    uncertainty : float
+    uncertainty : float or None
         To quote with `value`: the sum of the two, at least `floor`. Errors of
         discretisation are no chance that a sum of squares would do justice.
+        None, and nothing to quote, where one of the two diverges.
     """
 
     name: str
@@ -58,7 +59,7 @@ class Estimate:
     grid: Convergence
     steps: Convergence
     floor: float
-    uncertainty: float
+    uncertainty: float | None
 
 
 @dataclass(frozen=True)
@@ -178,21 +179,34 @@ def _estimates(
 ) -> Iterator[Estimate]:
     dx, dy = model.grid.spacing
     floors = {"half-width along": 0.5 * dx, "half-width across": 0.5 * dy}
-    for name, (unit, value) in _quantities(model, steps[own].end).items():
-        by_grid = convergence(
-            [_quantities(model, level.end)[name][1] for level in grids],
+    by_grid, by_step = (
+        [_quantities(model, level.end) for level in levels] for levels in (grids, steps)
+    )
+    for name, (unit, value) in by_step[own].items():
+        floor = floors.get(name, 0.0)
+        of_grids, of_steps = ([found[name][1] for found in by] for by in (by_grid, by_step))
+        if not any(of_grids + of_steps):
+            continue
+        grid = convergence(
+            of_grids,
             [1 / level.cells[0] for level in grids],
             formal_order=GRID_ORDER,
+            scatter=2 * RATIO**2 * floor,
         )
-        by_step = convergence(
-            [_quantities(model, level.end)[name][1] for level in steps],
+        step = convergence(
+            of_steps,
             [1 / level.steps for level in steps],
             formal_order=STEP_ORDER,
             own=own,
+            scatter=2 * floor,
         )
-        floor = floors.get(name, 0.0)
-        total = max(by_grid.uncertainty + by_step.uncertainty, floor)
-        yield Estimate(name, unit, value, by_grid, by_step, floor, total)
+        yield Estimate(name, unit, value, grid, step, floor, _total(grid, step, floor))
+
+
+def _total(grid: Convergence, steps: Convergence, floor: float) -> float | None:
+    if grid.uncertainty is None or steps.uncertainty is None:
+        return None
+    return max(grid.uncertainty + steps.uncertainty, floor)
 
 
 def _quantities(model: Model, end: Measures) -> dict[str, tuple[str, float]]:
@@ -205,12 +219,10 @@ def _quantities(model: Model, end: Measures) -> dict[str, tuple[str, float]]:
     if model.stop.depth is not None:
         found["path slid"] = ("m", end.distance)
     for name, body in end.bodies.items():
-        if body.wear_volume > 0:
-            found |= {
-                f"{name}: largest depth": ("m", body.max_wear_depth),
-                f"{name}: depth at the centre": ("m", body.centre_wear_depth),
-                f"{name}: volume": ("m^3", body.wear_volume),
-            }
-        if body.max_plastic_depth > 0:
-            found[f"{name}: largest plastic depth"] = ("m", body.max_plastic_depth)
+        found |= {
+            f"{name}: largest depth": ("m", body.max_wear_depth),
+            f"{name}: depth at the centre": ("m", body.centre_wear_depth),
+            f"{name}: volume": ("m^3", body.wear_volume),
+            f"{name}: largest plastic depth": ("m", body.max_plastic_depth),
+        }
     return found

@@ -9,6 +9,8 @@ from tribo.verification import (
     codes,
     contacts,
     coupling,
+    formulas,
+    laws,
     plasticity,
     punches,
     strokes,
@@ -22,9 +24,11 @@ CHECKS: tuple[Check, ...] = (
     *waves.CHECKS,
     *plasticity.CHECKS,
     *wear.CHECKS,
+    *laws.CHECKS,
     *punches.CHECKS,
     *strokes.CHECKS,
     *coupling.CHECKS,
+    *formulas.CHECKS,
     *codes.CHECKS,
 )
 

@@ -1,0 +1,143 @@
+"""Bodies of results are matched whatever they are called, and that is said."""
+
+import json
+import tomllib
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from made_results import made
+
+from tribo.cli.main import tribo
+from tribo.core.errors import CaseError
+from tribo.results.seal import write_sealed
+from tribo.study import compare, compare_files
+from tribo.study.differences import differences
+from tribo.templates import template
+
+BODIES = {
+    "ball and disk": {"names": ("ball", "disk")},
+    "pin and plate": {"names": ("pin", "plate")},
+    "plate and pin": {"names": ("plate", "pin"), "swept": (True, False)},
+    "ball and plate": {"names": ("ball", "plate")},
+    "two pins": {"names": ("left", "right"), "swept": (False, False)},
+    "one body": {"names": ("pin",), "swept": (False,), "worn": (True,), "densities": (None,)},
+    "three bodies": {
+        "names": ("pin", "x", "y"),
+        "swept": (False, True, True),
+        "worn": (True, True, True),
+        "densities": (None, None, None),
+    },
+}
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("files")
+    for name, bodies in BODIES.items():
+        image = made(times=(0.0, 200.0), **bodies)._file.file.id.get_file_image()
+        write_sealed(folder / f"{name}.h5", image, identity=bytes(16), sync=False)
+    return lambda *names: [folder / f"{name}.h5" for name in names]
+
+
+def own(comparison):
+    return comparison.as_json()["results"][1]["bodies"]
+
+
+@pytest.mark.parametrize(
+    ("other", "pairs"),
+    [
+        ("pin and plate", {"ball": "pin", "disk": "plate"}),
+        ("plate and pin", {"ball": "pin", "disk": "plate"}),
+        ("ball and plate", {"ball": "ball", "disk": "plate"}),
+        ("two pins", {"ball": "left", "disk": "right"}),
+        ("one body", {"ball": "pin"}),
+        ("three bodies", {"ball": "pin", "disk": "x"}),
+    ],
+)
+def test_a_body_is_matched_by_name_else_by_role_else_in_order(files, other, pairs):
+    with compare_files(files("ball and disk", other)) as comparison:
+        assert own(comparison) == pairs
+
+
+def test_a_user_says_which_body_is_which(files):
+    paths = files("ball and disk", "pin and plate")
+    with compare_files(paths, match={"ball": "plate"}) as comparison:
+        assert own(comparison) == {"ball": "plate", "disk": "pin"}
+        reference, result = comparison.results.values()
+        assert np.array_equal(result.wear_depth("ball", -1), reference.wear_depth("disk", -1))
+
+
+def test_matched_bodies_are_compared(files):
+    with compare_files(files("ball and disk", "plate and pin")) as comparison:
+        found = differences(*reversed(comparison.results.values()), 200.0)
+        assert {each.field: each.largest for each in found} == {
+            "pressure": 0.0,
+            "bodies.ball.wear_depth": 0.0,
+            "bodies.disk.wear_depth": 0.0,
+        }
+        saves = [comparison.save(label, 200.0)["bodies"] for label in comparison.results]
+        assert saves[0] == saves[1]
+
+
+def test_what_was_matched_and_what_was_left_out_is_told(files):
+    with compare_files(files("ball and disk", "three bodies")) as comparison:
+        assert comparison.notes == [
+            "three bodies: compares 'pin' with 'ball', 'x' with 'disk'; --match NAME=NAME pairs "
+            "them otherwise",
+            "three bodies: not in all others: 'y'",
+        ]
+
+
+@pytest.mark.parametrize(
+    ("match", "message"),
+    [
+        ({"bal": "pin"}, "match: the first result has no body 'bal'; its bodies are ball, disk"),
+        ({"ball": "pim"}, "match: no other result has a body 'pim'; theirs are pin, plate"),
+        ({"ball": "pin", "disk": "pin"}, "match: 'pin' cannot be two bodies of the first result"),
+    ],
+)
+def test_a_match_of_no_body_is_refused(files, match, message):
+    with pytest.raises(CaseError) as caught:
+        compare_files(files("ball and disk", "pin and plate"), match=match)
+    assert str(caught.value) == message
+
+
+def invoke(*args):
+    return CliRunner().invoke(tribo, ["compare", *map(str, args)], catch_exceptions=False)
+
+
+@pytest.mark.parametrize("first", BODIES)
+def test_no_files_end_in_a_traceback(files, first):
+    every = files(first, *(BODIES.keys() - {first}))
+    assert invoke(*every, "--no-plots").exit_code == 0
+    assert json.loads(invoke(*every, "--json", "--no-plots").stdout)["saves"]
+
+
+def test_pictures_of_matched_bodies_are_drawn(files, tmp_path):
+    invoke(*files("ball and disk", "plate and pin"), "--at", "200 s", "-o", tmp_path)
+    assert {path.name for path in tmp_path.iterdir()} == {
+        "pressure_200s.png",
+        "ball_200s.png",
+        "disk_200s.png",
+    }
+
+
+def test_the_command_takes_a_match(files):
+    done = invoke(
+        *files("ball and disk", "pin and plate"), "--no-plots", "--match", "ball=plate", "--json"
+    )
+    assert json.loads(done.stdout)["results"][1]["bodies"] == {"ball": "plate", "disk": "pin"}
+    with pytest.raises(CaseError, match="--match: 'ball' is not of the form NAME=NAME"):
+        invoke(*files("ball and disk", "one body"), "--match", "ball")
+
+
+def test_variants_that_name_their_bodies_otherwise_are_matched():
+    data = tomllib.loads(template("ball_on_disk"))
+    ball, disk = data["bodies"].values()
+    data |= {"grid": {"size": "0.7 mm", "cells": 24}, "output": {}}
+    data["kinematics"] = {"type": "unidirectional", "speed": 0.1, "track_length": 2e-3}
+    data["kinematics"] |= {"distance": 1e-3}
+    settings = [{"bodies": {"ball": ball, "disk": disk}}, {"bodies": {"pin": ball, "plate": disk}}]
+    with compare(data, settings, labels=["a", "b"]) as comparison:
+        assert own(comparison) == {"ball": "pin", "disk": "plate"}
