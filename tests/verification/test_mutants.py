@@ -82,7 +82,7 @@ def exponent_one_more(patch):
 
     def mutant(self, local):
         found = rate(self, local)
-        ratio = local.pressure / self.config.reference_pressure
+        ratio = local.pressure / self.reference_pressure
         return WearRate(found.depth * ratio, found.derivative * ratio)
 
     patch(Power, "rate", mutant)
@@ -93,7 +93,7 @@ def reference_pressure_left_out(patch):
 
     def mutant(self, local):
         found = rate(self, local)
-        less = self.config.reference_pressure / 2e9
+        less = self.reference_pressure / 2e9
         return WearRate(found.depth * less, found.derivative * less)
 
     patch(Power, "rate", mutant)
@@ -103,9 +103,9 @@ def hardness_left_out(patch):
     coefficient = Archard._coefficient
 
     def mutant(self, material):
-        if self.config.K is None:
+        if self.K is None:
             return coefficient(self, material)
-        return self.config.K
+        return self.K
 
     patch(Archard, "_coefficient", mutant)
 
