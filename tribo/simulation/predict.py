@@ -15,7 +15,7 @@ from tribo.results.provenance import stated_facts
 from tribo.simulation.assembly import varied
 from tribo.simulation.bodies import laws_of
 from tribo.simulation.calling import calling
-from tribo.simulation.doubt import too_deep
+from tribo.simulation.doubt import asked_of, doubting, too_deep
 from tribo.simulation.march import FEW_CELLS, MOST_STEPS, begin, march
 from tribo.simulation.measure import measure
 from tribo.simulation.memory import memory_needed
@@ -91,7 +91,9 @@ def predict(model: Model) -> Prediction:
     NumericalError
         If it cannot be solved.
     """
-    state = first_contact(model)
+    asked = asked_of(model)
+    with doubting(lambda: asked):
+        state = first_contact(model)
     first = measure(model, state)
     hertz = hertz_contact(model.system)
     dx, dy = model.grid.spacing
@@ -107,6 +109,7 @@ def predict(model: Model) -> Prediction:
     problems = [
         problem
         for problem in (
+            *asked,
             _few_cells(across or (2 * first.half_width_x / dx, 2 * first.half_width_y / dy)),
             _unsettled(model, state),
             _unstable(model, state),
