@@ -64,7 +64,7 @@ def test_a_result_given_for_a_case_is_told(monkeypatch, folder, command):
 @pytest.mark.parametrize("command", [c for n, c in RESULT.items() if n != "compare"])
 def test_a_case_given_for_a_result_is_told(monkeypatch, folder, command):
     text = told(monkeypatch, folder, command, "case.toml")
-    assert "case.toml is text, not a result" in text
+    assert "case.toml is not a whole tribo file but text" in text
     assert "tribo run case.toml" in text
 
 

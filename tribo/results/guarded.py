@@ -60,7 +60,7 @@ class GuardedFile:
         except NotSealedError as error:
             if _is_text(path):
                 raise CaseError(
-                    f"{path} is text, not a result; if it is a case, run it with: tribo run {path}"
+                    f"{path} is not a whole tribo file but text; if it is a case: tribo run {path}"
                 ) from error
             raise CaseError(
                 f"{path} is not a whole tribo file ({error}): it was cut short, or another "

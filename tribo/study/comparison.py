@@ -186,6 +186,7 @@ def compare(
     observers: Observers = list,
     tell: Callable[[str], None] = lambda text: None,
     overwrite: bool = False,
+    alone: bool = False,
 ) -> Comparison:
     """Run variants of a case and set them side by side.
 
@@ -205,7 +206,7 @@ def compare(
         Times, in s, at which all variants must save, so that they can be shown.
     registry : Registry, optional
         Where to look components up; the installed plugins if left out.
-    observers, tell, overwrite : optional
+    observers, tell, overwrite, alone : optional
         See `tribo.study.runs.run_variants`.
 
     Returns
@@ -245,6 +246,7 @@ def compare(
         observers=observers,
         tell=tell,
         overwrite=overwrite,
+        alone=alone,
     )
     return Comparison(
         dict(zip(names, results, strict=True)), dict(zip(names, settings, strict=True))
