@@ -133,12 +133,33 @@ def test_check_begins_with_its_verdict(tmp_path):
     assert "94 % of the pressure at which the softer body first yields" in done.stdout
     small = ["--set", "grid.size=0.9 mm", "--set", "grid.cells=64"]
     done = tribo("check", "my.toml", *small, cwd=tmp_path)
-    assert done.returncode == 0
+    assert done.returncode == 3
+    assert done.stderr == "error: a run of my.toml would stop on its way\n"
     verdict, first, *_ = done.stdout.splitlines()
     assert verdict == "my.toml is valid, but:"
     assert first.startswith("  - the contact outgrows the window of 0.9 × 0.9 mm")
     data = json.loads(tribo("check", "my.toml", *small, "--json", cwd=tmp_path).stdout)
     assert data["problems"] == [first.removeprefix("  - ")]
+
+
+EXPLICIT = ["stepping.type=explicit", "stepping.time_step=50"]
+
+
+@pytest.mark.parametrize(
+    ("settings", "code"),
+    [
+        (["grid.size=0.36 mm"], 3),
+        (EXPLICIT, 2),
+        ([*EXPLICIT, "stepping.allow_unstable=true"], 0),
+        ([], 0),
+    ],
+)
+def test_check_ends_with_the_exit_code_of_the_run(tmp_path, settings, code):
+    tribo("new", "ball_on_disk", "my.toml", cwd=tmp_path)
+    options = [*QUICK, *(part for text in settings for part in ("--set", text))]
+    done = tribo("check", "my.toml", *options, cwd=tmp_path)
+    assert done.returncode == tribo("run", "my.toml", *options, cwd=tmp_path).returncode == code
+    assert done.stdout.startswith("my.toml is valid")
 
 
 @pytest.mark.parametrize("name", list(TEMPLATES))

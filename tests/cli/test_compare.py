@@ -151,7 +151,7 @@ def test_many_results_go_below_each_other(folder):
 
 def test_another_comparison_of_a_case_does_not_overwrite_the_first(folder, compared):
     before = {path: path.stat().st_mtime_ns for path in (folder / "my-compare").iterdir()}
-    with pytest.raises(CaseError, match="my-compare holds another comparison, contact.type=dcfft"):
+    with pytest.raises(CaseError, match=r"my-compare holds another comparison, contact\.type"):
         invoke(folder / "my.toml", "--vary", "load.normal=50,100", *QUICK)
     assert {path: path.stat().st_mtime_ns for path in (folder / "my-compare").iterdir()} == before
 

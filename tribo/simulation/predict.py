@@ -55,6 +55,8 @@ class Prediction:
         What components state of themselves, by their place in the case.
     problems : tuple of str
         What will go wrong, each with its remedy.
+    exit_code : int
+        With which `tribo run` would end: 0, or that of the error that would stop it.
     """
 
     first: Measures
@@ -67,6 +69,7 @@ class Prediction:
     file_size: float
     facts: Mapping[str, Mapping[str, str]]
     problems: tuple[str, ...]
+    exit_code: int
 
 
 @dataclass(frozen=True)
@@ -106,14 +109,20 @@ def predict(model: Model) -> Prediction:
     across = None
     if hertz is not None:
         across = (2 * hertz.half_width_x / dx, 2 * hertz.half_width_y / dy)
+    unstable = _unstable(model, state)
+    # In the order in which a run would come upon them.
+    stopping = [
+        (CaseError.exit_code, unstable if _stops_at_once(model) else None),
+        (NumericalError.exit_code, _unsettled(model, state)),
+        (NumericalError.exit_code, _outgrown(model, coarse) if holds is False else None),
+    ]
     problems = [
         problem
         for problem in (
             *asked,
             _few_cells(across or (2 * first.half_width_x / dx, 2 * first.half_width_y / dy)),
-            _unsettled(model, state),
-            _unstable(model, state),
-            _outgrown(model, coarse) if holds is False else None,
+            *(text for _, text in stopping),
+            None if _stops_at_once(model) else unstable,
             *_deep(model, last),
             limitation,
         )
@@ -138,6 +147,7 @@ def predict(model: Model) -> Prediction:
         file_size=_file_size(model),
         facts={place: stated for place, stated in facts.items() if stated},
         problems=tuple(problems),
+        exit_code=next((code for code, text in stopping if text is not None), 0),
     )
 
 
@@ -197,6 +207,14 @@ def _unstable(model: Model, state: State) -> str | None:
         f"the largest stable step is {time * limit / increment:.4g} s at first, and less as the "
         "contact grows; or use stepping.type = 'implicit'"
     )
+
+
+def _stops_at_once(model: Model) -> bool:
+    """Whether a step that is not stable, or too short, stops a run as it begins."""
+    config = model.stepping
+    if not isinstance(config, ExplicitConfig):
+        return False
+    return not config.allow_unstable or model.end_time / config.time_step > MOST_STEPS
 
 
 def _unknown_stability(model: Model) -> str:
