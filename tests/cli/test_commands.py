@@ -302,6 +302,10 @@ def test_a_line_contact_is_checked_in_its_own_window_and_told_in_plain_json(tmp_
     told = tribo("check", "line.toml", cwd=tmp_path)
     assert "74.82 µm of a line contact" in told.stdout
     assert "inf" not in told.stdout
+    hard = tribo(
+        "check", "line.toml", "--set", "bodies.disk.material.hardness='4 GPa'", cwd=tmp_path
+    )
+    assert "(1.79 H/2.8)" in hard.stdout
     done = tribo("check", "line.toml", "--json", cwd=tmp_path)
     data = json.loads(done.stdout, parse_constant=lambda name: pytest.fail(name))
     assert data["hertz"]["half_width_y"] is None

@@ -87,7 +87,8 @@ def _lines(model: Model, prediction: Prediction) -> list[tuple[str, str]]:
         if model.system.cap is not None:
             hardness = model.system.cap
             lines.append(("p0/H", f"{hertz.peak_pressure / hardness:.3f}"))
-            lines.append(("yield", yield_words(prediction.first.max_pressure, hardness)))
+            peak = prediction.first.max_pressure
+            lines.append(("yield", yield_words(peak, hardness, line=hertz.is_line)))
         across = [f"{n:.0f}" for n in prediction.cells_across if math.isfinite(n)]
         lines.append(("cells across the contact", " × ".join(across)))
     last = prediction.last

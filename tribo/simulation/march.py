@@ -27,6 +27,7 @@ from tribo.simulation.step import (
     rated,
     start_sliding,
 )
+from tribo.simulation.validity import short_of_a_lap
 
 FEW_CELLS = 8
 MAX_REJECTIONS = 40
@@ -301,6 +302,9 @@ def _noticed(model: Model, state: State) -> State:
         state = _told(state, "averaging", limitation)
     dx, dy = model.grid.spacing
     cells = min(2 * width / dx, 2 * breadth / dy)
+    lap = short_of_a_lap(model) if state.steps == 0 else None
+    if lap is not None:
+        state = replace(state, notices=(*state.notices, f"lap: {lap}"))
     if state.steps == 0 and cells < FEW_CELLS:
         text = (
             f"resolution: the first contact is only {cells:.0f} cells wide; its pressure is "

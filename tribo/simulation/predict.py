@@ -23,6 +23,7 @@ from tribo.simulation.model import Model
 from tribo.simulation.motion import averaging_limit, path_at
 from tribo.simulation.rates import Moment
 from tribo.simulation.step import first_contact, largest_stable_increment, start_sliding
+from tribo.simulation.validity import short_of_a_lap, too_wide
 
 COARSE = 72
 MARGINS = (1.5, 1.0)
@@ -123,8 +124,10 @@ def predict(model: Model) -> Prediction:
             _few_cells(across or (2 * first.half_width_x / dx, 2 * first.half_width_y / dy)),
             *(text for _, text in stopping),
             None if _stops_at_once(model) else unstable,
+            *(too_wide(model, first) or too_wide(model, last or first)),
             *_deep(model, last),
             limitation,
+            short_of_a_lap(model),
         )
         if problem is not None
     ]
