@@ -21,7 +21,7 @@ from tribo.interfaces.observer import ObserverConfig
 from tribo.interfaces.surface import SurfaceConfig
 from tribo.interfaces.wear import WearLawConfig
 
-Length = Annotated[float, Quantity("m", above=0)]
+Length = Annotated[float, Quantity("m", above=0, usual=(1e-9, 0.1))]
 Cells = Annotated[int, Field(ge=4, le=16384)]
 
 
@@ -54,7 +54,7 @@ class GridConfig(Table):
 class LoadConfig(Table):
     """The load on the contact."""
 
-    normal: Annotated[float, Quantity("N", above=0)]
+    normal: Annotated[float, Quantity("N", above=0, usual=(1e-12, 1e6))]
     """Normal load, constant in time."""
 
 

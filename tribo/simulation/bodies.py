@@ -50,13 +50,14 @@ def check_law(law: WearLaw[WearLawConfig], body: Body) -> None:
 
 def curvature(bodies: Sequence[Body]) -> tuple[float, float] | None:
     """Return the curvature of the gap along x and y, in 1/m; None if a surface states none."""
-    known = [_curvature_of(body) for body in bodies]
+    known = [curvature_of(body) for body in bodies]
     if any(c is None for c in known):
         return None
     return sum(c[0] for c in known if c), sum(c[1] for c in known if c)
 
 
-def _curvature_of(body: Body) -> tuple[float, float] | None:
+def curvature_of(body: Body) -> tuple[float, float] | None:
+    """Return the curvature of a body's surface along x and y, in 1/m, if it states one."""
     with calling(body.surface, body.name):
         answer = body.surface.curvature
     if answer is None:

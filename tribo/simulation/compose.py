@@ -6,11 +6,13 @@ from collections.abc import Callable
 from typing import Any
 
 from tribo.config.case import Case
+from tribo.config.usual import unusual
 from tribo.core.errors import CaseError
 from tribo.interfaces.component import ComponentConfig
 from tribo.registry.registry import Registry, default_registry
 from tribo.simulation.assembly import assemble
 from tribo.simulation.calling import calling
+from tribo.simulation.doubt import doubting
 from tribo.simulation.effects import MissingFieldError
 from tribo.simulation.model import Body, Model
 
@@ -38,7 +40,8 @@ def compose(case: Case, registry: Registry | None = None) -> Model:
             return cls(config)
 
     try:
-        return _assembled(case, make)
+        with doubting(lambda: unusual(case)):
+            return _assembled(case, make)
     except MissingFieldError as error:
         providers = known.providers(error.missing)
         if not providers:

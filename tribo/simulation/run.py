@@ -33,6 +33,8 @@ from tribo.simulation.motion import path_at
 from tribo.simulation.watching import Audience
 
 FAILED = "failed"
+OTHERS = (".csv", ".json", ".pdf", ".png", ".svg", ".toml", ".txt", ".xls", ".xlsx")
+"""Endings of files that are not HDF5."""
 
 
 class Simulation:
@@ -290,6 +292,12 @@ def _checked_output(output: str | Path | None, overwrite: bool) -> Path | None:
     if output is None:
         return None
     path = Path(output)
+    if path.suffix.lower() in OTHERS:
+        raise CaseError(
+            f"{path} would be an HDF5 file, which does not end in {path.suffix}; name it "
+            f"{path.with_suffix('.h5')}, which 'tribo export' turns into CSV and 'tribo plot' into "
+            "pictures"
+        )
     # Unlike Path.exists it does not raise where a name is too long.
     if os.path.exists(path) and not overwrite:
         raise CaseError(f"{path} exists; choose another with -o, or replace it with --force")
