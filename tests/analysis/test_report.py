@@ -1,5 +1,6 @@
 """The numbers a lab would report, in one place."""
 
+import numpy as np
 import pytest
 from made_results import made
 
@@ -52,3 +53,15 @@ def test_yield_is_said_in_three_stages():
     assert yield_words(0.5 * H, H).endswith("(1.6 H/2.8)")
     assert yield_words(0.8 * H, H).startswith("the softer body yields beneath the surface at first")
     assert "yields from the start" in yield_words(H, H)
+
+
+def test_a_line_contact_yields_at_its_own_factor():
+    # Johnson (1985), section 6.1: von Mises' stress of a Hertzian line, in plane strain.
+    z = np.linspace(0.01, 3, 3000)
+    across, down = 2 * z - (1 + 2 * z**2) / np.hypot(1, z), -1 / np.hypot(1, z)
+    along = 0.3 * (across + down)
+    pairs = (across - down, down - along, along - across)
+    mises = np.sqrt(0.5 * sum(difference**2 for difference in pairs))
+    onset = H / 2.8 / np.max(mises)
+    assert yield_ratio(onset, H, line=True) == pytest.approx(1, rel=3e-3)
+    assert yield_words(0.5 * H, H, line=True).endswith("(1.79 H/2.8)")

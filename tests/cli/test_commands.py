@@ -133,12 +133,33 @@ def test_check_begins_with_its_verdict(tmp_path):
     assert "94 % of the pressure at which the softer body first yields" in done.stdout
     small = ["--set", "grid.size=0.9 mm", "--set", "grid.cells=64"]
     done = tribo("check", "my.toml", *small, cwd=tmp_path)
-    assert done.returncode == 0
+    assert done.returncode == 3
+    assert done.stderr == "error: a run of my.toml would stop on its way\n"
     verdict, first, *_ = done.stdout.splitlines()
     assert verdict == "my.toml is valid, but:"
     assert first.startswith("  - the contact outgrows the window of 0.9 × 0.9 mm")
     data = json.loads(tribo("check", "my.toml", *small, "--json", cwd=tmp_path).stdout)
     assert data["problems"] == [first.removeprefix("  - ")]
+
+
+EXPLICIT = ["stepping.type=explicit", "stepping.time_step=50"]
+
+
+@pytest.mark.parametrize(
+    ("settings", "code"),
+    [
+        (["grid.size=0.36 mm"], 3),
+        (EXPLICIT, 2),
+        ([*EXPLICIT, "stepping.allow_unstable=true"], 0),
+        ([], 0),
+    ],
+)
+def test_check_ends_with_the_exit_code_of_the_run(tmp_path, settings, code):
+    tribo("new", "ball_on_disk", "my.toml", cwd=tmp_path)
+    options = [*QUICK, *(part for text in settings for part in ("--set", text))]
+    done = tribo("check", "my.toml", *options, cwd=tmp_path)
+    assert done.returncode == tribo("run", "my.toml", *options, cwd=tmp_path).returncode == code
+    assert done.stdout.startswith("my.toml is valid")
 
 
 @pytest.mark.parametrize("name", list(TEMPLATES))
@@ -281,6 +302,10 @@ def test_a_line_contact_is_checked_in_its_own_window_and_told_in_plain_json(tmp_
     told = tribo("check", "line.toml", cwd=tmp_path)
     assert "74.82 µm of a line contact" in told.stdout
     assert "inf" not in told.stdout
+    hard = tribo(
+        "check", "line.toml", "--set", "bodies.disk.material.hardness='4 GPa'", cwd=tmp_path
+    )
+    assert "(1.79 H/2.8)" in hard.stdout
     done = tribo("check", "line.toml", "--json", cwd=tmp_path)
     data = json.loads(done.stdout, parse_constant=lambda name: pytest.fail(name))
     assert data["hertz"]["half_width_y"] is None

@@ -147,3 +147,28 @@ def test_many_results_go_below_each_other(folder):
     done = invoke(folder / "my.toml", *loads, *QUICK, "-o", folder / "loads", "--no-plots")
     assert done.stdout.count("contact solves") == 2
     assert max(map(len, done.stdout.splitlines())) <= 80
+
+
+def test_another_comparison_of_a_case_does_not_overwrite_the_first(folder, compared):
+    before = {path: path.stat().st_mtime_ns for path in (folder / "my-compare").iterdir()}
+    with pytest.raises(CaseError, match=r"my-compare holds another comparison, contact\.type"):
+        invoke(folder / "my.toml", "--vary", "load.normal=50,100", *QUICK)
+    assert {path: path.stat().st_mtime_ns for path in (folder / "my-compare").iterdir()} == before
+
+
+def test_a_comparison_that_has_grown_goes_on_in_its_folder(folder):
+    target = ["-o", folder / "grown", "--no-plots"]
+    invoke(folder / "my.toml", "--vary", "load.normal=50,60", *QUICK, *target)
+    grown = invoke(folder / "my.toml", "--vary", "load.normal=50,60,70", *QUICK, *target)
+    assert grown.stderr.count("done already") == 2
+
+
+def test_pictures_of_other_files_go_to_another_folder(folder, compared, tmp_path):
+    for name in "abc":
+        shutil.copy(folder / "my-compare" / "contact.type=dcfft.h5", tmp_path / f"{name}.h5")
+    for other in "bc":
+        assert invoke(tmp_path / "a.h5", tmp_path / f"{other}.h5", "--at", "0").exit_code == 0
+    assert {path.name for path in tmp_path.iterdir() if path.is_dir()} == {
+        "a-b-compare",
+        "a-c-compare",
+    }

@@ -2,7 +2,11 @@
 
 import io
 import json
+import os
+import subprocess
+import sys
 from copy import deepcopy
+from pathlib import Path
 
 import pytest
 from edited import edited
@@ -14,6 +18,7 @@ from tribo.cli.report import print_provenance
 from tribo.core.errors import PluginError
 from tribo.interfaces.component import Component
 from tribo.results.provenance import changed_components, origin, provenance, stated_facts
+from tribo.results.read import Result
 from tribo.surfaces.sphere import Sphere
 
 
@@ -126,3 +131,49 @@ def test_facts_that_are_not_text_are_an_error_that_names_the_component(facts):
 def test_most_components_state_nothing():
     assert Component.facts(archard()) == {}
     assert deepcopy(stated_facts(archard())) == {}
+
+
+PIPED = """
+from typing import Literal
+
+import numpy as np
+from paper_models import flat, small, sphere, steel
+
+from tribo import Body, Simulation
+from tribo.plugin import WearLaw, WearRate
+
+
+class LinearConfig(WearLaw):
+    type: Literal["linear"] = "linear"
+
+
+class Linear(WearLaw):
+    Config = LinearConfig
+
+    def rate(self, local):
+        return WearRate(3e-16 * local.pressure, np.full_like(local.pressure, 3e-16))
+
+
+bodies = [named("ball", sphere(), steel(), Linear(LinearConfig())), named("disk", flat(), steel())]
+Simulation(small(bodies=bodies)).run("piped.h5")
+"""
+
+
+def test_a_law_piped_to_python_runs_and_its_source_is_said_not_to_be_available(tmp_path):
+    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[1])}
+    done = subprocess.run(
+        [sys.executable, "-"],
+        input=PIPED,
+        cwd=tmp_path,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    console = Console(file=io.StringIO(), width=200, highlight=False)
+    with Result.open(tmp_path / "piped.h5") as result:
+        print_provenance(result, console)
+    (line,) = (line for line in console.file.getvalue().splitlines() if "__main__.Linear" in line)
+    assert line.startswith("  bodies.ball.wear: linear, ")
+    assert line.endswith(", source not available")

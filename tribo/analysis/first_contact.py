@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 
 from tribo.contact import hertz
 from tribo.core.contact import ContactSystem
@@ -31,6 +32,11 @@ class HertzContact:
     approach: float | None
     yield_ratio: float | None
 
+    @property
+    def is_line(self) -> bool:
+        """Whether it is the contact of a cylinder."""
+        return inf in (self.half_width_x, self.half_width_y)
+
 
 def hertz_contact(system: ContactSystem) -> HertzContact | None:
     """Return Hertz's contact for the system's curvature and load.
@@ -43,14 +49,16 @@ def hertz_contact(system: ContactSystem) -> HertzContact | None:
     cx, cy = system.curvature
     if cx < 0 or cy < 0 or cx + cy == 0:
         return None
-    inf = float("inf")
     if cx == 0 or cy == 0:
         length = system.grid.size[0] if cx == 0 else system.grid.size[1]
         line = hertz.line(system.modulus, system.load / length, max(cx, cy))
         a, b = (inf, line.half_width) if cx == 0 else (line.half_width, inf)
-        p0, approach = line.peak_pressure, None
+        p0, approach, is_line = line.peak_pressure, None, True
     else:
         point = hertz.point(system.modulus, system.load, cx, cy)
         (a, b), p0, approach = point.semi_axes, point.peak_pressure, point.approach
-    ratio = None if system.cap is None else p0 / hertz.first_yield_pressure(system.cap)
+        is_line = False
+    ratio = None
+    if system.cap is not None:
+        ratio = p0 / hertz.first_yield_pressure(system.cap, line=is_line)
     return HertzContact(a, b, p0, approach, ratio)

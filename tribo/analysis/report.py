@@ -136,7 +136,7 @@ def lab_report(result: Result) -> LabReport:
     )
 
 
-def yield_ratio(max_pressure: float, hardness: float) -> float:
+def yield_ratio(max_pressure: float, hardness: float, *, line: bool = False) -> float:
     """Return a peak pressure over that at which a Hertz contact first yields.
 
     Parameters
@@ -145,23 +145,26 @@ def yield_ratio(max_pressure: float, hardness: float) -> float:
         In Pa.
     hardness : float
         Of the softer body, in Pa; see `tribo.contact.hertz.first_yield_pressure`.
+    line : bool, optional
+        Whether it is a line contact.
     """
-    return max_pressure / first_yield_pressure(hardness)
+    return max_pressure / first_yield_pressure(hardness, line=line)
 
 
-def yield_words(max_pressure: float, hardness: float) -> str:
+def yield_words(max_pressure: float, hardness: float, *, line: bool = False) -> str:
     """Say whether the softer body yields under a peak pressure; parameters as `yield_ratio`."""
     if max_pressure >= _AT_THE_CAP * hardness:
         return "the softer body yields from the start: p max is its hardness"
-    percent = f"{100 * yield_ratio(max_pressure, hardness):.0f} %"
-    if yield_ratio(max_pressure, hardness) > 1:
+    ratio, onset = yield_ratio(max_pressure, hardness, line=line), "1.79" if line else "1.6"
+    percent = f"{100 * ratio:.0f} %"
+    if ratio > 1:
         return (
             f"the softer body yields beneath the surface at first (p max is {percent} of "
-            "1.6 H/2.8), which this model leaves out"
+            f"{onset} H/2.8), which this model leaves out"
         )
     return (
         f"{percent} of the pressure at which the softer body first yields beneath the surface "
-        "(1.6 H/2.8)"
+        f"({onset} H/2.8)"
     )
 
 
@@ -189,8 +192,8 @@ def _first_contact(result: Result, max_pressure: float) -> FirstContact:
     hertz = hertz_contact(system)
     ratio = words = None
     if system.cap is not None and hertz is not None:
-        ratio = yield_ratio(max_pressure, system.cap)
-        words = yield_words(max_pressure, system.cap)
+        ratio = yield_ratio(max_pressure, system.cap, line=hertz.is_line)
+        words = yield_words(max_pressure, system.cap, line=hertz.is_line)
     return FirstContact(
         max_pressure=max_pressure,
         hertz_peak_pressure=None if hertz is None else hertz.peak_pressure,

@@ -11,6 +11,7 @@ from typing import Any
 import click
 
 from tribo.analysis.report import yield_words
+from tribo.core.errors import CaseError, NumericalError
 from tribo.simulation.model import Model
 from tribo.simulation.predict import Prediction
 
@@ -27,6 +28,9 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
     \b
     Example:
       tribo check my.toml
+
+    Exit codes: 0 the run would go to its end, 2 bad input, 3 numerical failure;
+    where the run would stop on its way, the code that it would end with.
     """
     from tribo.config.load import load_case
     from tribo.simulation.predict import predict
@@ -36,7 +40,16 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
     prediction = predict(model)
     if as_json:
         click.echo(json.dumps(_finite(asdict(prediction)), indent=2, allow_nan=False))
-        return
+    else:
+        _print(case, model, prediction)
+    would_end = f"a run of {case} would stop on its way"
+    if prediction.exit_code == CaseError.exit_code:
+        raise CaseError(would_end)
+    if prediction.exit_code == NumericalError.exit_code:
+        raise NumericalError(would_end)
+
+
+def _print(case: Path, model: Model, prediction: Prediction) -> None:
     click.echo(f"{case} is valid, but:" if prediction.problems else f"{case} is valid.")
     for problem in prediction.problems:
         click.echo(f"  - {problem}")
@@ -74,7 +87,8 @@ def _lines(model: Model, prediction: Prediction) -> list[tuple[str, str]]:
         if model.system.cap is not None:
             hardness = model.system.cap
             lines.append(("p0/H", f"{hertz.peak_pressure / hardness:.3f}"))
-            lines.append(("yield", yield_words(prediction.first.max_pressure, hardness)))
+            peak = prediction.first.max_pressure
+            lines.append(("yield", yield_words(peak, hardness, line=hertz.is_line)))
         across = [f"{n:.0f}" for n in prediction.cells_across if math.isfinite(n)]
         lines.append(("cells across the contact", " × ".join(across)))
     last = prediction.last

@@ -52,7 +52,8 @@ def compare(
     """
     from tribo.cli.side_by_side import print_comparison
 
-    folder = output or files[0].with_name(files[0].stem + "-compare")
+    stems = dict.fromkeys(path.stem for path in files)
+    folder = output or files[0].with_name("-".join([*stems, "compare"]))
     times = _times(at)
     with _comparison(files, vary, overrides, folder, times, _matches(match), force) as comparison:
         chosen = comparison.chosen_times(times)
@@ -113,6 +114,7 @@ def _comparison(
             observers=lambda: [Progress()],
             tell=lambda text: click.echo(text, err=True),
             overwrite=force,
+            alone=True,
         )
     cases = [path for path in files if path.suffix == ".toml"]
     if cases:

@@ -29,10 +29,10 @@ def run(case: Path, output: Path | None, overrides: tuple[str, ...], force: bool
     from tribo.observers.progress import Progress
     from tribo.simulation.run import Simulation
 
+    simulation = Simulation(load_case(case, overrides=overrides))
     path = output or case.with_suffix(".h5")
     if path.resolve() == case.resolve():
         raise CaseError(f"{path} is the case itself; choose another file with -o")
-    simulation = Simulation(load_case(case, overrides=overrides))
     with simulation.run(path, observers=[Progress()], overwrite=force) as result:
         print_report(result)
     click.echo(f"Saved {path}; see it with: tribo plot {path}")

@@ -28,7 +28,7 @@ from tribo.interfaces.wear import WearLaw
 class Load(Table):
     """The load on the contact."""
 
-    normal: Annotated[float, Quantity("N", above=0)]
+    normal: Annotated[float, Quantity("N", above=0, usual=(1e-12, 1e6))]
     """Normal load, constant in time."""
 
 

@@ -18,6 +18,7 @@ from tribo.core.errors import CaseError
 from tribo.registry.registry import Registry, default_registry
 
 _LARGEST = 10_000_000
+_HDF5 = b"\x89HDF\r\n\x1a\n"
 _DEFAULT_TYPES = {"contact": "dcfft", "stepping": "implicit"}
 
 
@@ -110,6 +111,10 @@ def read_toml(path: str | Path) -> dict[str, Any]:
         raise CaseError(f"{path} cannot be read: {reason}") from None
     if len(content) > _LARGEST:
         raise CaseError(f"{path} is larger than {_LARGEST // 10**6} MB: no case file")
+    if content.startswith(_HDF5):
+        raise CaseError(f"{path} is a result, not a case; see it with: tribo show {path}")
+    if not content.strip():
+        raise CaseError(f"{path} is empty; 'tribo new' writes a case to start from")
     try:
         # Editors on Windows put a mark at the start, which TOML does not know.
         return tomllib.loads(content.decode("utf-8-sig"))

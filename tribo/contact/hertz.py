@@ -142,20 +142,27 @@ def load_at_peak(modulus: float, peak_pressure: float, curvature: float) -> floa
     return pi**3 * peak_pressure**3 / (6 * modulus**2 * curvature**2)
 
 
-def first_yield_pressure(hardness: float) -> float:
+POINT_YIELD, LINE_YIELD = 1.60, 1.79
+"""Peak pressure over the yield stress where yield begins, for ν = 0.3."""
+
+
+def first_yield_pressure(hardness: float, *, line: bool = False) -> float:
     """Return the Hertzian peak pressure, in Pa, at which yield begins below the surface.
 
     Parameters
     ----------
     hardness : float
         H, in Pa; the yield stress is taken as Y = H/2.8.
+    line : bool, optional
+        Whether it is a line contact, which yields in plane strain.
 
     References
     ----------
-    K. L. Johnson, Contact Mechanics (1985), section 6.1: p0 = 1.60 Y for a ball
-    (ν = 0.3), and section 6.3: fully plastic indentation at H ≈ 2.8 Y.
+    K. L. Johnson, Contact Mechanics (1985), section 6.1: p0 = 1.60 Y for a ball, and by von
+    Mises' criterion 1.79 Y for a cylinder (ν = 0.3); section 6.3: fully plastic indentation
+    at H ≈ 2.8 Y.
     """
-    return 1.6 * hardness / 2.8
+    return (LINE_YIELD if line else POINT_YIELD) * hardness / 2.8
 
 
 def _require_positive(**values: float) -> None:

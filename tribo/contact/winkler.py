@@ -22,10 +22,10 @@ class Layer(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
 
-    thickness: Annotated[float, Quantity("m", above=0)]
+    thickness: Annotated[float, Quantity("m", above=0, usual=(1e-9, 0.1))]
     """Thickness of the layer."""
 
-    young: Annotated[float, Quantity("Pa", above=0)]
+    young: Annotated[float, Quantity("Pa", above=0, usual=(1e4, 2e12))]
     """Young's modulus of the layer."""
 
     poisson: Annotated[float, Quantity("1", above=-1, below=0.5)]
@@ -48,7 +48,7 @@ class Winkler(ContactSolver):
 
     type = "winkler"
 
-    modulus: Annotated[float, Quantity("Pa/m", above=0)] | None = None
+    modulus: Annotated[float, Quantity("Pa/m", above=0, usual=(1e6, 1e20))] | None = None
     """Foundation modulus K_w, pressure per depth."""
 
     layer: Layer | None = None

@@ -11,7 +11,7 @@ from tribo.core.arrays import Array
 from tribo.core.table import Table
 from tribo.core.units import Quantity
 
-Length = Annotated[float, Quantity("m", above=0)]
+Length = Annotated[float, Quantity("m", above=0, usual=(1e-9, 0.1))]
 Cells = Annotated[int, Field(ge=4, le=16384)]
 
 

@@ -15,17 +15,17 @@ class Material(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
 
-    young: Annotated[float, Quantity("Pa", above=0)]
+    young: Annotated[float, Quantity("Pa", above=0, usual=(1e4, 2e12))]
     """Young's modulus E."""
     poisson: Annotated[float, Quantity("1", above=-1, below=0.5)]
     """Poisson's ratio."""
-    hardness: Annotated[float, Quantity("Pa", above=0)] | None = None
+    hardness: Annotated[float, Quantity("Pa", above=0, usual=(1e4, 2e11))] | None = None
     """Hardness: the largest contact pressure it bears. Without one it stays elastic."""
-    density: Annotated[float, Quantity("kg/m^3", above=0)] | None = None
+    density: Annotated[float, Quantity("kg/m^3", above=0, usual=(10.0, 3e4))] | None = None
     """Density, with which worn volume is also given as mass."""
-    conductivity: Annotated[float, Quantity("W/(m K)", above=0)] | None = None
+    conductivity: Annotated[float, Quantity("W/(m K)", above=0, usual=(1e-3, 5e3))] | None = None
     """Thermal conductivity."""
-    heat_capacity: Annotated[float, Quantity("J/(kg K)", above=0)] | None = None
+    heat_capacity: Annotated[float, Quantity("J/(kg K)", above=0, usual=(50.0, 2e4))] | None = None
     """Specific heat capacity."""
 
 

@@ -106,6 +106,9 @@ class Quantity:
         The SI unit of the value; ``"1"`` for none.
     above, at_least, below, at_most : float, optional
         Bounds, in `unit`.
+    usual : tuple of float, optional
+        Range, in `unit`, beyond which a value other than 0 is allowed but asked
+        about: in `tribo check`, and where a run fails.
     """
 
     unit: str
@@ -113,6 +116,7 @@ class Quantity:
     at_least: float | None = None
     below: float | None = None
     at_most: float | None = None
+    usual: tuple[float, float] | None = None
 
     @property
     def needed(self) -> str:
@@ -149,6 +153,18 @@ class Quantity:
                 unit = "" if self.unit == "1" or (bound == 0 and self.unit != "K") else self.unit
                 raise CaseError(f"{given}: must be {words} {bound:g} {unit}".rstrip())
         return number
+
+    def doubt(self, value: float) -> str | None:
+        """Return what to ask about `value` (in `unit`), if it is out of the usual range."""
+        if self.usual is None or value == 0 or self.usual[0] <= value <= self.usual[1]:
+            return None
+        low, high = self.usual
+        if self.unit == "1":
+            return f"{value:g}, usual are {low:g} to {high:g}: is that meant?"
+        return (
+            f"{value:g} {self.unit}, usual are {low:g} to {high:g} {self.unit}: a unit forgotten, "
+            f"as in '{_example(self.unit)}'?"
+        )
 
     def __get_pydantic_core_schema__(
         self, source: Any, handler: GetCoreSchemaHandler

@@ -31,9 +31,9 @@ class Reciprocating(Kinematics):
     )
 
     type = "reciprocating"
-    stroke: Annotated[float, Quantity("m", above=0)]
+    stroke: Annotated[float, Quantity("m", above=0, usual=(1e-9, 1.0))]
     """Distance between the two points of reversal."""
-    frequency: Annotated[float, Quantity("Hz", above=0)]
+    frequency: Annotated[float, Quantity("Hz", above=0, usual=(1e-6, 1e5))]
     """Full cycles, back and forth, per second."""
     duration: Annotated[float, Quantity("s", above=0)] | None = None
     """How long it runs."""

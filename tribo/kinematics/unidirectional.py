@@ -29,11 +29,11 @@ class Unidirectional(Kinematics):
     )
 
     type = "unidirectional"
-    speed: Annotated[float, Quantity("m/s", above=0)]
+    speed: Annotated[float, Quantity("m/s", above=0, usual=(1e-12, 200.0))]
     """Sliding speed."""
-    track_length: Annotated[float, Quantity("m", above=0)] | None = None
+    track_length: Annotated[float, Quantity("m", above=0, usual=(1e-6, 10.0))] | None = None
     """Length of the closed track."""
-    track_radius: Annotated[float, Quantity("m", above=0)] | None = None
+    track_radius: Annotated[float, Quantity("m", above=0, usual=(1e-6, 1.0))] | None = None
     """Radius of a circular track; its length is 2πr."""
     duration: Annotated[float, Quantity("s", above=0)] | None = None
     """How long it runs."""

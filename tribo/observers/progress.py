@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import sys
 import time
+from collections.abc import Callable
 
 from pydantic import PrivateAttr
 from rich.console import Console
@@ -15,6 +16,8 @@ from tribo.core.state import RunInfo, Snapshot
 from tribo.interfaces.observer import Observer
 
 QUIET = 2.0
+RENEWED = 0.1
+"""Time between two renewals of the line, in s."""
 
 
 class Progress(Observer):
@@ -27,36 +30,37 @@ class Progress(Observer):
     type = "progress"
 
     _console: Console = PrivateAttr(default_factory=lambda: Console(file=sys.stderr))
+    # Whatever the environment says of colours, a line is renewed on a terminal only.
+    _on_terminal: bool = PrivateAttr(default_factory=lambda: sys.stderr.isatty())
+    _clock: Callable[[], float] = PrivateAttr(default=time.monotonic)
     _live: Live | None = None
     _run: RunInfo | None = None
     _begun: float = 0.0
-    _steps: int = 0
-    _previous: float = 0.0
+    _renewed: float = 0.0
+    _part_before: float = 0.0
 
     def on_start(self, run: RunInfo) -> None:
         """Start the clock."""
         self._run = run
-        self._begun = time.monotonic()
-        self._previous = run.resumed_from.measures.distance if run.resumed_from is not None else 0.0
+        self._begun = self._clock()
+        before = run.resumed_from
+        self._part_before = 0.0 if before is None else self._part(before)
 
     def on_step(self, snapshot: Snapshot) -> None:
         """Renew the line."""
-        assert self._run is not None
-        distance = snapshot.measures.distance
-        part = self._done(snapshot)
-        self._previous = distance
-        elapsed = time.monotonic() - self._begun
-        if elapsed < QUIET or not self._console.is_terminal:
+        now = self._clock()
+        if not self._on_terminal or now - self._begun < QUIET or now - self._renewed < RENEWED:
             return
+        self._renewed = now
         if self._live is None:
-            self._live = Live(console=self._console, refresh_per_second=8, transient=True)
+            self._live = Live(console=self._console, auto_refresh=False, transient=True)
             self._live.start()
-        self._live.update(self._line(snapshot, part, elapsed))
+        self._live.update(self._line(snapshot, now - self._begun), refresh=True)
 
     def on_save(self, snapshot: Snapshot) -> None:
         """Print a plain line where there is no terminal."""
         assert self._run is not None
-        if not self._console.is_terminal and time.monotonic() - self._begun > QUIET:
+        if not self._on_terminal and self._clock() - self._begun > QUIET:
             self._console.print(
                 f"{snapshot.measures.time:g} s of {self._run.end_time:g} s, "
                 f"step {snapshot.state.steps}",
@@ -69,32 +73,29 @@ class Progress(Observer):
             self._live.stop()
             self._live = None
 
-    def _done(self, snapshot: Snapshot) -> float:
-        """Return the part of the work that is done, from the steps taken and to come."""
+    def _part(self, snapshot: Snapshot) -> float:
+        """Return the part of the work that is done, from the path alone: it never goes back."""
         assert self._run is not None
-        self._steps += 1
-        s, end = snapshot.measures.distance, self._run.end_distance
-        increment = s - self._previous
-        if s >= end or increment <= 0:
-            return 1.0 if s >= end else 0.0
+        part = min(1.0, snapshot.measures.distance / self._run.end_distance)
         stepping = self._run.case.get("stepping")
         explicit = isinstance(stepping, dict) and stepping.get("type") == "explicit"
-        # Implicit increments grow in proportion to the distance slid.
-        left = (end - s) / increment if explicit else math.log(end / s) / math.log1p(increment / s)
-        return self._steps / (self._steps + left)
+        # Implicit steps grow as a scar does, whose width is the fourth root of the path.
+        return part if explicit else part**0.25
 
-    def _line(self, snapshot: Snapshot, part: float, elapsed: float) -> Text:
+    def _line(self, snapshot: Snapshot, elapsed: float) -> Text:
         assert self._run is not None
         m = snapshot.measures
+        part = self._part(snapshot)
+        done = part - self._part_before
         width = 16
         filled = round(part * width)
         bar = "[green]" + "━" * filled + "[/][dim]" + "━" * (width - filled) + "[/]"
-        eta = elapsed * (1 - part) / part if part > 0 else math.inf
+        left = elapsed * (1 - part) / done if done > 0 else math.inf
         worn = ", ".join(
             f"{name} {1e6 * body.max_wear_depth:.3g} µm" for name, body in m.bodies.items()
         )
         text = Text.from_markup(
-            f"{bar} {_clock(eta)} left · {m.time:.4g} of {self._run.end_time:.4g} s · "
+            f"{bar} {_words(left)} left · {m.time:.4g} of {self._run.end_time:.4g} s · "
             f"step {snapshot.state.steps} · p max {1e-6 * m.max_pressure:.0f} MPa · {worn}",
             overflow="ellipsis",
         )
@@ -102,7 +103,7 @@ class Progress(Observer):
         return text
 
 
-def _clock(seconds: float) -> str:
+def _words(seconds: float) -> str:
     if not math.isfinite(seconds):
         return "…"
     minutes, rest = divmod(round(seconds), 60)

@@ -58,6 +58,10 @@ class GuardedFile:
         try:
             sealed = SealedFile(path)
         except NotSealedError as error:
+            if _is_text(path):
+                raise CaseError(
+                    f"{path} is not a whole tribo file but text; if it is a case: tribo run {path}"
+                ) from error
             raise CaseError(
                 f"{path} is not a whole tribo file ({error}): it was cut short, or another "
                 "program has written to it"
@@ -125,3 +129,10 @@ class GuardedFile:
             yield
         except (OSError, KeyError, RuntimeError, ValueError, TypeError) as error:
             raise CaseError(f"{self.name} is damaged: {what} cannot be read ({error})") from error
+
+
+def _is_text(path: Path) -> bool:
+    """Whether a file is text, which has no zeros, as an HDF5 file has from its first bytes on."""
+    with path.open("rb") as file:
+        head = file.read(1000)
+    return bool(head) and b"\0" not in head

@@ -142,7 +142,10 @@ def origin(component: Component) -> dict[str, object]:
 
 @cache
 def _code(package: str) -> str:
-    """Return a hash of the source files of a top-level package or module that is imported."""
+    """Return a hash of the source files of a top-level package or module that is imported.
+
+    Empty where there are none to read, as of what is typed in or piped to Python.
+    """
     module = sys.modules.get(package)
     files = [
         path
@@ -153,8 +156,11 @@ def _code(package: str) -> str:
     if not files and file:
         files = [Path(file)]
     digest = sha256()
-    for path in files:
-        digest.update(path.read_bytes())
+    try:
+        for path in files:
+            digest.update(path.read_bytes())
+    except OSError:
+        return ""
     return digest.hexdigest() if files else ""
 
 

@@ -51,13 +51,14 @@ def check_law(body: str, law: WearLaw, material: Material) -> None:
 
 def curvature(surfaces: Mapping[str, Surface]) -> tuple[float, float] | None:
     """Return the curvature of the gap along x and y, in 1/m; None if a surface states none."""
-    known = [_curvature_of(body, surface) for body, surface in surfaces.items()]
+    known = [curvature_of(body, surface) for body, surface in surfaces.items()]
     if any(c is None for c in known):
         return None
     return sum(c[0] for c in known if c), sum(c[1] for c in known if c)
 
 
-def _curvature_of(body: str, surface: Surface) -> tuple[float, float] | None:
+def curvature_of(body: str, surface: Surface) -> tuple[float, float] | None:
+    """Return the curvature of a body's surface along x and y, in 1/m, if it states one."""
     with calling(surface, body):
         answer = surface.curvature
     if answer is None:

@@ -1,20 +1,31 @@
-"""Wear so deep that a slip of units is more likely than the wear."""
+"""Values so far from the usual that a slip of units is more likely than what they say."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 
-import numpy as np
-
+from tribo.config.case import Case
+from tribo.config.usual import unusual
 from tribo.core.contact import ContactSystem
-from tribo.core.errors import TriboError
-from tribo.core.state import State
-from tribo.simulation.model import Model
-from tribo.simulation.motion import path_at
-from tribo.simulation.rates import Moment, law_states, wear_rates
+from tribo.core.errors import CaseError, NumericalError, PluginError
 
 DEEP = 0.1
 """Wear depth, relative to the radius of curvature, from which on it is doubted."""
+
+
+@contextmanager
+def doubting(case: Case) -> Iterator[None]:
+    """Ask, in the error of a failing calculation, about each value of the case that is unusual."""
+    try:
+        yield
+    except PluginError:
+        raise
+    except (CaseError, NumericalError) as error:
+        doubts = unusual(case)
+        if doubts:
+            error.args = (f"{error}. {' '.join(doubts)}",)
+        raise
 
 
 def too_deep(system: ContactSystem, depths: Mapping[str, float]) -> list[str]:
@@ -27,27 +38,3 @@ def too_deep(system: ContactSystem, depths: Mapping[str, float]) -> list[str]:
         for name, depth in depths.items()
         if depth * curvature > DEEP
     ]
-
-
-def asked_of(model: Model, state: State) -> str:
-    """Return what to ask, if anything, where a run fails that would wear on at its present rate."""
-    time = model.end_time - state.time
-    if not time > 0:
-        return ""
-    try:
-        depths = _depths_to_come(model, state, time)
-    except TriboError:
-        # What fails here must not hide what the question is added to.
-        return ""
-    asked = too_deep(model.system, depths)
-    return f". At this rate {'; '.join(asked)}" if asked else ""
-
-
-def _depths_to_come(model: Model, state: State, time: float) -> dict[str, float]:
-    left = path_at(model.kinematics, model.end_time) - state.distance
-    moment = Moment(state.time, state.distance, left / time)
-    rates = wear_rates(model, state.contact, law_states(state), moment)
-    return {
-        name: left * float(np.max(model.exposures[name].average(rate.depth)))
-        for name, rate in rates.items()
-    }

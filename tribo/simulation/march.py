@@ -13,7 +13,7 @@ from tribo.core.measures import Invariants, half_widths, reaches_border
 from tribo.core.state import State
 from tribo.simulation.calling import named
 from tribo.simulation.control import SHRINK, first_increment, fitted, next_factor, step_error
-from tribo.simulation.doubt import asked_of
+from tribo.simulation.doubt import doubting
 from tribo.simulation.invariants import chattering_words, chatters, hold
 from tribo.simulation.model import Model
 from tribo.simulation.motion import averaging_limit, path_at, time_at
@@ -27,6 +27,7 @@ from tribo.simulation.step import (
     rated,
     start_sliding,
 )
+from tribo.simulation.validity import short_of_a_lap
 
 FEW_CELLS = 8
 MAX_REJECTIONS = 40
@@ -59,9 +60,10 @@ def begin(model: Model) -> State:
     NumericalError
         If the contact cannot be solved.
     """
-    state = hold(model, None, first_contact(model))
-    if isinstance(model.stepping, Explicit):
-        _check_time_step(model, model.stepping, state)
+    with doubting(model.case):
+        state = hold(model, None, first_contact(model))
+        if isinstance(model.stepping, Explicit):
+            _check_time_step(model, model.stepping, state)
     return _noticed(model, replace(state, saves=1))
 
 
@@ -80,8 +82,9 @@ def march(model: Model, state: State) -> Iterator[Accepted]:
     stops = [t for t in model.case.output.save_times if 0 < t < model.end_time]
     for stop in [*stops, model.end_time]:
         while state.time < stop:
-            state = hold(model, state, _step_towards(model, state, stop))
-            _check_window(model, state)
+            with doubting(model.case):
+                state = hold(model, state, _step_towards(model, state, stop))
+                _check_window(model, state)
             state = _noticed(model, state)
             limit = model.stop.depth
             worn_out = limit is not None and _depth(model, state) >= limit
@@ -144,14 +147,13 @@ def _implicit(model: Model, config: Implicit, state: State, stop: float) -> Stat
         except StepRejected as error:
             factor = SHRINK
             if rejected == MAX_REJECTIONS or factor * increment < SMALLEST * target:
-                raise NumericalError(f"{error}{asked_of(model, state)}") from error
+                raise NumericalError(str(error)) from error
         rejected += 1
         if rejected > MAX_REJECTIONS or factor * increment < SMALLEST * target:
             raise NumericalError(
                 f"steps down to {increment:.3g} m at {state.distance:.6g} m still miss their "
                 f"tolerances (depth error {errors[0]:.3g}, pressure change {errors[1]:.3g} times "
                 "what is allowed); raise stepping.depth_tolerance or pressure_tolerance"
-                + asked_of(model, state)
             )
         natural = factor * increment
     # A step cut short to meet a save says little about the next: keep the longer of the two.
@@ -281,7 +283,7 @@ def _check_window(model: Model, state: State) -> None:
         f"at {state.time:.6g} s ({state.distance:.6g} m) the contact, "
         f"{2e3 * width:.3g} × {2e3 * breadth:.3g} mm, reached the edge of the window of "
         f"{1e3 * model.grid.size[0]:.4g} × {1e3 * model.grid.size[1]:.4g} mm; make grid.size "
-        "larger (and grid.cells with it)" + asked_of(model, state)
+        "larger (and grid.cells with it)"
     )
 
 
@@ -300,6 +302,9 @@ def _noticed(model: Model, state: State) -> State:
         state = _told(state, "averaging", limitation)
     dx, dy = model.grid.spacing
     cells = min(2 * width / dx, 2 * breadth / dy)
+    lap = short_of_a_lap(model) if state.steps == 0 else None
+    if lap is not None:
+        state = replace(state, notices=(*state.notices, f"lap: {lap}"))
     if state.steps == 0 and cells < FEW_CELLS:
         text = (
             f"resolution: the first contact is only {cells:.0f} cells wide; its pressure is "

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from tribo.analysis.first_contact import HertzContact, hertz_contact
 from tribo.config.case import Output
 from tribo.config.stepping import Explicit, Implicit
+from tribo.config.usual import unusual
 from tribo.core.errors import CaseError, NumericalError
 from tribo.core.grid import Grid
 from tribo.core.measures import Measures
@@ -15,7 +16,7 @@ from tribo.core.state import State
 from tribo.results.provenance import stated_facts
 from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.calling import calling
-from tribo.simulation.doubt import too_deep
+from tribo.simulation.doubt import doubting, too_deep
 from tribo.simulation.march import FEW_CELLS, MOST_STEPS, begin, march
 from tribo.simulation.measure import measure
 from tribo.simulation.memory import memory_needed
@@ -23,6 +24,7 @@ from tribo.simulation.model import Model
 from tribo.simulation.motion import averaging_limit, path_at
 from tribo.simulation.rates import Moment
 from tribo.simulation.step import first_contact, largest_stable_increment, start_sliding
+from tribo.simulation.validity import short_of_a_lap, too_wide
 
 COARSE = 72
 MARGINS = (1.5, 1.0)
@@ -55,6 +57,8 @@ class Prediction:
         What components state of themselves, by their place in the case.
     problems : tuple of str
         What will go wrong, each with its remedy.
+    exit_code : int
+        With which `tribo run` would end: 0, or that of the error that would stop it.
     """
 
     first: Measures
@@ -67,6 +71,7 @@ class Prediction:
     file_size: float
     facts: Mapping[str, Mapping[str, str]]
     problems: tuple[str, ...]
+    exit_code: int
 
 
 @dataclass(frozen=True)
@@ -91,7 +96,8 @@ def predict(model: Model) -> Prediction:
     NumericalError
         If it cannot be solved.
     """
-    state = first_contact(model)
+    with doubting(model.case):
+        state = first_contact(model)
     first = measure(model, state)
     hertz = hertz_contact(model.system)
     dx, dy = model.grid.spacing
@@ -104,15 +110,24 @@ def predict(model: Model) -> Prediction:
     across = None
     if hertz is not None:
         across = (2 * hertz.half_width_x / dx, 2 * hertz.half_width_y / dy)
+    unstable = _unstable(model, state)
+    # In the order in which a run would come upon them.
+    stopping = [
+        (CaseError.exit_code, unstable if _stops_at_once(model) else None),
+        (NumericalError.exit_code, _unsettled(model, state)),
+        (NumericalError.exit_code, _outgrown(model, coarse) if holds is False else None),
+    ]
     problems = [
         problem
         for problem in (
+            *unusual(model.case),
             _few_cells(across or (2 * first.half_width_x / dx, 2 * first.half_width_y / dy)),
-            _unsettled(model, state),
-            _unstable(model, state),
-            _outgrown(model, coarse) if holds is False else None,
+            *(text for _, text in stopping),
+            None if _stops_at_once(model) else unstable,
+            *(too_wide(model, first) or too_wide(model, last or first)),
             *_deep(model, last),
             limitation,
+            short_of_a_lap(model),
         )
         if problem is not None
     ]
@@ -135,6 +150,7 @@ def predict(model: Model) -> Prediction:
         file_size=_file_size(model),
         facts={place: stated for place, stated in facts.items() if stated},
         problems=tuple(problems),
+        exit_code=next((code for code, text in stopping if text is not None), 0),
     )
 
 
@@ -194,6 +210,14 @@ def _unstable(model: Model, state: State) -> str | None:
         f"the largest stable step is {time * limit / increment:.4g} s at first, and less as the "
         "contact grows; or use stepping.type = 'implicit'"
     )
+
+
+def _stops_at_once(model: Model) -> bool:
+    """Whether a step that is not stable, or too short, stops a run as it begins."""
+    config = model.stepping
+    if not isinstance(config, Explicit):
+        return False
+    return not config.allow_unstable or model.end_time / config.time_step > MOST_STEPS
 
 
 def _unknown_stability(model: Model) -> str:

@@ -24,6 +24,7 @@ from tribo.results.read import Result
 from tribo.simulation.assembly import assemble
 from tribo.simulation.bodies import surface_height
 from tribo.simulation.calling import calling
+from tribo.simulation.doubt import doubting
 from tribo.simulation.effects import MissingFieldError
 from tribo.simulation.interrupt import InterruptGuard
 from tribo.simulation.march import begin, march
@@ -33,6 +34,8 @@ from tribo.simulation.motion import path_at
 from tribo.simulation.watching import Audience
 
 FAILED = "failed"
+OTHERS = (".csv", ".json", ".pdf", ".png", ".svg", ".toml", ".txt", ".xls", ".xlsx")
+"""Endings of files that are not HDF5."""
 
 
 class Simulation:
@@ -264,14 +267,16 @@ def _model(
 ) -> tuple[Model, tuple[PluginRecord, ...]]:
     """Return the model and the plugins that took part in finding its components."""
     if isinstance(case, Case) and registry is None:
-        return assemble(case), ()
+        with doubting(case):
+            return assemble(case), ()
     known = registry or default_registry()
     if isinstance(case, str | Path):
         case = load_case(case, registry=known)
     elif not isinstance(case, Case):
         case = validate_case(case, registry=known)
     try:
-        return assemble(case), known.plugins
+        with doubting(case):
+            return assemble(case), known.plugins
     except MissingFieldError as error:
         providers = known.providers(error.missing)
         if not providers:
@@ -295,6 +300,12 @@ def _checked_output(output: str | Path | None, overwrite: bool) -> Path | None:
     if output is None:
         return None
     path = Path(output)
+    if path.suffix.lower() in OTHERS:
+        raise CaseError(
+            f"{path} would be an HDF5 file, which does not end in {path.suffix}; name it "
+            f"{path.with_suffix('.h5')}, which 'tribo export' turns into CSV and 'tribo plot' into "
+            "pictures"
+        )
     # Unlike Path.exists it does not raise where a name is too long.
     if os.path.exists(path) and not overwrite:
         raise CaseError(f"{path} exists; choose another with -o, or replace it with --force")

@@ -201,6 +201,7 @@ def compare(
     observers: Observers = list,
     tell: Callable[[str], None] = lambda text: None,
     overwrite: bool = False,
+    alone: bool = False,
 ) -> Comparison:
     """Run variants of a case and set them side by side.
 
@@ -222,7 +223,7 @@ def compare(
         Which body of the others is one of the first, see `compare_files`.
     registry : Registry, optional
         Where to look components up; the installed plugins if left out.
-    observers, tell, overwrite : optional
+    observers, tell, overwrite, alone : optional
         See `tribo.study.runs.run_variants`.
 
     Returns
@@ -262,6 +263,7 @@ def compare(
         observers=observers,
         tell=tell,
         overwrite=overwrite,
+        alone=alone,
     )
     return Comparison(
         matched(dict(zip(names, results, strict=True)), match),

@@ -27,6 +27,7 @@ def run_variants(
     observers: Observers = list,
     tell: Callable[[str], None] = lambda text: None,
     overwrite: bool = False,
+    alone: bool = False,
 ) -> list[Result]:
     """Run variants one after another, each into a file of a folder.
 
@@ -47,6 +48,8 @@ def run_variants(
         Gets a line on each run before it starts.
     overwrite : bool, optional
         Whether to run all anew, whatever is in the folder.
+    alone : bool, optional
+        Whether to refuse a folder that holds results of other variants.
 
     Returns
     -------
@@ -65,11 +68,14 @@ def run_variants(
     simulations = [Simulation(variant.case, registry) for variant in variants]
     paths: list[Path | None] = [None] * len(variants)
     if folder is not None:
-        _make(folder)
         paths = [folder / name for name in file_names([variant.label for variant in variants])]
     if not overwrite:
         for path, simulation in zip(paths, simulations, strict=True):
             _check_own(path, simulation)
+        if folder is not None and alone:
+            _check_alone(folder, paths)
+    if folder is not None:
+        _make(folder)
     results = []
     for i, (variant, simulation) in enumerate(zip(variants, simulations, strict=True)):
         path, number = paths[i], f"{i + 1} of {len(variants)}, {variant.label}"
@@ -96,6 +102,17 @@ def file_names(labels: Sequence[str]) -> list[str]:
         number = sum(name == stem or name.startswith(f"{stem}~") for name in names)
         names.append(f"{stem}~{number}" if number else stem)
     return [f"{name}.h5" for name in names]
+
+
+def _check_alone(folder: Path, paths: Sequence[Path | None]) -> None:
+    """Check that a folder holds no results of other variants."""
+    others = sorted(path.name for path in folder.glob("*.h5") if path not in paths)
+    if others:
+        more = f" and {len(others) - 1} more" if len(others) > 1 else ""
+        raise CaseError(
+            f"{folder} holds another comparison, {others[0]}{more}; choose another folder with "
+            "-o, or run all anew with --force"
+        )
 
 
 def _check_own(path: Path | None, simulation: Simulation) -> None:

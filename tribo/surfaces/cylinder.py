@@ -22,7 +22,7 @@ class Cylinder(Surface):
     )
 
     type = "cylinder"
-    radius: Annotated[float, Quantity("m", above=0)]
+    radius: Annotated[float, Quantity("m", above=0, usual=(1e-9, 1.0))]
     """Radius of the cylinder."""
     axis: Literal["x", "y"] = "y"
     """Axis along which it lies; y is across the sliding direction."""

@@ -22,11 +22,11 @@ class Paraboloid(Surface):
     )
 
     type = "paraboloid"
-    radius: Annotated[float, Quantity("m", above=0)] | None = None
+    radius: Annotated[float, Quantity("m", above=0, usual=(1e-9, 1.0))] | None = None
     """Radius of curvature at the top, in every direction."""
-    radius_x: Annotated[float, Quantity("m", above=0)] | None = None
+    radius_x: Annotated[float, Quantity("m", above=0, usual=(1e-9, 1.0))] | None = None
     """Radius of curvature along x."""
-    radius_y: Annotated[float, Quantity("m", above=0)] | None = None
+    radius_y: Annotated[float, Quantity("m", above=0, usual=(1e-9, 1.0))] | None = None
     """Radius of curvature along y."""
 
     @model_validator(mode="after")

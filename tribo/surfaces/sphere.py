@@ -20,7 +20,7 @@ class Sphere(Surface):
     model_config = ConfigDict(json_schema_extra={"examples": [{"radius": "5 mm"}]})
 
     type = "sphere"
-    radius: Annotated[float, Quantity("m", above=0)]
+    radius: Annotated[float, Quantity("m", above=0, usual=(1e-9, 1.0))]
     """Radius of the ball."""
 
     def height(self, grid: Grid) -> Array:

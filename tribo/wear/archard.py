@@ -31,11 +31,11 @@ class Archard(WearLaw):
     )
 
     type = "archard"
-    k: Annotated[float, Quantity("1/Pa", at_least=0)] | None = None
+    k: Annotated[float, Quantity("1/Pa", at_least=0, usual=(1e-22, 1e-10))] | None = None
     """Specific wear rate, volume per load and sliding distance."""
-    K: Annotated[float, Quantity("1", at_least=0)] | None = None
+    K: Annotated[float, Quantity("1", at_least=0, usual=(1e-12, 1.0))] | None = None
     """Archard's dimensionless wear coefficient; k = K/H."""
-    hardness: Annotated[float, Quantity("Pa", above=0)] | None = None
+    hardness: Annotated[float, Quantity("Pa", above=0, usual=(1e4, 2e11))] | None = None
     """Hardness H for ``K``; the material's hardness if left out."""
 
     @model_validator(mode="after")

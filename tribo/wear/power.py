@@ -29,11 +29,11 @@ class Power(WearLaw):
     )
 
     type = "power"
-    k: Annotated[float, Quantity("1/Pa", at_least=0)]
+    k: Annotated[float, Quantity("1/Pa", at_least=0, usual=(1e-22, 1e-10))]
     """Specific wear rate at the reference pressure."""
     p_exponent: Annotated[float, Quantity("1", at_least=1, at_most=10)]
     """Exponent m of the pressure; 1 is Archard's law. Below 1 the slope at p = 0 is infinite."""
-    reference_pressure: Annotated[float, Quantity("Pa", above=0)]
+    reference_pressure: Annotated[float, Quantity("Pa", above=0, usual=(1e2, 1e12))]
     """Pressure at which the law equals Archard's with the same k."""
 
     def rate(self, local: LocalConditions) -> WearRate:

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, get_args
+from typing import Any
 
 from pydantic import BaseModel
 
 from tribo.config.case import Case
 from tribo.config.overrides import path_keys
+from tribo.config.usual import quantities
 from tribo.core.errors import CaseError, located
 from tribo.core.units import Quantity
 from tribo.core.words import did_you_mean, shown, suggestion
@@ -113,21 +114,13 @@ def _number(case: Case, keys: Sequence[str]) -> tuple[float, Quantity]:
             f"{'.'.join(keys)} is {_kind(value)} in this case; only a number with decimals can be "
             "fitted"
         )
-    return value, next(_marks(annotation), Quantity("1"))
+    return value, next(quantities(annotation), Quantity("1"))
 
 
 def _kind(value: object) -> str:
     if value is None:
         return "not given"
     return "a table" if isinstance(value, BaseModel) else shown(value)
-
-
-def _marks(annotation: Any) -> Iterator[Quantity]:
-    """Yield the quantities in an annotation, however it is wrapped."""
-    if isinstance(annotation, Quantity):
-        yield annotation
-    for part in annotation if isinstance(annotation, tuple) else get_args(annotation):
-        yield from _marks(part)
 
 
 def _bounded(place: str, entry: Fitted, value: float, mark: Quantity) -> Parameter:

@@ -39,7 +39,7 @@ class Arrhenius(WearLaw):
     )
 
     type = "thermal.arrhenius"
-    k: Annotated[float, Quantity("1/Pa", at_least=0)]
+    k: Annotated[float, Quantity("1/Pa", at_least=0, usual=(1e-22, 1e-10))]
     """Specific wear rate at the reference temperature."""
     activation_energy: Annotated[float, Quantity("J/mol", at_least=0)]
     """Activation energy Q, per mole."""

@@ -38,9 +38,9 @@ class Softening(WearLaw):
     )
 
     type = "thermal.softening"
-    K: Annotated[float, Quantity("1", at_least=0)]
+    K: Annotated[float, Quantity("1", at_least=0, usual=(1e-12, 1.0))]
     """Archard's dimensionless wear coefficient."""
-    hardness: Annotated[float, Quantity("Pa", above=0)] | None = None
+    hardness: Annotated[float, Quantity("Pa", above=0, usual=(1e4, 2e11))] | None = None
     """Hardness H₀ at the reference temperature; the material's hardness if left out."""
     softening: Annotated[float, Quantity("1/K", at_least=0)]
     """Part β of the hardness lost per kelvin."""

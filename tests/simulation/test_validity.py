@@ -1,0 +1,49 @@
+"""What check and the run say where a case leaves what its models hold for."""
+
+import re
+
+import pytest
+from paper_models import archard, flat, named, small, steel
+
+from tribo import Grid, Simulation, TriboWarning
+from tribo.kinematics.unidirectional import Unidirectional
+from tribo.simulation.predict import predict
+from tribo.surfaces.sphere import Sphere
+
+
+def ball(radius, load, size):
+    bodies = [
+        named("ball", Sphere(radius=radius), steel(), archard()),
+        named("disk", flat(), steel(), archard()),
+    ]
+    return small(bodies=bodies, load=load, grid=Grid((size, size), (48, 48)))
+
+
+def circle(revolutions):
+    motion = Unidirectional(speed="0.1 m/s", track_length="0.1 m", revolutions=revolutions)
+    return small(kinematics=motion)
+
+
+def wide(model):
+    return [problem for problem in predict(model).problems if "a/R" in problem]
+
+
+def test_a_contact_too_wide_for_a_half_space_is_told_with_the_number():
+    # By Hertz a/R = (3 F/(4 E* R²))^(1/3) = 0.4 with E* = 113.7 GPa.
+    (problem,) = wide(ball(1e-3, 9.7e3, 1.1e-3))
+    told = re.search(r"half-width a is ([\d.]+) of the radius R of ball, 1 mm", problem)
+    assert float(told[1]) == pytest.approx(0.4, rel=0.05)
+    assert wide(ball(1e-3, 100, 0.4e-3)) == []
+
+
+def test_a_part_of_a_lap_is_told_by_check_and_by_the_run():
+    (problem,) = predict(circle(0.1)).problems
+    assert "slides 0.01 m, 0.1 of the track of disk, which is 0.1 m long" in problem
+    with pytest.warns(TriboWarning, match="lap: the run slides 0.01 m, 0.1 of the track"):
+        result = Simulation(circle(0.1)).run()
+    assert any(notice.startswith("lap: ") for notice in result.notices)
+
+
+@pytest.mark.parametrize("revolutions", [1, 10])
+def test_a_whole_lap_is_not(revolutions):
+    assert predict(circle(revolutions)).problems == ()
