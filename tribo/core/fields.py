@@ -30,7 +30,7 @@ class Field:
 
 
 PRESSURE = Field("pressure", "Pa", "Contact pressure, positive in compression.")
-SPEED = Field("speed", "m/s", "Mean sliding speed over the step.")
+SPEED = Field("speed", "m/s", "Sliding speed.")
 FRICTION_COEFFICIENT = Field(
     "friction_coefficient", "1", "Coefficient of friction of the case, uniform."
 )
@@ -48,7 +48,8 @@ class LocalConditions:
     pressure : ndarray
         Contact pressure, in Pa.
     speed : float
-        Mean sliding speed over the step, in m/s.
+        Sliding speed, in m/s: one of those that the motion has in a cycle, or
+        its mean over the step.
     material : Material
         The body's material.
     fields : Mapping[str, ndarray]
@@ -96,7 +97,8 @@ class ContactConditions:
     pressure : ndarray, shape (nx, ny)
         Contact pressure, in Pa.
     speed : float
-        Mean sliding speed over the step, in m/s.
+        Sliding speed, in m/s: one of those that the motion has in a cycle, or
+        its mean over the step.
     time : float
         Time at the end of the step, in s.
     distance : float
