@@ -159,9 +159,9 @@ def _implicit(model: Model, config: ImplicitConfig, state: State, stop: float) -
             check_repeatable(model, state)
             raise NumericalError(
                 f"steps down to {increment:.3g} m at {state.distance:.6g} m still miss their "
-                f"tolerances (depth error {errors[0]:.3g}, pressure change {errors[1]:.3g} times "
-                "what is allowed); raise stepping.depth_tolerance or pressure_tolerance"
-                + asked_of(model, state)
+                f"tolerances (depth error {errors[0]:.3g}, pressure change {errors[1]:.3g}, volume "
+                f"error {errors[2]:.3g} times what is allowed); raise stepping.depth_tolerance or "
+                "pressure_tolerance" + asked_of(model, state)
             )
         natural = factor * increment
     # A step cut short to meet a save says little about the next: keep the longer of the two.
