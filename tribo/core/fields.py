@@ -74,9 +74,10 @@ class WearRate:
     depth : ndarray
         Depth worn away per metre of sliding, in m/m; not negative.
     derivative : ndarray
-        Total derivative of `depth` with respect to pressure, in 1/Pa: also
-        through the fields that follow the pressure. An effect whose field has
-        a slope that laws need provides it as a field of its own.
+        Derivative of `depth` in pressure, in 1/Pa, with the fields as they
+        are; through a field only if the law requires the slope of that field
+        too. Implicit steps converge by it. How long an explicit step may be is
+        found by difference, through all fields.
     state : Mapping[str, ndarray]
         Change of each state field per metre of sliding.
     """
