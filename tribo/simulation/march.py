@@ -76,6 +76,9 @@ def march(model: Model, state: State) -> Iterator[Accepted]:
     CaseError
         If a time step exceeds the stability limit.
     """
+    limit = np.inf if model.stop.depth is None else model.stop.depth
+    if _depth(model, state) >= limit:
+        return
     # Which stops are left follows from the time alone, so a resumed run sees the same.
     stops = [t for t in model.save_times if 0 < t < model.end_time]
     for stop in [*stops, model.end_time]:
@@ -83,10 +86,9 @@ def march(model: Model, state: State) -> Iterator[Accepted]:
             state = hold(model, state, _step_towards(model, state, stop))
             _check_window(model, state)
             state = _noticed(model, state)
-            limit = model.stop.depth
-            worn_out = limit is not None and _depth(model, state) >= limit
+            worn_out = _depth(model, state) >= limit
             last = worn_out or state.time >= model.end_time
-            if limit is not None and worn_out and state.time < model.end_time:
+            if worn_out and state.time < model.end_time:
                 text = (
                     f"stop: ended at {state.time:.6g} s, where the wear depth reached "
                     f"{1e6 * limit:.4g} µm"
