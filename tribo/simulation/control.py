@@ -17,7 +17,7 @@ VOLUME = 5.0
 """Error of the volume that a step wears, in depth tolerances: a body ends with 0.1 to 0.4 % too
 little at the default."""
 LATE = 0.003
-"""Part of the volume worn so far below which what a step wears need not be as exact."""
+"""Depth of a step below which its volume need not be as exact, relative to the depth worn so far."""
 SAFETY = 0.9
 SHRINK, GROW = 0.2, 2.5
 
@@ -60,10 +60,11 @@ def step_error(
         lag = np.abs(worn - forward)
         scale = float(np.max(after.bodies[name].wear)) + FIRST * after.reference_depth
         depth_error = max(depth_error, 0.5 * float(np.sum(p1 * lag)) / (load * scale))
-        first, second = float(np.sum(forward)), float(np.sum(worn))
-        own = max(0.5 * (first + second), LATE * float(np.sum(after.bodies[name].wear)))
-        if own > 0:
-            volume_error = max(volume_error, 0.5 * abs(second - first) / own)
+        own = 0.5 * (worn + forward)
+        if np.any(own > 0):
+            share = min(1.0, float(np.max(own)) / (LATE * scale))
+            missed = 0.5 * abs(float(np.sum(worn)) - float(np.sum(forward)))
+            volume_error = max(volume_error, share * missed / float(np.sum(own)))
     return (
         depth_error / config.depth_tolerance,
         pressure_error / config.pressure_tolerance,
