@@ -17,7 +17,7 @@ VOLUME = 5.0
 """Error of the volume that a step wears, in depth tolerances: a body ends with 0.1 to 0.4 % too
 little at the default."""
 LATE = 0.003
-"""Depth of a step below which its volume need not be as exact, relative to the depth worn so far."""
+"""Depth of a step, of the depth worn so far, below which its volume need not be as exact."""
 SAFETY = 0.9
 SHRINK, GROW = 0.2, 2.5
 
