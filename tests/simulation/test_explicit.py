@@ -1,9 +1,12 @@
+from typing import Literal
+
 import numpy as np
 import pytest
 from paper_models import K, archard, flat, half_space, last, motion, small, sphere, steel
 
 from tribo.config.stepping import ExplicitConfig
 from tribo.core.errors import CaseError
+from tribo.plugin import Effect, EffectConfig, Field, WearLaw, WearLawConfig, WearRate
 from tribo.simulation.model import Body
 from tribo.simulation.rates import Moment
 from tribo.simulation.run import Simulation
@@ -75,3 +78,60 @@ def test_a_time_step_that_cannot_do_is_refused_before_anything_is_written(tmp_pa
     with pytest.raises(CaseError, match=words):
         Simulation(model).run(tmp_path / "run.h5")
     assert list(tmp_path.iterdir()) == []
+
+
+class LoadConfig(EffectConfig):
+    type: Literal["test.load"] = "test.load"
+
+
+class Load(Effect[LoadConfig]):
+    """Fields that follow the pressure, at each point and over all."""
+
+    Config = LoadConfig
+    provides = tuple(Field(name, "1", "Pressure.") for name in ("here", "over_all"))
+
+    def fields(self, contact):
+        pressure = contact.pressure
+        values = {
+            "here": pressure / 1e9,
+            "over_all": np.full_like(pressure, pressure.sum() / 1e9),
+        }
+        return {name: dict.fromkeys(contact.materials, field) for name, field in values.items()}
+
+
+class HotConfig(WearLawConfig):
+    type: Literal["test.hot"] = "test.hot"
+
+
+class Hot(WearLaw[HotConfig]):
+    """k grows with a field; its derivative is the one at that field."""
+
+    Config = HotConfig
+
+    def __init__(self, field):
+        super().__init__(HotConfig())
+        self.requires = (field,)
+
+    def rate(self, local):
+        k = K * (1 + local.fields[self.requires[0]])
+        return WearRate(k * local.pressure, k)
+
+
+@pytest.mark.parametrize(
+    ("field", "steepest"),
+    [
+        ("here", lambda p: 1 + 2 * p.max() / 1e9),
+        # Under one load it does not change.
+        ("over_all", lambda p: 1 + p.sum() / 1e9),
+    ],
+)
+def test_the_limit_counts_what_comes_through_fields_that_follow_the_pressure(field, steepest):
+    bodies = [Body("ball", sphere(), steel(), Hot(field)), Body("disk", flat(), steel())]
+    stepping = ExplicitConfig(time_step="1 h")
+    model = small(bodies=bodies, effects=[Load(LoadConfig())], stepping=stepping)
+    slope = K * steepest(first_contact(model).contact.pressure)
+    limit = 2 * 0.58069 * model.grid.spacing[0] / (slope * model.system.modulus) / 0.1
+    with pytest.raises(CaseError, match="largest stable step") as caught:
+        Simulation(model).run()
+    stated = float(str(caught.value).split("stable step is ")[1].split(" s")[0])
+    assert stated == pytest.approx(limit, rel=2e-3)

@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Literal, Self
 
+import numpy as np
 from pydantic import ConfigDict, model_validator
 
 from tribo.core.grid import Grid
@@ -13,6 +14,9 @@ from tribo.core.units import Quantity
 from tribo.interfaces.exposure import Exposure
 from tribo.interfaces.kinematics import Kinematics, KinematicsConfig
 from tribo.kinematics.swept import one_swept_body
+
+PHASES = 6
+"""Speeds of a sinusoidal cycle: means of its powers up to the third are exact to 1e-6."""
 
 
 class ReciprocatingConfig(KinematicsConfig):
@@ -48,9 +52,10 @@ class ReciprocatingConfig(KinematicsConfig):
 class Reciprocating(Kinematics[ReciprocatingConfig]):
     """Stroke S at frequency f: mean speed 2 S f, one body swept over the stroke.
 
-    With ``waveform = "sinusoidal"`` the position is −(S/2) cos(2πft). The
-    track average is over positions, so the waveform changes only the path at
-    times inside a half cycle.
+    With ``waveform = "sinusoidal"`` the position is −(S/2) cos(2πft) and the
+    speed πSf |sin(2πft)|. The track average is over positions, so the waveform
+    changes only the path at times inside a half cycle, and the speeds at which
+    effects and wear laws are asked.
 
     The track average holds at mid-stroke while the contact, of half-width b
     along x, passes wholly over it: S >= 4 b.
@@ -86,6 +91,18 @@ class Reciprocating(Kinematics[ReciprocatingConfig]):
             whole = math.floor(strokes)
             strokes = whole + math.asin(math.sqrt(strokes - whole)) / (0.5 * math.pi)
         return strokes / (2 * c.frequency)
+
+    def speeds(self) -> Sequence[tuple[float, float]] | None:
+        """Return speeds of a sinusoidal cycle, at Gauss points of the phase; else None."""
+        c = self.config
+        if c.waveform == "constant_speed":
+            return None
+        nodes, weights = np.polynomial.legendre.leggauss(PHASES)
+        # From a reversal to mid-stroke; the path is as the integral of the speed over the phase.
+        sines = np.sin(0.25 * math.pi * (nodes + 1))
+        shares = weights * sines / np.sum(weights * sines)
+        largest = math.pi * c.stroke * c.frequency
+        return [(largest * float(s), float(w)) for s, w in zip(sines, shares, strict=True)]
 
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
         """Return a track as long as the stroke for the swept body."""

@@ -1,0 +1,94 @@
+"""At default tolerances the wear is right for laws of every kind."""
+
+from typing import Literal
+
+import numpy as np
+import pytest
+from paper_models import K, flat, foundation, motion, small, sphere, steel
+from strangers.running_in import RunningIn, RunningInConfig
+
+from tribo import Body, Grid, Simulation
+from tribo.config.stepping import ImplicitConfig
+from tribo.plugin import Field, WearLaw, WearLawConfig, WearRate
+from tribo.wear.power import Power, PowerConfig
+
+FINE = ImplicitConfig(depth_tolerance=2e-4, pressure_tolerance=0.02)
+
+
+class ThresholdConfig(WearLawConfig):
+    type: Literal["test.threshold"] = "test.threshold"
+
+
+class Threshold(WearLaw[ThresholdConfig]):
+    """dh/ds = k max(p − 300 MPa, 0)."""
+
+    Config = ThresholdConfig
+
+    def rate(self, local):
+        excess = np.maximum(local.pressure - 3e8, 0.0)
+        return WearRate(K * excess, K * (excess > 0))
+
+
+class FadingConfig(WearLawConfig):
+    type: Literal["test.fading"] = "test.fading"
+
+
+class Fading(WearLaw[FadingConfig]):
+    """dh/ds = k (0.1 + 0.9 m) p, with dm/ds = −m/(5 m): it keeps what `RunningIn` works out."""
+
+    Config = FadingConfig
+    state_fields = (Field("fresh", "1", "Part that has not yet run in."),)
+
+    def initial_state(self):
+        return {"fresh": 1.0}
+
+    def rate(self, local):
+        fresh = local.state["fresh"]
+        k = K * (0.1 + 0.9 * fresh)
+        return WearRate(k * local.pressure, k, {"fresh": -fresh / 5.0})
+
+
+def power(exponent):
+    return Power(PowerConfig(k=K, p_exponent=exponent, reference_pressure="1 GPa"))
+
+
+def running_in(length):
+    return RunningIn(RunningInConfig(k_first=K, k_last=0.1 * K, length=length))
+
+
+def volume(law, stepping):
+    case = small(
+        grid=Grid((0.7e-3, 0.7e-3), (32, 32)),
+        bodies=[Body("ball", sphere(), steel(), law), Body("disk", flat(), steel())],
+        contact=foundation(),
+        stepping=stepping,
+    )
+    with Simulation(case).run() as result:
+        return result.saves()[-1]["bodies"]["ball"]["wear_volume_m3"]
+
+
+@pytest.mark.parametrize("law", [power(2), Threshold(ThresholdConfig())], ids=["p^2", "threshold"])
+def test_a_law_not_linear_in_pressure_is_right_to_0_3_percent(law):
+    default, fine = volume(law, ImplicitConfig()), volume(law, FINE)
+    assert default == pytest.approx(fine, rel=3e-3, abs=0)
+
+
+@pytest.mark.parametrize(
+    ("law", "length"),
+    [(running_in(20.0), 20.0), (running_in(5.0), 5.0), (Fading(FadingConfig()), 5.0)],
+    ids=["over 20 m", "over 5 m", "its own memory"],
+)
+def test_a_law_that_runs_in_under_even_pressure_follows_its_integral(law, length):
+    side, duration = 0.4e-3, 1000.0
+    case = small(
+        grid=Grid((side, side), (8, 8)),
+        bodies=[Body("pin", flat(), steel(), law), Body("disk", flat(), steel())],
+        contact=foundation(),
+        kinematics=motion(duration=duration),
+        ends_at_window=True,
+    )
+    path = 0.1 * duration
+    needed = K * (0.1 * path + 0.9 * length * (1 - np.exp(-path / length))) * 100 / side**2
+    with Simulation(case).run() as result:
+        found = result.saves()[-1]["bodies"]["pin"]["max_wear_depth_m"]
+    assert found == pytest.approx(needed, rel=5e-3, abs=0)
