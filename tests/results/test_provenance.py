@@ -144,7 +144,7 @@ from tribo.plugin import WearLaw, WearRate
 
 
 class LinearConfig(WearLaw):
-    type: Literal["linear"] = "linear"
+    type = "linear"
 
 
 class Linear(WearLaw):

@@ -5,6 +5,7 @@ from paper_models import K, archard, flat, last, motion, named, small, sphere, s
 from tribo.config.stepping import Explicit
 from tribo.contact.dcfft import DcFft
 from tribo.core.errors import CaseError
+from tribo.plugin import Effect, Field, WearLaw, WearRate
 from tribo.simulation.rates import Moment
 from tribo.simulation.run import Simulation
 from tribo.simulation.step import first_contact, largest_stable_increment
@@ -78,3 +79,50 @@ def test_a_time_step_that_cannot_do_is_refused_before_anything_is_written(tmp_pa
     with pytest.raises(CaseError, match=words):
         Simulation(model.case).run(tmp_path / "run.h5")
     assert list(tmp_path.iterdir()) == []
+
+
+class Load(Effect):
+    """Fields that follow the pressure, at each point and over all."""
+
+    provides = tuple(Field(name, "1", "Pressure.") for name in ("here", "over_all"))
+
+    def fields(self, contact):
+        pressure = contact.pressure
+        values = {
+            "here": pressure / 1e9,
+            "over_all": np.full_like(pressure, pressure.sum() / 1e9),
+        }
+        return {name: dict.fromkeys(contact.materials, field) for name, field in values.items()}
+
+
+def hot(field):
+    """A law whose k grows with a field; its derivative is the one at that field."""
+
+    class Hot(WearLaw):
+        requires = (field,)
+
+        def rate(self, local):
+            k = K * (1 + local.fields[field])
+            return WearRate(k * local.pressure, k)
+
+    return Hot()
+
+
+@pytest.mark.parametrize(
+    ("field", "steepest"),
+    [
+        ("here", lambda p: 1 + 2 * p.max() / 1e9),
+        # Under one load it does not change.
+        ("over_all", lambda p: 1 + p.sum() / 1e9),
+    ],
+)
+def test_the_limit_counts_what_comes_through_fields_that_follow_the_pressure(field, steepest):
+    bodies = [named("ball", sphere(), steel(), hot(field)), named("disk", flat(), steel())]
+    stepping = Explicit(time_step="1 h")
+    model = small(bodies=bodies, effects=[Load()], stepping=stepping)
+    slope = K * steepest(first_contact(model).contact.pressure)
+    limit = 2 * 0.58069 * model.grid.spacing[0] / (slope * model.system.modulus) / 0.1
+    with pytest.raises(CaseError, match="largest stable step") as caught:
+        Simulation(model.case).run()
+    stated = float(str(caught.value).split("stable step is ")[1].split(" s")[0])
+    assert stated == pytest.approx(limit, rel=2e-3)

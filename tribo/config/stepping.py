@@ -22,7 +22,8 @@ class Implicit(Table):
 
     type: Literal["implicit"] = "implicit"
     depth_tolerance: Annotated[float, Quantity("1", above=0, at_most=0.1)] = 1e-3
-    """Largest local error of the wear depth in one step, relative to the depth worn so far."""
+    """Largest local error of the wear depth in one step, relative to the depth worn so far; five
+    times as much is allowed of the volume, relative to what the step wears."""
     pressure_tolerance: Annotated[float, Quantity("1", above=0, at_most=1)] = 0.05
     """Largest load-weighted relative change of pressure in one step."""
     settle: Annotated[float, Quantity("1", above=0, at_most=1)] = 0.01

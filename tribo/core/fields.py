@@ -30,7 +30,7 @@ class Field:
 
 
 PRESSURE = Field("pressure", "Pa", "Contact pressure, positive in compression.")
-SPEED = Field("speed", "m/s", "Mean sliding speed over the step.")
+SPEED = Field("speed", "m/s", "Sliding speed.")
 FRICTION_COEFFICIENT = Field(
     "friction_coefficient", "1", "Coefficient of friction of the case, uniform."
 )
@@ -48,7 +48,8 @@ class LocalConditions:
     pressure : ndarray
         Contact pressure, in Pa.
     speed : float
-        Mean sliding speed over the step, in m/s.
+        Sliding speed, in m/s: one of those that the motion has in a cycle, or
+        its mean over the step.
     material : Material
         The body's material.
     fields : Mapping[str, ndarray]
@@ -73,9 +74,10 @@ class WearRate:
     depth : ndarray
         Depth worn away per metre of sliding, in m/m; not negative.
     derivative : ndarray
-        Total derivative of `depth` with respect to pressure, in 1/Pa: also
-        through the fields that follow the pressure. An effect whose field has
-        a slope that laws need provides it as a field of its own.
+        Derivative of `depth` in pressure, in 1/Pa, with the fields as they
+        are; through a field only if the law requires the slope of that field
+        too. Implicit steps converge by it. How long an explicit step may be is
+        found by difference, through all fields.
     state : Mapping[str, ndarray]
         Change of each state field per metre of sliding.
     """
@@ -96,7 +98,8 @@ class ContactConditions:
     pressure : ndarray, shape (nx, ny)
         Contact pressure, in Pa.
     speed : float
-        Mean sliding speed over the step, in m/s.
+        Sliding speed, in m/s: one of those that the motion has in a cycle, or
+        its mean over the step.
     time : float
         Time at the end of the step, in s.
     distance : float

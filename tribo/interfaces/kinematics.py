@@ -34,6 +34,20 @@ class Kinematics(Component):
                 return high
             low, high = (middle, high) if self.distance_at(middle) < distance else (low, middle)
 
+    def speeds(self) -> Sequence[tuple[float, float]] | None:
+        """Return the sliding speeds of a cycle, each with its share of the path.
+
+        Effects and wear laws are asked at each of these speeds, and their rates
+        averaged over the path, however long a step is.
+
+        Returns
+        -------
+        sequence of (float, float) or None
+            Speeds in m/s, and shares that add up to 1. None, unless overridden:
+            then they are asked at the mean speed over each step.
+        """
+        return None
+
     @abstractmethod
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
         """Return how each body, by name, meets the contact.

@@ -32,7 +32,7 @@ class WearLaw(Component):
 
     @abstractmethod
     def rate(self, local: LocalConditions) -> WearRate:
-        """Return depth per metre of sliding and its derivative in pressure.
+        """Return depth per metre of sliding and its derivative in pressure, at fixed fields.
 
         Parameters
         ----------

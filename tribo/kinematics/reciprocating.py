@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Literal, Self
 
+import numpy as np
 from pydantic import ConfigDict, model_validator
 
 from tribo.core.grid import Grid
@@ -14,13 +15,17 @@ from tribo.interfaces.exposure import Exposure
 from tribo.interfaces.kinematics import Kinematics
 from tribo.kinematics.swept import one_swept_body
 
+PHASES = 6
+"""Speeds of a sinusoidal cycle: means of its powers up to the third are exact to 1e-6."""
+
 
 class Reciprocating(Kinematics):
     """Stroke S at frequency f: mean speed 2 S f, one body swept over the stroke.
 
-    With ``waveform = "sinusoidal"`` the position is −(S/2) cos(2πft). The
-    track average is over positions, so the waveform changes only the path at
-    times inside a half cycle.
+    With ``waveform = "sinusoidal"`` the position is −(S/2) cos(2πft) and the
+    speed πSf |sin(2πft)|. The track average is over positions, so the waveform
+    changes only the path at times inside a half cycle, and the speeds at which
+    effects and wear laws are asked.
 
     The track average holds at mid-stroke while the contact, of half-width b
     along x, passes wholly over it: S >= 4 b.
@@ -77,6 +82,17 @@ class Reciprocating(Kinematics):
             whole = math.floor(strokes)
             strokes = whole + math.asin(math.sqrt(strokes - whole)) / (0.5 * math.pi)
         return strokes / (2 * self.frequency)
+
+    def speeds(self) -> Sequence[tuple[float, float]] | None:
+        """Return speeds of a sinusoidal cycle, at Gauss points of the phase; else None."""
+        if self.waveform == "constant_speed":
+            return None
+        nodes, weights = np.polynomial.legendre.leggauss(PHASES)
+        # From a reversal to mid-stroke; the path is as the integral of the speed over the phase.
+        sines = np.sin(0.25 * math.pi * (nodes + 1))
+        shares = weights * sines / np.sum(weights * sines)
+        largest = math.pi * self.stroke * self.frequency
+        return [(largest * float(s), float(w)) for s, w in zip(sines, shares, strict=True)]
 
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
         """Return a track as long as the stroke for the swept body."""

@@ -119,6 +119,7 @@ class ResultWriter:
         self._open(SealedWriter(self._path), "r+")
         self._file.attrs["status"] = "running"
         _truncate(self._file, state.saves, state.steps + 1)
+        self.note(state.notices)
         _record_change(self._file, run.provenance)
 
     def case(self) -> dict[str, object]:

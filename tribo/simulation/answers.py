@@ -14,6 +14,14 @@ from tribo.core.arrays import Array
 from tribo.core.errors import PluginError
 
 
+class BadValues(PluginError):
+    """An answer of the right form with values that cannot be: not finite, or negative.
+
+    A state that a step only tries may be one that a model was not made for, and
+    a shorter step then does; the same answer at an accepted state is a fault.
+    """
+
+
 def number(who: object, what: str, value: object) -> float:
     """Return `value` as a finite float.
 
@@ -57,6 +65,8 @@ def field(
 
     Raises
     ------
+    BadValues
+        If they are not finite.
     PluginError
         If they are anything else.
     """
@@ -74,7 +84,7 @@ def field(
     # Both are NaN if any value is.
     if not -np.inf < low <= high < np.inf:
         bad = np.count_nonzero(~np.isfinite(array))
-        raise PluginError(f"{who} gave {what} that is not finite in {bad} cells{when}")
+        raise BadValues(f"{who} gave {what} that is not finite in {bad} cells{when}")
     return array, low, high
 
 

@@ -11,6 +11,7 @@ from tribo.config.stepping import Explicit, Implicit
 from tribo.core.errors import CaseError, NumericalError, PluginError
 from tribo.core.measures import Invariants, half_widths, reaches_border
 from tribo.core.state import State
+from tribo.simulation.answers import BadValues
 from tribo.simulation.calling import named
 from tribo.simulation.control import SHRINK, first_increment, fitted, next_factor, step_error
 from tribo.simulation.doubt import doubting
@@ -18,6 +19,7 @@ from tribo.simulation.invariants import chattering_words, chatters, hold
 from tribo.simulation.model import Model
 from tribo.simulation.motion import averaging_limit, path_at, time_at
 from tribo.simulation.rates import Moment
+from tribo.simulation.repeated import check_repeatable
 from tribo.simulation.step import (
     StepRejected,
     explicit_step,
@@ -33,8 +35,6 @@ FEW_CELLS = 8
 MAX_REJECTIONS = 40
 # Of the path until the next stop: a shorter step would drown in rounding.
 SMALLEST = 1e-12
-# Of the time until it: so near a reversal, a sine slides less than that.
-MOMENT = 1e-7
 MOST_STEPS = 1e8
 DEPTH_ACCURACY = 1e-6
 STABILITY = "stability"
@@ -78,6 +78,9 @@ def march(model: Model, state: State) -> Iterator[Accepted]:
     CaseError
         If a time step exceeds the stability limit.
     """
+    limit = np.inf if model.stop.depth is None else model.stop.depth
+    if _depth(model, state) >= limit:
+        return
     # Which stops are left follows from the time alone, so a resumed run sees the same.
     stops = [t for t in model.case.output.save_times if 0 < t < model.end_time]
     for stop in [*stops, model.end_time]:
@@ -86,10 +89,9 @@ def march(model: Model, state: State) -> Iterator[Accepted]:
                 state = hold(model, state, _step_towards(model, state, stop))
                 _check_window(model, state)
             state = _noticed(model, state)
-            limit = model.stop.depth
-            worn_out = limit is not None and _depth(model, state) >= limit
+            worn_out = _depth(model, state) >= limit
             last = worn_out or state.time >= model.end_time
-            if limit is not None and worn_out and state.time < model.end_time:
+            if worn_out and state.time < model.end_time:
                 text = (
                     f"stop: ended at {state.time:.6g} s, where the wear depth reached "
                     f"{1e6 * limit:.4g} µm"
@@ -104,25 +106,31 @@ def march(model: Model, state: State) -> Iterator[Accepted]:
 
 
 def _step_towards(model: Model, state: State, stop: float) -> State:
-    if _rests(model, state, stop):
-        return replace(state, time=stop, steps=state.steps + 1, invariants=Invariants())
+    config = model.stepping
+    time = stop if isinstance(config, Implicit) else _next_time(config, state, stop)
+    if _rests(model, state, time):
+        return replace(state, time=time, steps=state.steps + 1, invariants=Invariants())
     state = start_sliding(model, state)
-    if isinstance(model.stepping, Explicit):
-        return _explicit(model, model.stepping, state, stop)
-    return _implicit(model, model.stepping, state, stop)
+    if isinstance(config, Explicit):
+        return _explicit(model, config, state, time)
+    return _implicit(model, config, state, stop)
 
 
-def _rests(model: Model, state: State, stop: float) -> bool:
-    """Whether the path until a stop that is a moment away is lost in rounding."""
-    if stop - state.time > MOMENT * stop:
-        return False
-    return abs(path_at(model.kinematics, stop) - state.distance) <= SMALLEST * state.distance
+def _rests(model: Model, state: State, time: float) -> bool:
+    """Whether the motion rests until a later time, but for rounding."""
+    # A path that has turned back by then has gone on before.
+    return all(
+        abs(path_at(model.kinematics, t) - state.distance) <= SMALLEST * state.distance
+        for t in (time, 0.5 * (state.time + time))
+    )
 
 
-def _explicit(model: Model, config: Explicit, state: State, stop: float) -> State:
+def _next_time(config: Explicit, state: State, stop: float) -> float:
     time = state.time + config.time_step
-    if stop - time < 1e-6 * config.time_step:
-        time = stop
+    return stop if stop - time < 1e-6 * config.time_step else time
+
+
+def _explicit(model: Model, config: Explicit, state: State, time: float) -> State:
     increment = _path_until(model, state, time) - state.distance
     moment = Moment(time, state.distance + increment, increment / (time - state.time))
     state = _held_stable(model, config, rated(model, state, moment), moment)
@@ -144,16 +152,21 @@ def _implicit(model: Model, config: Implicit, state: State, stop: float) -> Stat
             factor = next_factor(*errors)
             if max(errors) <= 1:
                 break
-        except StepRejected as error:
+        except (StepRejected, BadValues) as error:
+            check_repeatable(model, state)
             factor = SHRINK
             if rejected == MAX_REJECTIONS or factor * increment < SMALLEST * target:
+                if isinstance(error, BadValues):
+                    raise
                 raise NumericalError(str(error)) from error
         rejected += 1
         if rejected > MAX_REJECTIONS or factor * increment < SMALLEST * target:
+            check_repeatable(model, state)
             raise NumericalError(
                 f"steps down to {increment:.3g} m at {state.distance:.6g} m still miss their "
-                f"tolerances (depth error {errors[0]:.3g}, pressure change {errors[1]:.3g} times "
-                "what is allowed); raise stepping.depth_tolerance or pressure_tolerance"
+                f"tolerances (depth error {errors[0]:.3g}, pressure change {errors[1]:.3g}, volume "
+                f"error {errors[2]:.3g} times what is allowed); raise stepping.depth_tolerance or "
+                "pressure_tolerance"
             )
         natural = factor * increment
     # A step cut short to meet a save says little about the next: keep the longer of the two.
@@ -234,6 +247,8 @@ def _check_time_step(model: Model, config: Explicit, state: State) -> None:
             "make it longer, or use stepping.type = 'implicit'",
             "stepping.time_step",
         )
+    if _rests(model, state, config.time_step):
+        return
     increment = _path_until(model, state, config.time_step)
     moment = Moment(config.time_step, increment, increment / config.time_step)
     _held_stable(model, config, state, moment)

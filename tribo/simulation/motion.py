@@ -16,6 +16,7 @@ Motion = Kinematics
 
 SAMPLES = 8
 INVERSE = 1e-6
+WHOLE = 1e-9
 
 
 def exposures(motion: Motion, grid: Grid, bodies: Sequence[str]) -> dict[str, Exposure]:
@@ -64,6 +65,26 @@ def time_at(motion: Motion, distance: float) -> float:
     with calling(motion):
         answer = motion.time_at(distance)
     return number(named(motion), f"a time at {distance:g} m", answer)
+
+
+def cycle_speeds(motion: Motion) -> list[tuple[float, float]] | None:
+    """Return the speeds of a cycle (m/s) with their shares of the path, if the motion has any."""
+    with calling(motion):
+        answer = motion.speeds()
+        if answer is None:
+            return None
+        pairs = [(speed, share) for speed, share in answer]
+    who = named(motion)
+    speeds = [
+        (number(who, "a speed of a cycle", speed), number(who, "a share of the path", share))
+        for speed, share in pairs
+    ]
+    if min((min(pair) for pair in speeds), default=-1.0) < 0:
+        raise PluginError(f"{who} gave speeds of a cycle with their shares that are none: {speeds}")
+    total = sum(share for _, share in speeds)
+    if abs(total - 1) > WHOLE:
+        raise PluginError(f"{who} gave shares of the path that add up to {total:g}, not to 1")
+    return speeds
 
 
 def averaging_limit(motion: Motion, grid: Grid, half_width_x: float) -> str | None:

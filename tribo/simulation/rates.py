@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,16 +14,20 @@ from tribo.core.errors import PluginError
 from tribo.core.fields import FRICTION_COEFFICIENT, ContactConditions, LocalConditions, WearRate
 from tribo.core.state import State
 from tribo.interfaces.wear import WearLaw
-from tribo.simulation.answers import spread
+from tribo.simulation.answers import BadValues, spread
 from tribo.simulation.calling import calling, named
 from tribo.simulation.model import Model
+from tribo.simulation.motion import cycle_speeds
 
 Law = WearLaw
 
 
 @dataclass(frozen=True)
 class Moment:
-    """When rates are asked for: end of the step (s, m) and its mean speed (m/s)."""
+    """When rates are asked for: end of the step (s, m) and its mean speed (m/s).
+
+    The speed is told where the motion does not state those of its cycle.
+    """
 
     time: float
     distance: float
@@ -49,7 +53,7 @@ def law_states(state: State) -> LawStates:
 def wear_rates(
     model: Model, contact: ContactSolution, law_states: LawStates, moment: Moment
 ) -> dict[str, WearRate]:
-    """Return the rate of every body that wears, in the contact frame.
+    """Return the rate of every body that wears, in the contact frame: the mean over a cycle.
 
     Parameters
     ----------
@@ -64,13 +68,41 @@ def wear_rates(
 
     Raises
     ------
+    BadValues
+        If an effect or a law answers with values that are not finite, or a law
+        with a depth that is negative.
     PluginError
-        If an effect or a law answers with anything but finite arrays of the
-        right shape, or a law with a depth that is negative, or not 0 where
-        the pressure is.
+        If one answers with anything else but arrays of the right shape, or a
+        law with a depth that is not 0 where the pressure is.
     """
+    speeds = cycle_speeds(model.kinematics)
+    if speeds is None:
+        return _rates_at(model, contact, law_states, moment)
+    rates: dict[str, WearRate] = {}
+    for speed, share in speeds:
+        at_speed = _rates_at(model, contact, law_states, replace(moment, speed=speed))
+        for name, rate in at_speed.items():
+            part = _times(share, rate)
+            rates[name] = _sum(rates[name], part) if name in rates else part
+    return rates
+
+
+def _times(share: float, rate: WearRate) -> WearRate:
+    state = {name: share * values for name, values in rate.state.items()}
+    return WearRate(share * rate.depth, share * rate.derivative, state)
+
+
+def _sum(one: WearRate, other: WearRate) -> WearRate:
+    state = {name: values + other.state[name] for name, values in one.state.items()}
+    return WearRate(one.depth + other.depth, one.derivative + other.derivative, state)
+
+
+def _rates_at(
+    model: Model, contact: ContactSolution, law_states: LawStates, moment: Moment
+) -> dict[str, WearRate]:
+    """Return what `wear_rates` does, at the speed of `moment`."""
     pressure = readonly(contact.pressure)
-    fields = _effect_fields(model, pressure, moment)
+    fields = effect_fields(model, pressure, moment)
     everywhere = whole(model.grid.cells)
     near = around_region(contact.extent, model.grid.cells, MARGIN)
     rates = {}
@@ -99,7 +131,8 @@ def wear_rates(
     return rates
 
 
-def _effect_fields(model: Model, pressure: Array, moment: Moment) -> dict[str, dict[str, Array]]:
+def effect_fields(model: Model, pressure: Array, moment: Moment) -> dict[str, dict[str, Array]]:
+    """Return what the effects and the case provide, by field and body; as `wear_rates` raises."""
     shape = pressure.shape
     fields: dict[str, dict[str, Array]] = {}
     if model.friction_coefficient is not None:
@@ -142,7 +175,7 @@ def _checked(who: object, law: Law, rate: object, pressure: Array, moment: Momen
     depth, least, _ = spread(who, "a depth per metre", rate.depth, shape, when)
     slope, flattest, _ = spread(who, "a derivative", rate.derivative, shape, when)
     if least < 0:
-        raise PluginError(
+        raise BadValues(
             f"{who} gave a negative depth per metre ({least:.3g}){when}; wear only removes"
         )
     bare = np.count_nonzero((depth != 0) & (pressure == 0))

@@ -43,8 +43,8 @@ class Simulation:
 
     Parameters
     ----------
-    case : Case, Mapping, str or Path
-        A case, one as plain data, or a TOML file.
+    case : Case, Mapping, str, Path or Model
+        A case, one as plain data, a TOML file, or a case that is assembled.
     registry : Registry, optional
         Where to look classes up; the installed plugins if left out.
 
@@ -61,7 +61,7 @@ class Simulation:
 
     def __init__(
         self,
-        case: Case | Mapping[str, Any] | str | Path,
+        case: Case | Mapping[str, Any] | str | Path | Model,
         registry: Registry | None = None,
     ) -> None:
         self.model, self._plugins = _model(case, registry)
@@ -263,9 +263,11 @@ class Simulation:
 
 
 def _model(
-    case: Case | Mapping[str, Any] | str | Path, registry: Registry | None
+    case: Case | Mapping[str, Any] | str | Path | Model, registry: Registry | None
 ) -> tuple[Model, tuple[PluginRecord, ...]]:
     """Return the model and the plugins that took part in finding its components."""
+    if isinstance(case, Model):
+        return case, ()
     if isinstance(case, Case) and registry is None:
         with doubting(case):
             return assemble(case), ()

@@ -22,6 +22,8 @@ from tribo.simulation.solving import smallest_compliance, solve
 # Each pass is one warm solve; a groove in a much softer body takes over a thousand.
 SETTLE_PASSES = 5000
 SETTLED = 1e-6
+NUDGE = 1e-4
+"""Part of the pressure by which it is varied to find what a wear rate makes of it."""
 
 
 class StepRejected(NumericalError):
@@ -211,19 +213,49 @@ def largest_stable_increment(model: Model, state: State, moment: Moment) -> floa
 
     Δs λ < 2, with λ bounded from above by the largest derivative of the wear
     rate (local, plus that of a swept body times the part of the track that is
-    in contact) over the smallest compliance. None where the contact solver
+    in contact) over the smallest compliance. The derivative is that of the
+    law, or what is found by difference, if more: only so does it hold what
+    comes through fields that follow the pressure. None where the contact solver
     does not state its smallest compliance; infinity where nothing wears.
     """
     smallest = smallest_compliance(model.contact, model.system)
     if smallest is None:
         return None
     pressure, near = state.contact.pressure, state.contact.extent
-    compliance = _compliance(model, rated(model, state, moment).rates, pressure, 1.0)
+    rates = rated(model, state, moment).rates
+    compliance = _compliance(model, _steepened(model, state, rates, moment), pressure, 1.0)
     touching = pressure[near] > 0
     length = np.count_nonzero(touching, axis=0) * model.grid.spacing[0]
     local = float(np.max(compliance.local[near], where=touching, initial=0.0))
     slope = local + float((compliance.swept[near[1]] * length).max())
     return 2 * smallest / slope if slope > 0 else np.inf
+
+
+def _steepened(
+    model: Model, state: State, rates: Mapping[str, WearRate], moment: Moment
+) -> Mapping[str, WearRate]:
+    """Return `rates` with the derivative in all, where laws follow the fields of effects.
+
+    The pressure is varied in stripes, up and down from row to row: the mode
+    that grows first, under the same load.
+    """
+    following = [
+        name for name, body in model.bodies.items() if body.wear is not None and body.wear.requires
+    ]
+    if not model.effects or not following:
+        return rates
+    pressure = state.contact.pressure
+    stripes = NUDGE * pressure
+    stripes[:, ::2] *= -1
+    nudged = replace(state.contact, pressure=pressure + stripes)
+    others = wear_rates(model, nudged, law_states(state), moment)
+    steeper = dict(rates)
+    for name in following:
+        change = others[name].depth - rates[name].depth
+        slope = np.divide(change, stripes, out=np.zeros_like(change), where=stripes != 0)
+        derivative = np.maximum(rates[name].derivative, slope)
+        steeper[name] = replace(rates[name], derivative=derivative)
+    return steeper
 
 
 def start_sliding(model: Model, state: State) -> State:

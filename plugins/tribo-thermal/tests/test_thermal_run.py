@@ -35,29 +35,47 @@ def test_bodies_that_share_a_temperature_lose_the_same_volume():
     assert volumes["ball"] == pytest.approx(volumes["disk"], rel=1e-9, abs=0)
 
 
-def test_a_warm_contact_wears_faster_than_archard():
-    # More than k F s, by what Arrhenius makes of the rise at the end, when it is least.
-    data = case()
-    result = Simulation(data).run()
+def faster(data, save):
+    """By what Arrhenius multiplies the rate at a save, for the ball."""
+    with Simulation(data).run() as result:
+        pressure = result.pressure(save)
     model = Simulation(data).model
-    friction = np.full(model.grid.cells, 0.1)
-    end = ContactConditions(
+    conditions = ContactConditions(
         grid=model.grid,
-        pressure=result.pressure(-1),
+        pressure=pressure,
         speed=0.1,
         time=300.0,
         distance=30.0,
         friction_coefficient=0.1,
         materials={name: body.material for name, body in model.bodies.items()},
         swept=frozenset({"disk"}),
-        fields={"friction_coefficient": {"ball": friction}},
+        fields={"friction_coefficient": {"ball": np.full(model.grid.cells, 0.1)}},
     )
     paths = {"ball": {"length": "5 mm", "area": "78.5 mm^2"}}
-    rise = Flash(ambient="90 degC", heat_paths=paths).rises(end)["ball"]
-    least = math.exp(50e3 / 8.314462618 * (1 / 363.15 - 1 / (363.15 + rise)))
-    archard = 3.11e-16 * 100 * 30
-    ratio = result.saves()[-1]["bodies"]["ball"]["wear_volume_m3"] / archard
+    rise = Flash(ambient="90 degC", heat_paths=paths).rises(conditions)["ball"]
+    return math.exp(50e3 / 8.314462618 * (1 / 363.15 - 1 / (363.15 + rise)))
+
+
+def test_a_warm_contact_wears_faster_than_archard():
+    # More than k F s, by what Arrhenius makes of the rise at the end, when it is least.
+    least = faster(case(), -1)
+    ratio = lost(case())["ball"] / (3.11e-16 * 100 * 30)
     assert 1 < least < ratio < least**2
+
+
+def largest_step(energy):
+    """The longest stable explicit step at first, in s."""
+    data = case(energy)
+    data["stepping"] = {"type": "explicit", "time_step": "300 s"}
+    with pytest.raises(CaseError, match="largest stable step") as refused:
+        Simulation(data).run()
+    return float(str(refused.value).split("stable step is ")[1].split(" s")[0])
+
+
+def test_one_temperature_shortens_the_stable_step_as_it_raises_the_rate():
+    # It follows the load and the size of the contact, not single cells.
+    ratio = largest_step("0 J/mol") / largest_step("50 kJ/mol")
+    assert ratio == pytest.approx(faster(case(), 0), rel=2e-3)
 
 
 def test_without_activation_energy_it_is_archard():

@@ -1,0 +1,56 @@
+"""A motion may stand still for a while, and a save may fall into that."""
+
+import numpy as np
+import pytest
+from paper_models import motion, small
+
+from tribo import Simulation
+from tribo.config.stepping import Explicit, Implicit
+from tribo.kinematics.unidirectional import Unidirectional
+
+
+class Pauses(Unidirectional):
+    """Rests from `begin` to `end`, in s."""
+
+    type = "test.pauses"
+    begin: float = 4.0
+    end: float = 9.0
+
+    def distance_at(self, time):
+        resting = np.clip(time - self.begin, 0.0, self.end - self.begin)
+        return super().distance_at(time - float(resting))
+
+    def time_at(self, distance):
+        time = super().time_at(distance)
+        return time if time <= self.begin else time + self.end - self.begin
+
+
+def pauses(begin=4.0, end=9.0, duration=15.0):
+    return Pauses(speed=0.1, track_length="2 mm", begin=begin, end=end, duration=duration)
+
+
+STEPPINGS = [Implicit(), Explicit(time_step="1.5 s")]
+
+
+@pytest.mark.parametrize("stepping", STEPPINGS, ids=["implicit", "explicit"])
+def test_a_save_in_a_rest_is_made_and_the_run_goes_on(stepping):
+    case = small(kinematics=pauses(), save_times=(4, 5, 7.5), stepping=stepping)
+    with Simulation(case).run() as result:
+        assert list(result.times) == [0, 4, 5, 7.5, 15]
+        np.testing.assert_allclose(result.distances, [0, 0.4, 0.4, 0.4, 1.0], rtol=1e-12)
+        wear = result.body("ball").wear_depth
+        np.testing.assert_array_equal(wear[1], wear[2])
+        np.testing.assert_array_equal(wear[1], wear[3])
+        assert wear[4].max() > wear[3].max()
+
+
+@pytest.mark.parametrize("stepping", STEPPINGS, ids=["implicit", "explicit"])
+@pytest.mark.parametrize("rest", [(0.0, 5.0), (10.0, 30.0)], ids=["first", "last"])
+def test_a_motion_may_begin_or_end_at_rest(rest, stepping):
+    begin, end = rest
+    case = small(kinematics=pauses(begin, end), save_times=(2, 12), stepping=stepping)
+    plain = small(kinematics=motion(stroke="2 mm", frequency=25, duration=10), stepping=stepping)
+    with Simulation(case).run() as rested, Simulation(plain).run() as steady:
+        worn = [r.saves()[-1]["bodies"]["ball"]["wear_volume_m3"] for r in (rested, steady)]
+        assert rested.times[-1] == 15
+    assert worn[0] == pytest.approx(worn[1], rel=1e-9, abs=0)

@@ -1,0 +1,49 @@
+"""A run that could not be written for a while ends, once resumed, as if nothing had happened."""
+
+import errno
+
+import numpy as np
+import pytest
+from paper_models import motion, small
+
+from tribo import Grid, Result, Simulation, TriboError
+from tribo.config.stop import Stop
+from tribo.results.store import ResultWriter
+
+
+def model(**changes):
+    # A stroke so short that the run gives a notice.
+    kinematics = motion(stroke="0.7 mm", frequency=71, duration=60)
+    grid = Grid((0.7e-3, 0.7e-3), (32, 32))
+    return small(grid=grid, kinematics=kinematics, save_times=(5, 20), **changes)
+
+
+def told(path):
+    with Result.open(path) as result:
+        fields = [result.pressure(i) for i in range(len(result.times))]
+        return result.status, list(result.notices), list(result.times), fields
+
+
+@pytest.mark.filterwarnings("ignore::tribo.TriboWarning")
+@pytest.mark.parametrize(
+    ("stop", "failing"), [(None, 1), (None, 2), (None, 4), ("1 um", 2), ("1 um", 3)]
+)
+def test_resumed_it_equals_an_undisturbed_run(tmp_path, monkeypatch, stop, failing):
+    changes = {} if stop is None else {"stop": Stop(depth=stop)}
+    Simulation(model(**changes).case).run(tmp_path / "whole.h5").close()
+    path = tmp_path / "broken.h5"
+    write, saves = ResultWriter.append_save, []
+
+    def full(writer, snapshot):
+        saves.append(snapshot)
+        if len(saves) == failing:
+            raise OSError(errno.ENOSPC, "No space left on device")
+        write(writer, snapshot)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(ResultWriter, "append_save", full)
+        with pytest.raises(TriboError, match="No space left"):
+            Simulation(model(**changes).case).run(path)
+    Simulation(model(**changes).case).resume(path).close()
+    for found, needed in zip(told(path), told(tmp_path / "whole.h5"), strict=True):
+        np.testing.assert_equal(found, needed)

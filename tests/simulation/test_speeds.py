@@ -1,0 +1,112 @@
+"""A law that follows the speed is averaged over the speeds of a cycle, whatever the step."""
+
+import math
+
+import numpy as np
+import pytest
+from paper_models import K, flat, foundation, motion, named, small, sphere, steel
+
+from tribo import Grid, Simulation
+from tribo.config.stepping import Explicit
+from tribo.core.errors import PluginError
+from tribo.kinematics.reciprocating import Reciprocating
+from tribo.plugin import Effect, Field, WearLaw, WearRate
+
+SINE = {"waveform": "sinusoidal"}
+MEAN = 2 * 2e-3 * 25
+# The mean of v over the path of a sine, with v = π S f sin φ and ds ~ sin φ dφ.
+OVER_PATH = math.pi / 4 * math.pi * 2e-3 * 25
+
+
+class Fast(WearLaw):
+    """dh/ds = k p v/v_mean."""
+
+    type = "test.fast"
+
+    def rate(self, local):
+        k = np.full_like(local.pressure, K * local.speed / MEAN)
+        return WearRate(k * local.pressure, k)
+
+
+class Warmth(Effect):
+    type = "test.warmth"
+
+    provides = (Field("warmth", "m/s", "As warm as it is fast."),)
+
+    def fields(self, contact):
+        return {"warmth": dict.fromkeys(contact.materials, np.full((1, 1), contact.speed))}
+
+
+class Warm(WearLaw):
+    type = "test.warm"
+
+    requires = ("warmth",)
+
+    def rate(self, local):
+        k = K * local.fields["warmth"] / MEAN
+        return WearRate(k * local.pressure, k)
+
+
+def lost(kinematics, law=None, **changes):
+    bodies = [
+        named("ball", sphere(), steel(), law or Fast()),
+        named("disk", flat(), steel()),
+    ]
+    grid = Grid((0.7e-3, 0.7e-3), (32, 32))
+    model = small(grid=grid, bodies=bodies, contact=foundation(), kinematics=kinematics, **changes)
+    with Simulation(model.case).run() as result:
+        return result.saves()[-1]["bodies"]["ball"]["wear_volume_m3"]
+
+
+@pytest.mark.parametrize("time_step", ["0.002 s", "0.013 s", "0.2 s"])
+def test_short_and_long_steps_wear_the_closed_form(time_step):
+    found = lost(motion(duration=0.4, **SINE), stepping=Explicit(time_step=time_step))
+    needed = K * 100 * MEAN * 0.4 * OVER_PATH / MEAN
+    assert found == pytest.approx(needed, rel=1e-5, abs=0)
+
+
+def test_an_effect_is_asked_at_the_same_speeds():
+    found = lost(motion(duration=2, **SINE), Warm(), effects=[Warmth()])
+    assert found == pytest.approx(lost(motion(duration=2, **SINE)), rel=1e-9, abs=0)
+
+
+def test_constant_speed_is_its_own_mean():
+    assert lost(motion(duration=2)) == pytest.approx(K * 100 * MEAN * 2, rel=1e-9, abs=0)
+
+
+def test_the_mean_pace_of_the_speeds_is_that_of_the_path():
+    # A cycle takes Σ share/v per metre.
+    pace = sum(share / speed for speed, share in motion(**SINE).speeds())
+    assert pace == pytest.approx(1 / MEAN, rel=1e-9)
+
+
+class Silent(Reciprocating):
+    """A motion that states no speeds."""
+
+    def speeds(self):
+        return None
+
+
+def test_a_motion_that_states_no_speeds_has_the_mean_over_the_step():
+    whole_cycles = motion(duration=0.4, **SINE)
+    found = lost(Silent(whole_cycles.config), stepping=Explicit(time_step="0.04 s"))
+    assert found == pytest.approx(K * 100 * MEAN * 0.4, rel=1e-9, abs=0)
+
+
+@pytest.mark.parametrize(
+    ("speeds", "words"),
+    [
+        ([(0.1, 0.5)], "add up to 0.5, not to 1"),
+        ([(-0.1, 1.0)], "speeds of a cycle"),
+        ([], "speeds of a cycle"),
+        ([("fast", 1.0)], "not a finite number"),
+        (7, "TypeError"),
+    ],
+)
+def test_speeds_that_cannot_be_are_refused(speeds, words):
+    class Wrong(Reciprocating):
+        def speeds(self):
+            return speeds
+
+    with pytest.raises(PluginError, match=f"kinematics 'reciprocating'.*{words}"):
+        lost(Wrong(motion(duration=2).config))

@@ -1,0 +1,144 @@
+"""A model that cannot answer at a state that a step only tries costs the step, not the run."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from paper_models import K, archard, flat, foundation, motion, named, small, sphere, steel
+from pydantic import PrivateAttr
+
+from tribo import Grid, Simulation
+from tribo.core.errors import PluginError
+from tribo.plugin import Effect, Field, WearLaw, WearRate
+
+
+class Once(WearLaw):
+    """Archard's law, but for one answer at one pressure that is never met again."""
+
+    type = "test.once"
+
+    spoil: Callable
+    _at: object = None
+    _calls: int = 0
+
+    def rate(self, local):
+        k = np.full_like(local.pressure, K)
+        depth = k * local.pressure
+        self._calls += 1
+        if self._calls == 8:
+            self._at = local.pressure.copy()
+        if np.array_equal(local.pressure, self._at):
+            depth = self.spoil(depth)
+        return WearRate(depth, k)
+
+
+class Heat(Effect):
+    type = "test.heat"
+
+    provides = (Field("heat", "1", "Not finite at the first trial."),)
+
+    _seen: list = PrivateAttr(default_factory=list)
+
+    def fields(self, contact):
+        if not any(np.array_equal(contact.pressure, p) for p in self._seen):
+            self._seen.append(contact.pressure.copy())
+        first_trial = len(self._seen) > 1 and np.array_equal(contact.pressure, self._seen[1])
+        heat = np.full((1, 1), np.inf if first_trial else 1.0)
+        return {"heat": dict.fromkeys(contact.materials, heat)}
+
+
+class Heated(WearLaw):
+    type = "test.heated"
+
+    requires = ("heat",)
+
+    def rate(self, local):
+        k = K * local.fields["heat"]
+        return WearRate(k * local.pressure, k)
+
+
+def model(law, **changes):
+    bodies = [named("ball", sphere(), steel(), law), named("disk", flat(), steel())]
+    return small(
+        grid=Grid((0.7e-3, 0.7e-3), (32, 32)),
+        bodies=bodies,
+        contact=foundation(),
+        kinematics=motion(duration=20),
+        **changes,
+    )
+
+
+def lost(case):
+    with Simulation(case).run() as result:
+        assert result.status == "done"
+        return result.saves()[-1]["bodies"]["ball"]["wear_volume_m3"]
+
+
+@pytest.mark.parametrize("spoil", [np.negative, lambda depth: depth * np.nan])
+def test_one_bad_answer_of_a_law_is_a_shorter_step(spoil):
+    assert lost(model(Once(spoil=spoil))) == pytest.approx(lost(model(archard())), rel=1e-9, abs=0)
+
+
+def test_one_bad_answer_of_an_effect_is_a_shorter_step():
+    case = model(Heated(), effects=[Heat()])
+    assert lost(case) == pytest.approx(lost(model(archard())), rel=1e-9, abs=0)
+
+
+class Worn(WearLaw):
+    """Archard's law, negative once a point has slid a metre."""
+
+    type = "test.worn"
+
+    state_fields = (Field("slid", "m", "Path slid."),)
+
+    def rate(self, local):
+        k = np.where(local.state["slid"] > 1, -K, K)
+        return WearRate(k * local.pressure, np.abs(k), {"slid": np.ones_like(k)})
+
+
+def test_a_law_that_is_bad_from_a_state_on_ends_the_run_there_by_name(tmp_path):
+    with pytest.raises(PluginError, match=r"wear law 'test\.worn' .* negative depth .* at 1 m"):
+        Simulation(model(Worn())).run(tmp_path / "run.h5")
+
+
+class Fickle(WearLaw):
+    """Archard's law, times what `change` makes of the number of calls so far."""
+
+    type = "test.fickle"
+
+    change: Callable
+    _calls: int = 0
+
+    def rate(self, local):
+        self._calls += 1
+        k = np.full_like(local.pressure, K * self.change(self._calls))
+        return WearRate(k * local.pressure, k)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [lambda n: 1 + 0.1 * np.sin(n * n), lambda n: 1 + n / 10, lambda n: 1 + 1e-4 * (n % 3)],
+    ids=["random", "counts", "nearly the same"],
+)
+def test_a_law_whose_answer_changes_is_named_with_the_check_that_shows_it(change):
+    words = r"wear law 'test\.fickle' of body 'ball' .*tribo plugins check test\.fickle"
+    with pytest.raises(PluginError, match=words):
+        Simulation(model(Fickle(change=change))).run()
+
+
+class Restless(Effect):
+    type = "test.restless"
+
+    provides = (Field("heat", "1", "Another one at each call."),)
+    _calls: int = 0
+
+    def fields(self, contact):
+        self._calls += 1
+        heat = np.full((1, 1), 1 + 0.1 * np.sin(self._calls**2))
+        return {"heat": dict.fromkeys(contact.materials, heat)}
+
+
+def test_an_effect_whose_answer_changes_is_named_before_the_law():
+    case = model(Heated(), effects=[Restless()])
+    with pytest.raises(PluginError, match=r"effect 'test\.restless' .*tribo plugins check"):
+        Simulation(case).run()
