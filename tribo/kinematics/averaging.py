@@ -4,8 +4,13 @@ from __future__ import annotations
 
 import math
 
+from scipy.optimize import brentq
+
 NOTICED = 0.03
 """Excess from which on a run says so."""
+
+FAR = 100.0
+"""Half-widths of a stroke that is never too short."""
 
 
 def groove_excess(stroke: float, half_width: float, depth: float, approach: float) -> float:
@@ -15,8 +20,9 @@ def groove_excess(stroke: float, half_width: float, depth: float, approach: floa
     passes over mid-stroke, but the average spreads all of its wear over the stroke: the share that
     passes is that of Hertz's pressure. And once the groove is deeper than the elastic approach, the
     ball meets a shallower groove near the ends of the stroke and wears to fit all positions: fitted
-    to runs of a moving contact with strokes of 4 to 20 half-widths, grooves of 0.4 to 10 times the
-    approach, and flats that wear a tenth to ten times as fast as the ball. It is good to a half.
+    to runs of a moving contact with strokes of 4 to 20 half-widths and grooves of 0.4 to 10 times
+    the approach, where both bodies wear alike. A flat that wears ten times faster, or slower, has
+    down to half of it.
 
     Parameters
     ----------
@@ -54,20 +60,14 @@ def excess_words(stroke: float, half_width: float, depth: float, approach: float
     def longer(widths: float) -> float:
         # A longer stroke spreads the same wear: its groove is shallower.
         other = widths * half_width
-        return groove_excess(other, half_width, depth * stroke / other, approach)
+        return groove_excess(other, half_width, depth * stroke / other, approach) - NOTICED
 
     widths = stroke / half_width
-    remedy = ", ".join(
-        f"{many} half-widths ({1e3 * many * half_width:.3g} mm) about {100 * longer(many):.2g} %"
-        for many in (10, 20)
-        if widths < many
-    )
+    enough = float(brentq(longer, widths, FAR, rtol=1e-3))
+    many = f"{100 * excess:.2g} %" if excess < 1 else f"{1 + excess:.2g} times"
     return (
         f"the stroke of {1e3 * stroke:.3g} mm is {widths:.2g} half-widths of the contact, which is "
         f"{2e3 * half_width:.3g} mm long: the average over the stroke makes the groove about "
-        f"{_by(excess)} too deep at mid-stroke" + (f"; a stroke of {remedy}" if remedy else "")
+        f"{many} too deep at mid-stroke; about 3 % with a stroke of {enough:.2g} half-widths, "
+        f"{1e3 * enough * half_width:.2g} mm"
     )
-
-
-def _by(excess: float) -> str:
-    return f"{100 * excess:.2g} %" if excess < 1 else f"{1 + excess:.2g} times"
