@@ -40,7 +40,7 @@ APPROACH = 4.4e-6
 HERTZ = 148.8e-6
 
 WIDTHS = (4, 6, 10, 20)
-SHORT = (3, 2, 1, 0.3)
+SHORT = (3, 2, 1, 0.25)
 
 
 def compared(
@@ -130,7 +130,12 @@ def grooves(cells: int, passes: int) -> Iterator[Row]:
                     1e12,
                 )
                 row = compared(grid, widths * cells, K, ratio * K, load, path, passes)
-                yield {"flat_over_ball": ratio, "deep": over, **row}
+                yield {
+                    "flat_over_ball": ratio,
+                    "deep": over,
+                    "asked_half_widths": widths,
+                    **row,
+                }
 
 
 def short_strokes(cells: int, passes: int) -> Iterator[Row]:
@@ -139,7 +144,8 @@ def short_strokes(cells: int, passes: int) -> Iterator[Row]:
     many = 4 * cells
     grid = Grid((many * dx, many * dx), (many, many))
     for widths in SHORT:
-        yield compared(grid, round(widths * cells), K, K, LOAD, 0.3, passes)
+        row = compared(grid, max(1, round(widths * cells)), K, K, LOAD, 0.3, passes)
+        yield {"asked_half_widths": widths, **row}
 
 
 def _options(parser: argparse.ArgumentParser) -> None:

@@ -31,8 +31,7 @@ def test_the_papers_hours_are_as_far_off_as_stated(row):
     "row", [row for row in TABLES["grooves"] if row["flat_over_ball"] == 1], ids=str
 )
 def test_deep_grooves_are_as_far_off_as_stated(row):
-    # The runs themselves are good to about half a percent of the depth.
-    assert row["estimate_percent"] == pytest.approx(row["too_deep_percent"], rel=0.2, abs=1.0)
+    assert row["estimate_percent"] == pytest.approx(row["too_deep_percent"], abs=1.0)
 
 
 def test_ten_half_widths_cost_three_percent_and_twenty_half_of_that_or_less():
@@ -51,7 +50,7 @@ def test_the_papers_end_is_said_with_a_number_and_a_remedy():
     said = stroke().track_limitation(GRID, 0.5e-3, 8.05e-6, 4.4e-6)
     assert "4 half-widths" in said
     assert "18 % too deep" in said
-    assert "about 3 % with a stroke of 9.8 half-widths, 4.9 mm" in said
+    assert "about 3 % with a stroke of 9.7 half-widths, 4.9 mm" in said
 
 
 def test_a_groove_far_shallower_than_the_approach_is_not_limited():

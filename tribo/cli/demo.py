@@ -7,9 +7,9 @@ from pathlib import Path
 import click
 
 AVERAGE = """\
-This is the paper's model: it averages the disk's wear over the stroke. A contact
-followed along the stroke leaves a groove of 6.9 µm, so that the average's is 17 %
-too deep; docs/paper.md says what else that changes."""
+This is the paper's model: it averages the disk's wear over the stroke. If the
+contact is followed along its stroke, the groove is 6.8 µm deep: the average's is
+18 % too deep. docs/paper.md ("What the average costs") says what else that changes."""
 
 
 @click.command()

@@ -6,8 +6,11 @@ import math
 
 from scipy.optimize import brentq
 
-NOTICED = 0.03
+NOTICED = 0.05
 """Excess from which on a run says so."""
+
+GOOD = 0.03
+"""Excess that the remedy leads to."""
 
 FAR = 100.0
 """Half-widths of a stroke that is never too short."""
@@ -21,8 +24,8 @@ def groove_excess(stroke: float, half_width: float, depth: float, approach: floa
     passes is that of Hertz's pressure. And once the groove is deeper than the elastic approach, the
     ball meets a shallower groove near the ends of the stroke and wears to fit all positions: fitted
     to runs of a moving contact with strokes of 4 to 20 half-widths and grooves of 0.4 to 10 times
-    the approach, where both bodies wear alike. A flat that wears ten times faster, or slower, has
-    down to half of it.
+    the approach. Where both bodies wear alike it is within a point of them. A flat that wears ten
+    times faster has less, down to a third.
 
     Parameters
     ----------
@@ -52,7 +55,7 @@ def groove_excess(stroke: float, half_width: float, depth: float, approach: floa
 
 
 def excess_words(stroke: float, half_width: float, depth: float, approach: float) -> str | None:
-    """Return a sentence on `groove_excess`, or None while it is below 3 %."""
+    """Return a sentence on `groove_excess`, or None while it is below 5 %."""
     excess = groove_excess(stroke, half_width, depth, approach)
     if excess < NOTICED:
         return None
@@ -60,7 +63,7 @@ def excess_words(stroke: float, half_width: float, depth: float, approach: float
     def longer(widths: float) -> float:
         # A longer stroke spreads the same wear: its groove is shallower.
         other = widths * half_width
-        return groove_excess(other, half_width, depth * stroke / other, approach) - NOTICED
+        return groove_excess(other, half_width, depth * stroke / other, approach) - GOOD
 
     widths = stroke / half_width
     enough = float(brentq(longer, widths, FAR, rtol=1e-3))

@@ -56,9 +56,9 @@ class Reciprocating(Kinematics[ReciprocatingConfig]):
     track average is over positions, so the waveform changes only the path at
     times inside a half cycle.
 
-    The track average is the paper's model. Against a contact that is moved along the stroke it
-    makes a groove of the depth of the elastic approach some 3 % too deep at mid-stroke where S is
-    10 half-widths of the contact, and deeper grooves twice as much; 4 half-widths cost 12 to 24 %.
+    The track average is the paper's model, and makes a groove too deep at mid-stroke. One as deep
+    as the elastic approach is 4 % too deep where S is 10 half-widths of the contact and 12 % where
+    it is 4; one several times deeper, twice as much (see `tribo.kinematics.averaging`).
     """
 
     Config = ReciprocatingConfig
@@ -103,7 +103,7 @@ class Reciprocating(Kinematics[ReciprocatingConfig]):
     def track_limitation(
         self, grid: Grid, half_width_x: float, depth: float, approach: float
     ) -> str | None:
-        """Return what the stroke average costs, once that is more than 3 % of the depth."""
+        """Return what the stroke average costs, once that is more than 5 % of the depth."""
         return excess_words(self.config.stroke, half_width_x, depth, approach)
 
     def check_contact(self, half_width_x: float) -> None:
