@@ -53,6 +53,11 @@ def test_the_papers_end_is_said_with_a_number_and_a_remedy():
     assert "about 3 % with a stroke of 9.7 half-widths, 4.9 mm" in said
 
 
+def test_a_stroke_of_a_fraction_of_the_contact_is_several_times_too_deep():
+    said = stroke("1 nm", allow_short_stroke=True).track_limitation(GRID, 0.15e-3, 0.0, 0.0)
+    assert "several times too deep" in said
+
+
 def test_a_groove_far_shallower_than_the_approach_is_not_limited():
     assert stroke().track_limitation(GRID, 0.5e-3, 0.3e-6, 4.4e-6) is None
     assert "% too deep" in stroke().limitation(GRID, 0.5e-3)

@@ -47,7 +47,9 @@ def groove_excess(stroke: float, half_width: float, depth: float, approach: floa
     ----------
     The runs: ``benchmarks/moving_contact.py``.
     """
-    deep = 1.0 if math.isinf(depth) else depth**1.5 / (depth**1.5 + 1.25 * approach**1.5)
+    deep = 0.0
+    if depth > 0:
+        deep = 1 / (1 + 1.25 * (max(approach, 0.0) / depth) ** 1.5)
     reach = min(1.0, stroke / (2 * half_width))
     passing = (math.asin(reach) + reach * math.sqrt(1 - reach**2)) / (math.pi / 2)
     excess = 1.5 * math.pow(half_width / stroke, 1.25) * deep
@@ -67,10 +69,11 @@ def excess_words(stroke: float, half_width: float, depth: float, approach: float
 
     widths = stroke / half_width
     enough = float(brentq(longer, widths, FAR, rtol=1e-3))
-    many = f"{100 * excess:.2g} %" if excess < 1 else f"{1 + excess:.2g} times"
+    # Beyond twice it is outside of what the formula was fitted to.
+    much = f"about {100 * excess:.2g} %" if excess < 1 else "several times"
     return (
         f"the stroke of {1e3 * stroke:.3g} mm is {widths:.2g} half-widths of the contact, which is "
-        f"{2e3 * half_width:.3g} mm long: the average over the stroke makes the groove about "
-        f"{many} too deep at mid-stroke; about 3 % with a stroke of {enough:.2g} half-widths, "
+        f"{2e3 * half_width:.3g} mm long: the average over the stroke makes the groove "
+        f"{much} too deep at mid-stroke; about 3 % with a stroke of {enough:.2g} half-widths, "
         f"{1e3 * enough * half_width:.2g} mm"
     )

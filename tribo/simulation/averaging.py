@@ -20,17 +20,16 @@ def limitation(model: Model, state: State) -> str | None:
     """Return why the track average does not hold in `state`, if so."""
     changing = _changing(model)
     half_width = half_widths(state.contact, model.grid)[0]
-    # A contact all over the period that repeats has no ends.
-    endless = model.contact.periodic and 2 * half_width > model.grid.size[0] * (1 - 1e-9)
-    if endless or not changing:
-        return None
-    return averaging_limit(
+    words = averaging_limit(
         model.kinematics,
         model.grid,
         half_width,
-        max(float(np.max(state.bodies[name].wear)) for name in changing),
+        max((float(np.max(state.bodies[name].wear)) for name in changing), default=0.0),
         state.reference_depth,
     )
+    # A contact all over the period that repeats has no ends.
+    endless = model.contact.periodic and 2 * half_width > model.grid.size[0] * (1 - 1e-9)
+    return words if changing and not endless else None
 
 
 def _changing(model: Model) -> list[str]:
