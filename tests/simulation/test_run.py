@@ -14,6 +14,7 @@ from paper_models import K, archard, flat, motion, small, sphere, states, steel
 from tribo import Body, CaseError, Grid, Interrupted, NumericalError, Result, Simulation
 from tribo.config.stepping import ExplicitConfig, ImplicitConfig
 from tribo.config.stop import StopConfig
+from tribo.contact.periodic import Periodic, PeriodicConfig
 from tribo.core.errors import OutputError, TriboWarning
 from tribo.interfaces.component import Component
 from tribo.interfaces.observer import Observer, ObserverConfig
@@ -210,17 +211,27 @@ def test_a_body_that_ends_at_the_window_wears_evenly():
     np.testing.assert_allclose(state.bodies["pin"].wear, K * 100 / 1e-6 * 20, rtol=1e-9)
 
 
-def test_few_cells_and_a_short_stroke_are_warned_of_once():
+def test_few_cells_are_warned_of_once_and_a_short_stroke_again_at_the_end():
     model = small(
         grid=Grid((0.7e-3, 0.7e-3), (14, 14)), kinematics=motion(stroke="0.6 mm", frequency=50)
     )
     with pytest.warns(TriboWarning) as caught:
         result = Simulation(model).run()
     texts = [str(w.message) for w in caught if issubclass(w.category, TriboWarning)]
-    assert len(texts) == 2
-    assert "cells wide" in texts[0]
-    assert "stroke" in texts[1]
+    coarse, begins, ends = texts
+    assert "cells wide" in coarse
+    assert begins.startswith("averaging: at ")
+    assert ends.startswith("averaging: at 200 s")
     assert result.notices == tuple(texts)
+
+
+def test_a_contact_that_fills_its_period_has_no_stroke_that_is_too_short():
+    model = small(
+        bodies=[Body("pin", flat(), steel(), archard()), Body("disk", flat(), steel(), archard())],
+        contact=Periodic(PeriodicConfig()),
+        kinematics=motion(stroke="0.7 mm", duration=1),
+    )
+    assert states(model)[-1].notices == ()
 
 
 def test_a_model_made_of_objects_describes_the_case_that_makes_it():
