@@ -135,8 +135,8 @@ class WeighedSplit:
     along, across : float
         Scar diameters, in m.
     stroke_needed : float
-        Stroke at which the average over the track holds at mid-stroke, twice
-        the scar's length, in m.
+        Stroke of ten half-widths, for which the average over it makes the groove
+        some percent too deep at mid-stroke, in m.
     """
 
     worn: BallOnTrack
@@ -226,7 +226,7 @@ def weighed_split() -> WeighedSplit:
     k = wear_coefficients()
     worn = predict((DURATION,), k.ball, k.disk)
     along = 2.0 * float(worn.half_width_along[0])
-    return WeighedSplit(worn, along, 2.0 * float(worn.half_width_across[0]), 2.0 * along)
+    return WeighedSplit(worn, along, 2.0 * float(worn.half_width_across[0]), 5.0 * along)
 
 
 def predictions() -> BallOnTrack:
@@ -324,7 +324,7 @@ def _scar_text() -> str:
                 f"{1e6 * split.worn.flat_depth[0]:.2f} µm; the paper shows about 10 µm",
             ),
             (
-                "  stroke for the track average",
+                "  stroke of ten half-widths",
                 f"{1e3 * split.stroke_needed:.1f} mm; the paper has {1e3 * STROKE:.0f} mm",
             ),
         ],

@@ -135,3 +135,12 @@ def test_the_efficiency_of_a_sweep_is_measured():
     assert (found["runs"], found["jobs"]) == (2, 2)
     assert found["efficiency"] == found["speedup"] / 2 > 0
     assert 0 < found["inside_runs"] < 1
+
+
+def test_moving_contact(tmp_path):
+    options = ("--cells", "16", "--half-width", "2", "--passes", "1")
+    tables = figures("moving_contact", tmp_path, *options)
+    assert list(tables) == ["paper", "grooves", "short strokes, worn little"]
+    assert [len(rows) for rows in tables.values()] == [2, 24, 4]
+    for rows in tables.values():
+        assert all(row["groove_average_um"] > 0 for row in rows)

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -122,16 +123,17 @@ def test_every_template_is_valid_and_predicted(tmp_path, name):
     for words in ("Hertz half-widths", "p0/H", "cells across", "window", "memory", "result file"):
         assert words in done.stdout
     assert "holds it" in done.stdout
-    assert ("stroke averaging" in done.stdout) == (name == "weighed_split")
+    assert ("average over the stroke" in done.stdout) == (name != "pin_on_disk")
 
 
 def test_check_begins_with_its_verdict(tmp_path):
     tribo("new", "ball_on_disk", "my.toml", cwd=tmp_path)
-    done = tribo("check", "my.toml", cwd=tmp_path)
+    long = ["--set", "kinematics.stroke=20 mm", "--set", "kinematics.frequency=2.5"]
+    done = tribo("check", "my.toml", *long, cwd=tmp_path)
     assert done.stdout.startswith("my.toml is valid.\n")
     # As the report of the run words it.
     assert "94 % of the pressure at which the softer body first yields" in done.stdout
-    small = ["--set", "grid.size=0.9 mm", "--set", "grid.cells=64"]
+    small = [*long, "--set", "grid.size=0.9 mm", "--set", "grid.cells=64"]
     done = tribo("check", "my.toml", *small, cwd=tmp_path)
     assert done.returncode == 3
     assert done.stderr == "error: a run of my.toml would stop on its way\n"
@@ -160,6 +162,30 @@ def test_check_ends_with_the_exit_code_of_the_run(tmp_path, settings, code):
     done = tribo("check", "my.toml", *options, cwd=tmp_path)
     assert done.returncode == tribo("run", "my.toml", *options, cwd=tmp_path).returncode == code
     assert done.stdout.startswith("my.toml is valid")
+
+
+def test_check_predicts_what_the_stroke_average_costs_and_the_run_ends_with(tmp_path):
+    tribo("new", "ball_on_disk", "my.toml", cwd=tmp_path)
+    coarse = ["--set", "grid.size=1.3 mm", "--set", "grid.cells=48"]
+    (problem,) = json.loads(tribo("check", "my.toml", *coarse, "--json", cwd=tmp_path).stdout)[
+        "problems"
+    ]
+    ran = tribo("run", "my.toml", *coarse, cwd=tmp_path).stderr.splitlines()
+    end = [line for line in ran if "averaging: at 3600 s" in line]
+    foreseen, found = (re.search(r"about (\d+) % too deep", text)[1] for text in (problem, *end))
+    assert int(foreseen) == pytest.approx(17.7, abs=1.5)
+    assert int(found) == pytest.approx(17.7, abs=1.5)
+
+
+@pytest.mark.parametrize("command", ["check", "run"])
+def test_a_stroke_under_one_half_width_is_refused_unless_asked_for(tmp_path, command):
+    (tmp_path / "case.toml").write_text(CASE)
+    short = ["--set", "kinematics.stroke=0.1 mm"]
+    done = tribo(command, "case.toml", *short, cwd=tmp_path)
+    assert done.returncode == 2
+    assert "error: kinematics.stroke: 0.1 mm is shorter than the half-width" in done.stderr
+    allowed = ["--set", "kinematics.allow_short_stroke=true"]
+    assert tribo(command, "case.toml", *short, *allowed, cwd=tmp_path).returncode == 0
 
 
 @pytest.mark.parametrize("name", list(TEMPLATES))

@@ -78,15 +78,6 @@ def test_an_unknown_swept_body_is_refused():
         reciprocating(swept="bal").exposures(GRID, ["ball", "disk"])
 
 
-def test_full_stroke_averaging_holds_up_to_a_quarter_of_the_stroke():
-    motion = reciprocating()
-    cell = GRID.spacing[0]
-    assert motion.limitation(GRID, 0.5e-3 + 0.9 * cell) is None
-    message = motion.limitation(GRID, 0.5e-3 + 1.1 * cell)
-    assert "1.22 mm long" in message
-    assert "2 mm" in message
-
-
 def test_a_disk_track_is_a_circumference():
     motion = Unidirectional(Unidirectional(speed="0.1 m/s", track_radius="16 mm", revolutions=10))
     assert motion.lap == pytest.approx(2 * math.pi * 16e-3)

@@ -14,6 +14,7 @@ from paper_models import K, archard, case, flat, motion, named, small, sphere, s
 from tribo import CaseError, Grid, Interrupted, NumericalError, Result, Simulation
 from tribo.config.stepping import Explicit, Implicit
 from tribo.config.stop import Stop
+from tribo.contact.periodic import Periodic
 from tribo.core.errors import OutputError, TriboWarning
 from tribo.interfaces.component import Component
 from tribo.interfaces.observer import Observer
@@ -208,17 +209,30 @@ def test_a_body_that_ends_at_the_window_wears_evenly():
     np.testing.assert_allclose(state.bodies["pin"].wear, K * 100 / 1e-6 * 20, rtol=1e-9)
 
 
-def test_few_cells_and_a_short_stroke_are_warned_of_once():
+def test_few_cells_are_warned_of_once_and_a_short_stroke_again_at_the_end():
     model = small(
         grid=Grid((0.7e-3, 0.7e-3), (14, 14)), kinematics=motion(stroke="0.6 mm", frequency=50)
     )
     with pytest.warns(TriboWarning) as caught:
         result = Simulation(model.case).run()
     texts = [str(w.message) for w in caught if issubclass(w.category, TriboWarning)]
-    assert len(texts) == 2
-    assert "cells wide" in texts[0]
-    assert "stroke" in texts[1]
+    coarse, begins, ends = texts
+    assert "cells wide" in coarse
+    assert begins.startswith("averaging: at ")
+    assert ends.startswith("averaging: at 200 s")
     assert result.notices == tuple(texts)
+
+
+def test_a_contact_that_fills_its_period_has_no_stroke_that_is_too_short():
+    model = small(
+        bodies=[
+            named("pin", flat(), steel(), archard()),
+            named("disk", flat(), steel(), archard()),
+        ],
+        contact=Periodic(),
+        kinematics=motion(stroke="0.7 mm", duration=1),
+    )
+    assert states(model)[-1].notices == ()
 
 
 def test_a_model_made_of_objects_describes_the_case_that_makes_it():

@@ -6,6 +6,11 @@ from pathlib import Path
 
 import click
 
+AVERAGE = """\
+This is the paper's model: it averages the disk's wear over the stroke. If the
+contact is followed along its stroke, the groove is 6.8 µm deep: the average's is
+18 % too deep. docs/paper.md ("What the average costs") says what else that changes."""
+
 
 @click.command()
 @click.option(
@@ -45,6 +50,7 @@ def demo(directory: Path, force: bool) -> None:
     simulation = Simulation(load_case(case))
     with simulation.run(output, observers=[Progress()], overwrite=force) as result:
         print_report(result)
+        click.echo(AVERAGE)
         pictures = save_figures(result, directory)
     click.echo(f"Case, result and {len(pictures)} pictures are in {directory}/:")
     for path in (case, output, *pictures):

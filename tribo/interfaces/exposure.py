@@ -112,9 +112,9 @@ class Track(Exposure):
     window: equation 5 of Andersson, Almqvist & Larsson with N = L. Fields on
     the body have shape (1, ny).
 
-    Valid where every point of the track sees the whole contact pass: a stroke
-    of at least four half-widths of the contact for its mid-track, where the
-    contact reverses inside the track.
+    Valid on a closed track. Where the contact reverses inside the track it is
+    an approximation, too deep at mid-track (see
+    `tribo.kinematics.averaging.groove_excess`).
 
     Parameters
     ----------

@@ -76,3 +76,24 @@ class Kinematics(Component):
             Half the extent of the contact along x, in m.
         """
         return None
+
+    def track_limitation(
+        self, grid: Grid, half_width_x: float, depth: float, approach: float
+    ) -> str | None:
+        """Return why the averaging does not hold for a track worn so deep; `limitation` if left.
+
+        Parameters
+        ----------
+        grid : Grid
+            The window.
+        half_width_x : float
+            Half the extent of the contact along x, in m.
+        depth : float
+            Largest worn depth of a swept body, in m.
+        approach : float
+            Elastic approach of the first contact, in m.
+        """
+        return self.limitation(grid, half_width_x)
+
+    def check_contact(self, half_width_x: float) -> None:
+        """Raise `CaseError` if a first contact of this half-width makes the averaging absurd."""

@@ -8,6 +8,7 @@ from typing import Annotated, Self
 
 from pydantic import ConfigDict, model_validator
 
+from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.core.units import Quantity
 from tribo.interfaces.exposure import Exposure
@@ -43,6 +44,8 @@ class Unidirectional(Kinematics):
     """How far it slides."""
     swept: str | None = None
     """Name of the body whose points pass through the contact; the last body if left out."""
+    allow_short_track: bool = False
+    """Whether a track shorter than the first contact's half-width is accepted."""
 
     @model_validator(mode="after")
     def _one_track_and_end(self) -> Self:
@@ -88,5 +91,18 @@ class Unidirectional(Kinematics):
             return None
         return (
             f"the contact is {2e3 * half_width_x:.3g} mm long, longer than the track of "
-            f"{1e3 * self.lap:.3g} mm: the track average no longer holds"
+            f"{1e3 * self.lap:.3g} mm: it would meet itself, and the track average no "
+            "longer holds"
+        )
+
+    def check_contact(self, half_width_x: float) -> None:
+        """Refuse a track that is shorter than the half-width, unless the case allows it."""
+        if self.lap >= half_width_x or self.allow_short_track:
+            return
+        given = "track_length" if self.track_length is not None else "track_radius"
+        raise CaseError(
+            f"the track is {1e3 * self.lap:.3g} mm long, less than the half-width of the "
+            f"first contact, {1e3 * half_width_x:.3g} mm: give one of at least the contact's "
+            f"length, {2e3 * half_width_x:.3g} mm, or set kinematics.allow_short_track = true",
+            f"kinematics.{given}",
         )

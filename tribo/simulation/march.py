@@ -12,12 +12,13 @@ from tribo.core.errors import CaseError, NumericalError, PluginError
 from tribo.core.measures import Invariants, half_widths, reaches_border
 from tribo.core.state import State
 from tribo.simulation.answers import BadValues
+from tribo.simulation.averaging import check_stroke, limitation
 from tribo.simulation.calling import named
 from tribo.simulation.control import SHRINK, first_increment, fitted, next_factor, step_error
 from tribo.simulation.doubt import doubting
 from tribo.simulation.invariants import chattering_words, chatters, hold
 from tribo.simulation.model import Model
-from tribo.simulation.motion import averaging_limit, path_at, time_at
+from tribo.simulation.motion import path_at, time_at
 from tribo.simulation.rates import Moment
 from tribo.simulation.repeated import check_repeatable
 from tribo.simulation.step import (
@@ -38,6 +39,7 @@ SMALLEST = 1e-12
 MOST_STEPS = 1e8
 DEPTH_ACCURACY = 1e-6
 STABILITY = "stability"
+AVERAGING = "averaging"
 
 
 @dataclass(frozen=True)
@@ -55,13 +57,14 @@ def begin(model: Model) -> State:
     Raises
     ------
     CaseError
-        If the contact does not fit the window, or a fixed time step is not
-        stable or would never come to an end.
+        If the contact does not fit the window or is too long for the stroke, or
+        a fixed time step is not stable or would never come to an end.
     NumericalError
         If the contact cannot be solved.
     """
     with doubting(model.case):
         state = hold(model, None, first_contact(model))
+        check_stroke(model, state)
         if isinstance(model.stepping, Explicit):
             _check_time_step(model, model.stepping, state)
     return _noticed(model, replace(state, saves=1))
@@ -91,6 +94,8 @@ def march(model: Model, state: State) -> Iterator[Accepted]:
             state = _noticed(model, state)
             worn_out = _depth(model, state) >= limit
             last = worn_out or state.time >= model.end_time
+            if last:
+                state = _concluded(model, state)
             if worn_out and state.time < model.end_time:
                 text = (
                     f"stop: ended at {state.time:.6g} s, where the wear depth reached "
@@ -302,19 +307,13 @@ def _check_window(model: Model, state: State) -> None:
     )
 
 
-def _track_changes(model: Model) -> bool:
-    return any(
-        model.is_swept(name) and (body.wear or model.plastic_share[name] > 0)
-        for name, body in model.bodies.items()
-    )
-
-
 def _noticed(model: Model, state: State) -> State:
     """Add to the state the warnings that are due and were not given before."""
     width, breadth = half_widths(state.contact, model.grid)
-    limitation = averaging_limit(model.kinematics, model.grid, width)
-    if limitation is not None and _track_changes(model):
-        state = _told(state, "averaging", limitation)
+    if not _is_told(state, AVERAGING):
+        words = limitation(model, state)
+        if words is not None:
+            state = _told(state, AVERAGING, words)
     dx, dy = model.grid.spacing
     cells = min(2 * width / dx, 2 * breadth / dy)
     lap = short_of_a_lap(model) if state.steps == 0 else None
@@ -331,12 +330,23 @@ def _noticed(model: Model, state: State) -> State:
     return state
 
 
+def _concluded(model: Model, state: State) -> State:
+    """Add what the averaging has come to by the end, unless that was just said."""
+    words = limitation(model, state)
+    if words is None or any(notice.endswith(words) for notice in state.notices):
+        return state
+    return replace(state, notices=(*state.notices, _sentence(state, AVERAGING, words)))
+
+
 def _told(state: State, kind: str, words: str) -> State:
     """Return `state` with a warning of what begins here, unless it has one of that kind."""
     if _is_told(state, kind):
         return state
-    text = f"{kind}: at {state.time:.6g} s ({state.distance:.6g} m) {words}"
-    return replace(state, notices=(*state.notices, text))
+    return replace(state, notices=(*state.notices, _sentence(state, kind, words)))
+
+
+def _sentence(state: State, kind: str, words: str) -> str:
+    return f"{kind}: at {state.time:.6g} s ({state.distance:.6g} m) {words}"
 
 
 def _is_told(state: State, kind: str) -> bool:

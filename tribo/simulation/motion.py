@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from tribo.core.errors import PluginError
+from tribo.core.errors import PluginError, located
 from tribo.core.grid import Grid
 from tribo.interfaces.exposure import Exposure
 from tribo.interfaces.kinematics import Kinematics
@@ -87,13 +87,21 @@ def cycle_speeds(motion: Motion) -> list[tuple[float, float]] | None:
     return speeds
 
 
-def averaging_limit(motion: Motion, grid: Grid, half_width_x: float) -> str | None:
+def averaging_limit(
+    motion: Motion, grid: Grid, half_width_x: float, depth: float, approach: float
+) -> str | None:
     """Return why the motion's averaging no longer holds, if so."""
     with calling(motion):
-        answer = motion.limitation(grid, half_width_x)
+        answer = motion.track_limitation(grid, half_width_x, depth, approach)
     if not isinstance(answer, str | None):
         raise PluginError(f"{named(motion)} gave a {type(answer).__name__} as its limitation")
     return answer
+
+
+def check_first_contact(motion: Motion, half_width_x: float) -> None:
+    """Raise `CaseError` if the motion's averaging makes no sense for the first contact."""
+    with located("kinematics"), calling(motion):
+        motion.check_contact(half_width_x)
 
 
 def check_path(motion: Motion, end: float) -> None:

@@ -15,13 +15,14 @@ from tribo.core.measures import Measures
 from tribo.core.state import State
 from tribo.results.provenance import stated_facts
 from tribo.simulation.assembly import assemble, varied
+from tribo.simulation.averaging import check_stroke, limitation
 from tribo.simulation.calling import calling
 from tribo.simulation.doubt import doubting, too_deep
 from tribo.simulation.march import FEW_CELLS, MOST_STEPS, begin, march
 from tribo.simulation.measure import measure
 from tribo.simulation.memory import memory_needed
 from tribo.simulation.model import Model
-from tribo.simulation.motion import averaging_limit, path_at
+from tribo.simulation.motion import path_at
 from tribo.simulation.rates import Moment
 from tribo.simulation.step import first_contact, largest_stable_increment, start_sliding
 from tribo.simulation.validity import short_of_a_lap, too_wide
@@ -78,11 +79,13 @@ class Prediction:
 class CoarseRun:
     """The end of a coarse run, and when its contact outgrew the case's window.
 
-    `outgrown` is in s; None if it did not. `failure` says why there is no end.
+    `outgrown` is in s; None if it did not. `limitation` is what the motion says of its averaging at
+    the end. `failure` says why there is no end.
     """
 
     last: Measures | None
     outgrown: float | None = None
+    limitation: str | None = None
     failure: str | None = None
 
 
@@ -92,21 +95,21 @@ def predict(model: Model) -> Prediction:
     Raises
     ------
     CaseError
-        If the first contact does not fit the window.
+        If the first contact does not fit the window, or is too long for the stroke.
     NumericalError
         If it cannot be solved.
     """
     with doubting(model.case):
         state = first_contact(model)
+        check_stroke(model, state)
     first = measure(model, state)
     hertz = hertz_contact(model.system)
     dx, dy = model.grid.spacing
     coarse = _coarse_run(model)
     last = coarse.last
-    holds = limitation = None
+    holds = None
     if last is not None:
         holds = _inside(model, last) or model.may_reach_edge
-        limitation = averaging_limit(model.kinematics, model.grid, last.half_width_x)
     across = None
     if hertz is not None:
         across = (2 * hertz.half_width_x / dx, 2 * hertz.half_width_y / dy)
@@ -126,7 +129,7 @@ def predict(model: Model) -> Prediction:
             None if _stops_at_once(model) else unstable,
             *(too_wide(model, first) or too_wide(model, last or first)),
             *_deep(model, last),
-            limitation,
+            coarse.limitation,
             short_of_a_lap(model),
         )
         if problem is not None
@@ -143,7 +146,7 @@ def predict(model: Model) -> Prediction:
         cells_across=across,
         last=last,
         window_holds=holds,
-        limitation=limitation,
+        limitation=coarse.limitation,
         memory=memory_needed(
             model.grid, model.laws, model.effects, plastic=model.system.cap is not None
         ),
@@ -279,5 +282,5 @@ def _coarse_run(model: Model) -> CoarseRun:
         except (CaseError, NumericalError) as error:
             failure = failure or str(error)
             continue
-        return CoarseRun(measure(coarse, state), outgrown)
+        return CoarseRun(measure(coarse, state), outgrown, limitation(coarse, state))
     return CoarseRun(None, failure=failure)

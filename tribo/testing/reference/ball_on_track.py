@@ -27,9 +27,9 @@ The worn ball stands w_f(0) higher at its centre than at the edges of its scar
 across the track: its *crown* is the depth of the groove.
 
 Validity: half-widths small beside R, elastic approach small beside the worn
-depth, and a stroke of at least 4a, so that every flat point under the contact
-at mid-stroke has been passed by all of the contact. (A unidirectional track has no
-such limit.)
+depth, and a closed track. To and fro, this is the limit of the stroke average and
+not of a contact that is followed along its stroke: at a stroke of 4a that leaves a
+groove that is shallower by about a fifth.
 
 References
 ----------

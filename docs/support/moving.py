@@ -1,0 +1,76 @@
+"""Show what `benchmarks/moving_contact.py` found in an executed page."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from IPython.display import Markdown
+
+FIGURES = Path(os.environ["TRIBO_REPOSITORY"]) / "docs" / "_data" / "moving_contact.json"
+QUANTITIES = {
+    "groove of the disk, µm": "groove_{}_um",
+    "ball depth, µm": "ball_{}_um",
+    "crown of the ball, µm": "crown_{}_um",
+    "contact along, mm": "along_{}_mm",
+    "centre pressure, MPa": "centre_{}_MPa",
+}
+
+
+def hours() -> Markdown:
+    """Return the paper's hour, and that with the weighed losses, by the average and resolved."""
+    rows = _rows("paper")
+    lines = [["", *(f"{row['case']}, {how}" for row in rows for how in ("average", "resolved"))]]
+    lines += [
+        [name, *(_cell(row[key.format(how)]) for row in rows for how in ("average", "resolved"))]
+        for name, key in QUANTITIES.items()
+    ]
+    return _table(lines)
+
+
+def grooves() -> Markdown:
+    """Return by how much the average is too deep, by stroke, groove and coefficients."""
+    rows = _rows("grooves")
+    kinds = sorted({(row["flat_over_ball"], row["deep"]) for row in rows})
+    heads = [
+        f"{'equal k' if ratio == 1 else f'disk {ratio:g} times k'}, groove {deep} δ"
+        for ratio, deep in kinds
+    ]
+    lines = [["stroke, half-widths", *heads]]
+    for stroke in sorted({row["asked_half_widths"] for row in rows}):
+        found = {
+            (row["flat_over_ball"], row["deep"]): row["too_deep_percent"]
+            for row in rows
+            if row["asked_half_widths"] == stroke
+        }
+        lines.append([str(stroke), *(f"+{found[kind]:.1f} %" for kind in kinds)])
+    return _table(lines)
+
+
+def short_strokes() -> Markdown:
+    """Return by how much the average is too deep for short strokes and little wear."""
+    rows = _rows("short strokes, worn little")
+    return _table(
+        [
+            ["stroke, half-widths", *(f"{row['asked_half_widths']:g}" for row in rows)],
+            ["too deep by", *(f"{row['too_deep_percent']:+.0f} %" for row in rows)],
+        ]
+    )
+
+
+def _rows(title: str) -> list[dict[str, Any]]:
+    rows: list[dict[str, Any]] = json.loads(FIGURES.read_text(encoding="utf-8"))["tables"][title]
+    return rows
+
+
+def _cell(value: float) -> str:
+    return f"{value:.0f}" if value >= 100 else f"{value:.2f}"
+
+
+def _table(lines: Sequence[Sequence[str]]) -> Markdown:
+    head, *rest = lines
+    ruled = [head, ["---:"] * len(head), *rest]
+    return Markdown("\n".join(f"| {' | '.join(line)} |" for line in ruled))

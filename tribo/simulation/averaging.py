@@ -1,0 +1,41 @@
+"""What a motion says of its averaging, asked with the contact and the track of a state."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tribo.core.measures import half_widths
+from tribo.core.state import State
+from tribo.simulation.model import Model
+from tribo.simulation.motion import averaging_limit, check_first_contact
+
+
+def check_stroke(model: Model, state: State) -> None:
+    """Raise `CaseError` if averaging makes no sense for the first contact, in `state`."""
+    if _changing(model):
+        check_first_contact(model.kinematics, half_widths(state.contact, model.grid)[0])
+
+
+def limitation(model: Model, state: State) -> str | None:
+    """Return why the track average does not hold in `state`, if so."""
+    changing = _changing(model)
+    half_width = half_widths(state.contact, model.grid)[0]
+    words = averaging_limit(
+        model.kinematics,
+        model.grid,
+        half_width,
+        max((float(np.max(state.bodies[name].wear)) for name in changing), default=0.0),
+        state.reference_depth,
+    )
+    # A contact all over the period that repeats has no ends.
+    endless = model.contact.periodic and 2 * half_width > model.grid.size[0] * (1 - 1e-9)
+    return words if changing and not endless else None
+
+
+def _changing(model: Model) -> list[str]:
+    """Return the names of the swept bodies that change their shape."""
+    return [
+        name
+        for name, body in model.bodies.items()
+        if model.is_swept(name) and (body.wear or model.plastic_share[name] > 0)
+    ]
