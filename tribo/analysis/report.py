@@ -13,7 +13,7 @@ from tribo.analysis.conversion import (
 )
 from tribo.analysis.first_contact import hertz_contact
 from tribo.analysis.inferred import InferredVolume, inferred_volumes, track_section
-from tribo.analysis.scar import scar
+from tribo.analysis.scar import scar_of
 from tribo.contact.hertz import first_yield_pressure
 from tribo.core.measures import reaches_border
 from tribo.results.read import Result
@@ -39,7 +39,7 @@ class BodyReport:
         Extent along the sliding direction, in m; None for a swept body, whose
         scar is the whole track.
     scar_across : float
-        Extent across it, in m; 0 where nothing is worn visibly.
+        Extent across it, in m; 0 where nothing is worn.
     track_section : float or None
         Area of a swept body's groove in section, in m²; None for another body.
     max_wear_depth, max_plastic_depth : float
@@ -168,7 +168,7 @@ def yield_words(max_pressure: float, hardness: float) -> str:
 def _body(result: Result, name: str, save: Mapping[str, Any]) -> BodyReport:
     body, worn = result.body(name), save["bodies"][name]
     volume, distance = worn["wear_volume_m3"], save["distance_m"]
-    marks = scar(body.wear_depth[-1], result.grid)
+    marks = scar_of(body, result.grid)
     rate = None
     if distance > 0:
         rate = in_mm3_per_newton_metre(specific_wear_rate(volume, result.system.load, distance))

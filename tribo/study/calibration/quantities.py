@@ -10,7 +10,7 @@ import numpy as np
 
 from tribo.analysis.conversion import mass_from_volume
 from tribo.analysis.inferred import track_section
-from tribo.analysis.scar import VISIBLE_DEPTH, crown
+from tribo.analysis.scar import crown, scar_of
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.results.body import BodyResult
@@ -48,42 +48,6 @@ class WornQuantity:
     read: Callable[[Result, BodyResult, int], float]
 
 
-def diameter(depth: Array, axis: int, spacing: float) -> float:
-    """Extent along `axis` of what is worn visibly, to a fraction of a cell.
-
-    The edges of `tribo.analysis.scar`, which lie between cells, are put where
-    the depth would come to the visible one as it falls towards them. So the
-    diameter grows evenly with the scar, where counted cells jump.
-
-    Parameters
-    ----------
-    depth : ndarray, shape (nx, ny)
-        Worn depth, in m.
-    axis : int
-        0 along the sliding direction, 1 across it.
-    spacing : float
-        Edge length of a cell along `axis`, in m.
-
-    Returns
-    -------
-    float
-        In m; 0 where nothing is worn visibly.
-    """
-    line = np.max(depth, axis=1 - axis)
-    worn = np.flatnonzero(line > VISIBLE_DEPTH)
-    if worn.size < 2:
-        return float(worn.size) * spacing
-    first, last = int(worn[0]), int(worn[-1])
-    rims = (line[first], line[first + 1]), (line[last], line[last - 1])
-    return float(last - first + sum(_beyond(rim, inside) for rim, inside in rims)) * spacing
-
-
-def _beyond(rim: float, inside: float) -> float:
-    """Return how far the edge lies beyond the centre of the outermost worn cell, in cells."""
-    fall = inside - rim
-    return min((rim - VISIBLE_DEPTH) / fall, 1.0) if fall > 0 else 0.5
-
-
 def _volume(result: Result, body: BodyResult, save: int) -> float:
     return float(result.table("saves")[f"bodies.{body.name}.wear_volume_m3"][save])
 
@@ -94,9 +58,7 @@ def _mass(result: Result, body: BodyResult, save: int) -> float:
 
 
 def _diameter(axis: int) -> Callable[[Result, BodyResult, int], float]:
-    return lambda result, body, save: diameter(
-        body.wear_depth[save], axis, result.grid.spacing[axis]
-    )
+    return lambda result, body, save: scar_of(body, result.grid, save).diameters[axis]
 
 
 def _crown(result: Result, body: BodyResult, save: int) -> float:
