@@ -9,7 +9,7 @@ from scipy.interpolate import make_interp_spline
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
-from tribo.core.measures import centre
+from tribo.core.measures import centre, vertex
 from tribo.results.body import BodyResult
 
 VISIBLE = 1e-3
@@ -148,7 +148,7 @@ def crown(height: Array, depth: Array) -> float:
     bulge = height - np.interp(cells, ends, feet)
     inside = np.flatnonzero((cells > ends[0]) & (cells < ends[1]))
     top = int(inside[np.argmax(bulge[inside])])
-    return max(_vertex(bulge[max(top - 1, 0) : top + 2]), 0.0)
+    return max(vertex(bulge[max(top - 1, 0) : top + 2]), 0.0)
 
 
 def _ends(line: Array, power: float) -> tuple[float, float] | None:
@@ -174,12 +174,3 @@ def _beyond(rim: Array, most: float) -> float:
         return 0.5
     root = max(fall**2 - 4 * bend * outer, 0.0) ** 0.5
     return min(2 * outer / (fall + root), most)
-
-
-def _vertex(three: Array) -> float:
-    """Return the top of the parabola through three heights, the middle one the largest."""
-    if three.size < 3:
-        return float(np.max(three))
-    before, top, after = (float(each) for each in three)
-    bend = 2 * top - before - after
-    return top + (after - before) ** 2 / (8 * bend) if bend > 0 else top
