@@ -16,7 +16,7 @@ from tribo.study.calibration import runs as calibration_runs
 from tribo.study.calibration.far_off import FarOff, check_far_off, far_off
 from tribo.study.calibration.measured import read_measurements
 from tribo.study.calibration.parameters import Parameter, find_parameters
-from tribo.study.calibration.quantities import QUANTITIES, diameter, percent
+from tribo.study.calibration.quantities import QUANTITIES, percent
 from tribo.study.calibration.runs import Runs
 from tribo.templates import template
 from tribo.testing.reference.ball_on_track import ball_on_track
@@ -470,17 +470,3 @@ def test_intervals_cover_the_truth_at_their_level(monkeypatch):
             covered[i] += each.lower <= TRUE[each.path] <= each.upper
     low, high = binom.ppf([0.002, 0.998], draws, level)
     assert np.all((covered >= low) & (covered <= high)), covered
-
-
-@pytest.mark.parametrize("offset", [0.0, 0.17, 0.4, 0.9])
-def test_a_diameter_is_read_to_a_tenth_of_a_cell(offset):
-    """Of a scar a²/2R deep that lies anywhere between the cells."""
-    cell, radius = 20e-6, 5e-3
-    x = (np.arange(40) - 19.5) * cell
-    half = 0.3e-3 + 0.5 * offset * cell
-    depth = np.maximum(half**2 - x[:, None] ** 2 - x[None, :] ** 2, 0) / (2 * radius)
-    assert diameter(depth, 0, cell) == pytest.approx(2 * half, abs=0.1 * cell)
-
-
-def test_an_unworn_scar_has_no_diameter():
-    assert diameter(np.zeros((8, 8)), 0, 1e-5) == 0
