@@ -7,7 +7,7 @@ from made_results import made
 
 from tribo import Simulation
 from tribo.analysis.inferred import inferred_volumes, track_section
-from tribo.analysis.scar import scar_of
+from tribo.analysis.scar import scar
 from tribo.analysis.track import circular_groove_area
 from tribo.config.overrides import apply_settings
 from tribo.templates import template
@@ -77,7 +77,7 @@ def test_the_flat_cap_is_exact_on_any_grid(cells):
 
 
 def test_the_track_is_as_wide_as_the_scar_that_wears_it(both):
-    ball, disk = (scar_of(both.body(name), both.grid) for name in ("ball", "disk"))
+    ball, disk = (scar(both.body(name).wear_depth[-1], both.grid) for name in ("ball", "disk"))
     assert disk.across == pytest.approx(ball.across, abs=0.1 * CELL)
 
 

@@ -11,7 +11,7 @@ from tribo.analysis.ball import (
     conforming_ball_volume,
     flat_along_ball_volume,
 )
-from tribo.analysis.scar import scar_of
+from tribo.analysis.scar import scar
 from tribo.analysis.track import circular_groove_area, groove_radius, planimetric_area
 from tribo.results.body import BodyResult
 from tribo.results.read import Result
@@ -51,7 +51,7 @@ def inferred_volumes(result: Result, save: int = -1) -> list[InferredVolume]:
     of a scar conforming to the groove, whose section comes from one profile,
     and that of a scar flat along the sliding direction. Of a flat swept by it:
     that of a groove as deep as an unworn ball of the track's width would make
-    it. The scars are measured by `scar_of`, and the lab knows the length of the
+    it. The scars are measured by `scar`, and the lab knows the length of the
     track. Plastic indentation is left out.
 
     Parameters
@@ -70,7 +70,7 @@ def inferred_volumes(result: Result, save: int = -1) -> list[InferredVolume]:
     if pair is None:
         return []
     ball, flat, radius = pair
-    widths = {b.name: scar_of(b, result.grid, save) for b in (ball, flat)}
+    widths = {b.name: scar(b.wear_depth[save], result.grid) for b in (ball, flat)}
     section = track_section(result, flat, save)
     bodies = result.saves()[save]["bodies"]
     worn = {name: body["wear_volume_m3"] for name, body in bodies.items()}

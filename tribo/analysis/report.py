@@ -13,7 +13,7 @@ from tribo.analysis.conversion import (
 )
 from tribo.analysis.first_contact import hertz_contact
 from tribo.analysis.inferred import InferredVolume, inferred_volumes, track_section
-from tribo.analysis.scar import scar_of
+from tribo.analysis.scar import scar
 from tribo.contact.hertz import first_yield_pressure
 from tribo.core.measures import reaches_border
 from tribo.results.read import Result
@@ -168,7 +168,7 @@ def yield_words(max_pressure: float, hardness: float) -> str:
 def _body(result: Result, name: str, save: Mapping[str, Any]) -> BodyReport:
     body, worn = result.body(name), save["bodies"][name]
     volume, distance = worn["wear_volume_m3"], save["distance_m"]
-    marks = scar_of(body, result.grid)
+    marks = scar(body.wear_depth[-1], result.grid)
     rate = None
     if distance > 0:
         rate = in_mm3_per_newton_metre(specific_wear_rate(volume, result.system.load, distance))

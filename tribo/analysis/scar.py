@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.interpolate import make_interp_spline
+from scipy.optimize import brentq
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
 from tribo.core.measures import centre, vertex
-from tribo.results.body import BodyResult
 
-VISIBLE = 1e-3
-"""Smallest depth taken for wear, or power of it, as a part of the largest."""
-SCAR, TRACK = 1.0, 1.5
-"""Powers of the distance from the edge with which depth begins: in a scar, across a track."""
+VISIBLE = 1e-4
+"""Smallest depth taken for wear, as a part of the largest."""
+STEEPEST = 2.0
+"""Largest power of the distance from the edge with which a depth may begin."""
 
 
 @dataclass(frozen=True)
@@ -45,18 +46,8 @@ class Scar:
     peak_depth: float
     volume: float
 
-    @property
-    def diameters(self) -> tuple[float, float]:
-        """Those along and across, in m."""
-        return self.along, self.across
 
-
-def scar_of(body: BodyResult, grid: Grid, save: int = -1) -> Scar:
-    """Measure the scar of a body, or its track, at a save."""
-    return scar(body.wear_depth[save], grid, TRACK if body.swept else SCAR)
-
-
-def scar(depth: Array, grid: Grid, power: float = SCAR) -> Scar:
+def scar(depth: Array, grid: Grid) -> Scar:
     """Measure a scar (ASTM D6425, DIN 51834: diameters along and across).
 
     Parameters
@@ -65,16 +56,13 @@ def scar(depth: Array, grid: Grid, power: float = SCAR) -> Scar:
         Worn depth, in m; x along the sliding direction.
     grid : Grid
         The window.
-    power : float, default 1
-        Power of the distance from the edge with which the depth begins: `SCAR`, or `TRACK` for a
-        body that is swept through the contact.
 
     Returns
     -------
     Scar
         With diameters 0 where nothing is worn.
     """
-    along, across = (diameter(depth, axis, grid.spacing[axis], power) for axis in (0, 1))
+    along, across = (diameter(depth, axis, grid.spacing[axis]) for axis in (0, 1))
     return Scar(
         along=along,
         across=across,
@@ -85,15 +73,15 @@ def scar(depth: Array, grid: Grid, power: float = SCAR) -> Scar:
     )
 
 
-def diameter(depth: Array, axis: int, spacing: float, power: float = SCAR) -> float:
+def diameter(depth: Array, axis: int, spacing: float) -> float:
     """Extent of a scar along `axis`, to a fraction of a cell.
 
     An edge lies where the parabola through the three outermost worn cells comes
-    to 0: in a scar through their depths, as a ball worn flat has lost a
-    paraboloid; across a track through their depths to the power 2/3, as the
-    chord of the ball that wears it is cubed in its section. So it is good to a
-    tenth of a cell, and to a third in the first nanometres under a Hertz
-    contact. A cell is worn where that is more than a thousandth of its largest.
+    to 0, as a ball worn flat has lost a paraboloid. Where the depth runs out in a
+    toe, as that of a groove does, and that of a scar under elastic bodies, the
+    parabola is one through a root of the depths; which, a fourth cell tells. A
+    scar some ten cells wide is good to a tenth of a cell, and to a third in its
+    first nanometres. A cell is worn where it is deeper than 10⁻⁴ of the deepest.
 
     Parameters
     ----------
@@ -103,15 +91,13 @@ def diameter(depth: Array, axis: int, spacing: float, power: float = SCAR) -> fl
         0 along the sliding direction, 1 across it.
     spacing : float
         Edge length of a cell along `axis`, in m.
-    power : float, default 1
-        As for `scar`.
 
     Returns
     -------
     float
         In m; 0 where nothing is worn.
     """
-    ends = _ends(np.max(depth, axis=1 - axis), power)
+    ends = _ends(np.max(depth, axis=1 - axis))
     return 0.0 if ends is None else (ends[1] - ends[0]) * spacing
 
 
@@ -139,7 +125,7 @@ def crown(height: Array, depth: Array) -> float:
         raise ValueError(
             f"crown takes two profiles of one length, not shapes {height.shape} and {depth.shape}"
         )
-    ends = _ends(depth, SCAR)
+    ends = _ends(depth)
     if ends is None or depth.size < 3:
         return 0.0
     cells = np.arange(depth.size)
@@ -151,26 +137,39 @@ def crown(height: Array, depth: Array) -> float:
     return max(vertex(bulge[max(top - 1, 0) : top + 2]), 0.0)
 
 
-def _ends(line: Array, power: float) -> tuple[float, float] | None:
+def _ends(line: Array) -> tuple[float, float] | None:
     """Return the edges of what is worn of a line, counted in cells from the first's centre."""
-    straight = np.maximum(line, 0.0) ** (1 / power)
-    worn = np.flatnonzero(straight > VISIBLE * float(np.max(straight)))
-    if worn.size == 0:
+    index = np.flatnonzero(line > VISIBLE * max(float(np.max(line)), 0.0))
+    if index.size == 0:
         return None
-    first, last = int(worn[0]), int(worn[-1])
-    if last - first + 1 < 3:
-        return first - 0.5, last + 0.5
-    below = _beyond(straight[first : first + 3], 0.5 if first == 0 else 1.0)
-    above = _beyond(straight[last - 2 : last + 1][::-1], 0.5 if last == line.size - 1 else 1.0)
+    first, last = int(index[0]), int(index[-1])
+    worn = np.maximum(line[first : last + 1], 0.0)
+    below = _beyond(worn[:4], 0.5 if first == 0 else 1.0)
+    above = _beyond(worn[::-1][:4], 0.5 if last == line.size - 1 else 1.0)
     return first - below, last + above
 
 
 def _beyond(rim: Array, most: float) -> float:
-    """Return how far beyond the first of three cells, inwards, the edge lies, in cells."""
-    outer, middle, inner = (float(each) for each in rim)
+    """Return how far beyond the first of up to four worn cells the edge lies, in cells."""
+    if rim.size < 3 or rim[1] <= rim[0]:
+        return 0.5
+
+    def toe(power: float) -> float:
+        """Return how much further out the edge lies by the inner three than by the outer."""
+        straight = rim ** (1 / power)
+        return _root(straight[1:]) - 1 - _root(straight[:3])
+
+    power = 1.0
+    if rim.size == 4 and toe(1.0) < 0:
+        power = STEEPEST if toe(STEEPEST) <= 0 else float(brentq(toe, 1.0, STEEPEST, xtol=1e-4))
+    return min(_root(rim[:3] ** (1 / power)), most)
+
+
+def _root(three: Array) -> float:
+    """Return how far beyond the first of three values, at most 3, their parabola comes to 0."""
+    outer, middle, inner = (float(each) for each in three)
     bend = 0.5 * (inner - 2 * middle + outer)
     fall = middle - outer - bend
     if fall <= 0:
-        return 0.5
-    root = max(fall**2 - 4 * bend * outer, 0.0) ** 0.5
-    return min(2 * outer / (fall + root), most)
+        return 3.0
+    return min(2 * outer / (fall + math.sqrt(max(fall**2 - 4 * bend * outer, 0.0))), 3.0)

@@ -10,7 +10,7 @@ import numpy as np
 
 from tribo.analysis.conversion import mass_from_volume
 from tribo.analysis.inferred import track_section
-from tribo.analysis.scar import crown, scar_of
+from tribo.analysis.scar import crown, diameter
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.results.body import BodyResult
@@ -58,7 +58,9 @@ def _mass(result: Result, body: BodyResult, save: int) -> float:
 
 
 def _diameter(axis: int) -> Callable[[Result, BodyResult, int], float]:
-    return lambda result, body, save: scar_of(body, result.grid, save).diameters[axis]
+    return lambda result, body, save: diameter(
+        body.wear_depth[save], axis, result.grid.spacing[axis]
+    )
 
 
 def _crown(result: Result, body: BodyResult, save: int) -> float:
