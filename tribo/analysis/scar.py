@@ -144,25 +144,39 @@ def _ends(line: Array) -> tuple[float, float] | None:
         return None
     first, last = int(index[0]), int(index[-1])
     worn = np.maximum(line[first : last + 1], 0.0)
-    below = _beyond(worn[:4], 0.5 if first == 0 else 1.0)
-    above = _beyond(worn[::-1][:4], 0.5 if last == line.size - 1 else 1.0)
+    below = _beyond(worn, 0.5 if first == 0 else 1.0)
+    above = _beyond(worn[::-1], 0.5 if last == line.size - 1 else 1.0)
     return first - below, last + above
 
 
-def _beyond(rim: Array, most: float) -> float:
-    """Return how far beyond the first of up to four worn cells the edge lies, in cells."""
-    if rim.size < 3 or rim[1] <= rim[0]:
+def _beyond(worn: Array, most: float) -> float:
+    """Return how far beyond the first of the worn cells the edge lies, in cells.
+
+    A rim too narrow to be resolved is seen once it reaches a cell: that counts as much as the
+    edge lies beyond it, so that the edge moves evenly.
+    """
+    outer, inner = _extrapolated(worn[:4]), _extrapolated(worn[1:5])
+    if outer is None:
         return 0.5
+    outer = min(outer, most)
+    rim = 0.0 if inner is None else max(outer + 1 - inner, 0.0)
+    return outer - (1 - outer) * rim
+
+
+def _extrapolated(cells: Array) -> float | None:
+    """Return how far beyond the first of up to four cells the edge lies, if they get deeper."""
+    if cells.size < 3 or cells[1] <= cells[0]:
+        return None
 
     def toe(power: float) -> float:
         """Return how much further out the edge lies by the inner three than by the outer."""
-        straight = rim ** (1 / power)
+        straight = cells ** (1 / power)
         return _root(straight[1:]) - 1 - _root(straight[:3])
 
     power = 1.0
-    if rim.size == 4 and toe(1.0) < 0:
+    if cells.size == 4 and toe(1.0) < 0:
         power = STEEPEST if toe(STEEPEST) <= 0 else float(brentq(toe, 1.0, STEEPEST, xtol=1e-4))
-    return min(_root(rim[:3] ** (1 / power)), most)
+    return _root(cells[:3] ** (1 / power))
 
 
 def _root(three: Array) -> float:
