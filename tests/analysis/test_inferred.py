@@ -7,6 +7,7 @@ from made_results import made
 
 from tribo import Simulation
 from tribo.analysis.inferred import inferred_volumes, track_section
+from tribo.analysis.scar import scar
 from tribo.analysis.track import circular_groove_area
 from tribo.config.overrides import apply_settings
 from tribo.templates import template
@@ -65,6 +66,19 @@ def test_the_flat_cap_is_right_when_only_the_ball_wears():
         ("ball", "ASTM G99"): pytest.approx(0.0, abs=reading),
         ("ball", None): pytest.approx(0.0, abs=reading),
     }
+
+
+@pytest.mark.parametrize("cells", [40, 47, 55, 64])
+def test_the_flat_cap_is_exact_on_any_grid(cells):
+    """Its volume goes as the fourth power of the diameter; springs leave a flat scar."""
+    only_ball = {"bodies.disk.wear": {"type": "archard", "k": 0}, "contact": {"type": "winkler"}}
+    found = errors(ran(**{"grid.cells": cells, "output.save_times": [], **only_ball}))
+    assert found["ball", "ASTM G99"] == pytest.approx(0.0, abs=0.01)
+
+
+def test_the_track_is_as_wide_as_the_scar_that_wears_it(both):
+    ball, disk = (scar(both.body(name).wear_depth[-1], both.grid) for name in ("ball", "disk"))
+    assert disk.across == pytest.approx(ball.across, abs=0.1 * CELL)
 
 
 def test_the_section_of_the_track_holds_its_volume(both):

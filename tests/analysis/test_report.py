@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from made_results import made
+from made_results import half_width, made
 
 from tribo.analysis.report import lab_report, yield_ratio, yield_words
 from tribo.contact.hertz import first_yield_pressure
@@ -16,11 +16,12 @@ def test_the_lab_block_is_that_of_the_worn_bodies():
     ball, disk = lab["bodies"]["ball"], lab["bodies"]["disk"]
     assert ball["specific_wear_rate_mm3_per_Nm"] == pytest.approx(3.11e-7, rel=1e-6, abs=0)
     assert ball["mass_kg"] == pytest.approx(7850 * 3.11e-14 * 360, rel=1e-6, abs=0)
-    assert ball["scar_along_m"] == pytest.approx(1.12e-3)
-    assert ball["scar_across_m"] == pytest.approx(1.20e-3)
+    # To a twentieth of a cell of 40 µm.
+    assert ball["scar_along_m"] == pytest.approx(2 * half_width(3600), abs=2e-6)
+    assert ball["scar_across_m"] == pytest.approx(2.2 * half_width(3600), abs=2e-6)
     assert disk["mass_kg"] is None
     assert disk["scar_along_m"] is None
-    assert disk["scar_across_m"] == pytest.approx(1.20e-3)
+    assert disk["scar_across_m"] == pytest.approx(2.2 * half_width(3600), abs=2e-6)
 
 
 def test_the_first_contact_is_the_computed_one_beside_hertz():

@@ -50,8 +50,8 @@ def test_a_narrow_terminal_is_told_what_it_misses():
 
 def test_a_body_that_does_not_wear_has_no_scar():
     text = printed(made(worn=(True, False)))
-    assert row(text, "scar along sliding, mm") == ["1.120", "–"]
-    assert row(text, "scar across, mm") == ["1.200", "–"]
+    assert row(text, "scar along sliding, mm") == ["1.100", "–"]
+    assert row(text, "scar across, mm") == ["1.210", "–"]
 
 
 def test_yield_is_judged_by_the_pressure_that_was_computed():

@@ -175,6 +175,15 @@ def test_no_run_is_made_beyond_the_bounds(start):
     assert np.exp(fit(model, made, np.array([start])).point) == pytest.approx(1.0, rel=1e-5)
 
 
+def test_a_fit_that_comes_no_nearer_is_given_up():
+    """Data are out of reach, and the model too rough to say so."""
+    rough = Counted(lambda k: 30 + 0.01 * np.log(k) + (-1) ** rough.runs)
+    made = problem(np.array([1e-9]), np.ones(1), names=("k",), start=np.ones(1), logged=False)
+    with pytest.raises(NumericalError, match=r"have not settled .*: χ² has come down to"):
+        fit(rough, made, np.ones(1))
+    assert rough.runs < 10
+
+
 def test_a_model_that_jumps_about_is_not_settled():
     random = np.random.default_rng(0)
     made = problem(np.array([1.0]), np.array([1e-6]), names=("k",), start=np.ones(1))

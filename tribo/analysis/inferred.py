@@ -64,8 +64,7 @@ def inferred_volumes(result: Result, save: int = -1) -> list[InferredVolume]:
     Returns
     -------
     list of InferredVolume
-        Empty where the bodies are not a round ball and a flat, or nothing is
-        worn visibly.
+        Empty where the bodies are not a round ball and a flat, or nothing is worn.
     """
     pair = _ball_and_flat(result)
     if pair is None:

@@ -39,7 +39,7 @@ class BodyReport:
         Extent along the sliding direction, in m; None for a swept body, whose
         scar is the whole track.
     scar_across : float
-        Extent across it, in m; 0 where nothing is worn visibly.
+        Extent across it, in m; 0 where nothing is worn.
     track_section : float or None
         Area of a swept body's groove in section, in m²; None for another body.
     max_wear_depth, max_plastic_depth : float

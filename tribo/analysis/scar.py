@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.interpolate import make_interp_spline
+from scipy.optimize import brentq
 
-from tribo.core.arrays import Array, bounds
+from tribo.core.arrays import Array
 from tribo.core.grid import Grid
-from tribo.core.measures import centre, lengths
+from tribo.core.measures import centre, vertex
 
-VISIBLE_DEPTH = 1e-8
-"""Smallest depth taken for wear, in m: about the roughness of a polished flat."""
+VISIBLE = 1e-4
+"""Smallest depth taken for wear, as a part of the largest."""
+STEEPEST = 2.0
+"""Largest power of the distance from the edge with which a depth may begin."""
 
 
 @dataclass(frozen=True)
@@ -42,13 +47,8 @@ class Scar:
     volume: float
 
 
-def scar(depth: Array, grid: Grid, visible: float = VISIBLE_DEPTH) -> Scar:
+def scar(depth: Array, grid: Grid) -> Scar:
     """Measure a scar (ASTM D6425, DIN 51834: diameters along and across).
-
-    A diameter is the extent, in whole cells, of all that is worn deeper than
-    `visible`; so it is uncertain by a cell. On a ball worn by a depth a²/2R the
-    threshold hides a rim of about R·visible/a: 0.1 µm at the default for R =
-    5 mm and a = 0.5 mm.
 
     Parameters
     ----------
@@ -56,16 +56,13 @@ def scar(depth: Array, grid: Grid, visible: float = VISIBLE_DEPTH) -> Scar:
         Worn depth, in m; x along the sliding direction.
     grid : Grid
         The window.
-    visible : float, default 1e-8
-        Smallest depth taken for wear, in m.
 
     Returns
     -------
     Scar
-        With diameters 0 where nothing is worn visibly.
+        With diameters 0 where nothing is worn.
     """
-    worn = depth > visible
-    along, across = lengths(bounds(worn), grid)
+    along, across = (diameter(depth, axis, grid.spacing[axis]) for axis in (0, 1))
     return Scar(
         along=along,
         across=across,
@@ -76,12 +73,40 @@ def scar(depth: Array, grid: Grid, visible: float = VISIBLE_DEPTH) -> Scar:
     )
 
 
-def crown(height: Array, depth: Array, visible: float = VISIBLE_DEPTH) -> float:
+def diameter(depth: Array, axis: int, spacing: float) -> float:
+    """Extent of a scar along `axis`, to a fraction of a cell.
+
+    An edge lies where the parabola through the three outermost worn cells comes
+    to 0, as a ball worn flat has lost a paraboloid. Where the depth runs out in a
+    toe, as that of a groove does, and that of a scar under elastic bodies, the
+    parabola is one through a root of the depths; which, a fourth cell tells. A
+    scar some ten cells wide is good to a tenth of a cell, and to a third in its
+    first nanometres. A cell is worn where it is deeper than 10⁻⁴ of the deepest.
+
+    Parameters
+    ----------
+    depth : ndarray, shape (nx, ny)
+        Worn depth, in m.
+    axis : int
+        0 along the sliding direction, 1 across it.
+    spacing : float
+        Edge length of a cell along `axis`, in m.
+
+    Returns
+    -------
+    float
+        In m; 0 where nothing is worn.
+    """
+    ends = _ends(np.max(depth, axis=1 - axis))
+    return 0.0 if ends is None else (ends[1] - ends[0]) * spacing
+
+
+def crown(height: Array, depth: Array) -> float:
     """How far a worn profile bulges over the chord between the edges of its scar.
 
-    The edges are the outermost points worn deeper than `visible`. A ball worn
-    flat has crown 0 along its sliding direction; across it the crown is the
-    depth of the groove the ball runs in.
+    The edges are those of `diameter`. A ball worn flat has crown 0 along its
+    sliding direction; across it the crown is the depth of the groove the ball
+    runs in.
 
     Parameters
     ----------
@@ -90,8 +115,6 @@ def crown(height: Array, depth: Array, visible: float = VISIBLE_DEPTH) -> float:
         intervals.
     depth : ndarray, shape (n,)
         Depth worn off it, in m.
-    visible : float, default 1e-8
-        Smallest depth taken for wear, in m.
 
     Returns
     -------
@@ -102,10 +125,65 @@ def crown(height: Array, depth: Array, visible: float = VISIBLE_DEPTH) -> float:
         raise ValueError(
             f"crown takes two profiles of one length, not shapes {height.shape} and {depth.shape}"
         )
-    index = np.flatnonzero(depth > visible)
-    if index.size < 2:
+    ends = _ends(depth)
+    if ends is None or depth.size < 3:
         return 0.0
+    cells = np.arange(depth.size)
+    # Unworn, the surface has no kink at the edges.
+    feet = make_interp_spline(cells, height + depth, k=2)(ends)
+    bulge = height - np.interp(cells, ends, feet)
+    inside = np.flatnonzero((cells > ends[0]) & (cells < ends[1]))
+    top = int(inside[np.argmax(bulge[inside])])
+    return max(vertex(bulge[max(top - 1, 0) : top + 2]), 0.0)
+
+
+def _ends(line: Array) -> tuple[float, float] | None:
+    """Return the edges of what is worn of a line, counted in cells from the first's centre."""
+    index = np.flatnonzero(line > VISIBLE * max(float(np.max(line)), 0.0))
+    if index.size == 0:
+        return None
     first, last = int(index[0]), int(index[-1])
-    part = height[first : last + 1]
-    chord = np.linspace(part[0], part[-1], part.size)
-    return float(np.max(part - chord))
+    worn = np.maximum(line[first : last + 1], 0.0)
+    below = _beyond(worn, 0.5 if first == 0 else 1.0)
+    above = _beyond(worn[::-1], 0.5 if last == line.size - 1 else 1.0)
+    return first - below, last + above
+
+
+def _beyond(worn: Array, most: float) -> float:
+    """Return how far beyond the first of the worn cells the edge lies, in cells.
+
+    A rim too narrow to be resolved is seen once it reaches a cell: that counts as much as the
+    edge lies beyond it, so that the edge moves evenly.
+    """
+    outer, inner = _extrapolated(worn[:4]), _extrapolated(worn[1:5])
+    if outer is None:
+        return 0.5
+    outer = min(outer, most)
+    rim = 0.0 if inner is None else max(outer + 1 - inner, 0.0)
+    return outer - (1 - outer) * rim
+
+
+def _extrapolated(cells: Array) -> float | None:
+    """Return how far beyond the first of up to four cells the edge lies, if they get deeper."""
+    if cells.size < 3 or cells[1] <= cells[0]:
+        return None
+
+    def toe(power: float) -> float:
+        """Return how much further out the edge lies by the inner three than by the outer."""
+        straight = cells ** (1 / power)
+        return _root(straight[1:]) - 1 - _root(straight[:3])
+
+    power = 1.0
+    if cells.size == 4 and toe(1.0) < 0:
+        power = STEEPEST if toe(STEEPEST) <= 0 else float(brentq(toe, 1.0, STEEPEST, xtol=1e-4))
+    return _root(cells[:3] ** (1 / power))
+
+
+def _root(three: Array) -> float:
+    """Return how far beyond the first of three values, at most 3, their parabola comes to 0."""
+    outer, middle, inner = (float(each) for each in three)
+    bend = 0.5 * (inner - 2 * middle + outer)
+    fall = middle - outer - bend
+    if fall <= 0:
+        return 3.0
+    return min(2 * outer / (fall + math.sqrt(max(fall**2 - 4 * bend * outer, 0.0))), 3.0)

@@ -93,3 +93,23 @@ def lengths(region: Region, grid: Grid) -> tuple[float, float]:
     rows, columns = region
     dx, dy = grid.spacing
     return (rows.stop - rows.start) * dx, (columns.stop - columns.start) * dy
+
+
+def vertex(three: Array) -> float:
+    """Top of the parabola through three values at equal intervals, the middle one the largest.
+
+    The largest value where there are fewer, as at a border, or where they do not bend.
+    """
+    if three.size < 3:
+        return float(np.max(three))
+    before, top, after = (float(each) for each in three)
+    bend = 2 * top - before - after
+    return top + (after - before) ** 2 / (8 * bend) if bend > 0 else top
+
+
+def between_cells(field: Array) -> float:
+    """How far a smooth field rises above its largest cell, between that and its neighbours."""
+    i, j = np.unravel_index(np.argmax(field), field.shape)
+    top = float(field[i, j])
+    along, across = field[max(i - 1, 0) : i + 2, j], field[i, max(j - 1, 0) : j + 2]
+    return vertex(along) + vertex(across) - 2 * top

@@ -31,7 +31,7 @@ def measure(model: Model, state: State) -> Measures:
         half_width_x=width,
         half_width_y=breadth,
         area=contact_area(touched, model.grid),
-        approach=state.contact.approach,
+        approach=state.contact.approach - model.closest,
         residuals=state.contact.residuals,
         contact_solves=state.contact_solves,
         solver_iterations=state.solver_iterations,

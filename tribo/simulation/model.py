@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 from tribo.config.case import Body, Case
 from tribo.config.stepping import Explicit, Implicit
@@ -11,6 +12,7 @@ from tribo.config.stop import Stop
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSystem
 from tribo.core.grid import Grid
+from tribo.core.measures import between_cells
 from tribo.interfaces.contact import ContactSolver
 from tribo.interfaces.effect import Effect
 from tribo.interfaces.exposure import Exposure
@@ -45,6 +47,14 @@ class Model:
     plastic_share: Mapping[str, float]
     system: ContactSystem
     gap: Array
+
+    @cached_property
+    def closest(self) -> float:
+        """Gap at the closest point, in m: below 0 where that lies between cells.
+
+        Surfaces that state no curvature, as rough ones, are taken as they are sampled.
+        """
+        return 0.0 if self.system.curvature is None else -between_cells(-self.gap)
 
     @property
     def grid(self) -> Grid:

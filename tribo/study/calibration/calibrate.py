@@ -16,7 +16,7 @@ from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.registry import Registry
 from tribo.simulation.model import Model
 from tribo.simulation.run import Simulation
-from tribo.study.calibration.far_off import FarOff, check_far_off, far_off
+from tribo.study.calibration.far_off import check_far_off, far_off
 from tribo.study.calibration.fit import Problem, fit
 from tribo.study.calibration.judge import outcome
 from tribo.study.calibration.measured import Measured, Measurements, read_measurements
@@ -83,45 +83,49 @@ def calibrate(
         )
     predicted = _predicted(model, asked.measured)
     runs = Runs(tables, asked.measured, parameters, predicted, registry)
+    start = np.array([p.start for p in parameters])
+    first = runs(start)
+    far = list(far_off(asked.measured, first[:count], parameters))
+    check_far_off(far)
+    sigma = np.concatenate([np.full(len(e.values), e.sigma) for e in asked.measured])
     problem = Problem(
         names=tuple(p.path for p in parameters),
         observed=np.concatenate([entry.values for entry in asked.measured]),
-        sigma=np.concatenate([np.full(len(e.values), e.sigma) for e in asked.measured]),
+        sigma=np.hypot(sigma, runs.read_off[:count]),
         logged=runs.logged,
         lower=np.array([math.log(p.lower) if p.lower > 0 else -math.inf for p in parameters]),
         upper=np.array([math.log(p.upper) for p in parameters]),
     )
+    of_run = {np.exp(np.log(start)).tobytes(): (runs.notices, runs.read_off)}
 
-    notices: dict[bytes, tuple[str, ...]] = {}
-    far: list[FarOff] = []
-
-    def run(values: Array) -> Array:
-        responses = runs(values)
-        notices[values.tobytes()] = runs.notices
-        if runs.count == 1:
-            found = list(far_off(asked.measured, responses[:count], parameters))
-            check_far_off(found)
-            far.extend(found)
+    def told(responses: Array) -> Array:
         if on_run is not None:
             on_run(runs.count, float(np.sum(problem.residuals(responses) ** 2)))
         return responses
 
+    def run(values: Array) -> Array:
+        responses = runs(values)
+        of_run[values.tobytes()] = runs.notices, runs.read_off
+        return told(responses)
+
     try:
-        fitted = fit(run, problem, np.array([p.start for p in parameters]))
+        fitted = fit(run, problem, start, told(first))
     except (CaseError, NumericalError) as error:
         if not far:
             raise
         texts = "; ".join(each.text for each in far)
         raise type(error)(f"{error}; or is a measured value off? {texts}") from error
+    notices, read_off = of_run[np.exp(fitted.point).tobytes()]
     return outcome(
         fitted,
         parameters,
         asked.measured,
         {count + i: which for i, which in enumerate(predicted) if runs.positive[i]},
         grid=model.grid,
+        read_off=read_off,
         level=level,
         runs=runs.count,
-        notices=notices[np.exp(fitted.point).tobytes()],
+        notices=notices,
     )
 
 

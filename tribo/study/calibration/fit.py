@@ -21,12 +21,16 @@ LEAP = np.log(100.0)
 REACH = np.log(1e4)
 """How far an interval is followed; beyond, the data leave it open."""
 SETTLED = 0.01
-"""Change of the responses, in standard deviations, that ends the fit."""
+"""Change of the responses, in standard deviations, that ends the fit; and part of χ² to gain."""
+HARDLY = 0.1
+"""The same once the misfit does not come down any more."""
 NO_EFFECT = 1e-3
 """Change of a datum, in standard deviations, per change of a parameter by e: nothing to learn."""
 NOTABLE = 0.01
 """Relative change of a datum, per change of a parameter by e, that is none of rounding."""
 MOST_ROUNDS = 12
+MOST_IN_VAIN = 4
+"""Rounds without a lower misfit after which a fit is given up."""
 _PULL = 1e-3
 _RIDGE = 1e-12
 
@@ -144,7 +148,12 @@ class Surrogate:
         return replace(self, point=point, responses=responses, slopes=slopes)
 
 
-def fit(model: Callable[[Array], Array], problem: Problem, start: Array) -> Surrogate:
+def fit(
+    model: Callable[[Array], Array],
+    problem: Problem,
+    start: Array,
+    first: Array | None = None,
+) -> Surrogate:
     """Fit the parameters by Gauss-Newton on a surrogate, a run of the model a round.
 
     Slopes come from differences about the first run, then from Broyden's
@@ -158,6 +167,8 @@ def fit(model: Callable[[Array], Array], problem: Problem, start: Array) -> Surr
         What is fitted.
     start : ndarray, shape (p,)
         Parameters to begin with; positive.
+    first : ndarray, shape (m,), optional
+        The model's responses for them, if known.
 
     Returns
     -------
@@ -181,23 +192,31 @@ def fit(model: Callable[[Array], Array], problem: Problem, start: Array) -> Surr
         return model(np.exp(point))
 
     point = np.log(start)
-    here = _differenced(run, problem, point, run(point))
+    here = _differenced(run, problem, point, run(point) if first is None else first)
     _check_effect(here)
     known = point
-    for _ in range(MOST_ROUNDS):
+    least, in_vain = np.inf, 0
+    for rounds in range(1, MOST_ROUNDS + 1):  # noqa: B007
         point = here.closest().x
         shift = np.max(np.abs(here.residuals(point) - here.residuals(here.point)))
         if shift > SETTLED:
             here = here.updated(point, run(point))
+            misfit = float(np.sum(here.residuals(point) ** 2))
+            in_vain = 0 if misfit < (1 - SETTLED) * least else in_vain + 1
+            least = min(least, misfit)
+            if in_vain == MOST_IN_VAIN:
+                if shift > HARDLY:
+                    break
+                return here
         elif np.max(np.abs(here.point - known)) > FAR:
             known = here.point
             here = _differenced(run, problem, known, here.responses)
         else:
             return here
     raise NumericalError(
-        f"the estimates have not settled after {MOST_ROUNDS} rounds: a computed value still "
-        f"changes by {shift:.2g} of its uncertainty; refine grid.cells, start "
-        "nearer, or state the uncertainties larger"
+        f"the estimates have not settled after {rounds} rounds: χ² has come down to {least:.3g}, "
+        f"and a computed value still changes by {shift:.2g} of its uncertainty; refine "
+        "grid.cells, start nearer, or state the uncertainties larger"
     )
 
 

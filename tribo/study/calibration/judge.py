@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 
 import numpy as np
+from scipy.special import chdtri
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
@@ -27,6 +28,7 @@ def outcome(
     predicted: Mapping[int, tuple[str, str]],
     *,
     grid: Grid,
+    read_off: Array,
     level: float,
     runs: int,
     notices: Sequence[str],
@@ -45,6 +47,8 @@ def outcome(
         Body and quantity of the responses that are predictions, by their index.
     grid : Grid
         The window of the runs.
+    read_off : ndarray, shape (m,)
+        Standard deviations with which it gives the responses.
     level : float
         Probability of the intervals.
     runs : int
@@ -56,7 +60,7 @@ def outcome(
     spread = covariance(jacobian)
     deviations = np.sqrt(np.diag(spread))
     data = _data(fitted, measured)
-    shares, limits = _resolution(jacobian, measured)
+    shares, limits = _resolution(jacobian, measured, fitted.problem.sigma)
     estimates = []
     for i, parameter in enumerate(parameters):
         value = float(np.exp(fitted.point[i]))
@@ -85,7 +89,11 @@ def outcome(
         value = float(fitted.responses[i])
         ends = (0.0, math.inf)
         if not np.any(np.abs(fitted.slopes[i][held_ones]) > NOTABLE):
-            ends = _ends(fitted, fitted.slopes[i], value, level)
+            ends = _widened(
+                *_ends(fitted, fitted.slopes[i], value, level),
+                value,
+                math.sqrt(chdtri(1, 1 - level)) * float(read_off[i]),
+            )
         predictions.append(Expected(body, quantity, unit_of(quantity), value, *ends))
     return Calibration(
         level=level,
@@ -106,23 +114,28 @@ def _ends(fitted: Surrogate, direction: Array, value: float, level: float) -> tu
     return value * math.exp(low), value * math.exp(high)
 
 
-def _resolution(jacobian: Array, measured: Sequence[Measured]) -> tuple[Array, Array]:
+def _widened(low: float, high: float, value: float, by: float) -> tuple[float, float]:
+    """Return an interval of a value that is uncertain by so much more."""
+    return max(value - math.hypot(value - low, by), 0.0), value + math.hypot(high - value, by)
+
+
+def _resolution(jacobian: Array, measured: Sequence[Measured], sigma: Array) -> tuple[Array, Array]:
     """Return of each parameter the variance's share, and the largest error, from resolution."""
     effect = np.linalg.pinv(jacobian)
-    parts = [(*entry.from_resolution, entry.sigma, len(entry.values)) for entry in measured]
-    deviation = np.concatenate([np.full(n, own / sigma) for own, _, sigma, n in parts])
-    most = np.concatenate([np.full(n, worst / sigma) for _, worst, sigma, n in parts])
+    parts = [(*entry.from_resolution, len(entry.values)) for entry in measured]
+    deviation = np.concatenate([np.full(n, own) for own, _, n in parts]) / sigma
+    most = np.concatenate([np.full(n, worst) for _, worst, n in parts]) / sigma
     share = np.sum((effect * deviation) ** 2, axis=1) / np.sum(effect**2, axis=1)
     return share, np.sum(np.abs(effect) * most, axis=1)
 
 
 def _data(fitted: Surrogate, measured: Sequence[Measured]) -> list[Datum]:
-    computed = iter(fitted.responses.tolist())
+    computed, sigmas = iter(fitted.responses.tolist()), iter(fitted.problem.sigma.tolist())
     found = []
     for entry in measured:
         positions = entry.position or (None,)
         for value, position in zip(entry.values.tolist(), positions, strict=True):
-            own = next(computed)
+            own, sigma = next(computed), next(sigmas)
             found.append(
                 Datum(
                     entry.body,
@@ -131,9 +144,9 @@ def _data(fitted: Surrogate, measured: Sequence[Measured]) -> list[Datum]:
                     position,
                     unit_of(entry.quantity),
                     value,
-                    entry.sigma,
+                    sigma,
                     own,
-                    (own - value) / entry.sigma,
+                    (own - value) / sigma,
                 )
             )
     return found

@@ -19,6 +19,8 @@ from tribo.study.calibration.quantities import PROFILES, unit_of
 
 Reading = Annotated[float, Quantity("kg", above=0)]
 Position = Annotated[float, Quantity("m")]
+ATOMS = {"m": 1e-10, "m^2": 1e-20, "m^3": 1e-30, "kg": 1e-27}
+"""Size, section, volume and mass of an atom: no worn body has less to measure."""
 _BEYOND_NOISE = 3.0
 """How many standard deviations a mean lies below 0 that noise does not explain."""
 
@@ -69,6 +71,22 @@ class Measured(Table):
             return mark.read(value)
         except CaseError as error:
             raise ValueError(str(error)) from None
+
+    @field_validator("value")
+    @classmethod
+    def _larger_than_an_atom(cls, value: Any, info: ValidationInfo) -> Any:
+        quantity = info.data.get("quantity")
+        if value is None or quantity is None:
+            return value
+        unit = unit_of(quantity)
+        largest = float(np.max(np.abs(value)))
+        if 0 < largest < ATOMS[unit]:
+            raise ValueError(
+                f"{largest:g} {unit} is less than an atom, about {ATOMS[unit]:g} {unit}: check the "
+                "value and its unit; of a loss too small to be seen, give the smallest one that "
+                "would have been, and the same as its uncertainty"
+            )
+        return value
 
     @model_validator(mode="after")
     def _fits_together(self) -> Self:

@@ -13,14 +13,12 @@ from tribo.core.grid import Grid
 from tribo.study.calibration.measured import Measured
 from tribo.study.calibration.outcome import Datum, Estimate
 from tribo.study.calibration.parameters import Parameter
-from tribo.study.calibration.quantities import in_si, in_words, percent
+from tribo.study.calibration.quantities import EDGES, in_si, in_words, percent
 
 UNLIKELY = 0.01
 """Probability of so large a misfit below which data and model are said to disagree."""
 HARDLY, NOT_AT_ALL = 0.2, 0.01
 """How far apart the effects of parameters are: 1 is at right angles, 0 is the same."""
-EDGES = 0.2
-"""How far, in cells, a computed diameter may be off."""
 _AXES = {"scar_along": 0, "scar_across": 1}
 _TAKES_PART = 0.3
 _MOST = 0.5
@@ -55,7 +53,7 @@ def notes(
         Degrees of freedom of χ².
     """
     return [
-        *_dominated(estimates, measured, jacobian),
+        *_dominated(estimates, data, measured, jacobian),
         *_entangled([each.path for each in estimates], jacobian),
         *_open(estimates),
         *_bounded(estimates, parameters),
@@ -66,12 +64,17 @@ def notes(
 
 
 def _dominated(
-    estimates: Sequence[Estimate], measured: Sequence[Measured], jacobian: Array
+    estimates: Sequence[Estimate],
+    data: Sequence[Datum],
+    measured: Sequence[Measured],
+    jacobian: Array,
 ) -> Iterator[str]:
     """Say where better instruments would help most."""
     effect = np.linalg.pinv(jacobian)
     owners = [entry for entry in measured for _ in entry.values]
-    parts = np.array([entry.from_resolution[0] / entry.sigma for entry in owners])
+    parts = np.array(
+        [entry.from_resolution[0] / each.sigma for entry, each in zip(owners, data, strict=True)]
+    )
     for estimate, own in zip(estimates, effect, strict=True):
         if estimate.held or math.isinf(estimate.upper):
             continue

@@ -51,7 +51,8 @@ class Datum:
     """A measured value beside the computed one.
 
     `residual` is computed less measured, in units of `sigma`, the standard
-    deviation; `position` is that of a profile's point, in m.
+    deviation of both: of the measured value, and with which the grid gives the
+    computed one; `position` is that of a profile's point, in m.
     """
 
     body: str

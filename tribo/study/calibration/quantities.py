@@ -10,13 +10,18 @@ import numpy as np
 
 from tribo.analysis.conversion import mass_from_volume
 from tribo.analysis.inferred import track_section
-from tribo.analysis.scar import VISIBLE_DEPTH, crown
+from tribo.analysis.scar import crown, diameter
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
+from tribo.core.measures import between_cells
 from tribo.results.body import BodyResult
 from tribo.results.export import profile
 from tribo.results.read import Result
 from tribo.simulation.model import Model
+
+Reading = Callable[[Result, BodyResult, int], float]
+EDGES = 0.15
+"""Standard deviation of a computed diameter, in cells."""
 
 
 @dataclass(frozen=True)
@@ -38,6 +43,8 @@ class WornQuantity:
         through it, or both.
     read : callable
         Reads it off a result, for a body at a save.
+    read_off : callable
+        Standard deviation with which the grid gives it.
     """
 
     words: str
@@ -45,43 +52,8 @@ class WornQuantity:
     shown: str
     per_unit: float
     of: Literal["both", "stationary", "swept"]
-    read: Callable[[Result, BodyResult, int], float]
-
-
-def diameter(depth: Array, axis: int, spacing: float) -> float:
-    """Extent along `axis` of what is worn visibly, to a fraction of a cell.
-
-    The edges of `tribo.analysis.scar`, which lie between cells, are put where
-    the depth would come to the visible one as it falls towards them. So the
-    diameter grows evenly with the scar, where counted cells jump.
-
-    Parameters
-    ----------
-    depth : ndarray, shape (nx, ny)
-        Worn depth, in m.
-    axis : int
-        0 along the sliding direction, 1 across it.
-    spacing : float
-        Edge length of a cell along `axis`, in m.
-
-    Returns
-    -------
-    float
-        In m; 0 where nothing is worn visibly.
-    """
-    line = np.max(depth, axis=1 - axis)
-    worn = np.flatnonzero(line > VISIBLE_DEPTH)
-    if worn.size < 2:
-        return float(worn.size) * spacing
-    first, last = int(worn[0]), int(worn[-1])
-    rims = (line[first], line[first + 1]), (line[last], line[last - 1])
-    return float(last - first + sum(_beyond(rim, inside) for rim, inside in rims)) * spacing
-
-
-def _beyond(rim: float, inside: float) -> float:
-    """Return how far the edge lies beyond the centre of the outermost worn cell, in cells."""
-    fall = inside - rim
-    return min((rim - VISIBLE_DEPTH) / fall, 1.0) if fall > 0 else 0.5
+    read: Reading
+    read_off: Reading = lambda result, body, save: 0.0
 
 
 def _volume(result: Result, body: BodyResult, save: int) -> float:
@@ -93,7 +65,7 @@ def _mass(result: Result, body: BodyResult, save: int) -> float:
     return mass_from_volume(_volume(result, body, save), body.density)
 
 
-def _diameter(axis: int) -> Callable[[Result, BodyResult, int], float]:
+def _diameter(axis: int) -> Reading:
     return lambda result, body, save: diameter(
         body.wear_depth[save], axis, result.grid.spacing[axis]
     )
@@ -101,6 +73,19 @@ def _diameter(axis: int) -> Callable[[Result, BodyResult, int], float]:
 
 def _crown(result: Result, body: BodyResult, save: int) -> float:
     return crown(profile(body.surface(save), 1), profile(body.wear_depth[save], 1))
+
+
+def _edges(axis: int) -> Reading:
+    return lambda result, body, save: EDGES * result.grid.spacing[axis]
+
+
+def _feet(result: Result, body: BodyResult, save: int) -> float:
+    """The unworn surface falls as steeply as this at the feet of the chord under the crown."""
+    depth, spacing = body.wear_depth[save], result.grid.spacing[1]
+    unworn = profile(body.surface(save) + depth, 1)
+    half = 0.5 * diameter(depth, 1, spacing)
+    fall = np.abs(np.interp([-half, half], result.grid.y, np.gradient(unworn, spacing)))
+    return 0.5 * EDGES * spacing * float(np.mean(fall))
 
 
 def _section(result: Result, body: BodyResult, save: int) -> float:
@@ -112,17 +97,17 @@ def _section(result: Result, body: BodyResult, save: int) -> float:
 QUANTITIES = {
     "mass": WornQuantity("mass lost", "kg", "mg", 1e6, "both", _mass),
     "volume": WornQuantity("volume lost", "m^3", "mm³", 1e9, "both", _volume),
-    "scar_along": WornQuantity("scar along", "m", "mm", 1e3, "stationary", _diameter(0)),
-    "scar_across": WornQuantity("scar across", "m", "mm", 1e3, "both", _diameter(1)),
+    "scar_along": WornQuantity("scar along", "m", "mm", 1e3, "stationary", _diameter(0), _edges(0)),
+    "scar_across": WornQuantity("scar across", "m", "mm", 1e3, "both", _diameter(1), _edges(1)),
     "depth": WornQuantity(
         "largest depth",
         "m",
         "µm",
         1e6,
         "both",
-        lambda _, body, i: float(np.max(body.wear_depth[i])),
+        lambda _, body, i: float(np.max(body.wear_depth[i])) + between_cells(body.wear_depth[i]),
     ),
-    "crown": WornQuantity("crown", "m", "µm", 1e6, "stationary", _crown),
+    "crown": WornQuantity("crown", "m", "µm", 1e6, "stationary", _crown, _feet),
     "section": WornQuantity("section of the track", "m^2", "mm²", 1e6, "swept", _section),
 }
 """What is one number, by its name in a file of measured values; diameters for the scar's sizes."""

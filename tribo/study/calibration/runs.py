@@ -27,6 +27,7 @@ class Runs:
     """Runs the case with other parameters, and reads off what was measured.
 
     `count` is the number of runs so far, `notices` are those of the last one,
+    `read_off` the standard deviations with which its grid gives the responses,
     and `positive` tells which predictions were above 0 in all of them. `logged`
     marks the responses that go as powers of the parameters; see
     `tribo.study.calibration.fit.Problem`.
@@ -61,6 +62,7 @@ class Runs:
         self._predicted = predicted
         self.count = 0
         self.notices: tuple[str, ...] = ()
+        self.read_off = np.zeros(0)
         self.positive = np.ones(len(predicted), dtype=bool)
         plain = [np.full(len(e.values), e.quantity not in PROFILES) for e in measured]
         self.logged = np.concatenate([*plain, self.positive])
@@ -86,29 +88,33 @@ class Runs:
                 raise type(error)(f"run {self.count}, with {named}: {error}") from error
         with result:
             self.notices = result.notices
-            data = [
+            read = [
                 _read(result, entry, f"measured[{i}]") for i, entry in enumerate(self._measured)
             ]
-            others = np.array(
-                [QUANTITIES[q].read(result, result.body(body), -1) for body, q in self._predicted]
-            )
+            ends = [(QUANTITIES[q], result.body(body)) for body, q in self._predicted]
+            others = np.array([quantity.read(result, body, -1) for quantity, body in ends])
+            blurred = np.array([quantity.read_off(result, body, -1) for quantity, body in ends])
+        self.read_off = np.concatenate([*(blur for _, blur in read), blurred])
         self.positive &= others > 0
-        return np.concatenate([*data, np.where(others > 0, others, 1.0)])
+        return np.concatenate([*(values for values, _ in read), np.where(others > 0, others, 1.0)])
 
 
-def _read(result: Result, entry: Measured, place: str) -> Array:
+def _read(result: Result, entry: Measured, place: str) -> tuple[Array, Array]:
+    """Return the computed values of what was measured, and how well the grid gives them."""
     body, save = result.body(entry.body), -1
     if entry.time is not None:
         with located(f"{place}.time"):
             save = result.save_at(entry.time)
     if entry.quantity in PROFILES:
         assert entry.position is not None
-        return read_profile(result, body, save, entry.quantity, np.array(entry.position))
-    value = QUANTITIES[entry.quantity].read(result, body, save)
+        depths = read_profile(result, body, save, entry.quantity, np.array(entry.position))
+        return depths, np.zeros_like(depths)
+    quantity = QUANTITIES[entry.quantity]
+    value = quantity.read(result, body, save)
     if value <= 0:
         raise CaseError(
             f"the {entry.quantity} of {entry.body!r} comes out as 0 in the case; begin with more "
             "wear: give start in fit",
             place,
         )
-    return np.array([value])
+    return np.array([value]), np.array([quantity.read_off(result, body, save)])
