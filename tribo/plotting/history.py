@@ -77,9 +77,7 @@ def wear_history(result: Result) -> Figure:
                 for name, scale in factor.items()
             ]
             curves = curves or drawn
-            axes.set_ylim(bottom=0.0)
-            axes.yaxis.set_major_locator(ticks(6))
-            _start_at_zero(axes)
+            _from_zero(axes)
             # Volumes may need a power of ten; everything else has a fitting unit.
             axes.ticklabel_format(axis="y", useMathText=True)
         panels[0].set_ylabel("Volume worn (mm³)")
@@ -155,7 +153,7 @@ def contact_history(result: Result) -> Figure:
         lower.set_title(f"± 1 cell, {_cells(spacing)}", loc="right", fontsize=7.0)
         lower.set_ylabel(f"Contact half-width ({length.name})")
         _fit_scale(lower, *widths)
-        _start_at_zero(lower)
+        lower.set_xlim(left=0.0)
         lower.set_xlabel(f"Time ({unit.name})")
     return figure
 
@@ -222,9 +220,10 @@ def _cells(spacing: tuple[float, float]) -> str:
     return f"{' × '.join(dict.fromkeys(sizes))} {unit.name}"
 
 
-def _start_at_zero(axes: Axes) -> None:
-    if axes.get_xlim()[1] > 0:
-        axes.set_xlim(left=0.0)
+def _from_zero(axes: Axes) -> None:
+    axes.set_ylim(bottom=0.0)
+    axes.yaxis.set_major_locator(ticks(6))
+    axes.set_xlim(left=0.0)
 
 
 def _fit_scale(axes: Axes, *curves: Array) -> None:
@@ -233,8 +232,7 @@ def _fit_scale(axes: Axes, *curves: Array) -> None:
     values = values[values > 0]
     span = float(np.max(values) / np.min(values)) if values.size else 1.0
     if span <= _DECADE:
-        axes.set_ylim(bottom=0.0)
-        axes.yaxis.set_major_locator(ticks(6))
+        _from_zero(axes)
         return
     axes.set_yscale("log")
     axes.yaxis.set_major_locator(

@@ -38,20 +38,12 @@ between two, in mm."""
 
 @dataclass(frozen=True)
 class Frame:
-    """The part of the window that a map shows, and how.
-
-    Parameters
-    ----------
-    window : tuple of Limits
-        Along x and y, in m.
-    size : tuple of float
-        Width and height on paper, in mm.
-    units : tuple of Unit
-        Along x and y.
-    """
+    """The part of the window that a map shows, along x and y."""
 
     window: tuple[Limits, Limits]
+    """In m."""
     size: tuple[float, float]
+    """On paper, in mm."""
     units: tuple[Unit, Unit]
 
     @property
@@ -71,14 +63,7 @@ class Frame:
 def frame(marked: Mask, grid: Grid, reach: Sequence[float] = (0.0, 0.0)) -> Frame:
     """Return a frame around all marked cells, true to scale unless that would be thin.
 
-    Parameters
-    ----------
-    marked : ndarray of bool, shape (nx, ny)
-        What to show.
-    grid : Grid
-        The window.
-    reach : sequence of float, optional
-        Distances from the origin along x and y to be shown as well, in m.
+    `reach` are distances from the origin to be shown as well, in m.
     """
     x, y = (limits(marked, grid, axis, reach[axis]) for axis in (0, 1))
     shape = (y[1] - y[0]) / (x[1] - x[0])
@@ -93,17 +78,7 @@ def frame(marked: Mask, grid: Grid, reach: Sequence[float] = (0.0, 0.0)) -> Fram
 
 
 def new_maps(frame: Frame, count: int = 1, below: float = 0.0) -> tuple[Figure, list[Axes]]:
-    """Return a figure of maps without fields, one under the other.
-
-    Parameters
-    ----------
-    frame : Frame
-        What they show.
-    count : int, optional
-        How many.
-    below : float, optional
-        Room below them, in mm.
-    """
+    """Return a figure of `count` maps without fields, with room below them, in mm."""
     width, height = frame.size
     notes = [f"\nenlarged {times(f)} times" if f > 1.005 else "" for f in frame.enlarged]
     bottom = _BOTTOM + (_LINE if notes[0] else 0.0)
@@ -114,14 +89,9 @@ def new_maps(frame: Frame, count: int = 1, below: float = 0.0) -> tuple[Figure, 
     figure.set_layout_engine("none")
     panels = []
     for number in reversed(range(count)):
-        corner = _LEFT + 0.5 * (_WIDEST - width), below + number * row + bottom
+        left, low = _LEFT + 0.5 * (_WIDEST - width), below + number * row + bottom
         axes = figure.add_axes(
-            (
-                corner[0] / SINGLE_COLUMN,
-                corner[1] / total,
-                width / SINGLE_COLUMN,
-                height / total,
-            )
+            (left / SINGLE_COLUMN, low / total, width / SINGLE_COLUMN, height / total)
         )
         axes.spines[:].set_visible(True)
         axes.set_xlim(*(frame.units[0].factor * end for end in frame.window[0]))
@@ -143,14 +113,12 @@ def draw_image(
     axes: Axes, grid: Grid, frame: Frame, field: Array, label: str, **look: Any
 ) -> AxesImage:
     """Draw a field in the units shown, with its colour scale; `look` goes to `Axes.imshow`."""
-    half_x, half_y = (
-        0.5 * unit.factor * size for unit, size in zip(frame.units, grid.size, strict=True)
-    )
+    x, y = (0.5 * unit.factor * size for unit, size in zip(frame.units, grid.size, strict=True))
     window = axes.get_xlim(), axes.get_ylim()
     image = axes.imshow(
         field.T,
         origin="lower",
-        extent=(-half_x, half_x, -half_y, half_y),
+        extent=(-x, x, -y, y),
         aspect="auto",
         **look,
     )
@@ -171,16 +139,7 @@ def draw_lines(
 ) -> list[QuadContourSet]:
     """Draw lines of equal value, but for those in fragments or without room, and return them.
 
-    Parameters
-    ----------
-    axes, grid, frame
-        The map.
-    field : ndarray, shape (nx, ny)
-        In the unit shown; it may be masked.
-    levels : iterable of float
-        Values to draw a line at.
-    looks : iterable of mapping
-        Of each, for `Axes.contour`.
+    The field may be masked; `looks` go to `Axes.contour`, one for each level.
     """
     x, y = frame.positions(grid)
     corners = np.array([(x[0], y[0]), (x[-1], y[-1])])

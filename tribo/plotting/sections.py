@@ -33,17 +33,7 @@ COLUMNS = 3
 
 @dataclass(frozen=True)
 class Section:
-    """Curves along one axis.
-
-    Parameters
-    ----------
-    axis : int
-        0 along the sliding direction, 1 across it.
-    window : Limits
-        What is shown, in m.
-    curves : sequence of (Array, Array)
-        Positions and values, in SI units.
-    """
+    """Curves along an axis, 0 or 1: positions and values in SI units."""
 
     axis: int
     window: Limits
@@ -104,17 +94,7 @@ def draw_profiles(
 
 
 def note_enlargement(axes: Axes, across: Limits, up: Limits, shape: float) -> None:
-    """Give axes a shape, and say above how much larger heights are drawn than widths.
-
-    Parameters
-    ----------
-    axes : Axes
-        The axes.
-    across, up : tuple of float
-        Their limits in m.
-    shape : float
-        Their height over their width, on paper.
-    """
+    """Give axes a height over width, and say how much larger they show heights than widths."""
     axes.set_box_aspect(shape)
     factor = shape * (across[1] - across[0]) / (up[1] - up[0])
     axes.set_title(f"height × {times(factor)}", loc="right", fontsize=7.0)
