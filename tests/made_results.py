@@ -30,19 +30,21 @@ def made(
     power=0.5,
     shape=(1.0, 1.1),
     status="done",
+    grid=GRID,
+    texture=0.0,
 ):
     """Return a result in which the contact grows as that of a ball worn flat.
 
     The pressure goes as ``(1 - r²/a²)**power``; `shape` are the half-widths along x and y in
-    parts of a.
+    parts of a, `texture` the part of the pressure that comes and goes from cell to cell.
     """
     bodies = tuple(zip(names, swept, worn, densities, strict=True))
     writer = ResultWriter(None)
     writer.create(
         RunInfo(
-            system=ContactSystem(GRID, 1.137e11, 100.0, cap, curvature),
+            system=ContactSystem(grid, 1.137e11, 100.0, cap, curvature),
             bodies=tuple(
-                BodyInfo(name, is_swept, density, _height(i))
+                BodyInfo(name, is_swept, density, _height(grid, i))
                 for i, (name, is_swept, _, density) in enumerate(bodies)
             ),
             end_time=3600.0,
@@ -51,11 +53,12 @@ def made(
             provenance=provenance({}),
         )
     )
+    looks = bodies, plastic, power, shape, grid, texture
     for time in times:
-        snapshot = _snapshot(time, bodies, plastic, power, shape)
+        snapshot = _snapshot(time, *looks)
         # Two steps to each save.
         if time > 0:
-            writer.append_step(_snapshot(0.9 * time, bodies, plastic, power, shape).measures)
+            writer.append_step(_snapshot(0.9 * time, *looks).measures)
         writer.append_step(snapshot.measures)
         writer.append_save(snapshot)
     writer.finish(status, 1.0)
@@ -67,17 +70,19 @@ def half_width(time):
     return 1.5e-4 * (1 + time / 20) ** 0.25
 
 
-def _height(body):
-    x, y = GRID.mesh
-    return -(x**2 + y**2) / (2 * RADIUS) if body == 0 else np.zeros(GRID.cells)
+def _height(grid, body):
+    x, y = grid.mesh
+    return -(x**2 + y**2) / (2 * RADIUS) if body == 0 else np.zeros(grid.cells)
 
 
-def _snapshot(time, bodies, plastic, power, shape):
-    x, y = GRID.mesh
+def _snapshot(time, bodies, plastic, power, shape, grid, texture):
+    x, y = grid.mesh
     a = half_width(time)
     inside = np.maximum(1 - ((x / shape[0]) ** 2 + (y / shape[1]) ** 2) / a**2, 0.0)
     pressure = np.where(inside > 0, inside**power, 0.0)
-    pressure *= 100.0 / (pressure.sum() * GRID.cell_area)
+    i, j = np.indices(grid.cells)
+    pressure *= 1 + texture * np.cos(1.7 * i) * np.cos(1.3 * j)
+    pressure *= 100.0 / (pressure.sum() * grid.cell_area)
     # What levels a ball, and a tenth of it for a groove.
     depth = (a**2 - half_width(0.0) ** 2) / (2 * RADIUS) * inside
     states, measures = {}, {}
@@ -95,7 +100,7 @@ def _snapshot(time, bodies, plastic, power, shape):
         increment=1.0,
         reference_depth=1e-6,
     )
-    width, breadth = half_widths(state.contact, GRID)
+    width, breadth = half_widths(state.contact, grid)
     return Snapshot(
         state,
         Measures(
@@ -105,7 +110,7 @@ def _snapshot(time, bodies, plastic, power, shape):
             centre_pressure=centre(pressure),
             half_width_x=width,
             half_width_y=breadth,
-            area=contact_area(pressure, GRID),
+            area=contact_area(pressure, grid),
             approach=1e-6,
             residuals=SETTLED,
             contact_solves=1,

@@ -64,8 +64,8 @@ def test_a_map_is_the_result_less_the_first(results):
     for image in images:
         low, high = image.get_clim()
         assert low == -high
-    assert figure.get_suptitle() == "three less one, t = 3600 s"
-    assert [axes.get_ylabel() for axes in figure.axes[2:]] == [
+    assert figure.axes[0].get_title(loc="left") == "three less one, t = 3600 s"
+    assert [axes.child_axes[0].get_ylabel() for axes in figure.axes] == [
         "Pressure (MPa)",
         "Wear depth of ball (µm)",
     ]

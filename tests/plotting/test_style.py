@@ -55,7 +55,9 @@ def test_bodies_differ_in_marker_width_and_lightness():
     assert lightness(one.colour) > 4 * lightness(other.colour)
 
 
-@pytest.mark.parametrize("pair", [(LARGEST, CENTRE), (ALONG, ACROSS), (WORN, UNWORN)])
+@pytest.mark.parametrize(
+    "pair", [(LARGEST, CENTRE), (ALONG, ACROSS), (WORN, UNWORN[0]), (WORN, UNWORN[1]), UNWORN]
+)
 def test_other_pairs_of_lines_differ_in_dashes(pair):
     one, other = pair
     assert one.dashes != other.dashes

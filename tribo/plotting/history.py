@@ -19,6 +19,7 @@ from tribo.plotting.style import (
     house_style,
     legend_below,
     new_figure,
+    ticks,
 )
 from tribo.plotting.units import MG, MM3, height_unit, length_unit, pressure_unit, time_unit
 from tribo.plotting.window import number_of_saves
@@ -28,7 +29,7 @@ ALONG = Stroke("#56b4e9", width=2.4)
 LARGEST = Stroke("#e69f00", width=2.4)
 CENTRE = ACROSS = OVER
 _DECADE = 10.0
-"""Pressures that fall by more than this factor are drawn on a logarithmic scale."""
+"""Values that span more than this factor are drawn on a logarithmic scale."""
 
 
 def wear_history(result: Result) -> Figure:
@@ -89,6 +90,7 @@ def wear_history(result: Result) -> Figure:
             )
             right.ticklabel_format(axis="y", useMathText=True)
             right.set_ylabel("Mass worn (mg)")
+            right.yaxis.set_major_locator(ticks(6))
         panels[-1].set_xlabel(f"Time ({unit.name})")
         legend_below(figure, curves)
     return figure
@@ -136,10 +138,7 @@ def contact_history(result: Result) -> Figure:
             marker,
         )
         upper.set_ylabel(f"Pressure ({stress.name})")
-        if np.min(centre) > 0 and np.max(largest) > _DECADE * np.min(centre):
-            _logarithmic(upper)
-        else:
-            _from_zero(upper)
+        _fit_scale(upper, largest, centre)
         (t_along, along), (t_across, across) = (
             _through_steps(time, width, cell) for width, cell in zip(widths, spacing, strict=True)
         )
@@ -153,7 +152,8 @@ def contact_history(result: Result) -> Figure:
         )
         lower.set_title(f"± 1 cell, {_cells(spacing)}", loc="right", fontsize=7.0)
         lower.set_ylabel(f"Contact half-width ({length.name})")
-        _from_zero(lower)
+        _fit_scale(lower, *widths)
+        lower.set_xlim(left=0.0)
         lower.set_xlabel(f"Time ({unit.name})")
     return figure
 
@@ -222,12 +222,21 @@ def _cells(spacing: tuple[float, float]) -> str:
 
 def _from_zero(axes: Axes) -> None:
     axes.set_ylim(bottom=0.0)
-    if axes.get_xlim()[1] > 0:
-        axes.set_xlim(left=0.0)
+    axes.yaxis.set_major_locator(ticks(6))
+    axes.set_xlim(left=0.0)
 
 
-def _logarithmic(axes: Axes) -> None:
+def _fit_scale(axes: Axes, *curves: Array) -> None:
+    """Take a logarithmic scale where values span more than a decade, else one from zero."""
+    values = np.concatenate(curves)
+    values = values[values > 0]
+    span = float(np.max(values) / np.min(values)) if values.size else 1.0
+    if span <= _DECADE:
+        _from_zero(axes)
+        return
     axes.set_yscale("log")
-    axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axes.yaxis.set_major_locator(
+        LogLocator(subs=(1.0, 2.0, 5.0) if span < _DECADE**2.5 else (1.0,))
+    )
     axes.yaxis.set_major_formatter(ScalarFormatter())
     axes.yaxis.set_minor_formatter(NullFormatter())

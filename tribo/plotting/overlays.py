@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
 
-from tribo.core.arrays import Array
-from tribo.core.grid import Grid
+from tribo.core.arrays import Array, Mask
 from tribo.plotting.difference import difference_map
 from tribo.plotting.figures import write_figures
-from tribo.plotting.pressure import AXIS_LABELS
-from tribo.plotting.profiles import enlargement, visible
+from tribo.plotting.sections import COLUMNS, Section, draw_profiles
 from tribo.plotting.style import (
     WIDE,
     house_style,
@@ -24,14 +20,12 @@ from tribo.plotting.style import (
     legend_height,
     new_figure,
     overlay_strokes,
+    ticks,
 )
-from tribo.plotting.units import Unit, height_unit, length_unit, pressure_unit
-from tribo.plotting.window import Limits, limits, removed, scar_mask, spread
+from tribo.plotting.units import pressure_unit
+from tribo.plotting.window import joined, positions, removed, scar_mask, section_limits
 from tribo.results.export import profile
 from tribo.results.read import Result
-
-_COLUMNS = 3
-_SHAPE = 0.62
 
 Results = Mapping[str, Result]
 
@@ -54,33 +48,22 @@ def pressure_overlay(results: Results, time: float) -> Figure:
         If one has no save then.
     """
     fields = {label: result.pressure(result.save_at(time)) for label, result in results.items()}
-    windows = [
-        _joined(limits(fields[label] > 0, result.grid, axis) for label, result in results.items())
+    sections = [
+        _section(results, {label: field > 0 for label, field in fields.items()}, fields, axis)
         for axis in (0, 1)
     ]
-    length = length_unit(max(abs(end) for window in windows for end in window))
     highest = max(float(np.max(field)) for field in fields.values())
-    unit = pressure_unit(highest)
+    unit, strokes = pressure_unit(highest), overlay_strokes(len(results))
     with house_style():
-        figure = new_figure(54.0 + legend_height(len(results), _COLUMNS), WIDE)
+        figure = new_figure(54.0 + legend_height(len(results), COLUMNS), WIDE)
         panels = figure.subplots(1, 2, sharey=True)
-        for axis, axes in enumerate(panels):
-            curves = [
-                stroke.draw(
-                    axes,
-                    length.of(_position(results[label].grid, axis)),
-                    unit.of(profile(field, axis)),
-                    label,
-                )
-                for stroke, (label, field) in zip(
-                    overlay_strokes(len(fields)), fields.items(), strict=True
-                )
-            ]
-            _label(axes, windows[axis], axis, length)
+        for axes, section in zip(panels, sections, strict=True):
+            curves = section.draw(axes, unit, strokes, list(results))
         panels[0].set_ylim(0.0, 1.05 * unit.factor * highest or 1.0)
         panels[0].set_ylabel(f"Pressure ({unit.name})")
+        panels[0].yaxis.set_major_locator(ticks(7))
         panels[0].set_title(f"t = {time:g} s", loc="left")
-        legend_below(figure, curves, columns=_COLUMNS)
+        legend_below(figure, curves, columns=COLUMNS)
     return figure
 
 
@@ -105,49 +88,15 @@ def profile_overlay(results: Results, name: str, time: float) -> Figure:
     """
     saves = {label: result.save_at(time) for label, result in results.items()}
     bodies = {label: result.body(name) for label, result in results.items()}
-    axes_shown = (1,) if all(body.swept for body in bodies.values()) else (0, 1)
+    swept = all(body.swept for body in bodies.values())
     marked = {label: scar_mask(removed(results[label], name)[i]) for label, i in saves.items()}
-    windows = {
-        axis: _joined(limits(marked[label], results[label].grid, axis) for label in results)
-        for axis in axes_shown
-    }
-    lines = {
-        axis: {label: profile(bodies[label].surface(i), axis) for label, i in saves.items()}
-        for axis in axes_shown
-    }
-    low, high = spread(
-        [
-            visible(line, _position(results[label].grid, axis), windows[axis])
-            for axis in axes_shown
-            for label, line in lines[axis].items()
-        ]
+    surfaces = {label: bodies[label].surface(i) for label, i in saves.items()}
+    return draw_profiles(
+        [_section(results, marked, surfaces, axis) for axis in ((1,) if swept else (0, 1))],
+        overlay_strokes(len(results)),
+        list(results),
+        f"{name}, t = {time:g} s",
     )
-    length = length_unit(max(abs(end) for window in windows.values() for end in window))
-    unit = height_unit(max(abs(low), abs(high)))
-    with house_style():
-        figure = new_figure(
-            56.0 + legend_height(len(results), _COLUMNS), WIDE * (0.5 + 0.5 * (len(axes_shown) > 1))
-        )
-        panels = figure.subplots(1, len(axes_shown), sharey=True, squeeze=False)[0]
-        for axis, axes in zip(axes_shown, panels, strict=True):
-            curves = [
-                stroke.draw(
-                    axes, length.of(_position(results[label].grid, axis)), unit.of(line), label
-                )
-                for stroke, (label, line) in zip(
-                    overlay_strokes(len(results)), lines[axis].items(), strict=True
-                )
-            ]
-            _label(axes, windows[axis], axis, length)
-            axes.set_box_aspect(_SHAPE)
-            axes.set_title(
-                enlargement(windows[axis], (low, high), _SHAPE), loc="right", fontsize=7.0
-            )
-        panels[0].set_ylim(unit.factor * low, unit.factor * high)
-        panels[0].set_ylabel(f"Height ({unit.name})")
-        panels[0].set_title(f"{name}, t = {time:g} s", loc="left")
-        legend_below(figure, curves, columns=_COLUMNS)
-    return figure
 
 
 def save_overlays(
@@ -207,16 +156,12 @@ def _pictures(results: Results, time: float) -> dict[str, Callable[[], Figure]]:
     return pictures
 
 
-def _joined(windows: Iterable[Limits]) -> Limits:
-    lows, highs = zip(*windows, strict=True)
-    return min(lows), max(highs)
-
-
-def _position(grid: Grid, axis: int) -> Array:
-    return (grid.x, grid.y)[axis]
-
-
-def _label(axes: Axes, window: Limits, axis: int, length: Unit) -> None:
-    axes.set_xlim(*(length.factor * end for end in window))
-    axes.set_xlabel(f"{AXIS_LABELS[axis]} ({length.name})")
-    axes.xaxis.set_major_locator(MaxNLocator(5))
+def _section(
+    results: Results, marked: Mapping[str, Mask], fields: Mapping[str, Array], axis: int
+) -> Section:
+    """Return the sections of fields of several results, and limits around all that is marked."""
+    return Section(
+        axis,
+        joined(section_limits(marked[label], results[label].grid, axis) for label in results),
+        [(positions(results[label].grid, axis), profile(fields[label], axis)) for label in results],
+    )

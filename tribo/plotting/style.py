@@ -15,6 +15,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import Colormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.ticker import MaxNLocator
 
 from tribo.core.arrays import Array
 
@@ -24,6 +25,8 @@ WIDE = 130.0
 """Width of a picture in one and a half columns, in mm."""
 LEGEND_ROWS = 4
 """Most rows of a legend of saves; with more saves only some are named."""
+
+AXIS_LABELS = ("Along sliding, x", "Across sliding, y")
 
 _STYLE: dict[str, Any] = {
     "font.family": "DejaVu Sans",
@@ -121,6 +124,23 @@ def new_figure(height: float, width: float = SINGLE_COLUMN) -> Figure:
         In mm.
     """
     return Figure(figsize=(width / 25.4, height / 25.4))
+
+
+def ticks(most: int) -> MaxNLocator:
+    """Return a locator of at most so many round intervals.
+
+    Unlike matplotlib's own it does not depend on the axis' length, so that the
+    layout, which depends on how long the labels are, has an end.
+    """
+    return MaxNLocator(most, steps=[1, 2, 2.5, 5, 10])
+
+
+def times(factor: float) -> str:
+    """Return two digits of a factor."""
+    digits, power = f"{factor:.1e}".split("e")
+    if int(power) >= 5:
+        return rf"${digits} \times 10^{{{int(power)}}}$"
+    return f"{float(f'{factor:.1e}'):g}"
 
 
 def pressure_colours() -> Colormap:

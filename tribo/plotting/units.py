@@ -35,14 +35,14 @@ class Unit:
         return np.asarray(self.factor * values)
 
 
-_LENGTHS = (Unit("mm", 1e3), Unit("µm", 1e6), Unit("nm", 1e9))
+_LENGTHS = (Unit("mm", 1e3), Unit("µm", 1e6), Unit("nm", 1e9), Unit("pm", 1e12))
 _PRESSURES = (Unit("MPa", 1e-6), Unit("kPa", 1e-3), Unit("Pa", 1.0))
 _SECONDS, _MILLISECONDS = Unit("s", 1.0), Unit("ms", 1e3)
 _TIMES = (Unit("h", 1 / 3600.0), Unit("min", 1 / 60.0), _SECONDS)
 
 
 def length_unit(largest: float) -> Unit:
-    """Return the unit for lengths up to `largest`, in m: mm, µm or nm."""
+    """Return the unit for lengths up to `largest`, in m: mm, µm, nm or pm."""
     return _fitting(_LENGTHS, largest)
 
 

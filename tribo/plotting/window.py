@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
@@ -50,7 +50,7 @@ def limits(marked: Mask, grid: Grid, axis: int, reach: float = 0.0) -> Limits:
 
     Parameters
     ----------
-    marked : ndarray of bool, shape (nx, ny)
+    marked : ndarray of bool, shape (nx, ny) or (1, ny)
         What to show; the whole window if nothing is marked.
     grid : Grid
         The window.
@@ -60,7 +60,7 @@ def limits(marked: Mask, grid: Grid, axis: int, reach: float = 0.0) -> Limits:
         Distance from the origin to be shown as well, in m.
     """
     edge = 0.5 * grid.size[axis]
-    index = np.flatnonzero(marked.any(axis=1 - axis))
+    index = np.flatnonzero(np.broadcast_to(marked, grid.cells).any(axis=1 - axis))
     if index.size == 0:
         return -edge, edge
     step = grid.spacing[axis]
@@ -68,6 +68,24 @@ def limits(marked: Mask, grid: Grid, axis: int, reach: float = 0.0) -> Limits:
     high = max(float(index[-1] + 1) * step - edge, reach)
     margin = MARGIN * max(0.5 * (high - low), 2.0 * step)
     return max(low - margin, -edge), min(high + margin, edge)
+
+
+def section_limits(marked: Mask, grid: Grid, axis: int, reach: float = 0.0) -> Limits:
+    """Return the `limits` of a section, which ends at the centres of the outermost cells."""
+    low, high = limits(marked, grid, axis, reach)
+    x = positions(grid, axis)
+    return max(low, float(x[0])), min(high, float(x[-1]))
+
+
+def joined(windows: Iterable[Limits]) -> Limits:
+    """Return limits around all of `windows`."""
+    lows, highs = zip(*windows, strict=True)
+    return min(lows), max(highs)
+
+
+def positions(grid: Grid, axis: int) -> Array:
+    """Return the cells' centres along an axis, 0 or 1, in m."""
+    return (grid.x, grid.y)[axis]
 
 
 def removed(result: Result, name: str) -> Array:
