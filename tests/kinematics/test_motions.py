@@ -56,7 +56,7 @@ def test_whole_cycles_slide_the_same_whatever_the_waveform(waveform):
     [
         reciprocating(),
         reciprocating(waveform="sinusoidal"),
-        Unidirectional(Unidirectional(speed="0.1 m/s", track_radius="16 mm", distance="10 m")),
+        Unidirectional(speed="0.1 m/s", track_radius="16 mm", distance="10 m"),
     ],
 )
 def test_time_is_the_inverse_of_distance(motion):

@@ -93,9 +93,11 @@ def test_nothing_is_held_against_a_sound_run(changes):
 
 
 def test_chattering_stops_a_run_whose_solver_overstates_its_stability():
-    contact = half_space()
-    contact.smallest_compliance = lambda system: 1.0
-    model = one_body(contact=contact, stepping=Explicit(time_step=time_step(1.5)))
+    class Overstates(DcFft):
+        def smallest_compliance(self, system):
+            return 1.0
+
+    model = one_body(contact=Overstates(), stepping=Explicit(time_step=time_step(1.5)))
     with pytest.raises(NumericalError, match=r"^step \d+, at .* s .*pressure chatters: \d+ %.*'im"):
         last(model)
 
@@ -140,15 +142,15 @@ def test_a_motion_that_miscounts_wear_stops_the_run(exposure, words):
 @pytest.mark.parametrize("what", ["complementarity", "penetration"])
 def test_a_solver_that_owns_to_a_poor_contact_stops_the_run(what, tmp_path):
     class Sloppy(DcFft):
-        calls = 0
+        _calls: int = 0
 
         def solve(self, problem, start=None):
-            self.calls += 1
+            self._calls += 1
             solution = super().solve(problem, start)
             poor = replace(solution.residuals, **{what: 0.05})
-            return solution if self.calls < 6 else replace(solution, residuals=poor)
+            return solution if self._calls < 6 else replace(solution, residuals=poor)
 
-    simulation = Simulation(one_body(contact=Sloppy(DcFft())))
+    simulation = Simulation(one_body(contact=Sloppy()))
     path = tmp_path / "run.h5"
     with pytest.raises(NumericalError, match=r"^step 3, at .*0\.05, and 0\.01 is allowed; .*toler"):
         simulation.run(path)
@@ -164,7 +166,7 @@ def test_the_load_balance_is_measured_and_not_taken_on_trust():
             best = replace(solution.residuals, force=0.0)
             return replace(solution, pressure=(1 + 3e-7) * solution.pressure, residuals=best)
 
-    result = Simulation(one_body(contact=Boasts(DcFft()))).run()
+    result = Simulation(one_body(contact=Boasts())).run()
     assert result.worst()["force_error"] == pytest.approx(3e-7, rel=1e-3)
 
 

@@ -89,7 +89,7 @@ class Silent(Reciprocating):
 
 def test_a_motion_that_states_no_speeds_has_the_mean_over_the_step():
     whole_cycles = motion(duration=0.4, **SINE)
-    found = lost(Silent(whole_cycles.config), stepping=Explicit(time_step="0.04 s"))
+    found = lost(Silent(**dict(whole_cycles)), stepping=Explicit(time_step="0.04 s"))
     assert found == pytest.approx(K * 100 * MEAN * 0.4, rel=1e-9, abs=0)
 
 
@@ -109,4 +109,4 @@ def test_speeds_that_cannot_be_are_refused(speeds, words):
             return speeds
 
     with pytest.raises(PluginError, match=f"kinematics 'reciprocating'.*{words}"):
-        lost(Wrong(motion(duration=2).config))
+        lost(Wrong(**dict(motion(duration=2))))

@@ -145,8 +145,6 @@ class FailsInAHelper(Solver):
 
 @ZOO.bad("raised LookupError")
 class FailsInAStaticMethod(Solver):
-    spoilt = None
-
     @staticmethod
     def solve(problem, start=None):
         return helper()

@@ -42,14 +42,18 @@ class PathNotANumber(Unidirectional):
         return np.nan * time
 
 
-@bad("a duration that is not a finite number: inf")
+@bad("an end that is not a finite number: inf")
 class Endless(Unidirectional):
-    duration = np.inf
+    @property
+    def end_time(self):
+        return np.inf
 
 
 @bad("ends at -3 s, before it begins")
 class EndsBefore(Unidirectional):
-    duration = -3.0
+    @property
+    def end_time(self):
+        return -3.0
 
 
 @bad("time is not the inverse of its distance")

@@ -130,8 +130,8 @@ LAST_WORDS = "observer 'zoo.fails_at_the_end' raised ValueError: cannot say good
 
 def test_what_fails_at_the_end_costs_no_result(run):
     zoo = Zoo()
-    zoo.bad("")(FailsAtTheEnd)
-    ended = run(zoo, FailsAtTheEnd)
+    bad = zoo.bad("")(FailsAtTheEnd)
+    ended = run(zoo, bad)
     assert ended.code == 3
     (line,) = ended.said
     assert line.startswith(f"error: {LAST_WORDS}")
@@ -141,14 +141,14 @@ def test_what_fails_at_the_end_costs_no_result(run):
 
 def test_of_a_run_that_failed_already_the_first_cause_is_the_error(run):
     zoo = Zoo()
-    zoo.bad("")(FailsAtTheEnd)
+    bad = zoo.bad("")(FailsAtTheEnd)
 
     @zoo.bad("")
     class Fails(DcFft):
         def solve(self, problem, start=None):
             return None if start is not None else super().solve(problem)
 
-    ended = run(zoo, FailsAtTheEnd, Fails)
+    ended = run(zoo, bad, Fails)
     assert ended.code == 3
     later, first = ended.said
     assert later.startswith(f"warning: {LAST_WORDS}")

@@ -270,8 +270,13 @@ def test_a_requirement_counts_where_its_marker_holds(tmp_path):
 
 
 def test_a_law_that_fails_in_the_middle_leaves_the_last_good_state(tmp_path):
-    counting = "self.n = getattr(self, 'n', 0) + 1\n        "
-    keep(tmp_path, law(counting + "return WearRate(k * p * (np.nan if self.n > 80 else 1), k)"))
+    keep(
+        tmp_path,
+        law(
+            "self._n += 1\n        return WearRate(k * p * (np.nan if self._n > 80 else 1), k)",
+            "_n: int = 0",
+        ),
+    )
     done = command(tmp_path, "run", "named.toml", "--set", "stepping.depth_tolerance=1e-5")
     assert done.returncode == 3
     assert "zoo.bad" in done.stderr

@@ -48,17 +48,23 @@ class Ragged(Sphere):
 
 @bad("a curvature that is not an array of shape (2,): 3")
 class OneCurvature(Sphere):
-    curvature = 3
+    @property
+    def curvature(self):
+        return 3
 
 
 @bad("a curvature that is not finite in 1 cells")
 class CurvatureNotANumber(Sphere):
-    curvature = (200.0, np.nan)
+    @property
+    def curvature(self):
+        return 200.0, np.nan
 
 
 @bad("a curvature that is not an array of shape (2,): a str")
 class CurvatureInWords(Sphere):
-    curvature = "round"
+    @property
+    def curvature(self):
+        return "round"
 
 
 @bad("raised AttributeError")

@@ -45,7 +45,7 @@ def end_time(motion: Motion, distance: float | None) -> float:
     """Return when the motion ends, or reaches `distance` (m) if that is sooner, in s."""
     with calling(motion):
         duration = motion.end_time
-    end = number(named(motion), "a duration", duration)
+    end = number(named(motion), "an end", duration)
     if distance is not None:
         end = min(end, time_at(motion, distance))
     if end <= 0:

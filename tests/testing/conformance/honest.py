@@ -1,6 +1,6 @@
 """One sound implementation of each interface, for mutants to spoil."""
 
-from typing import Annotated, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
@@ -77,7 +77,7 @@ class Motion(Kinematics):
     duration: Annotated[float, Quantity("s", above=0)] = 100.0
     """How long it runs."""
 
-    track: ClassVar[type[Track]] = Track
+    track: ClassVar[Any] = Track
 
     @property
     def end_time(self):
@@ -131,13 +131,13 @@ class Counts(Observer):
 
     type = "honest.counts"
 
-    steps = 0
+    _steps: int = 0
 
     def on_start(self, run):
-        self.steps = 0
+        self._steps = 0
 
     def on_step(self, snapshot):
-        self.steps += 1
+        self._steps += 1
 
 
 HONEST = (Law, Solver, Motion, Hill, Traction, Counts)

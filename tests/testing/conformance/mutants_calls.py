@@ -25,22 +25,22 @@ class NeedsWritableInput(Law):
 
 @caught_by("same_inputs_give_same_bits")
 class Remembers(Law):
-    slid = 0.0
+    _slid: float = 0.0
 
     def rate(self, local):
-        self.slid += 0.1
+        self._slid += 0.1
         rate = super().rate(local)
-        return replace(rate, depth=rate.depth * np.exp(-self.slid))
+        return replace(rate, depth=rate.depth * np.exp(-self._slid))
 
 
 @caught_by("answers_may_be_overwritten")
 class GivesItsCacheAway(Hill):
-    cache = None
+    _cache: object = None
 
     def height(self, grid):
-        if self.cache is None or self.cache.shape != grid.cells:
-            self.cache = super().height(grid)
-        return self.cache
+        if self._cache is None or self._cache.shape != grid.cells:
+            self._cache = super().height(grid)
+        return self._cache
 
 
 @caught_by("nothing_is_printed")

@@ -22,26 +22,26 @@ class WritesToSnapshots(Counts):
 @caught_by("every_end_is_survived", AttributeError)
 class NeedsASnapshot(Counts):
     def on_finish(self, snapshot, reason):
-        self.depth = snapshot.state.bodies["ball"].wear.max()
+        self._steps = snapshot.state.bodies["ball"].wear.max()
 
 
 @caught_by("resumed_run_is_survived", AssertionError)
 class NeedsTheFirstStep(Counts):
-    first = None
+    _first: object = None
 
     def on_step(self, snapshot):
         if snapshot.state.steps == 0:
-            self.first = snapshot
-        assert self.first is not None
+            self._first = snapshot
+        assert self._first is not None
 
 
 @caught_by("second_run_is_survived", AssertionError)
 class RunsOnce(Counts):
-    started = False
+    _started: bool = False
 
     def on_start(self, run):
-        assert not self.started
-        self.started = True
+        assert not self._started
+        self._started = True
 
 
 @caught_by("nothing_is_printed")

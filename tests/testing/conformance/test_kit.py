@@ -57,7 +57,9 @@ def test_an_unexpected_pass_fails():
 
 def test_what_is_not_declared_does_not_apply():
     class Unknown(Hill):
-        curvature = None
+        @property
+        def curvature(self):
+            return None
 
     report = check(Unknown, [{}])
     assert statuses(report)["curvature_is_that_of_the_heights"] == "not applicable"
@@ -189,7 +191,9 @@ from tribo.testing import parametrize_checks
 WRONG = {"curvature_is_that_of_the_heights": "made so"}
 
 class Unknown(Hill):
-    curvature = None
+    @property
+    def curvature(self):
+        return None
 
 test_honest = parametrize_checks(Hill, configs=[{}])
 test_known = parametrize_checks(InwardHeight, configs=[{}], expected_failures=WRONG)
