@@ -1,23 +1,16 @@
-"""The hooks by which tribo finds this package."""
+"""What this package offers to tribo."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import Any
 
-from tribo.plugin import Effect, WearLaw, hookimpl
+from tribo.plugin import Component, hookimpl
 
 from tribo_energy.dissipation import Dissipation
 from tribo_energy.traction import FrictionTraction
 
 
 @hookimpl
-def tribo_wear_laws() -> Iterable[type[WearLaw[Any]]]:
-    """Offer wear by dissipated energy."""
-    return (Dissipation,)
-
-
-@hookimpl
-def tribo_effects() -> Iterable[type[Effect[Any]]]:
-    """Offer the friction traction."""
-    return (FrictionTraction,)
+def tribo_components() -> tuple[type[Component[Any]], ...]:
+    """Offer wear by dissipated energy, and the friction traction."""
+    return (Dissipation, FrictionTraction)

@@ -1,11 +1,10 @@
-"""The hooks by which tribo finds this package."""
+"""What this package offers to tribo."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import Any
 
-from tribo.plugin import Effect, WearLaw, hookimpl
+from tribo.plugin import Component, hookimpl
 
 from tribo_thermal.arrhenius import Arrhenius
 from tribo_thermal.flash import Flash
@@ -13,12 +12,6 @@ from tribo_thermal.softening import Softening
 
 
 @hookimpl
-def tribo_effects() -> Iterable[type[Effect[Any]]]:
-    """Offer the contact temperature."""
-    return (Flash,)
-
-
-@hookimpl
-def tribo_wear_laws() -> Iterable[type[WearLaw[Any]]]:
-    """Offer Archard's law with a coefficient, or a hardness, that follows the temperature."""
-    return Arrhenius, Softening
+def tribo_components() -> tuple[type[Component[Any]], ...]:
+    """Offer the contact temperature, and Archard's law with what follows it."""
+    return (Flash, Arrhenius, Softening)

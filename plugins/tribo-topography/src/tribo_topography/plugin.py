@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from tribo.plugin import hookimpl
+from typing import Any
+
+from tribo.plugin import Component, hookimpl
 
 from tribo_topography.surface import Measured
 
 
 @hookimpl
-def tribo_surfaces() -> tuple[type[Measured], ...]:
+def tribo_components() -> tuple[type[Component[Any]], ...]:
     """Offer surfaces measured by an instrument."""
     return (Measured,)
