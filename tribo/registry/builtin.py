@@ -12,11 +12,14 @@ from tribo.kinematics.reciprocating import Reciprocating
 from tribo.kinematics.unidirectional import Unidirectional
 from tribo.observers.progress import Progress
 from tribo.observers.recorder import Recorder
+from tribo.registry.contributions import CaseTemplate, ExportFormat
 from tribo.registry.hookspecs import hookimpl
+from tribo.results.export import export_csv
 from tribo.surfaces.cylinder import Cylinder
 from tribo.surfaces.flat import Flat
 from tribo.surfaces.paraboloid import Paraboloid
 from tribo.surfaces.sphere import Sphere
+from tribo.templates import TEMPLATES, template
 from tribo.wear.archard import Archard
 from tribo.wear.power import Power
 
@@ -31,3 +34,15 @@ def tribo_components() -> tuple[type[Component[Any]], ...]:
         *(Sphere, Paraboloid, Cylinder, Flat),
         *(Recorder, Progress),
     )
+
+
+@hookimpl
+def tribo_export_formats() -> tuple[ExportFormat, ...]:
+    """Offer CSV."""
+    return (ExportFormat("csv", "history, saves and profiles as tables", export_csv),)
+
+
+@hookimpl
+def tribo_templates() -> list[CaseTemplate]:
+    """Offer the paper's test and a pin on a disk."""
+    return [CaseTemplate(name, summary, template(name)) for name, summary in TEMPLATES.items()]

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import pluggy
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from tribo.interfaces.component import Component
+    from tribo.registry.contributions import CaseTemplate, ExportFormat, LabRow
+    from tribo.results.read import Result
 
 PROJECT = "tribo"
 """Name of the plugin manager, and group of the entry points that it reads."""
@@ -21,4 +25,28 @@ hookimpl = pluggy.HookimplMarker(PROJECT)
 @hookspec
 def tribo_components() -> Iterable[type[Component[Any]]]:
     """Return the classes that a case may name; the base of each says of what kind it is."""
+    return ()
+
+
+@hookspec
+def tribo_lab_rows(result: Result) -> Iterable[LabRow]:
+    """Return rows for the lab table of a result in which this plugin took part."""
+    return ()
+
+
+@hookspec
+def tribo_figures(result: Result) -> Mapping[str, Callable[[], Figure]]:
+    """Return how to draw pictures of a result in which this plugin took part, by file name."""
+    return {}
+
+
+@hookspec
+def tribo_export_formats() -> Iterable[ExportFormat]:
+    """Return formats in which `tribo export` may write a result."""
+    return ()
+
+
+@hookspec
+def tribo_templates() -> Iterable[CaseTemplate]:
+    """Return cases that `tribo new` may write."""
     return ()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
 import warnings
 from collections import defaultdict
@@ -17,7 +18,7 @@ import numpy as np
 import pluggy
 
 from tribo.core.distributions import unmet
-from tribo.core.errors import CaseError
+from tribo.core.errors import CaseError, PluginError
 from tribo.core.words import did_you_mean, said, suggestion
 from tribo.interfaces.component import Component
 from tribo.registry import hookspecs
@@ -173,6 +174,27 @@ class Registry:
             if wanted & {field.name for field in getattr(self.components[name], "provides", ())}
         ]
 
+    def ask(self, hook: str, **arguments: object) -> list[Any]:
+        """Return what the plugins that were imported answer to a hook, in their order.
+
+        Raises
+        ------
+        PluginError
+            If one of them raises; its file and line are named.
+        """
+        try:
+            with _process_kept():
+                answers: list[Any] = getattr(self._manager.hook, hook)(**arguments)
+        except Exception as error:
+            packages = [
+                plugin.entry_point for plugin in self.plugins if plugin.origin != "built-in"
+            ]
+            raise PluginError(
+                f"a plugin's {hook} raised {said(error)}{_place(error, *packages)}; --no-plugin "
+                "leaves that plugin out"
+            ) from error
+        return answers[::-1]
+
     def choices(self, kind: str) -> str:
         """Return the usable names of one kind as text, with who provides them."""
         text = self._by_plugin(self.names(kind)) or "none"
@@ -227,13 +249,13 @@ def default_registry() -> Registry:
     return Registry([builtin(), *selected(installed())])
 
 
-def _place(error: BaseException, entry_point: str) -> str:
-    """Return file and line of the plugin's own innermost call, as text; empty if there is none."""
-    package = entry_point.partition(":")[0].partition(".")[0]
+def _place(error: BaseException, *entry_points: str) -> str:
+    """Return file and line of a plugin's own innermost call, as text; empty if there is none."""
+    packages = {re.split("[.:]", entry_point)[0] for entry_point in entry_points}
     places = [
         (frame.f_code.co_filename, line)
         for frame, line in walk_tb(error.__traceback__)
-        if str(frame.f_globals.get("__name__")).partition(".")[0] == package
+        if str(frame.f_globals.get("__name__")).partition(".")[0] in packages
     ]
     if isinstance(error, SyntaxError):
         places.append((error.filename or "", error.lineno or 0))

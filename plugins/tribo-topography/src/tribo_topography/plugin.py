@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from tribo.plugin import Component, hookimpl
+from tribo.plugin import Component, ExportFormat, hookimpl
 
+from tribo_topography.export import export_xyz
 from tribo_topography.surface import Measured
 
 
@@ -13,3 +14,9 @@ from tribo_topography.surface import Measured
 def tribo_components() -> tuple[type[Component[Any]], ...]:
     """Offer surfaces measured by an instrument."""
     return (Measured,)
+
+
+@hookimpl
+def tribo_export_formats() -> list[ExportFormat]:
+    """Offer the worn surfaces as points."""
+    return [ExportFormat("xyz", "the worn surfaces as points, in m", export_xyz)]
