@@ -15,8 +15,7 @@ repeats differ by some per cent, by where their arrays come to lie. The clock is
 the process.
 
 Run it with ``python benchmarks/plugin_cost.py``. A case that names an installed plugin shows
-what that costs: once in a process of its own, unless it was found to import before;
-``XDG_CACHE_HOME=$(mktemp -d)`` makes the first repeat find it out.
+what importing it costs.
 """
 
 from __future__ import annotations

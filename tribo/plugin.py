@@ -35,7 +35,9 @@ from tribo.interfaces.kinematics import Kinematics, KinematicsConfig
 from tribo.interfaces.observer import Observer, ObserverConfig
 from tribo.interfaces.surface import Surface, SurfaceConfig
 from tribo.interfaces.wear import WearLaw, WearLawConfig
+from tribo.registry.contributions import CaseTemplate, ExportFormat, LabRow
 from tribo.registry.hookspecs import hookimpl
+from tribo.results.read import Result
 
 __all__ = [
     "Array",
@@ -43,6 +45,7 @@ __all__ = [
     "BodyMeasures",
     "BodyState",
     "CaseError",
+    "CaseTemplate",
     "Component",
     "ComponentConfig",
     "ContactConditions",
@@ -53,12 +56,14 @@ __all__ = [
     "ContactSystem",
     "Effect",
     "EffectConfig",
+    "ExportFormat",
     "Exposure",
     "Field",
     "Grid",
     "HalfSpace",
     "Kinematics",
     "KinematicsConfig",
+    "LabRow",
     "LocalConditions",
     "Material",
     "Measures",
@@ -68,6 +73,7 @@ __all__ = [
     "Operator",
     "Quantity",
     "Residuals",
+    "Result",
     "RunInfo",
     "Snapshot",
     "State",

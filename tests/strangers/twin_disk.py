@@ -60,5 +60,5 @@ class TwinDisk(Kinematics[TwinDiskConfig]):
 
 
 @hookimpl
-def tribo_kinematics() -> list[type[TwinDisk]]:
+def tribo_components() -> list[type[TwinDisk]]:
     return [TwinDisk]
