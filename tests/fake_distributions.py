@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from tribo.registry.loader import Source, installed
+from tribo.registry.plugins import Plugin, installed
 
 OBSERVER = """
 from typing import Literal
@@ -17,7 +18,7 @@ class {title}(Observer[{title}Config]):
     Config = {title}Config
 
 @hookimpl
-def tribo_observers():
+def tribo_components():
     return [{title}]
 """
 
@@ -27,23 +28,28 @@ def observer(name: str) -> str:
     return OBSERVER.format(name=name, title=name.split(".")[-1].title())
 
 
-def sources(*distributions: str) -> list[Source]:
+def plugins(*distributions: str) -> list[Plugin]:
     """Return the plugins of these distributions."""
-    return [s for s in installed() if s.record.distribution in distributions]
+    return [plugin for plugin in installed() if plugin.distribution in distributions]
 
 
 def distribute(
-    folder: Path, name: str, version: str, points: dict[str, dict[str, str]], **modules: str
+    folder: Path,
+    name: str,
+    version: str,
+    points: Mapping[str, str],
+    requires: Iterable[str] = (),
+    group: str = "tribo",
+    **modules: str,
 ) -> None:
-    """Put a distribution with entry points {group: {name: module}} and modules into `folder`."""
+    """Put a distribution with entry points {name: module} and modules into `folder`."""
     info = folder / f"{name.replace('-', '_')}-{version}.dist-info"
     info.mkdir(parents=True)
     (info / "METADATA").write_text(
         f"Metadata-Version: 2.1\nName: {name}\nVersion: {version}\nSummary: A {name} for tests.\n"
+        + "".join(f"Requires-Dist: {requirement}\n" for requirement in requires)
     )
-    lines = []
-    for group, entries in points.items():
-        lines += [f"[{group}]", *(f"{key} = {value}" for key, value in entries.items()), ""]
-    (info / "entry_points.txt").write_text("\n".join(lines))
+    lines = [f"[{group}]", *(f"{key} = {value}" for key, value in points.items()), ""]
+    (info / "entry_points.txt").write_text("\n".join(lines) if points else "")
     for module, code in modules.items():
         (folder / f"{module}.py").write_text(code)

@@ -12,6 +12,7 @@ ROOT = Path(tribo.__file__).parent
 # A package may import those of its own rank or below.
 RANK = {
     "core": 0,
+    "templates": 0,
     "interfaces": 1,
     "results": 2,
     "contact": 3,
@@ -27,7 +28,6 @@ RANK = {
     "plotting": 7,
     "study": 8,
     "testing": 7,
-    "templates": 7,
     "verification": 7,
     "scaffold": 7,
     "cli": 9,

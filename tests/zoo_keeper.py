@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from types import SimpleNamespace
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -83,11 +83,9 @@ class Zoo:
 
     def plugin(self) -> object:
         """Return a plugin that offers all of them."""
-        hooks = {}
-        for kind in {kind_of(cls) for cls in self.kept}:
-            offered = [cls for cls in self.kept if kind_of(cls) == kind]
-            hooks[KINDS[kind].hook] = hookimpl(lambda offered=offered: offered)
-        return SimpleNamespace(__name__="zoo-tribo", **hooks)
+        plugin = ModuleType("zoo-tribo")
+        plugin.tribo_components = hookimpl(specname="tribo_components")(lambda: self.kept)
+        return plugin
 
     def registry(self) -> Registry:
         return Registry.with_plugins(self.plugin())

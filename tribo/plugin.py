@@ -35,7 +35,9 @@ from tribo.interfaces.kinematics import Kinematics
 from tribo.interfaces.observer import Observer
 from tribo.interfaces.surface import Surface
 from tribo.interfaces.wear import WearLaw
+from tribo.registry.contributions import CaseTemplate, ExportFormat, LabRow
 from tribo.registry.hookspecs import hookimpl
+from tribo.results.read import Result
 
 __all__ = [
     "Array",
@@ -43,6 +45,7 @@ __all__ = [
     "BodyMeasures",
     "BodyState",
     "CaseError",
+    "CaseTemplate",
     "Component",
     "ContactConditions",
     "ContactProblem",
@@ -50,11 +53,13 @@ __all__ = [
     "ContactSolver",
     "ContactSystem",
     "Effect",
+    "ExportFormat",
     "Exposure",
     "Field",
     "Grid",
     "HalfSpace",
     "Kinematics",
+    "LabRow",
     "LocalConditions",
     "Material",
     "Measures",
@@ -63,6 +68,7 @@ __all__ = [
     "Operator",
     "Quantity",
     "Residuals",
+    "Result",
     "RunInfo",
     "Snapshot",
     "State",

@@ -27,9 +27,8 @@ from tribo.core.dimensions import _PREFIXES, _SYMBOLS, _UNPREFIXED
 from tribo.core.errors import TriboError
 from tribo.core.units import _KINDS, Quantity
 from tribo.interfaces.component import Component
-from tribo.registry.hookspecs import hookspec
+from tribo.registry import hookspecs
 from tribo.registry.kinds import KINDS
-from tribo.registry.loader import group
 from tribo.registry.registry import Registry
 from tribo.results.columns import BODY_COLUMNS, COLUMNS
 
@@ -44,6 +43,7 @@ def write(folder: Path) -> None:
         "exit_codes": "\n".join(exit_codes()),
         "columns": "\n".join(columns_table()),
         "hooks": "\n".join(hooks_table()),
+        "kinds": "\n".join(kinds_table()),
         "plugin_api": "\n".join(plugin_page()),
     }
     for name, text in pages.items():
@@ -132,14 +132,21 @@ def columns_table() -> Iterator[str]:
 
 
 def hooks_table() -> Iterator[str]:
-    """Yield the hooks with the classes they return."""
-    assert hookspec is not None
-    yield "| Hook | Entry-point group | Returns classes that answer |\n| --- | --- | --- |"
+    """Yield the hooks with what they return."""
+    yield "| Hook | What it does |\n| --- | --- |"
+    for name, hook in vars(hookspecs).items():
+        if name.startswith("tribo_"):
+            arguments = ", ".join(inspect.signature(hook).parameters)
+            yield f"| `{name}({arguments})` | {_summary(hook)} |"
+
+
+def kinds_table() -> Iterator[str]:
+    """Yield the base classes of components with the question that each answers."""
+    yield "| Base class | Question that it answers |\n| --- | --- |"
     for kind in KINDS.values():
         module = inspect.getmodule(kind.interface)
         question = (inspect.getdoc(module) or "").splitlines()[0]
-        answer = f"`{kind.interface.__name__}`: {question}"
-        yield f"| `{kind.hook}` | `{group(kind.name)}` | {answer} |"
+        yield f"| `{kind.interface.__name__}` | {question} |"
 
 
 def plugin_page() -> Iterator[str]:

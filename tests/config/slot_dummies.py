@@ -17,7 +17,7 @@ from tribo.interfaces.observer import Observer
 from tribo.interfaces.surface import Surface
 from tribo.interfaces.wear import WearLaw
 from tribo.registry.hookspecs import hookimpl
-from tribo.registry.loader import given
+from tribo.registry.plugins import given
 from tribo.registry.registry import Registry
 
 
@@ -69,13 +69,8 @@ def registry(*laws: type[WearLaw]) -> Registry:
     """The registry of these dummies, with other wear laws if any are given."""
     module = ModuleType("dummies")
     module.__version__ = "1.0"  # type: ignore[attr-defined]
-    offers = {
-        "tribo_wear_laws": laws or (Linear, NoWear, Blend),
-        "tribo_surfaces": (Plane,),
-        "tribo_observers": (Counter,),
-    }
-    for hook, classes in offers.items():
-        setattr(module, hook, hookimpl(specname=hook)(lambda classes=classes: classes))
+    classes = (*(laws or (Linear, NoWear, Blend)), Plane, Counter)
+    module.tribo_components = hookimpl(specname="tribo_components")(lambda: classes)  # type: ignore[attr-defined]
     return Registry([given(module)])
 
 

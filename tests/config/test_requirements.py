@@ -4,11 +4,11 @@ import pytest
 
 from tribo.config.requirements import check_requirements
 from tribo.core.errors import CaseError
-from tribo.registry.records import PluginRecord
+from tribo.registry.plugins import Plugin
 
 
 def plugin(module, status, reason=""):
-    return PluginRecord("pytest", "1", module, "installed", status, reason)
+    return Plugin("pytest", "1", module, "installed", status, reason)
 
 
 def test_a_distribution_counts_if_one_of_its_modules_is_usable():

@@ -6,14 +6,14 @@ from pathlib import Path
 from typing import Annotated
 
 import pytest
-from fake_distributions import distribute, observer, sources
+from fake_distributions import distribute, observer, plugins
 from pydantic import BaseModel, ConfigDict, Field
 
 from tribo.core.errors import CaseError
 from tribo.core.units import Quantity
 from tribo.interfaces.observer import Observer
 from tribo.registry.catalogue import catalogue, describe, find
-from tribo.registry.records import ComponentRecord, PluginRecord
+from tribo.registry.plugins import given
 from tribo.registry.registry import Registry
 
 
@@ -22,10 +22,10 @@ def registry(folder: Path) -> Registry:
     """Two plugins that both claim ``cat.calm``, and one that cannot be used."""
     for name in ("cat_a", "cat_b"):
         code = observer("cat.calm") + observer(f"{name}.own").replace("[Own]", "[Calm, Own]")
-        points = {"tribo.v1.observer": {"cat.calm": name, f"{name}.own": name}}
+        points = {"cat.calm": name, f"{name}.own": name}
         distribute(folder, name, "1.0", points, **{name: code})
-    distribute(folder, "cat_c", "1.0", {"tribo.v2.observer": {"cat.new": "cat_c"}})
-    return Registry(sources("cat_a", "cat_b", "cat_c"))
+    distribute(folder, "cat_c", "1.0", {"new": "cat_c"})
+    return Registry(plugins("cat_a", "cat_b", "cat_c"))
 
 
 def test_a_name_in_conflict_has_a_row_for_each_claim(registry: Registry) -> None:
@@ -35,7 +35,7 @@ def test_a_name_in_conflict_has_a_row_for_each_claim(registry: Registry) -> None
         ("cat_b.own", "cat_b"): "available",
         ("cat.calm", "cat_a"): "conflict",
         ("cat.calm", "cat_b"): "conflict",
-        ("", "cat_c"): "incompatible",
+        ("", "cat_c"): "broken",
     }
     for distribution in ("cat_a", "cat_b"):
         reason = rows["cat.calm", distribution]["reason"]
@@ -44,24 +44,23 @@ def test_a_name_in_conflict_has_a_row_for_each_claim(registry: Registry) -> None
 
 
 def test_the_summary_of_what_is_not_imported_is_that_of_all(registry: Registry) -> None:
-    assert registry.summary("observer", "cat_a.own") == "(all of cat_a) A cat_a for tests."
+    (row,) = [row for row in catalogue(registry) if row["name"] == "cat_a.own"]
+    assert row["summary"] == "(all of cat_a) A cat_a for tests."
 
 
 def test_who_asks_for_a_name_in_conflict_is_told_of_both(registry: Registry) -> None:
-    assert find(registry, "cat.calm") == [("observer", "cat.calm")]
+    assert find(registry, "cat.calm") == ["cat.calm"]
     with pytest.raises(CaseError, match=r"offered by cat_a 1\.0 and cat_b 1\.0, so .*disable one"):
-        registry.record(*find(registry, "cat.calm")[0])
+        registry.find("cat.calm")
 
 
 def test_of_a_distribution_what_is_usable_comes_first(registry: Registry) -> None:
-    assert find(registry, "cat_b") == [("observer", "cat_b.own"), ("observer", "cat.calm")]
+    assert find(registry, "cat_b") == ["cat_b.own", "cat.calm"]
 
 
-@pytest.mark.parametrize("name", ["cat_c", "cat.new"])
+@pytest.mark.parametrize("name", ["cat_c", "new"])
 def test_who_asks_for_what_cannot_be_used_is_told_why(registry: Registry, name: str) -> None:
-    with pytest.raises(
-        CaseError, match=r"cat_c 1\.0 is incompatible: made for interface version 2"
-    ):
+    with pytest.raises(CaseError, match=r"cat_c 1\.0 is broken: 'new' needs a prefix"):
         find(registry, name)
 
 
@@ -82,14 +81,8 @@ class Sensor(Observer):
     """Where they sit."""
 
 
-def sensor() -> ComponentRecord:
-    return ComponentRecord(
-        "observer", "cat.sensor", Sensor, PluginRecord("cat", "1", "cat", "given")
-    )
-
-
 def test_a_description_has_keys_and_units_of_nested_tables_and_says_where_the_code_is() -> None:
-    lines = describe(sensor()).splitlines()
+    lines = describe(Sensor, given(Sensor)).splitlines()
     first = lines.index("names (optional): What to call them.")
     assert lines[first : first + 4] == [
         "names (optional): What to call them.",
@@ -103,4 +96,4 @@ def test_a_description_has_keys_and_units_of_nested_tables_and_says_where_the_co
 @pytest.mark.parametrize("text", [None, 7, "", b"bytes"])
 def test_a_docstring_that_is_no_text_is_none(monkeypatch: pytest.MonkeyPatch, text: object) -> None:
     monkeypatch.setattr(Sensor, "__doc__", text)
-    assert "(it has no description)" in describe(sensor())
+    assert "(it has no description)" in describe(Sensor, given(Sensor))

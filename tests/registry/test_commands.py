@@ -51,8 +51,7 @@ def command(folder: Path, *args: str) -> subprocess.CompletedProcess[str]:
 
 
 def install(folder: Path, distribution: str, code: str) -> None:
-    points = {"tribo.v1.observer": {"odd.one": distribution}}
-    distribute(folder, distribution, "1.0", points, **{distribution: code})
+    distribute(folder, distribution, "1.0", {"odd.one": distribution}, **{distribution: code})
 
 
 def test_what_a_plugin_prints_does_not_spoil_the_schema(tmp_path: Path) -> None:
@@ -106,17 +105,18 @@ def test_a_name_in_conflict_is_shown_and_checked_with_both_named(tmp_path: Path)
         done = command(tmp_path, "plugins", verb, "odd.one")
         assert done.returncode == 2
         last = done.stderr.splitlines()[-1]
-        assert last.startswith("error: observer 'odd.one' is offered by left 1.0 and right 1.0")
+        assert last.startswith("error: component 'odd.one' is offered by left 1.0 and right 1.0")
         assert "uninstall or disable one of them" in last
     rows = json.loads(command(tmp_path, "plugins", "list", "--json").stdout)
     in_conflict = {r["distribution"] for r in rows if r["status"] == "conflict"}
     assert in_conflict == {"left", "right"}
+    doctor = command(tmp_path, "doctor")
+    assert doctor.returncode == 3
+    assert "'odd.one' is offered by left 1.0 and right 1.0" in doctor.stdout
 
 
 def test_a_plugin_to_be_is_hinted_at(tmp_path: Path) -> None:
-    distribute(tmp_path, "to_be", "1.0", {})
-    with (tmp_path / "to_be-1.0.dist-info" / "METADATA").open("a") as metadata:
-        metadata.write("Requires-Dist: tribo>=0.1\n")
+    distribute(tmp_path, "to_be", "1.0", {}, ["tribo>=0.1"])
     listed = command(tmp_path, "plugins", "list", "--json")
     assert "hint: to_be 1.0 requires tribo but declares no plugin" in listed.stderr
     json.loads(listed.stdout)

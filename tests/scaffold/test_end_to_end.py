@@ -132,20 +132,17 @@ def test_an_installed_plugin_is_known_by_name_in_schema_and_messages(fresh: Fres
         "import json\n"
         "from tribo.config.case import Case\n"
         "from tribo.config.schema import json_schema\n"
-        "from tribo.registry.registry import default_registry\n"
-        "from tribo.registry.kinds import KINDS\n"
-        "names = [name for kind in KINDS for name in default_registry().names(kind)]\n"
-        "print(json.dumps([names, json_schema(Case)]))"
+        "print(json.dumps(json_schema(Case)))"
     )
-    names, schema = json.loads(run(fresh.python, "-c", code, folder=fresh.scratch))
+    schema = json.loads(run(fresh.python, "-c", code, folder=fresh.scratch))
     types = {
         part["properties"]["type"]["const"]
         for part in schema["$defs"].values()
         if "type" in part.get("properties", {})
     }
     own = {PluginName(name).component for name in NAMES.values()}
-    assert own <= set(names)
     assert own <= types
     (fresh.scratch / "typo.toml").write_text(CASE.replace("acme.fretting", "acme.freting"))
     typo = run(fresh.python, "-m", "tribo", "check", "typo.toml", folder=fresh.scratch, code=2)
-    assert "did you mean 'acme.fretting'? Installed: acme.fretting (acme-fretting 0.1.0);" in typo
+    assert "did you mean 'acme.fretting'?" in typo
+    assert "acme.fretting (acme-fretting 0.1.0);" in typo

@@ -16,7 +16,6 @@ from scaffold.plugins_of_each_kind import NAMES
 
 from tribo.core.errors import CaseError
 from tribo.registry.kinds import KINDS
-from tribo.registry.loader import group
 from tribo.registry.registry import Registry
 from tribo.scaffold import PluginName, write_plugin
 from tribo.simulation.run import Simulation
@@ -51,7 +50,7 @@ def test_it_is_a_complete_distribution(kind: str, name: str, tmp_path: Path) -> 
     assert project["name"] == name
     assert not re.match("A [aeiou]", project["description"])
     assert "tribo>=0.1,<0.2" in project["dependencies"]
-    points = {group(kind.replace("-", "_")): {PluginName(name).component: package}}
+    points = {"tribo": {PluginName(name).component: package}}
     assert project["entry-points"] == points
     assert (folder / "example.toml").read_text().strip() in (folder / "README.md").read_text()
     assert "${{ matrix.python }}" in (folder / ".github/workflows/ci.yml").read_text()

@@ -11,7 +11,6 @@ from paper_models import (
     K,
     archard,
     flat,
-    half_space,
     last,
     motion,
     named,

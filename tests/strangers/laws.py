@@ -11,10 +11,5 @@ __version__ = "1.0"
 
 
 @hookimpl
-def tribo_wear_laws() -> tuple[type, ...]:
-    return Protected, RunningIn, Transition
-
-
-@hookimpl
-def tribo_effects() -> tuple[type, ...]:
-    return (OxideFilm,)
+def tribo_components() -> tuple[type, ...]:
+    return Protected, RunningIn, Transition, OxideFilm

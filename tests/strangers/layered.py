@@ -182,5 +182,5 @@ def _panels(end: float, count: int, points: int = 16) -> tuple[Array, Array]:
 
 
 @hookimpl
-def tribo_contact_solvers() -> list[type[Layered]]:
+def tribo_components() -> list[type[Layered]]:
     return [Layered]

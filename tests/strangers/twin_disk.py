@@ -45,5 +45,5 @@ class TwinDisk(Kinematics):
 
 
 @hookimpl
-def tribo_kinematics() -> list[type[TwinDisk]]:
+def tribo_components() -> list[type[TwinDisk]]:
     return [TwinDisk]

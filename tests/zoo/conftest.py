@@ -7,7 +7,7 @@ from zoo_keeper import Ended, case_of
 
 from tribo.cli.main import main
 from tribo.registry import registry
-from tribo.registry.loader import given
+from tribo.registry.plugins import given
 
 
 @pytest.fixture

@@ -4,16 +4,13 @@ import os
 import subprocess
 import sys
 import tomllib
-import warnings
 from pathlib import Path
 
-import numpy as np
 import pytest
 from fake_distributions import distribute
 
 import tribo
 from tribo import Result
-from tribo.registry.loader import installed, load
 
 LAW = """
 import numpy as np
@@ -29,7 +26,7 @@ class Bad(WearLaw):
         {body}
 
 @hookimpl
-def tribo_wear_laws():
+def tribo_components():
     return [Bad]
 """
 GOOD = "return WearRate(k * p, k)"
@@ -39,27 +36,22 @@ def law(body, extra=""):
     return LAW.format(body=body, extra=extra)
 
 
-# What is wrong: the module's code, the exit code, what the message says besides the name.
+# What is wrong: the module's code, and what the message says besides the name.
 ZOO = {
-    "import error": ("import no_such_module_at_all", 2, "no_such_module_at_all"),
-    "missing dependency": ("from numpy import no_such_name", 2, "no_such_name"),
-    "exit": ("raise SystemExit(0)", 2, "SystemExit"),
-    "endless import": ("while True: pass", 2, "did not end within 3 s"),
-    "native crash": (
-        "import ctypes; ctypes.string_at(0)",
-        2,
-        "crashed the process (SIGSEGV)",
-    ),
-    "hook typo": (law(GOOD).replace("tribo_wear_laws", "tribo_wear_law"), 2, "tribo_wear_law"),
-    "wrong base class": (law(GOOD).replace("return [Bad]", "return [dict]"), 2, "not a subclass"),
-    "abstract": (law(GOOD).replace("def rate", "def rates"), 2, "does not define rate"),
-    "state fields that are names": (law(GOOD, "state_fields = ('slid',)"), 2, "tuple of Field"),
-    "requires a text": (law(GOOD, "requires = 'temperature'"), 2, "tuple of names"),
-    "hook that returns a class": (
-        law(GOOD).replace("return [Bad]", "return Bad"),
-        2,
-        "must return a list",
-    ),
+    "import error": ("import no_such_module_at_all", "zoo_bad.py, line 1)"),
+    "missing dependency": ("from numpy import no_such_name", "no_such_name"),
+    "exit": ("raise SystemExit(0)", "SystemExit"),
+    "hook typo": (law(GOOD).replace("tribo_comp", "tribo_com"), "unknown hook 'tribo_com"),
+    "wrong base class": (law(GOOD).replace("[Bad]", "[dict]"), "must be a subclass of"),
+    "abstract": (law(GOOD).replace("def rate", "def rates"), "does not define rate"),
+    "state fields that are names": (law(GOOD, "state_fields = ('slid',)"), "tuple of Field"),
+    "requires a text": (law(GOOD, "requires = 'temperature'"), "tuple of names"),
+    "hook that returns a class": (law(GOOD).replace("[Bad]", "Bad"), "must return a list"),
+}
+# What only a process of its own survives.
+DEADLY = {
+    "endless import": ("while True: pass", "did not end"),
+    "native crash": ("import ctypes; ctypes.string_at(0)", "crashed the process (SIGSEGV)"),
 }
 CASE = """
 [grid]
@@ -99,28 +91,44 @@ def command(folder, *args):
     )
 
 
-def keep(folder, module_code, group="tribo.v1.wear_law", distribution="zoo-tribo"):
-    distribute(
-        folder / "site", distribution, "1.0", {group: {"zoo.bad": "zoo_bad"}}, zoo_bad=module_code
-    )
+def keep(folder, module_code, distribution="zoo-tribo", requires=()):
+    points = {"zoo.bad": "zoo_bad"}
+    distribute(folder / "site", distribution, "1.0", points, requires, zoo_bad=module_code)
     (folder / "plain.toml").write_text(CASE.format(wear='{ type = "archard", k = 3e-16 }'))
     (folder / "named.toml").write_text(CASE.format(wear='"zoo.bad"'))
 
 
-@pytest.mark.parametrize("fault", list(ZOO))
-def test_it_is_harmless_until_it_is_named(tmp_path, fault):
-    code, exit_code, words = ZOO[fault]
-    keep(tmp_path, code)
-    plain = command(tmp_path, "run", "plain.toml")
+@pytest.mark.parametrize("fault", [*ZOO, *DEADLY])
+def test_it_is_harmless_where_it_is_not_named(tmp_path, fault):
+    keep(tmp_path, {**ZOO, **DEADLY}[fault][0])
+    plain = command(tmp_path, "check", "plain.toml")
     assert (plain.returncode, plain.stderr) == (0, "")
+
+
+@pytest.mark.parametrize("fault", ZOO)
+def test_where_it_is_named_one_line_says_what_is_wrong(tmp_path, fault):
+    code, words = ZOO[fault]
+    keep(tmp_path, code)
     named = command(tmp_path, "run", "named.toml")
-    assert named.returncode == exit_code, named.stderr
+    assert named.returncode == 2, named.stderr
     (line,) = named.stderr.strip().splitlines()
-    assert line.startswith("error: ")
-    assert "zoo.bad" in line
+    assert line.startswith("error: bodies.ball.wear: wear law 'zoo.bad' cannot be used: ")
     assert words in line
-    if exit_code == 2:
-        assert not (tmp_path / "named.h5").exists()
+    assert not (tmp_path / "named.h5").exists()
+
+
+@pytest.mark.parametrize("fault", DEADLY)
+def test_the_doctor_and_the_check_try_it_in_a_process_of_its_own(tmp_path, fault):
+    code, words = DEADLY[fault]
+    keep(tmp_path, code)
+    seen = command(tmp_path, "doctor")
+    assert seen.returncode == 3
+    assert words in seen.stdout
+    assert "zoo-tribo 1.0" in seen.stderr
+    checked = command(tmp_path, "plugins", "check", "zoo.bad")
+    assert checked.returncode == 2
+    assert "'zoo.bad' is in zoo-tribo 1.0, which is broken: " in checked.stderr
+    assert words in checked.stderr
 
 
 def test_listing_imports_no_plugin(tmp_path):
@@ -131,12 +139,15 @@ def test_listing_imports_no_plugin(tmp_path):
     assert "available" in listed.stdout
 
 
-def test_the_doctor_finds_what_ails(tmp_path):
-    keep(tmp_path, "import ctypes; ctypes.string_at(0)")
+def test_a_requirement_that_does_not_hold_is_told_by_the_doctor_and_where_it_is_named(tmp_path):
+    keep(tmp_path, law(GOOD), requires=["tribo<0.0.1"])
+    told = "zoo-tribo 1.0 is incompatible: it requires tribo<0.0.1, but tribo is installed in"
+    named = command(tmp_path, "run", "named.toml")
+    assert named.returncode == 2
+    assert told in named.stderr
     seen = command(tmp_path, "doctor")
     assert seen.returncode == 3
-    assert "SIGSEGV" in seen.stdout
-    assert "zoo-tribo 1.0" in seen.stderr
+    assert "incompatible it requires tribo<0.0.1" in seen.stdout
 
 
 MEDDLING = """
@@ -163,22 +174,10 @@ def test_an_import_moves_no_result(tmp_path):
     assert list(elsewhere.iterdir()) == []
 
 
-def test_an_import_changes_neither_warnings_nor_numpy(tmp_path, monkeypatch):
-    meddler(tmp_path, "ignore")
-    monkeypatch.syspath_prepend(str(tmp_path / "site"))
-    (source,) = [s for s in installed() if s.record.distribution == "zoo-tribo"]
-    here, filters, errors = Path.cwd(), list(warnings.filters), np.geterr()
-    record, (offer,) = load(source)
-    monkeypatch.delitem(sys.modules, "zoo_bad")
-    assert (record.status, offer.name) == ("loaded", "zoo.bad")
-    assert (Path.cwd(), list(warnings.filters), np.geterr()) == (here, filters, errors)
-
-
 def test_a_plugin_that_makes_warnings_errors_does_not_end_an_unrelated_command(tmp_path):
     meddler(tmp_path, "error")
     # A second plugin that is left out of the schema with a warning.
-    points = {"tribo.v1.wear_law": {"zzz.law": "zoo_broken"}}
-    distribute(tmp_path / "site", "zzz-broken", "1.0", points, zoo_broken="1/0")
+    distribute(tmp_path / "site", "zzz-broken", "1.0", {"zzz.law": "zoo_broken"}, zoo_broken="1/0")
     done = command(tmp_path, "schema")
     assert done.returncode == 0, done.stderr
     assert "zzz-broken 1.0 is left out" in done.stderr
@@ -190,22 +189,6 @@ def test_the_schema_leaves_out_what_cannot_be_imported(tmp_path):
     assert done.returncode == 0
     assert "zoo.bad" not in done.stdout
     assert "zoo-tribo 1.0 is left out: RuntimeError: no" in done.stderr
-
-
-@pytest.mark.parametrize(
-    ("group", "words"),
-    [("tribo.v2.wear_law", "interface version 2"), ("tribo.v1.wear_lore", "unknown")],
-)
-def test_what_is_wrong_at_first_sight_is_one_line_on_stderr(tmp_path, group, words):
-    keep(tmp_path, "1/0", group)
-    plain = command(tmp_path, "run", "plain.toml")
-    assert plain.returncode == 0
-    (line,) = plain.stderr.strip().splitlines()
-    assert line.startswith("warning: plugin zoo-tribo 1.0 is left out")
-    assert words in line
-    named = command(tmp_path, "run", "named.toml")
-    assert named.returncode == 2
-    assert words in named.stderr.splitlines()[-1]
 
 
 def test_a_name_claimed_twice_is_unusable_and_says_by_whom(tmp_path):
@@ -327,7 +310,7 @@ def test_a_malformed_distribution_harms_no_other(tmp_path, fault):
         (info / "METADATA").write_text("Metadata-Version: 2.1\nName: odd\nVersion: 1.0\n")
     lines = {
         "entry points": "[console_scripts]\nno equals sign\n",
-        "no metadata": "[tribo.v1.wear_law]\nodd.law = odd\n",
+        "no metadata": "[tribo]\nodd.law = odd\n",
         "odd value": "[console_scripts]\nodd = not a module !!\n",
     }
     (info / "entry_points.txt").write_text(lines[fault])
@@ -342,10 +325,9 @@ def test_a_malformed_distribution_harms_no_other(tmp_path, fault):
 def test_a_plugin_is_not_tried_with_the_modules_of_the_folder_one_is_in(tmp_path):
     keep(tmp_path, law(GOOD))
     (tmp_path / "pluggy.py").write_text("raise SystemExit('a stranger in the folder')")
-    command_line = [sys.executable, "-P", "-m", "tribo", "run", "named.toml"]
     path = os.pathsep.join([str(tmp_path / "site"), str(Path(tribo.__file__).parents[1])])
     done = subprocess.run(
-        command_line,
+        [sys.executable, "-P", "-m", "tribo", "plugins", "check", "zoo.bad"],
         cwd=tmp_path,
         env={**os.environ, "PYTHONPATH": path},
         capture_output=True,
@@ -353,7 +335,8 @@ def test_a_plugin_is_not_tried_with_the_modules_of_the_folder_one_is_in(tmp_path
         timeout=100,
         check=False,
     )
-    assert done.returncode == 0, done.stderr
+    assert "a stranger in the folder" not in done.stderr
+    assert "broken" not in done.stderr
 
 
 def test_another_version_may_have_another_key(tmp_path):

@@ -16,6 +16,7 @@ from tribo.analysis.inferred import InferredVolume, inferred_volumes, track_sect
 from tribo.analysis.scar import scar
 from tribo.contact.hertz import first_yield_pressure
 from tribo.core.measures import reaches_border
+from tribo.registry.contributions import LabRow, from_plugins_of
 from tribo.results.read import Result
 
 HALF_SPACE = "dcfft"
@@ -87,12 +88,14 @@ class FirstContact:
 class LabReport:
     """The bodies after the last save, by name, and the first contact.
 
-    `inferred` are the volumes by a lab's formulas, beside those worn.
+    `inferred` are the volumes by a lab's formulas, beside those worn; `rows`
+    what the plugins of its models add.
     """
 
     bodies: Mapping[str, BodyReport]
     inferred: tuple[InferredVolume, ...]
     first_contact: FirstContact
+    rows: tuple[LabRow, ...] = ()
 
     def as_json(self) -> dict[str, Any]:
         """Return the report as plain data, its keys named with their units."""
@@ -123,6 +126,7 @@ class LabReport:
                 "max_pressure_Pa": first.max_pressure,
                 "yield_ratio": first.yield_ratio,
             },
+            "plugins": [row._asdict() for row in self.rows],
         }
 
 
@@ -133,6 +137,7 @@ def lab_report(result: Result) -> LabReport:
         bodies={name: _body(result, name, saves[-1]) for name in result.body_names},
         inferred=tuple(inferred_volumes(result)),
         first_contact=_first_contact(result, saves[0]["max_pressure_Pa"]),
+        rows=tuple(row for rows in from_plugins_of(result, "tribo_lab_rows") for row in rows),
     )
 
 

@@ -25,25 +25,26 @@ def doctor(as_json: bool, time_limit: float | None) -> None:
     Example:
       tribo doctor
     """
+    from concurrent.futures import ThreadPoolExecutor
+
     from tribo.core.errors import NumericalError
-    from tribo.registry.hints import undeclared
-    from tribo.registry.loader import installed
-    from tribo.registry.probe import probe_all
+    from tribo.registry.plugins import installed, undeclared
+    from tribo.registry.probe import probe
     from tribo.registry.registry import Registry
     from tribo.registry.selection import selected
     from tribo.results.provenance import environment
     from tribo.simulation.selftest import self_test
 
-    sources = selected(installed())
-    tried = [source.record for source in probe_all(sources, time_limit)]
-    # A registry notices names that are claimed twice.
-    known = zip(tried, Registry(sources).plugins, strict=True)
-    records = [c if c.status == "conflict" and t.status == "loaded" else t for t, c in known]
+    with ThreadPoolExecutor(2) as pool:
+        registry = Registry(selected(installed()))
+        records = list(pool.map(lambda plugin: probe(plugin, time_limit), registry.plugins))
     checks = self_test()
+    conflicts = registry.conflicts
     found: dict[str, Any] = {
         **environment(),
         "checks": [{"name": c.name, "ok": c.ok, "detail": c.detail} for c in checks],
-        "plugins": [vars(record) for record in records],
+        "plugins": [record.facts for record in records],
+        "conflicts": list(conflicts.values()),
         "hints": undeclared(),
     }
     if as_json:
@@ -51,7 +52,8 @@ def doctor(as_json: bool, time_limit: float | None) -> None:
     else:
         _print(found)
     bad = [check.name for check in checks if not check.ok]
-    bad += [str(r) for r in records if r.status in ("broken", "incompatible", "conflict")]
+    bad += [str(r) for r in records if r.status in ("broken", "incompatible")]
+    bad += conflicts
     if bad:
         raise NumericalError(f"not well: {', '.join(bad)}")
 
@@ -66,6 +68,8 @@ def _print(found: dict[str, Any]) -> None:
         name = f"plugin {plugin['distribution']} {plugin['version']} ({plugin['entry_point']})"
         well = plugin["status"] in ("loaded", "disabled")
         _line(well, name, f"{plugin['status']} {plugin['reason']}".rstrip())
+    for conflict in found["conflicts"]:
+        _line(False, "name", conflict)
     for hint in found["hints"]:
         click.echo(f"hint  {hint}")
 

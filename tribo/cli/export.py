@@ -10,23 +10,36 @@ import click
 @click.command()
 @click.argument("output", type=click.Path(path_type=Path))
 @click.option(
-    "-d", "--directory", type=click.Path(path_type=Path), help="Folder to write to; OUTPUT-csv."
+    "-d", "--directory", type=click.Path(path_type=Path), help="Folder to write to; OUTPUT-FORMAT."
 )
-def export(output: Path, directory: Path | None) -> None:
-    """Write history, saves and profiles of the result OUTPUT as CSV.
+@click.option(
+    "--format", "name", default="csv", show_default=True, help="csv, or one that a plugin offers."
+)
+def export(output: Path, directory: Path | None, name: str) -> None:
+    """Write the result OUTPUT in another format: CSV, or one that a plugin offers.
 
-    The column names carry the units: history.csv (a row a step), saves.csv
-    (a row a save), profiles_x.csv and profiles_y.csv (through the centre,
-    along and across the sliding direction, a block a save).
+    CSV holds history, saves and profiles, and its column names carry the units:
+    history.csv (a row a step), saves.csv (a row a save), profiles_x.csv and
+    profiles_y.csv (through the centre, along and across the sliding direction,
+    a block a save).
 
     \b
     Example:
       tribo export my.h5 -d csv
     """
+    from tribo.core.errors import OutputError
+    from tribo.registry.contributions import choose
     from tribo.results.export import export_csv
     from tribo.results.read import Result
 
-    folder = directory or output.with_name(output.stem + "-csv")
+    write = export_csv
+    if name != "csv":
+        write = choose("tribo_export_formats", name, "format").write
+    folder = directory or output.with_name(f"{output.stem}-{name}")
     with Result.open(output) as result:
-        for path in export_csv(result, folder):
+        try:
+            paths = write(result, folder)
+        except OSError as error:
+            raise OutputError(f"cannot write to {folder}: {error.strerror}") from error
+        for path in paths:
             click.echo(f"Wrote {path}")

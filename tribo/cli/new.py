@@ -8,9 +8,11 @@ import click
 
 from tribo.templates import TEMPLATES, template
 
+HOOK = "tribo_templates"
+
 
 @click.command()
-@click.argument("name", metavar="TEMPLATE", type=click.Choice(list(TEMPLATES)))
+@click.argument("name", metavar="TEMPLATE")
 @click.argument("file", type=click.Path(path_type=Path))
 @click.option("--force", is_flag=True, help="Replace an existing file.")
 def new(name: str, file: Path, force: bool) -> None:
@@ -21,17 +23,20 @@ def new(name: str, file: Path, force: bool) -> None:
       ball_on_disk   the paper's one-hour test
       weighed_split  the same with the loss that was weighed, 10:1
       pin_on_disk    a ball on a turning disk, as in ASTM G99
+    and those of plugins, which are listed where TEMPLATE is none of them.
 
     \b
     Example:
       tribo new ball_on_disk my.toml
     """
     from tribo.core.errors import CaseError, OutputError
+    from tribo.registry.contributions import choose
 
+    text = template(name) if name in TEMPLATES else choose(HOOK, name, "template").text
     try:
         if file.exists() and not force:
             raise CaseError(f"{file} exists; choose another name, or replace it with --force")
-        file.write_text(template(name), encoding="utf-8")
+        file.write_text(text, encoding="utf-8")
     except OSError as error:
         raise OutputError(f"cannot write {file}: {error.strerror}") from error
     click.echo(f"Wrote {file}; look it over, then: tribo check {file}")

@@ -34,7 +34,7 @@ def list_(as_json: bool) -> None:
       tribo plugins list --json
     """
     from tribo.registry.catalogue import catalogue
-    from tribo.registry.hints import undeclared
+    from tribo.registry.plugins import undeclared
     from tribo.registry.registry import default_registry
 
     rows = catalogue(default_registry())
@@ -66,8 +66,10 @@ def show(name: str) -> None:
     from tribo.registry.registry import default_registry
 
     registry = default_registry()
-    for number, key in enumerate(find(registry, name)):
-        described = describe(registry.record(*key))
+    for number, component in enumerate(find(registry, name)):
+        cls = registry.find(component)
+        assert cls is not None
+        described = describe(cls, registry.claimants(component)[0])
         click.echo(f"\n{described}" if number else described)
 
 
@@ -86,22 +88,27 @@ def check(name: str) -> None:
       tribo plugins check acme.fretting
       tribo plugins check acme-fretting
     """
-    from tribo.core.errors import NumericalError
+    from tribo.core.errors import CaseError, NumericalError
     from tribo.registry.catalogue import find
+    from tribo.registry.probe import probe
     from tribo.registry.registry import default_registry
     from tribo.testing import check as conform
     from tribo.testing import example_configs
 
     registry = default_registry()
     failed = []
-    for kind, component in find(registry, name):
-        cls = registry.lookup(kind, component)
+    for component in find(registry, name):
+        (owner, *others) = registry.claimants(component)
+        if not others and not (tried := probe(owner)).usable:
+            raise CaseError(f"{component!r} is in {tried}, which is {tried.status}: {tried.reason}")
+        cls = registry.find(component)
+        assert cls is not None
         try:
             configs = example_configs(cls)
             if not configs and (files := _files_needed(cls)):
-                owner = registry.record(kind, component).plugin.distribution
                 lacks = f"for want of a file as its {' and '.join(files)}"
-                click.echo(f"{component}: not checked, {lacks}; the tests of {owner} have to")
+                left = f"the tests of {owner.distribution} have to"
+                click.echo(f"{component}: not checked, {lacks}; {left}")
                 continue
             report = conform(cls, configs)
         except ValueError as error:

@@ -34,6 +34,8 @@ def print_report(result: Result, console: Console | None = None) -> None:
     if lab.inferred:
         console.print(_inferred(lab.inferred))
     console.print(_first_contact(lab.first_contact))
+    for row in lab.rows:
+        console.print(f"{escape(row.label)}: {row.value:.4g} {escape(row.unit)}".rstrip())
     totals = result.totals()
     worst = result.worst()
     took = "" if result.wall_time is None else f", {result.wall_time:.1f} s"

@@ -9,7 +9,7 @@ from typing import Literal
 
 from pydantic import BaseModel
 
-from tribo.core.errors import CaseError, TriboWarning
+from tribo.core.errors import TriboWarning
 from tribo.core.words import said
 from tribo.interfaces.component import Component
 from tribo.registry.kinds import KINDS
@@ -45,28 +45,23 @@ class Choices:
     def of(self, kind: str) -> Configs:
         """Return the configurations of a kind."""
         if kind not in self._found:
-            names = self._registry.names(kind)
-            configs = {name: self._config(kind, name) for name in names}
+            for plugin in self._registry.load_all():
+                self._warn(f"{plugin} is left out: {plugin.reason}")
+            configs = {name: self._config(kind, name) for name in self._registry.names(kind)}
             self._found[kind] = {name: config for name, config in configs.items() if config}
         return self._found[kind]
 
     def _config(self, kind: str, name: str) -> type[Component] | None:
-        try:
-            record = self._registry.record(kind, name)
-        except CaseError:
-            (plugin,) = self._registry.claimants(kind, name)
-            if plugin.status != "broken":
-                raise
-            self._warn(f"{plugin} is left out: {plugin.reason}")
-            return None
-        fault = _fault(record.cls, self._mode)
+        cls = self._registry.lookup(kind, name)
+        fault = _fault(cls, self._mode)
         if fault:
+            (plugin,) = self._registry.claimants(name)
             self._warn(
-                f"{KINDS[kind].words} {name!r} of {record.plugin} is left out: making the schema "
-                f"of its configuration raised {fault}"
+                f"{KINDS[kind].words} {name!r} of {plugin} is left out: making the schema of its "
+                f"configuration raised {fault}"
             )
             return None
-        return record.cls
+        return cls
 
     def _warn(self, message: str) -> None:
         if message not in self._told:

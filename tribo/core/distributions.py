@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from contextlib import suppress
 from importlib import metadata
+
+from packaging.requirements import InvalidRequirement, Requirement
 
 _NAME = re.compile(r"^Name:\s*(\S+)", re.MULTILINE)
 _VERSION = re.compile(r"^Version:\s*(\S+)", re.MULTILINE)
@@ -48,6 +51,35 @@ def _name_if_found(distribution: metadata.Distribution) -> str:
     found = metadata.distribution(name[1])
     same = (metadata_text(found), found.locate_file("")) == (text, distribution.locate_file(""))
     return name[1] if same else ""
+
+
+def applies(requirement: str) -> bool:
+    """Return whether a requirement, as ``"numpy>=2; python_version < '3.12'"``, is one here."""
+    marker = Requirement(requirement).marker
+    return marker is None or marker.evaluate({"extra": ""})
+
+
+def lacking(requirement: str) -> str:
+    """Return what lacks where a requirement is not met; empty if it is met or does not apply."""
+    needed = Requirement(requirement)
+    if not applies(requirement):
+        return ""
+    try:
+        version = metadata.version(needed.name)
+    except metadata.PackageNotFoundError:
+        return f"{needed.name} is not installed"
+    if needed.specifier.contains(version, prereleases=True):
+        return ""
+    return f"{needed.name} is installed in version {version}"
+
+
+def unmet(distribution: str) -> str:
+    """Return which requirement of a distribution does not hold; empty if all do."""
+    for requirement in metadata.distribution(distribution).requires or ():
+        with suppress(InvalidRequirement):
+            if lack := lacking(requirement):
+                return f"it requires {requirement}, but {lack}; mend that with pip"
+    return ""
 
 
 def metadata_text(distribution: metadata.Distribution) -> str:

@@ -17,6 +17,7 @@ from tribo.plotting.profiles import body_profiles, groove
 from tribo.plotting.section import worn_section
 from tribo.plotting.style import house_style
 from tribo.plotting.window import number_of_saves, removed
+from tribo.registry.contributions import from_plugins_of
 from tribo.results.read import Result
 
 # No dates, so that the same result gives the same file.
@@ -44,7 +45,8 @@ def save_figures(result: Result, folder: Path, suffix: str = "png") -> list[Path
         The files: ``pressure_map`` of the last save, ``pressure_map_early`` of
         the first after the beginning, ``pressure_sections``, ``NAME_along``
         and ``NAME_across`` of each worn body NAME, or ``NAME_groove`` of a
-        swept one, ``worn_section``, ``wear_history`` and ``contact_history``.
+        swept one, ``worn_section``, ``wear_history`` and ``contact_history``;
+        besides those of the plugins of the result's models.
 
     Raises
     ------
@@ -53,7 +55,10 @@ def save_figures(result: Result, folder: Path, suffix: str = "png") -> list[Path
     OutputError
         If they cannot be written.
     """
-    return write_figures(_pictures(result), folder, suffix)
+    pictures = _pictures(result)
+    for more in from_plugins_of(result, "tribo_figures"):
+        pictures |= more
+    return write_figures(pictures, folder, suffix)
 
 
 def write_figures(

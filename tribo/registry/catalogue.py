@@ -15,17 +15,17 @@ from tribo.core.errors import CaseError
 from tribo.core.fields import Field
 from tribo.core.units import Quantity
 from tribo.core.words import did_you_mean, suggestion
-from tribo.registry.kinds import KINDS
-from tribo.registry.loader import distribution_summary
-from tribo.registry.records import ComponentRecord, Name, PluginRecord
+from tribo.interfaces.component import Component
+from tribo.registry.kinds import KINDS, kind_of
+from tribo.registry.plugins import Plugin
 from tribo.registry.registry import Registry
 
 
 def catalogue(registry: Registry) -> list[dict[str, str]]:
     """Return a row for every component, and for every plugin that cannot be used.
 
-    Nothing is imported that has not been: the summary of a component of a
-    plugin not imported yet is that of its distribution, and says so. A name
+    Nothing is imported that has not been: of what is in a plugin not imported
+    yet the kind is empty, and the summary that of its distribution. A name
     that more than one plugin claims has a row for each, in conflict.
 
     Returns
@@ -34,26 +34,19 @@ def catalogue(registry: Registry) -> list[dict[str, str]]:
         With ``name``, ``kind``, ``distribution``, ``version``, ``status``,
         ``reason`` and ``summary``.
     """
-    rows = []
-    for kind in KINDS.values():
-        for name in registry.names(kind.name):
-            (plugin,) = registry.claimants(kind.name, name)
-            rows.append(_row(name, kind.words, plugin, registry.summary(kind.name, name)))
-    for key, reason in registry.conflicts().items():
-        for plugin in registry.claimants(*key):
-            contested = replace(plugin, status="conflict", reason=reason)
-            words = KINDS[key[0]].words
-            rows.append(_row(key[1], words, contested, distribution_summary(plugin)))
+    known = registry.components
+    names = [name for kind in KINDS for name in registry.names(kind)] + registry.waiting
+    rows = [_row(name, known.get(name), registry.claimants(name)[0]) for name in names]
     rows += [
-        _row("", "", plugin, distribution_summary(plugin))
-        for plugin in registry.plugins
-        if not plugin.usable
+        _row(name, None, replace(plugin, status="conflict", reason=reason))
+        for name, reason in registry.conflicts.items()
+        for plugin in registry.claimants(name)
     ]
-    return rows
+    return rows + [_row("", None, plugin) for plugin in registry.plugins if not plugin.usable]
 
 
-def find(registry: Registry, name: str) -> list[Name]:
-    """Return kind and name of the component, or of all of the distribution, called `name`.
+def find(registry: Registry, name: str) -> list[str]:
+    """Return the names of the component, or of all of the distribution, called `name`.
 
     Names that more than one plugin claims are found too, and come last.
 
@@ -62,34 +55,25 @@ def find(registry: Registry, name: str) -> list[Name]:
     CaseError
         If there is none.
     """
-    usable = [(kind, known) for kind in KINDS for known in registry.names(kind)]
-    known = [*usable, *registry.conflicts()]
-    found = [key for key in known if key[1] == name]
-    found = found or [
-        key for key in known if name in [p.distribution for p in registry.claimants(*key)]
-    ]
+    known = [*registry.components, *registry.waiting, *registry.conflicts]
+    if name in known:
+        return [name]
+    found = [k for k in known if name in [p.distribution for p in registry.claimants(k)]]
     if found:
         return found
-    refusals = [
-        f"plugin {plugin} is {plugin.status}: {plugin.reason or 'it is empty'}"
-        for plugin in registry.plugins
-        if plugin.distribution == name
-    ]
-    refusals = refusals or registry.refusals(name)
-    if refusals:
-        raise CaseError("; ".join(refusals))
-    meant = suggestion(did_you_mean(name, [key[1] for key in known]))
+    for plugin in registry.plugins:
+        if name in (plugin.distribution, *plugin.names):
+            raise CaseError(f"plugin {plugin} is {plugin.status}: {plugin.reason or 'it is empty'}")
+    meant = suggestion(did_you_mean(name, known))
     raise CaseError(
         f"no component or distribution is called {name!r}{meant} See tribo plugins list"
     )
 
 
-def describe(component: ComponentRecord) -> str:
+def describe(cls: type[Component], plugin: Plugin) -> str:
     """Return what a user should know of a component, as text."""
-    cls = component.cls
-    words = KINDS[component.kind].words
-    lines = [f"{component.name}: {words} from {component.plugin}", ""]
-    lines += [component.description or "(it has no description)", ""]
+    lines = [f"{cls.type}: {kind_of(cls).words} from {plugin}", ""]
+    lines += [_description(cls) or "(it has no description)", ""]
     parameters = list(_parameters(cls))
     if parameters:
         lines += ["Parameters", "----------", *parameters, ""]
@@ -100,16 +84,18 @@ def describe(component: ComponentRecord) -> str:
     return "\n".join(lines)
 
 
-def _row(name: str, kind: str, plugin: PluginRecord, summary: str) -> dict[str, str]:
-    return {
-        "name": name,
-        "kind": kind,
-        "distribution": plugin.distribution,
-        "version": plugin.version,
-        "status": plugin.status,
-        "reason": plugin.reason,
-        "summary": summary,
-    }
+def _description(cls: type[Component]) -> str:
+    """Return the docstring of a class; empty where it has none, or one that is no text."""
+    return inspect.cleandoc(cls.__doc__) if isinstance(cls.__doc__, str) else ""
+
+
+def _row(name: str, cls: type[Component] | None, plugin: Plugin) -> dict[str, str]:
+    facts = {key: plugin.facts[key] for key in ("distribution", "version", "status", "reason")}
+    if cls is not None:
+        kind, summary = kind_of(cls).words, _description(cls).partition("\n")[0]
+    else:
+        kind, summary = "", f"(all of {plugin.distribution}) {plugin.summary}".rstrip()
+    return {"name": name, "kind": kind, **facts, "summary": summary}
 
 
 def _parameters(table: type[BaseModel], within: tuple[type[BaseModel], ...] = ()) -> Iterator[str]:

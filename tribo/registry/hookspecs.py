@@ -1,21 +1,21 @@
-"""The hooks by which a plugin offers its classes: the whole plugin surface."""
+"""The hooks by which a plugin takes part: all of them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING
 
 import pluggy
 
 if TYPE_CHECKING:
-    from tribo.interfaces.contact import ContactSolver
-    from tribo.interfaces.effect import Effect
-    from tribo.interfaces.kinematics import Kinematics
-    from tribo.interfaces.observer import Observer
-    from tribo.interfaces.surface import Surface
-    from tribo.interfaces.wear import WearLaw
+    from matplotlib.figure import Figure
+
+    from tribo.interfaces.component import Component
+    from tribo.registry.contributions import CaseTemplate, ExportFormat, LabRow
+    from tribo.results.read import Result
 
 PROJECT = "tribo"
+"""Name of the plugin manager, and group of the entry points that it reads."""
 
 hookspec = pluggy.HookspecMarker(PROJECT)
 hookimpl = pluggy.HookimplMarker(PROJECT)
@@ -23,36 +23,30 @@ hookimpl = pluggy.HookimplMarker(PROJECT)
 
 
 @hookspec
-def tribo_contact_solvers() -> Iterable[type[ContactSolver]]:
-    """Return the contact solvers that this plugin offers."""
+def tribo_components() -> Iterable[type[Component]]:
+    """Return the classes that a case may name; the base of each says of what kind it is."""
     return ()
 
 
 @hookspec
-def tribo_wear_laws() -> Iterable[type[WearLaw]]:
-    """Return the wear laws that this plugin offers."""
+def tribo_lab_rows(result: Result) -> Iterable[LabRow]:
+    """Return rows for the lab table of a result in which this plugin took part."""
     return ()
 
 
 @hookspec
-def tribo_kinematics() -> Iterable[type[Kinematics]]:
-    """Return the motions that this plugin offers."""
+def tribo_figures(result: Result) -> Mapping[str, Callable[[], Figure]]:
+    """Return how to draw pictures of a result in which this plugin took part, by file name."""
+    return {}
+
+
+@hookspec
+def tribo_export_formats() -> Iterable[ExportFormat]:
+    """Return formats in which `tribo export` may write a result."""
     return ()
 
 
 @hookspec
-def tribo_surfaces() -> Iterable[type[Surface]]:
-    """Return the surfaces that this plugin offers."""
-    return ()
-
-
-@hookspec
-def tribo_effects() -> Iterable[type[Effect]]:
-    """Return the effects that this plugin offers."""
-    return ()
-
-
-@hookspec
-def tribo_observers() -> Iterable[type[Observer]]:
-    """Return the observers that this plugin offers."""
+def tribo_templates() -> Iterable[CaseTemplate]:
+    """Return cases that `tribo new` may write."""
     return ()

@@ -1,7 +1,8 @@
-"""The kinds of component: the hook that offers them and the class they implement."""
+"""The kinds of component, each known by its base class."""
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -17,36 +18,42 @@ from tribo.interfaces.wear import WearLaw
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of component.
-
-    Parameters
-    ----------
-    name : str
-        Its name in the registry, as ``"wear_law"``.
-    words : str
-        Its name in a sentence, as ``"wear law"``.
-    hook : str
-        The hook by which plugins offer it.
-    interface : type
-        The abstract class it implements.
-    """
+    """A kind of component: its name, as ``"wear_law"``, and the base of its classes."""
 
     name: str
-    words: str
-    hook: str
     interface: type[Component]
 
+    @property
+    def words(self) -> str:
+        """Its name in a sentence, as ``"wear law"``."""
+        return self.name.replace("_", " ")
 
-KINDS: Mapping[str, Kind] = MappingProxyType(
-    {
-        kind.name: kind
-        for kind in (
-            Kind("contact_solver", "contact solver", "tribo_contact_solvers", ContactSolver),
-            Kind("wear_law", "wear law", "tribo_wear_laws", WearLaw),
-            Kind("kinematics", "kinematics", "tribo_kinematics", Kinematics),
-            Kind("surface", "surface", "tribo_surfaces", Surface),
-            Kind("effect", "effect", "tribo_effects", Effect),
-            Kind("observer", "observer", "tribo_observers", Observer),
-        )
-    }
-)
+    @property
+    def article(self) -> str:
+        """The article of `words`: ``"a"`` or ``"an"``."""
+        return "an" if self.name[0] in "aeiou" else "a"
+
+
+INTERFACES: dict[str, type[Component]] = {
+    "contact_solver": ContactSolver,
+    "wear_law": WearLaw,
+    "kinematics": Kinematics,
+    "surface": Surface,
+    "effect": Effect,
+    "observer": Observer,
+}
+KINDS: Mapping[str, Kind] = MappingProxyType({n: Kind(n, base) for n, base in INTERFACES.items()})
+
+
+def kind_of(cls: object) -> Kind:
+    """Return the kind of component that a class implements; TypeError if it is none."""
+    if not inspect.isclass(cls):
+        raise TypeError(f"{cls!r} is not a class; give the class, not an object of it")
+    kinds = [kind for kind in KINDS.values() if issubclass(cls, kind.interface)]
+    if len(kinds) != 1:
+        names = ", ".join(kind.interface.__name__ for kind in KINDS.values())
+        raise TypeError(f"{cls.__qualname__} must be a subclass of exactly one of {names}")
+    if inspect.isabstract(cls):
+        missing = ", ".join(sorted(getattr(cls, "__abstractmethods__", ())))
+        raise TypeError(f"{cls.__qualname__} does not define {missing}")
+    return kinds[0]

@@ -1,114 +1,46 @@
-"""What a plugin's hooks offer, held to the contract."""
+"""What a plugin hands over, held to the contract."""
 
 from __future__ import annotations
 
-import inspect
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from typing import Any
 
-import pluggy
-
 from tribo.core.fields import Field
-from tribo.core.words import did_you_mean
-from tribo.registry import hookspecs
-from tribo.registry.kinds import KINDS, Kind
-from tribo.registry.records import ComponentRecord, Name, PluginRecord
+from tribo.interfaces.component import Component
+from tribo.registry.kinds import kind_of
+
+Classes = dict[str, type[Component]]
+"""Classes by the name in a case."""
 
 
-def offers(
-    plugin: object, record: PluginRecord, declared: tuple[Name, ...] | None
-) -> tuple[ComponentRecord, ...]:
-    """Return what the hooks of an imported plugin offer.
-
-    Parameters
-    ----------
-    plugin : object
-        Carries the hooks: a module, for one.
-    record : PluginRecord
-        What is known about it.
-    declared : tuple of (str, str) or None
-        Kind and name of what it must offer; None if that is free.
+def offered(answers: Iterable[object]) -> Classes:
+    """Return the classes that the answers to `tribo_components` hold, by name.
 
     Raises
     ------
     TypeError, ValueError
-        If it has a hook that tribo does not know, or a hook returns something
-        else than it must. Besides, whatever a hook raises.
+        If an answer is no list, holds what is no component, or a name twice.
     """
-    manager = pluggy.PluginManager(hookspecs.PROJECT)
-    manager.add_hookspecs(hookspecs)
-    manager.register(plugin, record.entry_point)
-    _check_hooks(manager, plugin)
-    found = tuple(_offered(manager, record))
-    if declared is not None:
-        _check_declared(plugin, declared, found)
+    found: Classes = {}
+    for answer in answers:
+        if not isinstance(answer, Iterable):
+            raise TypeError(
+                f"tribo_components returns {answer!r}; it must return a list of classes"
+            )
+        for cls in answer:
+            _check_declarations(cls, kind_of(cls).interface)
+            if cls.type in found:
+                raise ValueError(f"tribo_components returns {cls.type!r} twice")
+            found[cls.type] = cls
     return found
 
 
-def _check_hooks(manager: pluggy.PluginManager, plugin: object) -> None:
-    known = [kind.hook for kind in KINDS.values()]
-    for caller in manager.get_hookcallers(plugin) or ():
-        needed = not all(implementation.optionalhook for implementation in caller.get_hookimpls())
-        if needed and not caller.has_spec():
-            meant = did_you_mean(caller.name, known)
-            hint = f"did you mean {meant!r}?" if meant else f"the hooks are {', '.join(known)}"
-            raise ValueError(f"unknown hook {caller.name!r} ({hint})")
-
-
-def _check_declared(
-    plugin: object, declared: tuple[Name, ...], found: tuple[ComponentRecord, ...]
-) -> None:
-    offered = {(offer.kind, offer.name) for offer in found}
-    for kind, name in sorted(set(declared) - offered):
-        hook = KINDS[kind].hook
-        what = f"its entry points declare the {KINDS[kind].words} {name!r}, but its hook {hook} "
-        function = getattr(plugin, hook, None)
-        if function is not None and not hasattr(function, f"{hookspecs.PROJECT}_impl"):
-            raise ValueError(f"{what}is not marked as one; write @hookimpl above it")
-        raise ValueError(f"{what}does not return it")
-    for kind, name in sorted(offered - set(declared)):
-        raise ValueError(
-            f"its hooks return the {KINDS[kind].words} {name!r}, which no entry point of that "
-            "kind declares"
-        )
-
-
-def _offered(manager: pluggy.PluginManager, record: PluginRecord) -> Iterator[ComponentRecord]:
-    seen: set[Name] = set()
-    for kind in KINDS.values():
-        for implementation in getattr(manager.hook, kind.hook).get_hookimpls():
-            returned = implementation.function()
-            if not isinstance(returned, Iterable):
-                raise TypeError(
-                    f"{kind.hook} returns {returned!r}; it must return a list of classes"
-                )
-            for cls in returned:
-                offer = ComponentRecord(kind.name, _name(cls, kind), cls, record)
-                if (offer.kind, offer.name) in seen:
-                    raise ValueError(f"{kind.hook} returns {offer.name!r} twice")
-                seen.add((offer.kind, offer.name))
-                yield offer
-
-
-def _name(cls: Any, kind: Kind) -> str:
-    """Return the name of `cls` in a case; raise TypeError if it is not of this kind."""
-    shown = getattr(cls, "__qualname__", repr(cls))
-    if not (inspect.isclass(cls) and issubclass(cls, kind.interface)):
-        raise TypeError(
-            f"{kind.hook} returns {shown}, not a subclass of tribo.plugin.{kind.interface.__name__}"
-        )
-    if inspect.isabstract(cls):
-        missing = ", ".join(sorted(cls.__abstractmethods__))
-        raise TypeError(f"{shown} does not define {missing}")
-    _check_declarations(cls, kind, shown)
-    return str(cls.type)
-
-
-def _check_declarations(cls: type, kind: Kind, shown: str) -> None:
+def _check_declarations(cls: Any, interface: type) -> None:
     """Raise TypeError unless what a class declares of fields is declared as it must be."""
+    shown = cls.__qualname__
     needed = 'a tuple of Field, as in (Field("name", "m", "What it means."),)'
     for attribute in ("state_fields", "provides"):
-        if attribute in kind.interface.__annotations__ and not hasattr(cls, attribute):
+        if attribute in interface.__annotations__ and not hasattr(cls, attribute):
             raise TypeError(f"{shown} does not define {attribute}, {needed}")
         fields = getattr(cls, attribute, ())
         if not (isinstance(fields, tuple | list) and all(isinstance(f, Field) for f in fields)):

@@ -1,55 +1,66 @@
-"""Which component a name in a case stands for."""
+"""Which class a name in a case stands for."""
 
 from __future__ import annotations
 
+import os
+import re
+import sys
 import warnings
-from collections.abc import Iterable
+from collections import defaultdict
+from collections.abc import Iterable, Iterator
+from contextlib import ExitStack, contextmanager, redirect_stdout, suppress
 from dataclasses import replace
 from functools import cache
+from traceback import walk_tb
+from typing import Any
 
-from tribo.core.errors import CaseError, TriboWarning
-from tribo.core.words import did_you_mean, suggestion
+import numpy as np
+import pluggy
+
+from tribo.core.distributions import unmet
+from tribo.core.errors import CaseError, PluginError
+from tribo.core.words import did_you_mean, said, suggestion
 from tribo.interfaces.component import Component
-from tribo.registry.kinds import KINDS
-from tribo.registry.loader import (
-    Source,
-    builtin,
-    distribution_summary,
-    given,
-    installed,
-    load,
-)
-from tribo.registry.probe import probe
-from tribo.registry.records import ComponentRecord, Name, PluginRecord
+from tribo.registry import hookspecs
+from tribo.registry.kinds import KINDS, kind_of
+from tribo.registry.offers import Classes, offered
+from tribo.registry.plugins import Plugin, builtin, given, installed
 from tribo.registry.selection import selected
-from tribo.registry.verdicts import shown_to_import
 
 
 class Registry:
-    """The components that a set of plugins offers, by kind and name.
+    """The components that a set of plugins offers, by name.
 
-    A plugin whose entry points declare its names is imported only when one of
-    them is looked up. A name that two plugins claim belongs to neither.
+    One plugin manager holds the plugins. An installed one is imported only
+    when a name that its entry points declare is looked up. A name that two
+    plugins claim belongs to neither.
 
     Parameters
     ----------
-    sources : iterable of Source
+    plugins : iterable of Plugin
         The plugins.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If one that is at hand does not hold to the contract.
     """
 
-    def __init__(self, sources: Iterable[Source]) -> None:
-        self._sources = list(sources)
-        self._records = [source.record for source in self._sources]
-        self._offers: dict[int, tuple[ComponentRecord, ...]] = {}
-        self._claims: dict[Name, list[int]] = {}
-        for number, source in enumerate(self._sources):
-            if not source.record.usable:
-                continue
-            declared = source.declared
-            if declared is None:
-                declared = tuple((o.kind, o.name) for o in self._load(number))
-            for name in declared:
-                self._claims.setdefault(name, []).append(number)
+    def __init__(self, plugins: Iterable[Plugin]) -> None:
+        self._manager = pluggy.PluginManager(hookspecs.PROJECT)
+        self._manager.add_hookspecs(hookspecs)
+        self._plugins = {f"{p.distribution}:{p.entry_point}:{i}": p for i, p in enumerate(plugins)}
+        self._classes: dict[str, Classes] = {}
+        self._claims: defaultdict[str, list[str]] = defaultdict(list)
+        for key, plugin in self._plugins.items():
+            if plugin.origin != "installed":
+                self._classes[key] = self._register(key)
+            if plugin.status == "disabled":
+                self._manager.set_blocked(key)
+            elif plugin.usable:
+                for name in plugin.names or self._classes[key]:
+                    self._claims[name].append(key)
+        self._conflicts = {name: keys for name, keys in self._claims.items() if len(keys) > 1}
 
     @classmethod
     def with_plugins(cls, *plugins: object) -> Registry:
@@ -65,57 +76,46 @@ class Registry:
         return cls([builtin(), *map(given, plugins)])
 
     @property
-    def plugins(self) -> tuple[PluginRecord, ...]:
-        """Every plugin that was found, with what is known of it by now.
+    def plugins(self) -> tuple[Plugin, ...]:
+        """Every plugin that was found, with what is known of it by now."""
+        return tuple(self._plugins.values())
 
-        One that could be used but for a name that another claims too is in
-        ``conflict``; its other names are usable.
-        """
-        return tuple(self._with_conflicts(number) for number in range(len(self._records)))
+    @property
+    def components(self) -> Classes:
+        """The usable classes of the plugins that were imported, by name."""
+        return {
+            name: cls
+            for classes in self._classes.values()
+            for name, cls in sorted(classes.items())
+            if name not in self._conflicts
+        }
+
+    @property
+    def waiting(self) -> list[str]:
+        """The usable names of the plugins not imported yet, of whatever kind, sorted."""
+        claims = sorted(self._claims.items())
+        return [n for n, keys in claims if len(keys) == 1 and keys[0] not in self._classes]
+
+    @property
+    def conflicts(self) -> dict[str, str]:
+        """The names that more than one plugin claims, and what to do about each."""
+        return {
+            name: f"{name!r} is offered by {' and '.join(map(str, self.claimants(name)))}, so that "
+            "it is not clear which is meant; uninstall or disable one of them"
+            for name in self._conflicts
+        }
 
     def names(self, kind: str) -> list[str]:
-        """Return the usable names of one kind, sorted; imports nothing."""
-        return sorted(
-            name
-            for (k, name), claims in self._claims.items()
-            if k == kind and len(claims) == 1 and self._records[claims[0]].status != "broken"
-        )
+        """Return the usable names of one kind, sorted, of the plugins that were imported."""
+        interface = KINDS[kind].interface
+        return sorted(name for name, cls in self.components.items() if issubclass(cls, interface))
 
-    def conflicts(self) -> dict[Name, str]:
-        """Return the names that more than one plugin claims, and what to do about each."""
-        found = {}
-        for (kind, name), claims in self._claims.items():
-            if len(claims) > 1:
-                owners = " and ".join(str(self._records[number]) for number in claims)
-                found[kind, name] = (
-                    f"{KINDS[kind].words} {name!r} is offered by {owners}, so that it is not clear "
-                    "which is meant; uninstall or disable one of them"
-                )
-        return found
-
-    def claimants(self, kind: str, name: str) -> list[PluginRecord]:
+    def claimants(self, name: str) -> list[Plugin]:
         """Return the plugins that claim a name; imports nothing."""
-        return [self._records[number] for number in self._claims.get((kind, name), ())]
-
-    def summary(self, kind: str, name: str) -> str:
-        """Return what a usable name is about, in a line; imports nothing."""
-        number = self._claims[kind, name][0]
-        for offer in self._offers.get(number, ()):
-            if (offer.kind, offer.name) == (kind, name):
-                return offer.description.split("\n")[0]
-        plugin = self._records[number]
-        return f"(all of {plugin.distribution}) {distribution_summary(plugin)}".rstrip()
-
-    def classes(self, kind: str) -> list[type[Component]]:
-        """Return the usable classes of one kind, sorted by name; imports their plugins."""
-        return [self.lookup(kind, name) for name in self.names(kind)]
+        return [self._plugins[key] for key in self._claims.get(name, ())]
 
     def lookup(self, kind: str, name: str) -> type[Component]:
-        """Return the class that `name` stands for; raises as `record` does."""
-        return self.record(kind, name).cls
-
-    def record(self, kind: str, name: str) -> ComponentRecord:
-        """Return what is known about a component, importing its plugin if need be.
+        """Return the class that `name` stands for, importing its plugin if need be.
 
         Parameters
         ----------
@@ -128,109 +128,145 @@ class Registry:
         Raises
         ------
         CaseError
-            If no plugin, or more than one, offers `name`, or the one that
-            does cannot be imported.
+            If no plugin, or more than one, offers `name`, the one that does
+            cannot be used, or it is of another kind.
         """
-        words = KINDS[kind].words
-        claims = self._claims.get((kind, name), [])
-        if len(claims) > 1:
-            raise CaseError(self.conflicts()[kind, name])
-        if not claims:
-            refused = self._refused(name, declared=True)
-            if refused:
-                raise CaseError(f"{words} {name!r} cannot be used: {'; '.join(refused)}")
-            raise CaseError(f"unknown {words} {name!r}{self._instead(kind, name)}")
-        for offer in self._load(claims[0]):
-            if (offer.kind, offer.name) == (kind, name):
-                return offer
-        plugin = self._records[claims[0]]
-        raise CaseError(
-            f"{words} {name!r} is in {plugin}, which is broken: {plugin.reason}; mend, update or "
-            f"reinstall {plugin.distribution}"
-        )
+        wanted = KINDS[kind]
+        cls = self.find(name, wanted.words)
+        if cls is None:
+            meant = suggestion(did_you_mean(name, [*self.names(kind), *self.waiting]))
+            raise CaseError(
+                f"unknown {wanted.words} {name!r}{meant} Installed: {self.choices(kind)}"
+            )
+        if not issubclass(cls, wanted.interface):
+            other = kind_of(cls)
+            raise CaseError(f"unknown {wanted.words} {name!r}: it is {other.article} {other.words}")
+        return cls
+
+    def find(self, name: str, words: str = "component") -> type[Component] | None:
+        """Return the class, of whatever kind, that `name` stands for; None if there is none.
+
+        Raises
+        ------
+        CaseError
+            If more than one plugin offers it, or the one that does cannot be used.
+        """
+        if name in self._conflicts:
+            raise CaseError(f"{words} {self.conflicts[name]}")
+        cls = self._load(self._claims[name][0]).get(name) if name in self._claims else None
+        refused = [p for p in self.plugins if name in p.names and not p.usable]
+        if cls is None and refused:
+            why = "; ".join(f"{plugin} is {plugin.status}: {plugin.reason}" for plugin in refused)
+            raise CaseError(f"{words} {name!r} cannot be used: {why}")
+        return cls
+
+    def load_all(self) -> list[Plugin]:
+        """Import every plugin that may take part, and return those that turn out unusable."""
+        usable = [key for key, plugin in self._plugins.items() if plugin.usable]
+        return [self._plugins[key] for key in usable if not self._load(key)]
 
     def providers(self, fields: Iterable[str]) -> list[str]:
-        """Return the effects that provide any of `fields`, each with its plugin.
-
-        Only those of plugins that have been imported are known; imports nothing.
-        """
+        """Return the effects, of plugins that were imported, that provide any of `fields`."""
         wanted = set(fields)
         return [
-            f"{offer.name!r} ({offer.plugin})"
-            for found in self._offers.values()
-            for offer in found
-            if offer.name in self.names("effect")
-            and wanted & {field.name for field in getattr(offer.cls, "provides", ())}
+            f"{name!r} ({self.claimants(name)[0]})"
+            for name in self.names("effect")
+            if wanted & {field.name for field in getattr(self.components[name], "provides", ())}
         ]
+
+    def ask(self, hook: str, **arguments: object) -> list[Any]:
+        """Return what the plugins that were imported answer to a hook, in their order.
+
+        Raises
+        ------
+        PluginError
+            If one of them raises; its file and line are named.
+        """
+        try:
+            with _process_kept():
+                answers: list[Any] = getattr(self._manager.hook, hook)(**arguments)
+        except Exception as error:
+            packages = [
+                plugin.entry_point for plugin in self.plugins if plugin.origin != "built-in"
+            ]
+            raise PluginError(
+                f"a plugin's {hook} raised {said(error)}{_place(error, *packages)}; --no-plugin "
+                "leaves that plugin out"
+            ) from error
+        return answers[::-1]
 
     def choices(self, kind: str) -> str:
         """Return the usable names of one kind as text, with who provides them."""
-        by_plugin: dict[str, list[str]] = {}
-        for name in self.names(kind):
-            (plugin,) = self.claimants(kind, name)
-            by_plugin.setdefault(str(plugin), []).append(name)
-        listed = (f"{', '.join(names)} ({plugin})" for plugin, names in by_plugin.items())
-        return "; ".join(listed) or "none"
+        text = self._by_plugin(self.names(kind)) or "none"
+        waiting = self._by_plugin(self.waiting)
+        return f"{text}; of plugins not imported yet: {waiting}" if waiting else text
 
-    def _load(self, number: int) -> tuple[ComponentRecord, ...]:
-        if number not in self._offers:
-            source = self._sources[number]
-            record = source.record
-            if record.status == "available" and not shown_to_import(record):
-                # An import that never ends or crashes does so in a process of its own first.
-                source = probe(source)
-            if source.record.status == "broken":
-                self._records[number], self._offers[number] = source.record, ()
-            else:
-                self._records[number], self._offers[number] = load(source)
-        return self._offers[number]
+    def _by_plugin(self, names: Iterable[str]) -> str:
+        by_plugin = defaultdict(list)
+        for name in names:
+            by_plugin[str(self.claimants(name)[0])].append(name)
+        return "; ".join(f"{', '.join(own)} ({plugin})" for plugin, own in by_plugin.items())
 
-    def refusals(self, name: str) -> list[str]:
-        """Return why plugins that may offer a component called `name` cannot be used.
+    def _load(self, key: str) -> Classes:
+        """Import a plugin once, and return its classes; none, and say why, if that fails."""
+        if key in self._classes:
+            return self._classes[key]
+        plugin, self._classes[key] = self._plugins[key], {}
+        try:
+            if lacks := unmet(plugin.distribution):
+                self._plugins[key] = replace(plugin, status="incompatible", reason=lacks)
+                return {}
+            with _process_kept():
+                self._classes[key] = self._register(key)
+            self._plugins[key] = replace(plugin, status="loaded")
+        except KeyboardInterrupt:
+            raise
+        except BaseException as error:
+            self._manager.unregister(name=key)
+            reason = said(error) + _place(error, plugin.entry_point)
+            self._plugins[key] = replace(plugin, status="broken", reason=reason)
+        return self._classes[key]
 
-        Those of the plugins that declare this very name, if there are any.
-        """
-        return self._refused(name, declared=True) or self._refused(name, declared=False)
-
-    def _refused(self, name: str, *, declared: bool) -> list[str]:
-        """Return why plugins that declare `name`, or do not say what they offer, are unusable."""
-        return [
-            f"{plugin} is {plugin.status}: {plugin.reason}"
-            for source, plugin in zip(self._sources, self._records, strict=True)
-            if not plugin.usable
-            and (name in [n for _, n in source.declared or ()] if declared else not source.declared)
-        ]
-
-    def _instead(self, kind: str, name: str) -> str:
-        text = suggestion(did_you_mean(name, self.names(kind)))
-        text += f" Installed: {self.choices(kind)}"
-        return ". ".join([text, *self.refusals(name)])
-
-    def _with_conflicts(self, number: int) -> PluginRecord:
-        record = self._records[number]
-        if not record.usable:
-            return record
-        reasons = []
-        for (kind, name), claims in self._claims.items():
-            others = [str(self._records[other]) for other in claims if other != number]
-            if others and number in claims:
-                reasons.append(f"{KINDS[kind].words} {name!r} also from {', '.join(others)}")
-        return replace(record, status="conflict", reason="; ".join(reasons)) if reasons else record
+    def _register(self, key: str) -> Classes:
+        """Hand a plugin over to the manager, and return the classes that it offers."""
+        plugin = self._plugins[key].load()
+        self._manager.register(plugin, key)
+        self._manager.check_pending()
+        others = [other for other in self._manager.get_plugins() if other is not plugin]
+        classes = offered(self._manager.subset_hook_caller("tribo_components", others)())
+        names = self._plugins[key].names
+        if names and set(names) != set(classes):
+            raise ValueError(
+                f"its entry points declare {', '.join(names)}, but its hook tribo_components, "
+                f"marked with @hookimpl, returns {', '.join(classes) or 'nothing'}"
+            )
+        return classes
 
 
 @cache
 def default_registry() -> Registry:
-    """Return the registry of the built-in and the installed plugins.
+    """Return the registry of the built-in and the installed plugins."""
+    return Registry([builtin(), *selected(installed())])
 
-    A plugin that is seen at once to be unusable is warned of, once, and so is
-    a name that two plugins claim.
-    """
-    registry = Registry([builtin(), *selected(installed())])
-    messages = [
-        f"plugin {plugin} is left out, {plugin.status}: {plugin.reason}"
-        for plugin in registry.plugins
-        if plugin.status in ("broken", "incompatible")
+
+def _place(error: BaseException, *entry_points: str) -> str:
+    """Return file and line of a plugin's own innermost call, as text; empty if there is none."""
+    packages = {re.split("[.:]", entry_point)[0] for entry_point in entry_points}
+    places = [
+        (frame.f_code.co_filename, line)
+        for frame, line in walk_tb(error.__traceback__)
+        if str(frame.f_globals.get("__name__")).partition(".")[0] in packages
     ]
-    for message in (*messages, *registry.conflicts().values()):
-        warnings.warn(message, TriboWarning, stacklevel=2)
-    return registry
+    if isinstance(error, SyntaxError):
+        places.append((error.filename or "", error.lineno or 0))
+    return f" ({places[-1][0]}, line {places[-1][1]})" if places else ""
+
+
+@contextmanager
+def _process_kept() -> Iterator[None]:
+    """Keep the process as it is; what is printed goes to stderr, for stdout is the command's."""
+    with ExitStack() as kept, redirect_stdout(sys.stderr), warnings.catch_warnings(), np.errstate():
+        # A directory that was deleted cannot be gone back to.
+        with suppress(FileNotFoundError):
+            kept.callback(os.chdir, os.getcwd())
+        yield

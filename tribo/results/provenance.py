@@ -176,7 +176,7 @@ def _named_modules() -> tuple[tuple[list[str], metadata.Distribution], ...]:
     return tuple(
         (point.value.split(":")[0].strip().split("."), distribution)
         for distribution, point in entry_points()
-        if point.group.startswith("tribo.v") or point.group == "console_scripts"
+        if point.group in ("tribo", "console_scripts")
     )
 
 

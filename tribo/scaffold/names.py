@@ -8,7 +8,6 @@ from dataclasses import dataclass
 
 import tribo.plugin
 from tribo.core.errors import CaseError
-from tribo.registry.names import name_fault
 
 _FORM = re.compile(r"[a-z][a-z0-9]*-[a-z][a-z0-9]*(-[a-z0-9]+)*")
 _LONGEST = 30
@@ -42,8 +41,6 @@ class PluginName:
                 f"{given!r} is no good as a plugin's name; {self._remedy()}: whose it is and "
                 "what it is, in lower-case words joined by hyphens"
             )
-        if fault := name_fault(self.component):
-            raise CaseError(f"{given!r} is no good as a plugin's name: {fault}")
         if len(given) > _LONGEST:
             raise CaseError(
                 f"{given!r} is too long for a plugin's name; {_LONGEST} characters are allowed"

@@ -87,8 +87,7 @@ def _words(plugin: PluginName, kind: str) -> dict[str, str]:
         "title": plugin.title,
         "kind": kind,
         "words": KINDS[kind].words,
-        "article": "An" if KINDS[kind].words[0] in "aeiou" else "A",
-        "hook": KINDS[kind].hook,
+        "article": KINDS[kind].article.title(),
         "year": str(date.today().year),
     }
     words["example"] = _filled(f"{kind}/example.toml", words).strip()

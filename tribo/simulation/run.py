@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -16,7 +16,7 @@ from tribo.core.errors import CaseError, Interrupted, TriboError, TriboWarning
 from tribo.core.state import BodyInfo, RunInfo, Snapshot, State
 from tribo.interfaces.observer import Observer
 from tribo.observers.recorder import Recorder
-from tribo.registry.records import PluginRecord
+from tribo.registry.plugins import Plugin
 from tribo.registry.registry import Registry, default_registry
 from tribo.results.checkpoint import read_checkpoint, tidied
 from tribo.results.provenance import changed_components, origin, provenance
@@ -237,7 +237,7 @@ class Simulation:
         for place, component in self.model.case.components():
             with calling(component):
                 components[place] = origin(component)
-        return provenance(components, map(asdict, self._plugins))
+        return provenance(components, [plugin.facts for plugin in self._plugins])
 
     def _info(self, resumed_from: Snapshot | None, wall_time: float) -> RunInfo:
         model = self.model
@@ -264,7 +264,7 @@ class Simulation:
 
 def _model(
     case: Case | Mapping[str, Any] | str | Path | Model, registry: Registry | None
-) -> tuple[Model, tuple[PluginRecord, ...]]:
+) -> tuple[Model, tuple[Plugin, ...]]:
     """Return the model and the plugins that took part in finding its components."""
     if isinstance(case, Model):
         return case, ()

@@ -13,7 +13,6 @@ from tribo.config.slot import Slot
 from tribo.interfaces.component import Component
 from tribo.registry.hookspecs import hookimpl
 from tribo.registry.kinds import KINDS
-from tribo.registry.names import name_fault
 from tribo.registry.registry import Registry
 from tribo.testing.subject import Check, CheckFailed, Subject, fact, require
 
@@ -110,8 +109,9 @@ def a_case_can_name_it(subject: Subject) -> None:
 @fact
 def name_has_a_prefix(subject: Subject) -> None:
     """Its name carries a prefix, as in acme.fretting; only tribo's own do without."""
-    fault = name_fault(subject.cls.type)
-    require(not fault or _is_builtin(subject), fault)
+    name = subject.cls.type
+    fault = f"{name!r} needs a prefix, as in 'acme.fretting'; names without one are tribo's own"
+    require("." in name or _is_builtin(subject), fault)
 
 
 @fact
@@ -183,9 +183,10 @@ def _is_builtin(subject: Subject) -> bool:
 def _registry(subject: Subject) -> Registry:
     if _is_builtin(subject):
         return Registry.with_plugins()
-    hook = KINDS[subject.kind].hook
     plugin = ModuleType("checked")
-    setattr(plugin, hook, hookimpl(specname=hook)(lambda: [subject.cls]))
+    plugin.tribo_components = hookimpl(  # type: ignore[attr-defined]
+        specname="tribo_components"
+    )(lambda: [subject.cls])
     return Registry.with_plugins(plugin)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 import sys
 import traceback
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -15,7 +14,7 @@ from pydantic import ValidationError
 
 from tribo.core.words import said
 from tribo.interfaces.component import Component
-from tribo.registry.kinds import KINDS, Kind
+from tribo.registry.kinds import Kind, kind_of
 from tribo.testing import (
     checks_contact_solver,
     checks_effect,
@@ -209,20 +208,6 @@ def example_configs(cls: type[Component]) -> list[dict[str, Any]]:
     except ValidationError:
         return []
     return [{}]
-
-
-def kind_of(cls: object) -> Kind:
-    """Return the kind of component that a class implements; TypeError if it is none."""
-    if not inspect.isclass(cls):
-        raise TypeError(f"{cls!r} is not a class; give the class, not an object of it")
-    kinds = [kind for kind in KINDS.values() if issubclass(cls, kind.interface)]
-    if len(kinds) != 1:
-        names = ", ".join(kind.interface.__name__ for kind in KINDS.values())
-        raise TypeError(f"{cls.__qualname__} must be a subclass of exactly one of {names}")
-    if inspect.isabstract(cls):
-        missing = ", ".join(sorted(getattr(cls, "__abstractmethods__", ())))
-        raise TypeError(f"{cls.__qualname__} does not define {missing}")
-    return kinds[0]
 
 
 def subjects(

@@ -1,11 +1,10 @@
 """Wear by dissipated energy beside Archard's law: the same test where α = k/μ."""
 
 import tomllib
-from pathlib import Path
 
 from tribo import Simulation
 
-CASE = Path(__file__).with_name("ball_on_disk.toml")
+from tribo_energy.plugin import EXAMPLE
 
 
 def depths(case):
@@ -15,8 +14,8 @@ def depths(case):
 
 
 def main():
-    energy = tomllib.loads(CASE.read_text())
-    archard = tomllib.loads(CASE.read_text())
+    energy = tomllib.loads(EXAMPLE.read_text())
+    archard = tomllib.loads(EXAMPLE.read_text())
     # Archard with the k = α μ of the full friction, and energy wear with half of it.
     for body in archard["bodies"].values():
         body["wear"] = {"type": "archard", "k": "3.11e-16 1/Pa"}

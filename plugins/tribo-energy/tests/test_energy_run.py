@@ -10,8 +10,10 @@ import pytest
 from tribo import CaseError, Simulation
 from tribo.plugin import Observer
 
+from tribo_energy.plugin import EXAMPLE
+from tribo_energy.report import figures, lab_rows
+
 HERE = Path(__file__).parent
-EXAMPLE = HERE.parent / "examples" / "ball_on_disk.toml"
 ALPHA, MU, LOAD = 3.11e-15, 0.1, 100.0
 
 
@@ -114,8 +116,20 @@ def test_a_wrong_dimension_is_refused_with_its_place():
 
 
 def test_the_readme_shows_what_the_example_prints(capsys):
-    runpy.run_path(str(EXAMPLE.with_name("compare_with_archard.py")), run_name="__main__")
+    runpy.run_path(str(HERE.parent / "examples" / "compare_with_archard.py"), run_name="__main__")
     printed = capsys.readouterr().out.rstrip()
     archard, energy, half = (line.split(":")[1] for line in printed.splitlines())
     assert archard == energy != half
     assert printed in (HERE.parent / "README.md").read_text()
+
+
+def test_the_lab_is_told_the_energy_and_the_volume_it_wore():
+    data = tomllib.loads(EXAMPLE.read_text())
+    data["kinematics"]["duration"], data["output"] = 50, {}
+    with Simulation(data).run() as result:
+        energy, volume = lab_rows(result)
+        (draw,) = figures(result).values()
+        assert draw().axes[0].get_xlabel() == "Dissipated energy, J"
+    # Two bodies, each V = α Σ E.
+    assert energy.value == pytest.approx(MU * LOAD * 2 * 2e-3 * 25 * 50, rel=1e-9, abs=0)
+    assert volume.value == pytest.approx(1e9 * 2 * ALPHA, rel=1e-9, abs=0)

@@ -15,11 +15,11 @@ held hot  the same, with ten times the way from the ball to its heat sink
 
 import math
 import tomllib
-from pathlib import Path
 
 from tribo import Simulation
 
-CASE = Path(__file__).with_name("ball_on_disk.toml")
+from tribo_thermal.plugin import EXAMPLE
+
 AMBIENT = 363.15
 GAS_CONSTANT = 8.314462618
 
@@ -44,7 +44,7 @@ halves the flash temperature. Frictional heating alone is a poor explanation."""
 
 def case(friction, energy, sharing):
     """Return the case, with one value of each."""
-    data = tomllib.loads(CASE.read_text())
+    data = tomllib.loads(EXAMPLE.read_text())
     data["friction"]["coefficient"] = friction
     data["effects"][0].update(SHARING[sharing])
     for body in data["bodies"].values():

@@ -11,9 +11,10 @@ from tribo import CaseError, Simulation
 from tribo.plugin import ContactConditions
 
 from tribo_thermal.flash import Flash
+from tribo_thermal.plugin import EXAMPLE
+from tribo_thermal.report import figures, lab_rows
 
 HERE = Path(__file__).parent
-EXAMPLE = HERE.parent / "examples" / "ball_on_disk.toml"
 
 
 def case(energy="50 kJ/mol", duration=300, **effect):
@@ -120,7 +121,7 @@ def test_a_case_without_conductivity_ends_with_its_place():
 
 @pytest.fixture(scope="module")
 def ten_to_one():
-    return runpy.run_path(str(EXAMPLE.with_name("ten_to_one.py")))
+    return runpy.run_path(str(HERE.parent / "examples" / "ten_to_one.py"))
 
 
 def test_ten_to_one_needs_the_difference_that_it_says(ten_to_one):
@@ -134,3 +135,13 @@ def test_ten_to_one_says_what_the_readme_shows(ten_to_one, capsys):
     shared = [line.split() for line in printed.splitlines() if line.startswith("shared")]
     assert [row[2:] for row in shared] == [["1", "1", "1"]] * 3
     assert printed in (HERE.parent / "README.md").read_text()
+
+
+def test_the_lab_is_told_the_temperature_that_the_wear_followed():
+    with Simulation(case(duration=20)).run() as result:
+        ball, disk = lab_rows(result)
+        assert list(figures(result)) == ["contact_temperature"]
+        config = Flash.model_validate(result.case["effects"][0])
+    assert ball.value == disk.value
+    # The first contact is the smallest, and so the hottest; its rise is that of a lone source.
+    assert config.ambient - 273.15 + 5 < ball.value < config.ambient - 273.15 + 50

@@ -12,6 +12,8 @@ from tribo import Simulation
 from tribo.plugin import CaseError, ContactProblem, TriboWarning
 from tribo.simulation.predict import predict
 
+from tribo_topography.export import export_xyz
+
 # SurfaceTopography, at its first import.
 pytestmark = pytest.mark.filterwarnings("ignore:Could not import mpi4py:ImportWarning")
 
@@ -169,3 +171,14 @@ def test_readme_and_example_run(tmp_path, monkeypatch, capsys):
     assert "64 × 48 pixels on 1.24 × 0.94 mm" in capsys.readouterr().out
     EXAMPLE["main"]()
     assert capsys.readouterr().out.count("GPa") == 2
+
+
+def test_the_worn_surface_is_exported_as_points(case, tmp_path):
+    with Simulation(case()).run() as result:
+        ball, _ = export_xyz(result, tmp_path / "points")
+        x, y, height = np.loadtxt(ball).T.reshape(3, *result.grid.cells)
+        body = result.body("ball")
+        worn = body.height - body.wear_depth[-1] - body.plastic_depth[-1]
+        np.testing.assert_allclose(height, worn, rtol=1e-8, atol=1e-18)
+        np.testing.assert_allclose(x[:, 0], result.grid.x, rtol=1e-8)
+        np.testing.assert_allclose(y[0], result.grid.y, rtol=1e-8)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from tribo.plugin import hookimpl
+from tribo.plugin import Component, hookimpl
 
 from tribo_tamaas.solver import Tamaas
 
 
 @hookimpl
-def tribo_contact_solvers() -> tuple[type[Tamaas], ...]:
+def tribo_components() -> tuple[type[Component], ...]:
     """Offer tamaas's half-space."""
     return (Tamaas,)

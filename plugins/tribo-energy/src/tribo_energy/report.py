@@ -1,0 +1,49 @@
+"""What a result says of the energy that friction dissipated."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from matplotlib.figure import Figure
+from tribo.plugin import Array, LabRow, Result
+
+
+def dissipated(result: Result) -> Array | None:
+    """Return the energy dissipated by each step of the run, μ F s, in J; None without friction."""
+    friction = result.case["friction"]
+    if friction is None:
+        return None
+    energy: Array = (
+        friction["coefficient"] * result.system.load * result.table("history")["distance_m"]
+    )
+    return energy
+
+
+def lab_rows(result: Result) -> list[LabRow]:
+    """Return the energy dissipated in all, and the volume lost for it."""
+    energy = dissipated(result)
+    if energy is None or not energy[-1] > 0:
+        return []
+    volume = sum(body["wear_volume_m3"] for body in result.saves()[-1]["bodies"].values())
+    return [
+        LabRow("dissipated energy", float(energy[-1]), "J"),
+        LabRow("worn volume per dissipated energy", 1e9 * volume / float(energy[-1]), "mm³/J"),
+    ]
+
+
+def figures(result: Result) -> dict[str, Callable[[], Figure]]:
+    """Return how to draw the worn volumes over the dissipated energy."""
+    energy = dissipated(result)
+    if energy is None or not energy[-1] > 0:
+        return {}
+
+    def draw() -> Figure:
+        figure = Figure(figsize=(3.35, 2.5), layout="constrained")
+        axes = figure.add_subplot(xlabel="Dissipated energy, J", ylabel="Worn volume, mm³")
+        history = result.table("history")
+        for name in result.body_names:
+            axes.plot(energy, 1e9 * history[f"bodies.{name}.wear_volume_m3"], label=name)
+        axes.legend()
+        return figure
+
+    return {"worn_volume_over_energy": draw}

@@ -1,0 +1,71 @@
+"""What plugins add to what tribo shows and writes, several of them at once."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Iterable
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from tribo.core.errors import CaseError, TriboWarning
+from tribo.core.words import did_you_mean, suggestion
+from tribo.registry.registry import default_registry
+
+if TYPE_CHECKING:
+    from tribo.results.read import Result
+
+
+class LabRow(NamedTuple):
+    """A row of the table that a run ends with: what it is, its value and the value's unit."""
+
+    label: str
+    value: float
+    unit: str
+
+
+class ExportFormat(NamedTuple):
+    """A format of `tribo export`: its name, what it holds, and how it is written to a folder."""
+
+    name: str
+    summary: str
+    write: Callable[[Result, Path], Iterable[Path]]
+
+
+class CaseTemplate(NamedTuple):
+    """A case of `tribo new`: its name, what it is, and its text, in TOML."""
+
+    name: str
+    summary: str
+    text: str
+
+
+def choose(hook: str, name: str, words: str) -> Any:
+    """Return what any plugin that can be imported offers by this name.
+
+    Raises
+    ------
+    CaseError
+        If none does; `words` say what is wanted, and those that there are get listed.
+    """
+    registry = default_registry()
+    for plugin in registry.load_all():
+        warnings.warn(f"{plugin} is left out: {plugin.reason}", TriboWarning, stacklevel=3)
+    known = {each.name: each for answer in registry.ask(hook) for each in answer}
+    if name not in known:
+        listed = "; ".join(f"{each.name} ({each.summary.rstrip('.')})" for each in known.values())
+        meant = suggestion(did_you_mean(name, known))
+        raise CaseError(f"no {words} is called {name!r}{meant} Known: {listed}")
+    return known[name]
+
+
+def from_plugins_of(result: Result, hook: str) -> list[Any]:
+    """Return what the plugins of a result's models answer to a hook about that result.
+
+    A result is shown, too, where one of them is not at hand.
+    """
+    registry = default_registry()
+    for made in result.provenance["components"].values():
+        with suppress(CaseError):
+            registry.find(str(made["type"]))
+    return registry.ask(hook, result=result)
