@@ -8,14 +8,10 @@ from pathlib import Path
 from tribo.registry.plugins import Plugin, installed
 
 OBSERVER = """
-from typing import Literal
 from tribo.plugin import Observer, hookimpl
 
-class {title}Config(Observer):
+class {title}(Observer):
     type = "{name}"
-
-class {title}(Observer[{title}Config]):
-    Config = {title}Config
 
 @hookimpl
 def tribo_components():

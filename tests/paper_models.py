@@ -1,6 +1,6 @@
 """Small models of the paper's test, made from objects."""
 
-from tribo.config.case import Body, Case, Output
+from tribo.case import Body, Case, Output
 from tribo.config.stepping import Implicit
 from tribo.contact.dcfft import DcFft
 from tribo.contact.winkler import Winkler

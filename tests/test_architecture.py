@@ -24,6 +24,7 @@ RANK = {
     "registry": 4,
     "plugin": 4,
     "config": 5,
+    "case": 5,
     "simulation": 6,
     "plotting": 7,
     "study": 8,

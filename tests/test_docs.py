@@ -7,6 +7,7 @@ import pytest
 
 import tribo
 import tribo.plugin
+import tribo.units
 from tribo.interfaces.component import Component
 from tribo.registry import hookspecs
 from tribo.registry.registry import Registry
@@ -35,9 +36,17 @@ def test_every_public_name_and_its_members_have_a_docstring(name):
         assert inspect.getdoc(value), f"{name}.{member}"
 
 
-@pytest.mark.parametrize("name", sorted(tribo.__all__))
+UNITS = {name for name in vars(tribo.units) if not name.startswith("_")}
+INTERFACES = {name for name in tribo.__all__ if name in tribo.plugin.__all__}
+
+
+@pytest.mark.parametrize("name", sorted({*tribo.__all__} - UNITS - INTERFACES))
 def test_every_name_of_the_package_is_on_the_page_on_python(name):
     assert f":: tribo.{name}\n" in (DOCS / "api.md").read_text() + "\n"
+
+
+def test_every_unit_is_one_of_the_package_or_of_its_units():
+    assert {"mm", "GPa", "N", "Hz", "hour"} <= {*tribo.__all__} & UNITS
 
 
 @pytest.mark.parametrize("hook", HOOKS)

@@ -18,9 +18,9 @@ from pydantic_core import PydanticUndefined
 
 import tribo
 import tribo.plugin
+from tribo.case import Body, Case
 from tribo.cli.main import COMMANDS
 from tribo.cli.main import tribo as command_line
-from tribo.config.case import Body, Case
 from tribo.config.slot import Slot
 from tribo.config.stepping import Explicit, Implicit
 from tribo.core.dimensions import _PREFIXES, _SYMBOLS, _UNPREFIXED

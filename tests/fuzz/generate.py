@@ -7,7 +7,7 @@ from math import inf, nan
 from pathlib import Path
 
 import tribo.templates
-from tribo.config.case import Case
+from tribo.case import Case
 from tribo.config.schema import json_schema
 
 ROOT = Path(__file__).parents[2]

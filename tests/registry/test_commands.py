@@ -13,7 +13,7 @@ import pytest
 from fake_distributions import OBSERVER, distribute
 
 import tribo
-from tribo.config.case import Case
+from tribo.case import Case
 from tribo.config.schema import json_schema
 from tribo.core.errors import TriboWarning
 from tribo.registry.registry import Registry
@@ -82,12 +82,12 @@ def test_a_check_of_a_configuration_without_a_schema_says_so(tmp_path: Path) -> 
     assert done.returncode == 3
     (line,) = [line for line in done.stderr.splitlines() if line.startswith("error")]
     assert "'odd.one'" in line
-    assert "making the schema of OddConfig raised RuntimeError: no schema today" in line
+    assert "making the schema of Odd raised RuntimeError: no schema today" in line
 
 
 @pytest.mark.parametrize(("kind", "status"), [("Path", 0), ("float", 3)])
 def test_what_needs_a_file_is_left_to_its_own_tests(tmp_path: Path, kind: str, status: int) -> None:
-    line = '    type: Literal["odd.one"]'
+    line = '    type = "odd.one"'
     needing = OBSERVER.format(name="odd.one", title="Odd").replace(
         line, f"    path: {kind}\n{line}"
     )

@@ -137,24 +137,20 @@ PIPED = """
 from typing import Literal
 
 import numpy as np
-from paper_models import flat, small, sphere, steel
+from paper_models import flat, named, small, sphere, steel
 
-from tribo import Body, Simulation
+from tribo import Simulation
 from tribo.plugin import WearLaw, WearRate
 
 
-class LinearConfig(WearLaw):
-    type = "linear"
-
-
 class Linear(WearLaw):
-    Config = LinearConfig
+    type = "linear"
 
     def rate(self, local):
         return WearRate(3e-16 * local.pressure, np.full_like(local.pressure, 3e-16))
 
 
-bodies = [named("ball", sphere(), steel(), Linear(LinearConfig())), named("disk", flat(), steel())]
+bodies = [named("ball", sphere(), steel(), Linear()), named("disk", flat(), steel())]
 Simulation(small(bodies=bodies)).run("piped.h5")
 """
 

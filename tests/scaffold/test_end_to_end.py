@@ -130,7 +130,7 @@ def test_one_case_runs_with_all_of_them(fresh: Fresh) -> None:
 def test_an_installed_plugin_is_known_by_name_in_schema_and_messages(fresh: Fresh) -> None:
     code = (
         "import json\n"
-        "from tribo.config.case import Case\n"
+        "from tribo.case import Case\n"
         "from tribo.config.schema import json_schema\n"
         "print(json.dumps(json_schema(Case)))"
     )

@@ -97,7 +97,7 @@ def test_its_conformance_test_covers_every_class_of_the_hook(tmp_path: Path) -> 
     write_plugin(folder.name, "wear-law", folder)
     module = folder / "src/acme_fretting/fretting.py"
     text = module.read_text()
-    second = text[text.index("class FrettingConfig") :]
+    second = text[text.index("class Fretting") :]
     second = second.replace("Fretting", "Second").replace("acme.fretting", "acme.second")
     module.write_text(text + "\n\n" + second.replace("depth=k", "depth=2 * k"))
     package = folder / "src/acme_fretting/__init__.py"

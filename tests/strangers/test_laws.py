@@ -12,7 +12,7 @@ from strangers.running_in import RunningIn
 from strangers.transition import Transition
 
 from tribo import CaseError, Registry, Simulation
-from tribo.config.case import Case
+from tribo.case import Case
 from tribo.config.load import validate_case
 from tribo.config.schema import json_schema
 

@@ -18,7 +18,7 @@ def schema() -> None:
       tribo schema > tribo.schema.json
     Then begin a case with '#:schema tribo.schema.json' for help in an editor.
     """
-    from tribo.config.case import Case
+    from tribo.case import Case
     from tribo.config.schema import json_schema
 
     # Only the schema belongs on stdout, whatever a plugin prints while it is asked for its part.

@@ -10,7 +10,7 @@ from typing import Any
 from packaging.requirements import InvalidRequirement, Requirement
 from pydantic import ValidationError
 
-from tribo.config.case import Case
+from tribo.case import Case
 from tribo.config.explain import case_error
 from tribo.config.overrides import apply_overrides
 from tribo.config.requirements import check_requirements

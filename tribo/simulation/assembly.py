@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from tribo.config.case import Body, Case
+from tribo.case import Body, Case
 from tribo.config.requirements import check_requirements
 from tribo.config.stepping import Implicit
 from tribo.core.arrays import readonly

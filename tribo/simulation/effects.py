@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from tribo.config.case import Case
+from tribo.case import Case
 from tribo.core.errors import CaseError, located
 from tribo.core.fields import FRICTION_COEFFICIENT
 from tribo.interfaces.effect import Effect

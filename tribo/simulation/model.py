@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from tribo.config.case import Body, Case
+from tribo.case import Body, Case
 from tribo.config.stepping import Explicit, Implicit
 from tribo.config.stop import Stop
 from tribo.core.arrays import Array

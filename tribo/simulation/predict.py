@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from tribo.analysis.first_contact import HertzContact, hertz_contact
-from tribo.config.case import Output
+from tribo.case import Output
 from tribo.config.stepping import Explicit, Implicit
 from tribo.config.usual import unusual
 from tribo.core.errors import CaseError, NumericalError

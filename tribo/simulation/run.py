@@ -10,7 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from tribo.config.case import Case
+from tribo.case import Case
 from tribo.config.load import load_case, validate_case
 from tribo.core.errors import CaseError, Interrupted, TriboError, TriboWarning
 from tribo.core.state import BodyInfo, RunInfo, Snapshot, State

@@ -13,7 +13,7 @@ from typing import Any
 
 from pydantic import PrivateAttr
 
-from tribo.config.case import Output
+from tribo.case import Output
 from tribo.core.state import RunInfo, Snapshot
 from tribo.interfaces.observer import Observer
 from tribo.simulation.run import Simulation

@@ -109,7 +109,7 @@ def check(
         outcomes.append(_outcome(_enough(expected_failures), subject, _NOTHING))
     if not outcomes:
         needed = (
-            "not valid without configuration, and no example is given; put some into its Config: "
+            "not valid without configuration, and no example is given; put some in: "
             "model_config = ConfigDict(json_schema_extra={'examples': [{…}]})"
         )
         outcomes.append(Outcome(ENOUGH, "", "no configuration", "failed", needed))

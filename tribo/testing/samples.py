@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from tribo.config.case import Body, Case
+from tribo.case import Body, Case
 from tribo.contact.winkler import Winkler
 from tribo.core.arrays import Array
 from tribo.core.fields import ContactConditions, Field, LocalConditions

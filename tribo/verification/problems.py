@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from tribo.config.case import Body, Case
+from tribo.case import Body, Case
 from tribo.config.stepping import Explicit, Implicit
 from tribo.contact.dcfft import DcFft
 from tribo.contact.periodic import Periodic

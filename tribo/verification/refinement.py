@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from tribo.config.case import Output
+from tribo.case import Output
 from tribo.config.stepping import Explicit, Implicit
 from tribo.core.errors import CaseError, NumericalError
 from tribo.core.measures import Measures

@@ -9,7 +9,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from tribo.config.case import Case
+from tribo.case import Case
 from tribo.config.overrides import path_keys
 from tribo.config.usual import quantities
 from tribo.core.errors import CaseError, located

@@ -12,7 +12,7 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from tribo.analysis.report import lab_report
-from tribo.config.case import Case
+from tribo.case import Case
 from tribo.config.overrides import path_keys
 from tribo.core.errors import CaseError, OutputError
 from tribo.core.units import Quantity

@@ -21,7 +21,7 @@ def temperatures(result: Result) -> dict[str, Array]:
     asked = [effect for effect in case["effects"] if effect["type"] == "thermal.flash"]
     if not asked or len(result.times) < 2:
         return {}
-    flash = Flash(Flash.model_validate(asked[0]))
+    flash = Flash.model_validate(asked[0])
     friction = np.full((1, 1), float(case["friction"]["coefficient"]))
     materials = {name: Material(**body["material"]) for name, body in case["bodies"].items()}
     speeds = np.diff(result.distances) / np.diff(result.times)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 from packaging.requirements import InvalidRequirement, Requirement
@@ -23,6 +24,9 @@ from tribo.interfaces.kinematics import Kinematics
 from tribo.interfaces.observer import Observer
 from tribo.interfaces.surface import Surface
 from tribo.interfaces.wear import WearLaw
+
+if TYPE_CHECKING:
+    from tribo.results.read import Result
 
 
 class Load(Table):
@@ -135,6 +139,12 @@ class Case(Table):
                     f"{name!r} is no good as a body's name; use letters, digits, - and _"
                 )
         return bodies
+
+    def run(self, output: str | Path | None = None, **options: Any) -> Result:
+        """Run from the beginning, as ``Simulation(case).run(output, …)``."""
+        from tribo.simulation.run import Simulation
+
+        return Simulation(self).run(output, **options)
 
     def components(self) -> Iterator[tuple[str, Component]]:
         """Yield every component with its place in the case."""
