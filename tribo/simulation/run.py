@@ -268,9 +268,6 @@ def _model(
     """Return the model and the plugins that took part in finding its components."""
     if isinstance(case, Model):
         return case, ()
-    if isinstance(case, Case) and registry is None:
-        with doubting(case):
-            return assemble(case), ()
     known = registry or default_registry()
     if isinstance(case, str | Path):
         case = load_case(case, registry=known)
