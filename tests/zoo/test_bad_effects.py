@@ -131,5 +131,17 @@ def test_one_that_does_not_say_what_it_provides_is_not_loaded(run):
     assert "Mute does not define provides, a tuple of Field" in line
 
 
+def test_one_that_provides_a_field_with_a_slash_is_not_loaded(run):
+    zoo = Zoo()
+
+    @zoo.bad("", code=2)
+    class Slashed(Heat):
+        provides = (Field("power/area", "W/m^2", "Power per area."),)
+
+    ended = run(zoo, Slashed)
+    assert ended.code == 2
+    assert "Slashed.provides: 'power/area' cannot name a field" in ended.said[-1]
+
+
 def test_none_harms_a_case_that_names_another(run):
     expect_harmless(run(ZOO))

@@ -57,6 +57,11 @@ ZOO = {
     "hook typo": (law(GOOD).replace("tribo_wear_laws", "tribo_wear_law"), 2, "tribo_wear_law"),
     "wrong base class": (law(GOOD).replace("return [Bad]", "return [dict]"), 2, "not a subclass"),
     "abstract": (law(GOOD).replace("def rate", "def rates"), 2, "does not define rate"),
+    "a state field with a slash": (
+        law(GOOD, "state_fields = (Field('a/b', 'm', 'Slid.'),)"),
+        2,
+        "Bad.state_fields: 'a/b' cannot name a field; letters, digits and underscores are allowed",
+    ),
     "state fields that are names": (law(GOOD, "state_fields = ('slid',)"), 2, "tuple of Field"),
     "requires a text": (law(GOOD, "requires = 'temperature'"), 2, "tuple of names"),
     "hook that returns a class": (

@@ -8,7 +8,7 @@ from typing import Any
 
 import pluggy
 
-from tribo.core.fields import Field
+from tribo.core.fields import Field, name_fault
 from tribo.core.words import did_you_mean
 from tribo.interfaces.component import ComponentConfig
 from tribo.registry import hookspecs
@@ -120,6 +120,8 @@ def _check_declarations(cls: type, kind: Kind, shown: str) -> None:
         fields = getattr(cls, attribute, ())
         if not (isinstance(fields, tuple | list) and all(isinstance(f, Field) for f in fields)):
             raise TypeError(f"{shown}.{attribute} is {fields!r}; it must be {needed}")
+        if fault := name_fault(fields):
+            raise TypeError(f"{shown}.{attribute}: {fault}")
     names = getattr(cls, "requires", ())
     if not (isinstance(names, tuple | list) and all(isinstance(name, str) for name in names)):
         raise TypeError(
