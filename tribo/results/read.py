@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Mapping
 from pathlib import Path
 from types import TracebackType
@@ -16,7 +17,7 @@ from tribo.core.errors import CaseError
 from tribo.core.fields import Field
 from tribo.core.grid import Grid
 from tribo.results.body import BodyResult, checked_save
-from tribo.results.columns import BODY_COLUMNS, COLUMNS, INVARIANTS
+from tribo.results.columns import BODY_COLUMNS, COLUMNS, INVARIANTS, labelled
 from tribo.results.guarded import GuardedFile
 from tribo.results.store import FORMAT
 
@@ -218,10 +219,7 @@ class Result:
         with self._file.reading(f"'bodies/{name}'"):
             group = self._file.file[f"bodies/{name}"]
             swept, density = bool(group.attrs["swept"]), group.attrs.get("density_kg_m3")
-            kept = [
-                Field(field, str(values.attrs["units"]), str(values.attrs["long_name"]))
-                for field, values in group.get("state", {}).items()
-            ]
+        kept, provided = self._fields(name, "state"), self._fields(name, "effects")
         return BodyResult(
             name=name,
             swept=swept,
@@ -230,7 +228,9 @@ class Result:
             wear_depth=self._on_window(f"bodies/{name}/wear_depth"),
             plastic_depth=self._file.array(f"bodies/{name}/plastic_depth"),
             state={f.name: self._on_window(f"bodies/{name}/state/{f.name}") for f in kept},
-            state_fields=tuple(kept),
+            state_fields=kept,
+            effects={f.name: self._file.array(f"bodies/{name}/effects/{f.name}") for f in provided},
+            effect_fields=provided,
         )
 
     def table(self, name: str) -> dict[str, Array]:
@@ -273,8 +273,23 @@ class Result:
             "notices": list(self.notices),
             "totals": dict(self.totals()),
             "invariants": dict(self.worst()),
-            "saves": self.saves(),
+            "saves": self._saves_with_ranges(),
         }
+
+    def _saves_with_ranges(self) -> list[dict[str, Any]]:
+        rows = self.saves()
+        for body in self.body_names:
+            for field in self._fields(body, "effects"):
+                for i, row in enumerate(rows):
+                    values = self._file.array(f"bodies/{body}/effects/{field.name}", i)
+                    low, high = float(np.min(values)), float(np.max(values))
+                    ranges = row["bodies"][body].setdefault("effects", {})
+                    failed = math.isnan(low)
+                    ranges[labelled(field.name, field.unit)] = {
+                        "min": None if failed else low,
+                        "max": None if failed else high,
+                    }
+        return rows
 
     def totals(self) -> Mapping[str, Any]:
         """Return what the run cost: solves, iterations, steps and `wall_time`."""
@@ -295,6 +310,16 @@ class Result:
             c.label: float(np.max(self._file.array(f"history/{c.name}"), initial=0))
             for c in columns
         }
+
+    def _fields(self, body: str, kind: str) -> tuple[Field, ...]:
+        """Return the fields that are kept of a body, of its law's state or of the effects."""
+        path = f"bodies/{body}/{kind}"
+        with self._file.reading(repr(path)):
+            group = self._file.file.get(path, {})
+            return tuple(
+                Field(name, str(values.attrs["units"]), str(values.attrs["long_name"]))
+                for name, values in group.items()
+            )
 
     def _check_body(self, name: str) -> None:
         if name not in self.body_names:

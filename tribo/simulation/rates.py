@@ -70,7 +70,7 @@ def wear_rates(
         the pressure is.
     """
     pressure = readonly(contact.pressure)
-    fields = _effect_fields(model, pressure, moment)
+    fields = _fields(model, pressure, moment)
     everywhere = whole(model.grid.cells)
     near = around_region(contact.extent, model.grid.cells, MARGIN)
     rates = {}
@@ -99,7 +99,20 @@ def wear_rates(
     return rates
 
 
-def _effect_fields(model: Model, pressure: Array, moment: Moment) -> dict[str, dict[str, Array]]:
+def effect_fields(model: Model, state: State) -> dict[str, dict[str, Array]]:
+    """Return what the effects make of `state`, by field and body, shape (nx, ny).
+
+    Raises
+    ------
+    PluginError
+        As `wear_rates` does.
+    """
+    moment = Moment(state.time, state.distance, state.speed)
+    fields = _fields(model, readonly(state.contact.pressure), moment)
+    return {field.name: fields[field.name] for e in model.effects for field in e.provides}
+
+
+def _fields(model: Model, pressure: Array, moment: Moment) -> dict[str, dict[str, Array]]:
     shape = pressure.shape
     fields: dict[str, dict[str, Array]] = {}
     if model.friction_coefficient is not None:
