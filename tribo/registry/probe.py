@@ -14,6 +14,8 @@ from contextlib import suppress
 from dataclasses import replace
 from tempfile import TemporaryFile
 
+import psutil
+
 from tribo.core.errors import CaseError
 from tribo.registry.loader import Source
 from tribo.registry.records import Status
@@ -97,15 +99,26 @@ def _tried(distribution: str, entry_point: str, time_limit: float | None) -> tup
             what = "its import left a thread running that" if ended else "its import"
             return "broken", f"{what} did not end within {limit:g} s"
         finally:
-            with suppress(ProcessLookupError):
-                os.killpg(child.pid, signal.SIGKILL)
-            child.wait()
+            _end(child)
         answer.seek(0)
         try:
             status, reason = json.load(answer)
         except ValueError:
             return "broken", _ended(code)
         return status, reason
+
+
+def _end(child: subprocess.Popen[bytes]) -> None:
+    """End the child, and what it has started."""
+    if sys.platform == "win32":
+        with suppress(psutil.NoSuchProcess):
+            for process in psutil.Process(child.pid).children(recursive=True):
+                process.kill()
+        child.kill()
+    else:
+        with suppress(ProcessLookupError):
+            os.killpg(child.pid, signal.SIGKILL)
+    child.wait()
 
 
 def _limit(given: float | None) -> float:
