@@ -11,10 +11,10 @@ from packaging.requirements import InvalidRequirement, Requirement
 from pydantic import ValidationError
 
 from tribo.config.case import Case
-from tribo.config.depth import check_depth, too_deep
 from tribo.config.explain import case_error
 from tribo.config.overrides import apply_overrides
 from tribo.config.requirements import check_requirements
+from tribo.core.depth import check_depth, too_deep
 from tribo.core.errors import CaseError
 from tribo.registry.registry import Registry, default_registry
 

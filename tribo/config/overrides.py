@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from copy import deepcopy
 from typing import Any
 
-from tribo.config.depth import LEVELS, check_depth, too_deep
+from tribo.core.depth import LEVELS, check_depth, too_deep
 from tribo.core.errors import CaseError
 from tribo.core.words import shown
 

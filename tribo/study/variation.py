@@ -9,9 +9,9 @@ from itertools import product
 from typing import Any
 
 from tribo.config.case import Case
-from tribo.config.depth import check_depth
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings, parse_value, path_keys
+from tribo.core.depth import check_depth
 from tribo.core.errors import CaseError
 from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.registry import Registry
