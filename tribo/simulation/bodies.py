@@ -8,6 +8,7 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, PluginError
+from tribo.core.fields import name_fault
 from tribo.core.grid import Grid
 from tribo.interfaces.exposure import Exposure
 from tribo.interfaces.wear import WearLaw, WearLawConfig
@@ -39,6 +40,8 @@ def check_law(law: WearLaw[WearLawConfig], body: Body) -> None:
         law.check(body.material)
         given = law.initial_state()
     who = named(law, body.name)
+    if fault := name_fault(law.state_fields):
+        raise PluginError(f"{who}, state_fields: {fault}")
     declared = {field.name for field in law.state_fields}
     if not isinstance(given, Mapping) or set(given) != declared:
         raise PluginError(
