@@ -87,7 +87,7 @@ def test_what_was_matched_is_told(files):
 
 @pytest.mark.parametrize("other", ["one body", "three bodies"])
 def test_a_file_that_has_not_two_bodies_is_refused(files, other):
-    with pytest.raises(CaseError, match="is damaged: .* two are needed"):
+    with pytest.raises(CaseError, match=r"is damaged: .* two are needed"):
         compare_files(files("ball and disk", other))
 
 
