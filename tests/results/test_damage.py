@@ -114,6 +114,19 @@ def test_a_file_that_is_cut_short_says_so(sound, tmp_path):
     assert "is not a whole tribo file" in done.stderr
 
 
+def test_a_damaged_file_whose_groups_go_round_in_a_circle_is_told(sound, tmp_path):
+    path = tmp_path / "circle.h5"
+    path.write_bytes(sound.read_bytes())
+    with edited(path) as file:
+        file["bodies/bodies"] = file["bodies"]
+        chunk = file["pressure"].id.get_chunk_info(0)
+    data = bytearray(path.read_bytes())
+    data[chunk.byte_offset + chunk.size // 2] ^= 1
+    path.write_bytes(data)
+    with Result.open(path) as result, pytest.raises(CaseError, match="cannot be read"):
+        result.check()
+
+
 def test_a_claim_of_more_than_the_file_can_hold_takes_no_memory(sound, tmp_path):
     path = tmp_path / "claims.h5"
     path.write_bytes(sound.read_bytes())

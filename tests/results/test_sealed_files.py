@@ -11,6 +11,7 @@ import pytest
 from paper_models import case, motion
 
 from tribo import CaseError, Simulation
+from tribo.core import locks
 from tribo.core.errors import TriboWarning
 from tribo.results import sealed_file, sealed_writer
 from tribo.results.checkpoint import checkpoint_path
@@ -133,11 +134,11 @@ def countdown(patch, at):
         if left[0] < 0:
             raise KilledError
 
-    def half(fd, data, position):
+    def half(file, data, position):
         if left[0] == 0:
-            write_all(fd, data[: len(data) // 2], position)
+            write_all(file, data[: len(data) // 2], position)
         die()
-        write_all(fd, data, position)
+        write_all(file, data, position)
 
     def first(function):
         return lambda *args, **options: (die(), function(*args, **options))[1]
@@ -284,7 +285,7 @@ def test_a_file_system_without_locks_is_told_of_once(tmp_path, monkeypatch):
     def flock(*_):
         raise OSError(errno.ENOLCK, "No locks available")
 
-    monkeypatch.setattr(sealed_writer.fcntl, "flock", flock)
+    monkeypatch.setattr(locks.fcntl, "flock", flock)
     path = tmp_path / "run.h5"
     path.write_bytes(b"an older one")
     with pytest.warns(TriboWarning, match=r"run\.h5: its file system has no locks") as told:

@@ -171,6 +171,7 @@ def test_it_wears_under_implicit_steps(registry):
     assert end["max_pressure_Pa"] < 0.5 * first["max_pressure_Pa"]
 
 
+@pytest.mark.filterwarnings("ignore:lap:tribo.TriboWarning")
 def test_the_first_contact_lies_between_those_without_layer_and_all_of_layer(registry):
     def peak(contact, disk):
         bodies = {**CASE["bodies"], "disk": {**CASE["bodies"]["disk"], "material": disk}}

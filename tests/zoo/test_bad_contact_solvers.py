@@ -201,12 +201,14 @@ class WritesIntoTheStart(Solver):
 
 @bad_later("read-only")
 class UsesItsAnswerAgain(Solver):
+    _kept: object = None
+
     def solve(self, problem, start=None):
         answer = super().solve(problem, start)
         if start is not None:
-            self.kept.pressure[:] = answer.pressure
-            return self.kept
-        self.kept = answer
+            self._kept.pressure[:] = answer.pressure
+            return self._kept
+        self._kept = answer
         return answer
 
 

@@ -125,5 +125,16 @@ def test_one_that_does_not_say_what_it_provides_is_not_loaded():
         zoo.registry()
 
 
+def test_one_that_provides_a_field_with_a_slash_is_not_loaded():
+    zoo = Zoo()
+
+    @zoo.bad("", code=2)
+    class Slashed(Heat):
+        provides = (Field("power/area", "W/m^2", "Power per area."),)
+
+    with pytest.raises(TypeError, match=r"Slashed\.provides: 'power/area' cannot name a field"):
+        zoo.registry()
+
+
 def test_none_harms_a_case_that_names_another(run):
     expect_harmless(run(ZOO))

@@ -45,6 +45,10 @@ ZOO = {
     "wrong base class": (law(GOOD).replace("[Bad]", "[dict]"), "must be a subclass of"),
     "abstract": (law(GOOD).replace("def rate", "def rates"), "does not define rate"),
     "state fields that are names": (law(GOOD, "state_fields = ('slid',)"), "tuple of Field"),
+    "a state field with a slash": (
+        law(GOOD, "state_fields = (Field('a/b', 'm', 'Slid.'),)"),
+        "Bad.state_fields: 'a/b' cannot name a field; letters, digits and underscores are allowed",
+    ),
     "requires a text": (law(GOOD, "requires = 'temperature'"), "tuple of names"),
     "hook that returns a class": (law(GOOD).replace("[Bad]", "Bad"), "must return a list"),
 }

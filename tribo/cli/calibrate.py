@@ -10,10 +10,10 @@ from pathlib import Path
 
 import click
 from rich import box
-from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from tribo.cli.console import Console
 from tribo.study.calibration.outcome import Calibration, Datum, Estimate, Expected
 from tribo.study.calibration.quantities import PROFILES, in_si, in_words, percent
 

@@ -11,6 +11,7 @@ from typing import Any
 import click
 
 from tribo.analysis.report import yield_words
+from tribo.cli.harmless import echo
 from tribo.core.errors import CaseError, NumericalError
 from tribo.simulation.model import Model
 from tribo.simulation.predict import Prediction
@@ -50,15 +51,15 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
 
 
 def _print(case: Path, model: Model, prediction: Prediction) -> None:
-    click.echo(f"{case} is valid, but:" if prediction.problems else f"{case} is valid.")
+    echo(f"{case} is valid, but:" if prediction.problems else f"{case} is valid.")
     for problem in prediction.problems:
-        click.echo(f"  - {problem}")
+        echo(f"  - {problem}")
     for name, value in _lines(model, prediction):
-        click.echo(f"  {name:<26}{value}")
+        echo(f"  {name:<26}{value}")
     for place, facts in prediction.facts.items():
-        click.echo(f"  {place}:")
+        echo(f"  {place}:")
         for name, text in facts.items():
-            click.echo(f"    {name:<24}{text}")
+            echo(f"    {name:<24}{text}")
 
 
 def _finite(value: Any) -> Any:

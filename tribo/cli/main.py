@@ -8,6 +8,7 @@ from importlib import import_module
 
 import click
 
+from tribo.cli.harmless import echo
 from tribo.cli.plain import make_plain
 from tribo.cli.running import no_interrupt_lost, warnings_on_stderr
 from tribo.cli.streams import Output, Remarks, over
@@ -147,5 +148,5 @@ def main() -> None:
 
 def _fail(message: str, code: int) -> None:
     click.secho("error: ", fg="red", bold=True, err=True, nl=False)
-    click.echo(message, err=True)
+    echo(message, err=True)
     sys.exit(code)

@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from rich import box
-from rich.console import Console
 from rich.markup import escape
 from rich.measure import Measurement
 from rich.table import Table
@@ -15,6 +14,7 @@ from rich.text import Text
 
 from tribo.analysis.inferred import InferredVolume
 from tribo.analysis.report import BodyReport, FirstContact, lab_report
+from tribo.cli.console import Console
 from tribo.results.read import Result
 
 DISPENSABLE = ("area", "p centre", "path", "along", "across")
@@ -59,7 +59,9 @@ def print_provenance(result: Result, console: Console | None = None) -> None:
     for again in (made, *made.get("resumed_with", ())):
         packages = ", ".join(f"{name} {version}" for name, version in again["packages"].items())
         with_what = "Made with" if again is made else "Gone on with"
-        console.print(f"{with_what} Python {again['python']}, {packages}; models, in SI units:")
+        console.print(
+            f"{with_what} Python {again['python']}, {packages}; models, in SI units:", markup=False
+        )
         for place, origin in again["components"].items():
             for line in _origin(place, origin):
                 console.print(Text(line), soft_wrap=True)
@@ -67,7 +69,8 @@ def print_provenance(result: Result, console: Console | None = None) -> None:
             if plugin["status"] not in ("loaded", "available"):
                 console.print(
                     f"  plugin {plugin['distribution']} {plugin['version']} was "
-                    f"{plugin['status']}: {plugin['reason']}"
+                    f"{plugin['status']}: {plugin['reason']}",
+                    markup=False,
                 )
 
 
@@ -128,7 +131,7 @@ def _saves_table(result: Result, left_out: Sequence[str]) -> Table:
     for body, column in depths.items():
         # A long name is broken before a number is.
         table.add_column(
-            f"{body}\nµm", justify="right", overflow="fold", min_width=max(map(len, column))
+            f"{escape(body)}\nµm", justify="right", overflow="fold", min_width=max(map(len, column))
         )
     for i, save in enumerate(saves):
         table.add_row(
@@ -160,7 +163,7 @@ def _bodies(result: Result, bodies: Mapping[str, BodyReport]) -> Table:
     worn = [_worn(body) for body in bodies.values()]
     for name, body in bodies.items():
         heading = f"{name} (track)" if body.scar_along is None else name
-        table.add_column(heading, justify="right", overflow="fold")
+        table.add_column(escape(heading), justify="right", overflow="fold")
     for row in worn[0]:
         cells = [body[row] for body in worn]
         if any(cell != NOTHING for cell in cells):
@@ -176,7 +179,8 @@ def _inferred(volumes: Sequence[InferredVolume]) -> Table:
         table.add_column(unit, justify="right", no_wrap=True)
     for each in volumes:
         table.add_row(
-            f"{each.body}: {each.method}" + (f" ({each.standard})" if each.standard else ""),
+            f"{escape(each.body)}: {each.method}"
+            + (f" ({each.standard})" if each.standard else ""),
             f"{1e9 * each.volume:.3g}",
             f"{100 * each.relative_error:+.0f}",
         )

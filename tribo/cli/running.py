@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, TextIO
 
 import click
 
+from tribo.cli.harmless import echo
 from tribo.core.errors import TriboWarning
 
 if TYPE_CHECKING:
@@ -35,7 +36,7 @@ def warnings_on_stderr() -> Iterator[None]:
     ) -> None:
         if issubclass(category, TriboWarning):
             click.secho("warning: ", fg="yellow", bold=True, err=True, nl=False)
-            click.echo(str(message), err=True)
+            echo(str(message), err=True)
 
     with warnings.catch_warnings():
         warnings.simplefilter("always", TriboWarning)

@@ -6,10 +6,10 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from rich import box
-from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from tribo.cli.console import Console
 from tribo.study.comparison import Comparison
 from tribo.study.differences import differences
 

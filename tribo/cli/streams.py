@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import os
+import sys
 from typing import TYPE_CHECKING, TextIO
 
 from tribo.core.errors import OutputError, ReaderGone
@@ -45,7 +46,8 @@ def over(stream: TextIO, kind: type[Output | Remarks]) -> TextIO:
     except (AttributeError, OSError, ValueError):
         # None of the operating system's: a test's, a notebook's, or none at all.
         return stream
-    if not isinstance(stream, io.TextIOWrapper):
+    if not isinstance(stream, io.TextIOWrapper) or (sys.platform == "win32" and stream.isatty()):
+        # A console of Windows takes text, not bytes.
         return stream
     # As good as none where `python -u` asks for no buffer.
     size = 1 if stream.write_through else io.DEFAULT_BUFFER_SIZE

@@ -96,8 +96,9 @@ def _verify_case(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
 @contextmanager
 def _progress(total: float) -> Iterator[Callable[[str, float], None]]:
     """Show on stderr what runs now, and the time to go; yield what to tell of it."""
-    from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
+    from tribo.cli.console import Console
 
     columns = BarColumn(), TimeRemainingColumn(), TextColumn("{task.description}")
     # Not what rich takes for a terminal: a pipe that colours are forced on is none to wipe.
@@ -118,7 +119,7 @@ def _progress(total: float) -> Iterator[Callable[[str, float], None]]:
 def _print_suite(rows: Sequence[Row]) -> None:
     from itertools import groupby
 
-    from rich.console import Console
+    from tribo.cli.console import Console
 
     console = Console(highlight=False)
     console.print(_suite_table([], header=True))
@@ -147,7 +148,7 @@ def _suite_table(rows: Sequence[Row], *, header: bool) -> Table:
 
 
 def _print_study(study: Refinement) -> None:
-    from rich.console import Console
+    from tribo.cli.console import Console
 
     widths = {"value": 10, "±": 7, "%": 5, "grid": 10, "GCI %": 5, "steps": 10}
     table = _table(header=True, quantity=0, **widths)

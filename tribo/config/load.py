@@ -14,6 +14,7 @@ from tribo.case import Case
 from tribo.config.explain import case_error
 from tribo.config.overrides import apply_overrides
 from tribo.config.requirements import check_requirements
+from tribo.core.depth import check_depth, too_deep
 from tribo.core.errors import CaseError
 from tribo.registry.registry import Registry, default_registry
 
@@ -59,6 +60,7 @@ def validate_case(data: Mapping[str, Any], *, registry: Registry | None = None) 
     CaseError
         If anything in `data` is wrong; one line an error.
     """
+    check_depth(data, "the case")
     known = registry or default_registry()
     data = _with_default_types(data)
     requires = data.get("requires")
@@ -95,8 +97,8 @@ def read_toml(path: str | Path) -> dict[str, Any]:
     Raises
     ------
     CaseError
-        If there is no such file, or it is not TOML in UTF-8; with line and
-        column.
+        If there is no such file, it is not TOML in UTF-8, with line and column,
+        or its tables nest too deeply.
     """
     path = Path(path)
     try:
@@ -117,11 +119,13 @@ def read_toml(path: str | Path) -> dict[str, Any]:
         raise CaseError(f"{path} is empty; 'tribo new' writes a case to start from")
     try:
         # Editors on Windows put a mark at the start, which TOML does not know.
-        return tomllib.loads(content.decode("utf-8-sig"))
+        data = tomllib.loads(content.decode("utf-8-sig"))
     except UnicodeDecodeError as error:
         line = content.count(b"\n", 0, error.start) + 1
         raise CaseError(f"{path}, line {line}: not UTF-8 text; save the file as UTF-8") from None
     except ValueError as error:
         raise CaseError(f"{path} is not TOML: {error}") from None
     except RecursionError:
-        raise CaseError(f"{path} is not a case: nested too deeply") from None
+        raise too_deep(path) from None
+    check_depth(data, path)
+    return data

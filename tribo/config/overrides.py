@@ -7,7 +7,9 @@ from collections.abc import Mapping, Sequence
 from copy import deepcopy
 from typing import Any
 
+from tribo.core.depth import LEVELS, check_depth, too_deep
 from tribo.core.errors import CaseError
+from tribo.core.words import shown
 
 _Override = tuple[list[str], Any]
 
@@ -71,15 +73,22 @@ def path_keys(path: str) -> list[str]:
 
 
 def parse_value(text: str) -> Any:
-    """Return what a text says as TOML, or else the text."""
+    """Return what a text says as TOML, or else the text; CaseError if it nests too deeply."""
     try:
         read = tomllib.loads(f"value = {text}")
     except (ValueError, RecursionError):
         return text
+    check_depth(read, shown(text))
     return read["value"] if len(read) == 1 else text
 
 
 def _applied(data: Mapping[str, Any], overrides: Sequence[_Override]) -> dict[str, Any]:
+    check_depth(data, "the case")
+    for keys, value in overrides:
+        path = shown(".".join(keys))
+        if len(keys) > LEVELS:
+            raise too_deep(path)
+        check_depth(value, path)
     changed = deepcopy(dict(data))
     types = sorted((o for o in overrides if o[0][-1] == "type"), key=lambda o: len(o[0]))
     for keys, value in types + [o for o in overrides if o[0][-1] != "type"]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 from tribo.core.arrays import Array
@@ -27,6 +27,21 @@ class Field:
     name: str
     unit: str
     description: str
+
+
+def name_fault(fields: Iterable[Field]) -> str:
+    """Return why `fields` cannot be called what they are; empty if they can."""
+    seen: set[str] = set()
+    for each in fields:
+        if not (isinstance(each.name, str) and each.name.isidentifier()):
+            return (
+                f"{each.name!r} cannot name a field; letters, digits and underscores are allowed, "
+                "no digit first"
+            )
+        if each.name in seen:
+            return f"the field {each.name!r} is declared twice"
+        seen.add(each.name)
+    return ""
 
 
 PRESSURE = Field("pressure", "Pa", "Contact pressure, positive in compression.")

@@ -62,6 +62,9 @@ class State:
         How well they hold in the step that led here.
     previous : ndarray of shape (nx, ny) or None
         Pressure a step ago, in Pa, by which chattering is told; None before the first.
+    speed : float
+        Mean sliding speed of the last step in which it slid, in m/s; of the
+        whole motion before the first.
     """
 
     time: float
@@ -79,6 +82,7 @@ class State:
     notices: tuple[str, ...] = ()
     invariants: Invariants = field(default_factory=Invariants)
     previous: Array | None = None
+    speed: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -124,6 +128,8 @@ class RunInfo:
         The full configuration, as plain data.
     provenance : Mapping[str, object]
         Versions and the classes that take part, as plain data.
+    effect_fields : tuple of Field, optional
+        What the effects provide.
     resumed_from : Snapshot or None
         The state a resumed run starts from.
     wall_time : float
@@ -136,13 +142,26 @@ class RunInfo:
     end_distance: float
     case: Mapping[str, object]
     provenance: Mapping[str, object]
+    effect_fields: tuple[Field, ...] = ()
     resumed_from: Snapshot | None = None
     wall_time: float = 0.0
 
 
 @dataclass(frozen=True)
 class Snapshot:
-    """A moment of a run: its state and the scalars read off it."""
+    """A moment of a run: its state, the scalars read off it and what the effects make of it.
+
+    Parameters
+    ----------
+    state : State
+        The state.
+    measures : Measures
+        Its scalars.
+    effects : Mapping[str, Mapping[str, ndarray]], optional
+        Fields of the effects for the pressure and speed of `state`, by field
+        and body, shape (nx, ny). Empty but at saves.
+    """
 
     state: State
     measures: Measures
+    effects: Mapping[str, Mapping[str, Array]] = field(default_factory=dict)

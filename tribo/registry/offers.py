@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from tribo.core.fields import Field
+from tribo.core.fields import Field, name_fault
 from tribo.interfaces.component import Component
 from tribo.registry.kinds import kind_of
 
@@ -45,6 +45,8 @@ def _check_declarations(cls: Any, interface: type) -> None:
         fields = getattr(cls, attribute, ())
         if not (isinstance(fields, tuple | list) and all(isinstance(f, Field) for f in fields)):
             raise TypeError(f"{shown}.{attribute} is {fields!r}; it must be {needed}")
+        if fault := name_fault(fields):
+            raise TypeError(f"{shown}.{attribute}: {fault}")
     names = getattr(cls, "requires", ())
     if not (isinstance(names, tuple | list) and all(isinstance(name, str) for name in names)):
         raise TypeError(

@@ -31,6 +31,11 @@ class BodyResult:
         `wear_depth`.
     state_fields : tuple of Field
         Units and meanings of `state`.
+    effects : Mapping[str, ndarray]
+        What the effects provided at each save, such as a temperature, by
+        name, shape (saves, nx, ny). NaN where an effect failed.
+    effect_fields : tuple of Field
+        Units and meanings of `effects`.
     """
 
     name: str
@@ -41,6 +46,8 @@ class BodyResult:
     plastic_depth: Array
     state: Mapping[str, Array] = field(default_factory=dict)
     state_fields: tuple[Field, ...] = ()
+    effects: Mapping[str, Array] = field(default_factory=dict)
+    effect_fields: tuple[Field, ...] = ()
 
     def surface(self, save: int) -> Array:
         """Return the height outward at a save, worn and deformed, in m.

@@ -164,6 +164,7 @@ def tidied(result: Path) -> bool:
 _SCALARS = (
     "time",
     "distance",
+    "speed",
     "increment",
     "reference_depth",
     "steps",

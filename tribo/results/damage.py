@@ -5,6 +5,8 @@ from __future__ import annotations
 import h5py
 
 _LISTED = 6
+_DEEPEST = 5
+"""Groups in each other; a result has four, and in another file they may go round in a circle."""
 
 
 def unreadable(file: h5py.File) -> list[str]:
@@ -20,6 +22,8 @@ def unreadable(file: h5py.File) -> list[str]:
 
 
 def _visit(group: h5py.Group, path: str, lost: list[str]) -> None:
+    if path.count("/") >= _DEEPEST:
+        return
     try:
         dict(group.attrs)
         names = list(group)

@@ -76,6 +76,10 @@ def _profiles(result: Result, axis: int) -> dict[str, Array]:
             ("wear_depth_m", body.wear_depth),
             ("plastic_depth_m", body.plastic_depth),
             *((f"state.{labelled(f.name, f.unit)}", body.state[f.name]) for f in body.state_fields),
+            *(
+                (f"effects.{labelled(f.name, f.unit)}", body.effects[f.name])
+                for f in body.effect_fields
+            ),
         ):
             columns[f"bodies.{name}.{label}"] = _stacked(profile(f, axis) for f in fields)
         columns[f"bodies.{name}.height_m"] = _stacked(

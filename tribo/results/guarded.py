@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import weakref
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Self
@@ -20,6 +20,9 @@ from tribo.results.sealed_file import SealedFile, close_sealed
 
 MOST_PACKED = 1100
 """Bytes that a byte of a file may stand for; deflate comes to 1032."""
+
+LARGEST = 1e100
+"""No quantity comes near it; its square and cube are still finite."""
 
 
 class GuardedFile:
@@ -101,20 +104,59 @@ class GuardedFile:
             + (f"{', '.join(lost)} cannot be read" if lost else "nothing in use is lost")
         )
 
-    def array(self, name: str, index: int | slice = slice(None)) -> Array:
-        """Return a dataset, or one save of it."""
+    def array(
+        self,
+        name: str,
+        index: int | slice = slice(None),
+        *,
+        shapes: Collection[tuple[int, ...]] = (),
+        finite: bool = False,
+    ) -> Array:
+        """Return a dataset, or one save of it.
+
+        Parameters
+        ----------
+        name : str
+            The dataset.
+        index : int or slice, optional
+            The save; all if left out.
+        shapes : collection of tuple, optional
+            What the dataset may have as its shape; any if left out.
+        finite : bool, optional
+            Whether a number that is not is refused; floats come back.
+        """
         save = f" of save {index}" if isinstance(index, int) else ""
         with self.reading(f"{name!r}{save}"):
             dataset = self.file[name]
+            if not isinstance(dataset, h5py.Dataset) or dataset.dtype.kind not in "fiu":
+                raise ValueError("it is no array of real numbers")
             if self._sealed is not None and dataset.nbytes > MOST_PACKED * self._sealed.size:
                 raise ValueError(f"it claims {dataset.nbytes:.3g} bytes, more than the file holds")
-            return np.asarray(dataset[index])
+            if shapes and dataset.shape not in shapes:
+                needed = " or ".join(map(str, shapes))
+                raise ValueError(f"its shape is {dataset.shape} instead of {needed}")
+            values = np.asarray(dataset[index], np.float64 if finite else None)
+            if finite and not (np.abs(values) < LARGEST).all():
+                raise ValueError("it is not finite, or beyond all measure")
+            return values
 
     def text(self, name: str) -> str:
         """Return text that `tribo.results.store.write_text` stored."""
         data = self.array(name)
         with self.reading(repr(name)):
             return data.tobytes().decode()
+
+    def numbers(
+        self, name: str, count: int = 1, *, above: float = -np.inf, of: str = "/"
+    ) -> tuple[float, ...]:
+        """Return an attribute of the file, or of a group of it, that is so many finite numbers."""
+        with self.reading(repr(name)):
+            values = np.asarray(self.file[of].attrs[name])
+            if values.size != count or values.dtype.kind not in "fiu":
+                raise ValueError(f"it is {values.tolist()!r:.60}, not {count} of numbers")
+            if not ((np.abs(values) < LARGEST) & (values > above)).all():
+                raise ValueError(f"it is {values.tolist()}, not finite and above {above:g}")
+            return tuple(float(value) for value in values.ravel())
 
     def attribute(self, name: str, *default: object) -> Any:
         """Return an attribute of the file."""
@@ -127,7 +169,7 @@ class GuardedFile:
         """Say what of the file is damaged, whatever HDF5 raises of it."""
         try:
             yield
-        except (OSError, KeyError, RuntimeError, ValueError, TypeError) as error:
+        except (OSError, LookupError, RuntimeError, ValueError, TypeError, AttributeError) as error:
             raise CaseError(f"{self.name} is damaged: {what} cannot be read ({error})") from error
 
 

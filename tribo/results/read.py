@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import json
+import math
 from collections.abc import Mapping
 from pathlib import Path
 from types import TracebackType
@@ -16,12 +16,14 @@ from tribo.core.errors import CaseError
 from tribo.core.fields import Field
 from tribo.core.grid import Grid
 from tribo.results.body import BodyResult, checked_save
-from tribo.results.columns import BODY_COLUMNS, COLUMNS, INVARIANTS
+from tribo.results.columns import BODY_COLUMNS, COLUMNS, INVARIANTS, labelled
 from tribo.results.guarded import GuardedFile
 from tribo.results.store import FORMAT
+from tribo.results.stored import StoredCase, StoredProvenance, stored
 
 SAME_TIME = 1e-9
 """How far a time may be off that of a save, relative to the last one."""
+STATUSES = ("done", "running", "interrupted", "failed")
 _LISTED = 8
 
 
@@ -54,7 +56,7 @@ class Result:
         """
         result = cls(GuardedFile.open(Path(path)))
         found = result._file.attribute("tribo_format", None)
-        if found != FORMAT:
+        if not np.array_equal(found, FORMAT):
             result.close()
             raise CaseError(f"{path} is a tribo result of format {found}, not {FORMAT}")
         return result
@@ -98,45 +100,47 @@ class Result:
     @property
     def status(self) -> str:
         """``"done"``, ``"running"``, ``"interrupted"`` or ``"failed"``."""
-        return str(self._file.attribute("status"))
+        status = self._file.attribute("status")
+        with self._file.reading("'status'"):
+            if status not in STATUSES:
+                raise ValueError(f"it is {status!r:.60}; {', '.join(STATUSES)} are known")
+        return str(status)
 
     @property
     def wall_time(self) -> float | None:
         """Time the run took, in s; None of one that is still running, or was killed."""
         if self.status == "running":
             return None
-        return float(self._file.attribute("wall_time_s"))
+        return self._file.numbers("wall_time_s")[0]
 
     @property
     def case(self) -> dict[str, Any]:
         """The full configuration, as plain data."""
-        return dict(json.loads(self._file.text("case")))
+        return dict(self._stored("case", self._file.text("case"), StoredCase))
 
     @property
     def provenance(self) -> dict[str, Any]:
         """Versions and classes that made the result."""
-        return dict(json.loads(self._file.text("provenance")))
+        return dict(self._stored("provenance", self._file.text("provenance"), StoredProvenance))
 
     @property
     def notices(self) -> tuple[str, ...]:
         """Warnings given during the run."""
-        return tuple(json.loads(str(self._file.attribute("notices", "[]"))))
+        text = str(self._file.attribute("notices", "[]"))
+        return tuple(self._stored("notices", text, list[str]))
 
     @property
     def system(self) -> ContactSystem:
         """Window, load, contact modulus, pressure cap and initial curvature."""
-        lx, ly = (float(size) for size in self._file.attribute("window_m"))
-        cap, curvature = (
-            self._file.attribute("cap_Pa", None),
-            self._file.attribute("curvature_1_m", None),
-        )
-        return ContactSystem(
-            grid=Grid((lx, ly), (len(self._file.array("x")), len(self._file.array("y")))),
-            modulus=float(self._file.attribute("modulus_Pa")),
-            load=float(self._file.attribute("load_N")),
-            cap=None if cap is None else float(cap),
-            curvature=None if curvature is None else (float(curvature[0]), float(curvature[1])),
-        )
+        file = self._file
+        attributes = file.file.attrs
+        lx, ly = file.numbers("window_m", 2, above=0)
+        (modulus,) = file.numbers("modulus_Pa", above=0)
+        (load,) = file.numbers("load_N", above=0)
+        cap = file.numbers("cap_Pa", above=0)[0] if "cap_Pa" in attributes else None
+        curved = file.numbers("curvature_1_m", 2) if "curvature_1_m" in attributes else None
+        curvature = None if curved is None else (curved[0], curved[1])
+        return ContactSystem(Grid((lx, ly), self._cells), modulus, load, cap, curvature)
 
     @property
     def grid(self) -> Grid:
@@ -146,12 +150,12 @@ class Result:
     @property
     def times(self) -> Array:
         """Time of each save, in s."""
-        return self._file.array("time")
+        return self._list("time")
 
     @property
     def distances(self) -> Array:
         """Path slid at each save, in m."""
-        return self._file.array("saves/distance")
+        return self._file.array("saves/distance", shapes=[self.times.shape], finite=True)
 
     @property
     def body_names(self) -> tuple[str, ...]:
@@ -168,7 +172,8 @@ class Result:
         CaseError
             If there is no such save.
         """
-        return self._file.array("pressure", checked_save(save, len(self.times), self.name))
+        save = checked_save(save, len(self.times), self.name)
+        return self._file.array("pressure", save, shapes=[self._shape], finite=True)
 
     def wear_depth(self, body: str, save: int) -> Array:
         """Return the worn depth of a body at a save, shape (nx, ny), in m.
@@ -182,8 +187,9 @@ class Result:
         """
         self._check_body(body)
         save = checked_save(save, len(self.times), self.name)
-        depth = self._file.array(f"bodies/{body}/wear_depth", save)
-        return np.broadcast_to(depth, self.grid.cells)
+        path = f"bodies/{body}/wear_depth"
+        depth = self._file.array(path, save, shapes=self._on_surface, finite=True)
+        return np.broadcast_to(depth, self._cells)
 
     def save_at(self, time: float) -> int:
         """Return the index of the save at `time`.
@@ -217,20 +223,26 @@ class Result:
         self._check_body(name)
         with self._file.reading(f"'bodies/{name}'"):
             group = self._file.file[f"bodies/{name}"]
-            swept, density = bool(group.attrs["swept"]), group.attrs.get("density_kg_m3")
-            kept = [
-                Field(field, str(values.attrs["units"]), str(values.attrs["long_name"]))
-                for field, values in group.get("state", {}).items()
-            ]
+            swept, weighed = bool(group.attrs["swept"]), "density_kg_m3" in group.attrs
+        kept, provided = self._fields(name, "state"), self._fields(name, "effects")
         return BodyResult(
             name=name,
             swept=swept,
-            density=None if density is None else float(density),
-            height=self._file.array(f"bodies/{name}/height"),
+            density=self._file.numbers("density_kg_m3", above=0, of=f"bodies/{name}")[0]
+            if weighed
+            else None,
+            height=self._file.array(f"bodies/{name}/height", shapes=[self._cells], finite=True),
             wear_depth=self._on_window(f"bodies/{name}/wear_depth"),
-            plastic_depth=self._file.array(f"bodies/{name}/plastic_depth"),
+            plastic_depth=self._file.array(
+                f"bodies/{name}/plastic_depth", shapes=[self._shape], finite=True
+            ),
             state={f.name: self._on_window(f"bodies/{name}/state/{f.name}") for f in kept},
-            state_fields=tuple(kept),
+            state_fields=kept,
+            effects={
+                f.name: self._file.array(f"bodies/{name}/effects/{f.name}", shapes=[self._shape])
+                for f in provided
+            },
+            effect_fields=provided,
         )
 
     def table(self, name: str) -> dict[str, Array]:
@@ -238,12 +250,15 @@ class Result:
 
         A body's columns are called ``bodies.NAME.wear_volume_m3`` and so on.
         """
-        columns = {column.label: self._file.array(f"{name}/{column.name}") for column in COLUMNS}
+        rows = self.times if name == "saves" else self._list(f"{name}/step")
+        paths = {column.label: f"{name}/{column.name}" for column in COLUMNS}
         for body in self.body_names:
             for part in BODY_COLUMNS:
-                label = f"bodies.{body}.{part.label}"
-                columns[label] = self._file.array(f"{name}/bodies/{body}/{part.name}")
-        return columns
+                paths[f"bodies.{body}.{part.label}"] = f"{name}/bodies/{body}/{part.name}"
+        return {
+            label: self._file.array(path, shapes=[rows.shape], finite=True)
+            for label, path in paths.items()
+        }
 
     def saves(self) -> list[dict[str, Any]]:
         """Return the scalars of each save, those of the bodies under ``bodies``."""
@@ -273,8 +288,24 @@ class Result:
             "notices": list(self.notices),
             "totals": dict(self.totals()),
             "invariants": dict(self.worst()),
-            "saves": self.saves(),
+            "saves": self._saves_with_ranges(),
         }
+
+    def _saves_with_ranges(self) -> list[dict[str, Any]]:
+        rows = self.saves()
+        for body in self.body_names:
+            for field in self._fields(body, "effects"):
+                for i, row in enumerate(rows):
+                    path = f"bodies/{body}/effects/{field.name}"
+                    values = self._file.array(path, i, shapes=[self._shape])
+                    low, high = float(np.min(values)), float(np.max(values))
+                    ranges = row["bodies"][body].setdefault("effects", {})
+                    failed = math.isnan(low)
+                    ranges[labelled(field.name, field.unit)] = {
+                        "min": None if failed else low,
+                        "max": None if failed else high,
+                    }
+        return rows
 
     def totals(self) -> Mapping[str, Any]:
         """Return what the run cost: solves, iterations, steps and `wall_time`."""
@@ -291,10 +322,17 @@ class Result:
     def worst(self) -> Mapping[str, float]:
         """Return the worst value, over all steps, of each invariant that the run was held to."""
         columns = [column for column in COLUMNS if column.name in INVARIANTS]
-        return {
-            c.label: float(np.max(self._file.array(f"history/{c.name}"), initial=0))
-            for c in columns
-        }
+        return {c.label: float(np.max(self._list(f"history/{c.name}"), initial=0)) for c in columns}
+
+    def _fields(self, body: str, kind: str) -> tuple[Field, ...]:
+        """Return the fields that are kept of a body, of its law's state or of the effects."""
+        path = f"bodies/{body}/{kind}"
+        with self._file.reading(repr(path)):
+            group = self._file.file.get(path, {})
+            return tuple(
+                Field(name, str(values.attrs["units"]), str(values.attrs["long_name"]))
+                for name, values in group.items()
+            )
 
     def _check_body(self, name: str) -> None:
         if name not in self.body_names:
@@ -304,7 +342,37 @@ class Result:
 
     def _on_window(self, name: str) -> Array:
         """Return a body's own field at every save, spread along x where the body is swept."""
-        values = self._file.array(name)
+        values = self._file.array(name, shapes=self._on_surface, finite=True)
         if values.ndim == 2:
-            values = np.broadcast_to(values[:, None, :], (len(values), *self.grid.cells))
+            values = np.broadcast_to(values[:, None, :], self._shape)
         return values
+
+    @property
+    def _cells(self) -> tuple[int, int]:
+        nx, ny = len(self._list("x")), len(self._list("y"))
+        with self._file.reading("'x' and 'y'"):
+            if not nx * ny:
+                raise ValueError("they are empty")
+        return nx, ny
+
+    @property
+    def _shape(self) -> tuple[int, int, int]:
+        """Shape of a field of the window at every save."""
+        return len(self.times), *self._cells
+
+    @property
+    def _on_surface(self) -> tuple[tuple[int, ...], ...]:
+        """Shapes of a field of a body's surface at every save; a swept one has no x."""
+        saves, nx, ny = self._shape
+        return (saves, nx, ny), (saves, ny)
+
+    def _list(self, name: str) -> Array:
+        values = self._file.array(name, finite=True)
+        with self._file.reading(repr(name)):
+            if values.ndim != 1:
+                raise ValueError(f"its shape is {values.shape}; a list is needed")
+        return values
+
+    def _stored(self, name: str, text: str, kind: type) -> Any:
+        with self._file.reading(repr(name)):
+            return stored(text, kind)

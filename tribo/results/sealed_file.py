@@ -109,7 +109,8 @@ class SealedFile(io.RawIOBase):
             return page
         page = self._journal.get(index)
         if page is None:
-            page = os.pread(self._file.fileno(), PAGE, index * PAGE)
+            self._file.seek(index * PAGE)
+            page = self._file.read(PAGE)
         page = page[: self._seal.size - index * PAGE]
         if digest(page) != self._seal.digests[index]:
             raise DamagedError(f"bytes {index * PAGE} to {(index + 1) * PAGE} {self._reason()}")

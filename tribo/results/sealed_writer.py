@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import fcntl
 import io
 import os
 import warnings
@@ -11,6 +10,7 @@ from typing import TYPE_CHECKING
 from uuid import uuid4
 
 from tribo.core.errors import CaseError, TriboWarning
+from tribo.core.locks import BusyError, lock
 from tribo.results.journal import journal_path, write_journal
 from tribo.results.seal import PAGE, Seal, digest, page_count, write_sealed
 from tribo.results.sealed_file import SealedFile
@@ -85,13 +85,12 @@ class SealedWriter(SealedFile):
             self._carry_out(pages, seal)
 
     def _carry_out(self, pages: dict[int, bytes], seal: Seal) -> None:
-        fd = self._file.fileno()
         encoded = seal.encode()
         for index, page in pages.items():
-            _write_all(fd, page, index * PAGE)
-        _write_all(fd, encoded, seal.size)
-        os.ftruncate(fd, seal.size + len(encoded))
-        os.fsync(fd)
+            _write_all(self._file, page, index * PAGE)
+        _write_all(self._file, encoded, seal.size)
+        self._file.truncate(seal.size + len(encoded))
+        os.fsync(self._file.fileno())
         journal_path(self.path).unlink()
         self._seal, self._journal, self._floor = seal, {}, seal.size
         self._dirty.clear()
@@ -161,20 +160,16 @@ class SealedWriter(SealedFile):
         return size
 
 
-def _write_all(fd: int, data: bytes, position: int) -> None:
+def _write_all(file: io.FileIO, data: bytes, position: int) -> None:
     view = memoryview(data)
+    file.seek(position)
     while view:
-        written = os.pwrite(fd, view, position)
-        view, position = view[written:], position + written
+        view = view[file.write(view) :]
 
 
 def _lock(file: io.IOBase, path: Path) -> bool:
     """Keep other processes from writing a file; return False where there are no locks."""
     try:
-        fcntl.flock(file.fileno(), fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError as error:
+        return lock(file.fileno())
+    except BusyError as error:
         raise CaseError(f"{path} is in use: another process has it open") from error
-    except OSError:
-        # Some network file systems have none.
-        return False
-    return True

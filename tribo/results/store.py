@@ -103,6 +103,9 @@ class ResultWriter:
             for field in body.state_fields:
                 kept = f"bodies/{body.name}/state/{field.name}"
                 _series(f, kept, own, field.unit, field.description)
+            for field in run.effect_fields:
+                kept = f"bodies/{body.name}/effects/{field.name}"
+                _series(f, kept, ("time", "x", "y"), field.unit, field.description)
         _growing_scale(f, "history/step", "1", "Number of the step")
         for table, scale in (("saves", "time"), ("history", "history/step")):
             for column in COLUMNS:
@@ -118,6 +121,7 @@ class ResultWriter:
             raise CaseError("a result that was kept in memory cannot be gone on with")
         self._open(SealedWriter(self._path), "r+")
         self._file.attrs["status"] = "running"
+        _check_effects(self._file, run)
         _truncate(self._file, state.saves, state.steps + 1)
         self.note(state.notices)
         _record_change(self._file, run.provenance)
@@ -143,6 +147,10 @@ class ResultWriter:
             for field, values in body.law.items():
                 kept = group[f"state/{field}"]
                 _append(kept, [values if kept.ndim == 3 else values[0]])
+            for field, dataset in group.get("effects", {}).items():
+                # An effect that has failed leaves none.
+                values = snapshot.effects.get(field, {}).get(name, np.array(np.nan))
+                _append(dataset, [np.broadcast_to(values, dataset.shape[1:])])
         self._append_rows("saves", [snapshot.measures])
         self.note(state.notices)
 
@@ -274,6 +282,18 @@ def _record_change(file: h5py.File, now: Mapping[str, object]) -> None:
     made.setdefault("resumed_with", []).append(now)
     del file["provenance"], file["provenance_bytes"]
     write_text(file, "provenance", json.dumps(made))
+
+
+def _check_effects(file: h5py.File, run: RunInfo) -> None:
+    provided = {field.name for field in run.effect_fields}
+    for body in run.bodies:
+        kept = set(file[f"bodies/{body.name}"].get("effects", ()))
+        if kept != provided:
+            raise CaseError(
+                f"the effects provide {', '.join(sorted(provided)) or 'nothing'}, but the result "
+                f"keeps {', '.join(sorted(kept)) or 'nothing'} of them; start again with "
+                "'tribo run --force'"
+            )
 
 
 def _truncate(file: h5py.File, saves: int, steps: int) -> None:

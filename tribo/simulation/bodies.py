@@ -8,6 +8,7 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, PluginError
+from tribo.core.fields import name_fault
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.interfaces.exposure import Exposure
@@ -40,6 +41,8 @@ def check_law(body: str, law: WearLaw, material: Material) -> None:
         law.check(material)
         given = law.initial_state()
     who = named(law, body)
+    if fault := name_fault(law.state_fields):
+        raise PluginError(f"{who}, state_fields: {fault}")
     declared = {field.name for field in law.state_fields}
     if not isinstance(given, Mapping) or set(given) != declared:
         raise PluginError(

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from tribo.case import Case
-from tribo.core.errors import CaseError, located
-from tribo.core.fields import FRICTION_COEFFICIENT
+from tribo.core.errors import CaseError, PluginError, located
+from tribo.core.fields import FRICTION_COEFFICIENT, name_fault
 from tribo.interfaces.effect import Effect
-from tribo.simulation.calling import calling
+from tribo.simulation.calling import calling, named
 from tribo.simulation.model import Model
 
 
@@ -80,5 +80,7 @@ def check_effects(model: Model) -> None:
     materials = {name: body.material for name, body in model.bodies.items()}
     swept = frozenset(name for name in materials if model.is_swept(name))
     for effect in model.effects:
+        if fault := name_fault(effect.provides):
+            raise PluginError(f"{named(effect)}, provides: {fault}")
         with located("effects"), calling(effect):
             effect.check(materials, swept)

@@ -67,7 +67,8 @@ def begin(model: Model) -> State:
         check_stroke(model, state)
         if isinstance(model.stepping, Explicit):
             _check_time_step(model, model.stepping, state)
-    return _noticed(model, replace(state, saves=1))
+    speed = path_at(model.kinematics, model.end_time) / model.end_time
+    return _noticed(model, replace(state, saves=1, speed=speed))
 
 
 def march(model: Model, state: State) -> Iterator[Accepted]:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import os
-import resource
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+
+import psutil
 
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
@@ -50,13 +50,16 @@ def memory_needed(
 
 def memory_left() -> tuple[float, str]:
     """Return the bytes that this process may still take, and what sets the limit."""
-    resident, address_space = _sizes()
-    least = _physical() - resident, "this machine"
+    process = psutil.Process()
+    size = process.memory_info()
+    least = float(psutil.virtual_memory().total - size.rss), "this machine"
     for limit in _control_groups():
-        least = min(least, (limit - resident, "the control group of this process"))
-    soft, _ = resource.getrlimit(resource.RLIMIT_AS)
-    if soft != resource.RLIM_INFINITY:
-        least = min(least, (soft - address_space, "the limit of this process (ulimit -v)"))
+        least = min(least, (float(limit - size.rss), "the control group of this process"))
+    # Linux and FreeBSD tell it.
+    if hasattr(process, "rlimit"):
+        soft, _ = process.rlimit(psutil.RLIMIT_AS)
+        if soft not in (psutil.RLIM_INFINITY, -1):
+            least = min(least, (float(soft - size.vms), "the limit of this process (ulimit -v)"))
     return least
 
 
@@ -74,20 +77,6 @@ def check_memory(grid: Grid, needed: float) -> None:
 
 def _size(memory: float) -> str:
     return f"{memory / 2**30:.3g} GiB" if memory >= 2**30 else f"{memory / 2**20:.0f} MiB"
-
-
-def _physical() -> float:
-    return float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
-
-
-def _sizes() -> tuple[int, int]:
-    """Return the memory and the address space that the process has, in bytes."""
-    try:
-        space, resident = Path("/proc/self/statm").read_text(encoding="ascii").split()[:2]
-    except OSError:
-        return 0, 0
-    page = os.sysconf("SC_PAGE_SIZE")
-    return page * int(resident), page * int(space)
 
 
 def _control_groups(root: Path = Path("/")) -> Iterator[int]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 from tribo.case import Body, Case
 from tribo.config.stepping import Explicit, Implicit
@@ -19,6 +20,7 @@ from tribo.interfaces.exposure import Exposure
 from tribo.interfaces.kinematics import Kinematics
 from tribo.interfaces.wear import WearLaw
 from tribo.simulation import motion
+from tribo.simulation.calling import calling
 
 
 @dataclass(frozen=True)
@@ -105,6 +107,14 @@ class Model:
     def end_time(self) -> float:
         """When the run ends if no depth stops it earlier, in s."""
         return motion.end_time(self.kinematics, self.stop.distance)
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """The case as plain data, in SI units, ready for JSON."""
+        for _, component in self.case.components():
+            with calling(component):
+                component.model_dump(mode="json")
+        return self.case.model_dump(mode="json")
 
     @property
     def laws(self) -> list[WearLaw]:

@@ -102,7 +102,7 @@ def _rates_at(
 ) -> dict[str, WearRate]:
     """Return what `wear_rates` does, at the speed of `moment`."""
     pressure = readonly(contact.pressure)
-    fields = effect_fields(model, pressure, moment)
+    fields = local_fields(model, pressure, moment)
     everywhere = whole(model.grid.cells)
     near = around_region(contact.extent, model.grid.cells, MARGIN)
     rates = {}
@@ -131,7 +131,20 @@ def _rates_at(
     return rates
 
 
-def effect_fields(model: Model, pressure: Array, moment: Moment) -> dict[str, dict[str, Array]]:
+def effect_fields(model: Model, state: State) -> dict[str, dict[str, Array]]:
+    """Return what the effects make of `state`, by field and body, shape (nx, ny).
+
+    Raises
+    ------
+    PluginError
+        As `wear_rates` does.
+    """
+    moment = Moment(state.time, state.distance, state.speed)
+    fields = local_fields(model, readonly(state.contact.pressure), moment)
+    return {field.name: fields[field.name] for e in model.effects for field in e.provides}
+
+
+def local_fields(model: Model, pressure: Array, moment: Moment) -> dict[str, dict[str, Array]]:
     """Return what the effects and the case provide, by field and body; as `wear_rates` raises."""
     shape = pressure.shape
     fields: dict[str, dict[str, Array]] = {}

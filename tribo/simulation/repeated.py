@@ -12,7 +12,7 @@ from tribo.core.state import State
 from tribo.simulation.calling import Called, named
 from tribo.simulation.model import Model
 from tribo.simulation.motion import path_at
-from tribo.simulation.rates import Moment, effect_fields, law_states, wear_rates
+from tribo.simulation.rates import Moment, law_states, local_fields, wear_rates
 
 SAME = 1e-9
 """Relative difference that may be rounding; a tenth of what an implicit step settles to."""
@@ -38,7 +38,7 @@ def _twice(
 ) -> Iterator[tuple[Called, str | None, Array, Array]]:
     """Yield each component, the body it belongs to, and its two answers, effects first."""
     pressure = readonly(state.contact.pressure)
-    one, other = (effect_fields(model, pressure, moment) for _ in range(2))
+    one, other = (local_fields(model, pressure, moment) for _ in range(2))
     for effect in model.effects:
         for provided in effect.provides:
             for who in model.bodies:

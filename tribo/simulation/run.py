@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -31,6 +32,7 @@ from tribo.simulation.march import begin, march
 from tribo.simulation.measure import measure
 from tribo.simulation.model import Model
 from tribo.simulation.motion import path_at
+from tribo.simulation.rates import effect_fields
 from tribo.simulation.watching import Audience
 
 FAILED = "failed"
@@ -163,7 +165,7 @@ class Simulation:
                 "with --allow-changed"
             )
         # Another version of a component may have other keys.
-        if case != self.model.case.model_dump(mode="json") and not changes:
+        if case != self.model.data and not changes:
             raise CaseError(f"{path} is the result of another case; resume that one")
         state, wall_time = read_checkpoint(path, case)
         kept = tuple(text for text in state.notices if not text.startswith(FAILED))
@@ -205,10 +207,13 @@ class Simulation:
                 audience.start(info)
                 if not resumed:
                     _announce((), state.notices)
+                    snapshot = self._with_effects(snapshot)
                     audience.step(snapshot, save=True)
                 for accepted in march(self.model, state):
                     _announce(snapshot.state.notices, accepted.state.notices)
                     snapshot = self._snapshot(accepted.state)
+                    if accepted.save:
+                        snapshot = self._with_effects(snapshot)
                     audience.step(snapshot, save=accepted.save)
                     if guard.requested and not accepted.last:
                         raise KeyboardInterrupt
@@ -226,11 +231,18 @@ class Simulation:
                 + (f"; go on with: tribo resume {where}{option}" if where else "")
             ) from error
         finally:
+            if not snapshot.effects:
+                # An effect that fails must not cost what the run came to.
+                with suppress(TriboError):
+                    snapshot = self._with_effects(snapshot)
             audience.finish(snapshot, reason)
         return recorder.result()
 
     def _snapshot(self, state: State) -> Snapshot:
         return Snapshot(state, measure(self.model, state))
+
+    def _with_effects(self, snapshot: Snapshot) -> Snapshot:
+        return replace(snapshot, effects=effect_fields(self.model, snapshot.state))
 
     def _provenance(self) -> dict[str, object]:
         components = {}
@@ -255,8 +267,9 @@ class Simulation:
             ),
             end_time=model.end_time,
             end_distance=path_at(model.kinematics, model.end_time),
-            case=model.case.model_dump(mode="json"),
+            case=model.data,
             provenance=self._provenance(),
+            effect_fields=tuple(f for effect in model.effects for f in effect.provides),
             resumed_from=resumed_from,
             wall_time=wall_time,
         )

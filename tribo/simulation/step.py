@@ -345,6 +345,7 @@ def _accept(
         before,
         time=moment.time,
         distance=moment.distance,
+        speed=moment.speed,
         bodies=_yielded(model, bodies, solution.overlap),
         contact=solution,
         steps=before.steps + 1,

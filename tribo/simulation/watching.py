@@ -102,6 +102,7 @@ def _view(snapshot: Snapshot) -> Snapshot:
     return Snapshot(
         replace(state, bodies=bodies, rates=rates, contact=contact, previous=previous),
         replace(measures, bodies=dict(measures.bodies)),
+        {name: _views(of_bodies) for name, of_bodies in snapshot.effects.items()},
     )
 
 

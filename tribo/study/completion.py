@@ -22,7 +22,7 @@ def is_done(path: Path, simulation: Simulation) -> bool:
             result.check()
             return (
                 result.status == "done"
-                and result.case == simulation.model.case.model_dump(mode="json")
+                and result.case == simulation.model.data
                 and not simulation.changed_since(result)
             )
     except CaseError:

@@ -122,7 +122,7 @@ def _check_own(path: Path | None, simulation: Simulation) -> None:
     otherwise = "choose another folder with -o, or run all anew with --force"
     try:
         with Result.open(path) as result:
-            own = result.case == simulation.model.case.model_dump(mode="json")
+            own = result.case == simulation.model.data
     except CaseError as error:
         raise CaseError(f"{error}; {otherwise}") from error
     if not own:

@@ -11,6 +11,7 @@ from typing import Any
 from tribo.case import Case
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings, parse_value, path_keys
+from tribo.core.depth import check_depth
 from tribo.core.errors import CaseError
 from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.registry import Registry
@@ -194,6 +195,7 @@ def _values(path: str, text: str) -> tuple[Any, ...]:
         if bracketed:
             raise CaseError(f"{text!r} is no list in TOML: {error}", path) from None
         return tuple(parse_value(part.strip()) for part in text.split(","))
+    check_depth(read, path)
     values = tuple(read["values"])
     if not bracketed and len(values) == 1 and isinstance(values[0], str) and "," in values[0]:
         raise CaseError(

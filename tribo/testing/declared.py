@@ -5,18 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from tribo.core.dimensions import scale
-from tribo.core.fields import Field
+from tribo.core.fields import Field, name_fault
 from tribo.testing.subject import CheckFailed, require
 
 
 def expect_declared(where: str, fields: Iterable[Field]) -> None:
     """Fail unless each field has its own name, a unit that can be read and a description."""
-    seen: set[str] = set()
+    fields = tuple(fields)
     for field in fields:
         require(isinstance(field, Field), f"{where} holds {field!r}; a Field is needed")
-        require(field.name.isidentifier(), f"{where}: {field.name!r} is no good as a name")
-        require(field.name not in seen, f"{where} declares {field.name!r} twice")
-        seen.add(field.name)
+    fault = name_fault(fields)
+    require(not fault, f"{where}: {fault}")
+    for field in fields:
         require(field.description.strip(), f"{where}: {field.name!r} has no description")
         try:
             size, _ = scale(field.unit)

@@ -55,12 +55,13 @@ def test_an_unexpected_pass_fails():
     assert "although a failure is expected (no time)" in report.failures[0].message
 
 
-def test_what_is_not_declared_does_not_apply():
-    class Unknown(Hill):
-        @property
-        def curvature(self):
-            return None
+class Unknown(Hill):
+    @property
+    def curvature(self):
+        return None
 
+
+def test_what_is_not_declared_does_not_apply():
     report = check(Unknown, [{}])
     assert statuses(report)["curvature_is_that_of_the_heights"] == "not applicable"
     assert report.ok

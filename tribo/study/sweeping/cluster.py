@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-import os
 import warnings
 from collections.abc import Iterator
 from concurrent.futures import Executor
@@ -13,7 +12,7 @@ from threading import Thread
 from typing import Any
 
 from tribo.core.errors import CaseError, TriboWarning
-from tribo.study.sweeping.processes import be_quiet
+from tribo.study.sweeping.processes import be_quiet, cores
 
 PATIENCE = 15.0
 """How long a scheduler may take to answer, in s."""
@@ -59,7 +58,7 @@ def on_local_cluster(workers: int | None) -> Iterator[Executor]:
     distributed = _distributed()
     with (
         distributed.LocalCluster(
-            n_workers=workers or len(os.sched_getaffinity(0)),
+            n_workers=workers or cores(),
             threads_per_worker=1,
             dashboard_address=None,
         ) as cluster,

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import fcntl
 import os
+import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
-
-class BusyError(Exception):
-    """Another process holds the lock."""
+from tribo.core.errors import TriboWarning
+from tribo.core.locks import lock
 
 
 @contextmanager
@@ -22,22 +21,27 @@ def locked(path: Path) -> Iterator[None]:
     BusyError
         If another process, or thread, holds it.
     OSError
-        If the file cannot be made, or its file system knows no locks.
+        If the file cannot be made.
     """
     while True:
         handle = os.open(path, os.O_RDWR | os.O_CREAT, 0o644)
         try:
-            try:
-                fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except BlockingIOError:
-                raise BusyError from None
+            if not lock(handle):
+                warnings.warn(
+                    f"{path}: its file system has no locks, so nothing stops another sweep from "
+                    "doing the same runs; see that none does",
+                    TriboWarning,
+                    stacklevel=3,
+                )
             # Its last holder may have removed the file after it was opened here.
             if not _is_still(handle, path):
                 continue
             try:
                 yield
             finally:
-                path.unlink(missing_ok=True)
+                # Windows removes no file that is open; there one that is left over harms nobody.
+                with suppress(PermissionError):
+                    path.unlink(missing_ok=True)
             return
         finally:
             os.close(handle)

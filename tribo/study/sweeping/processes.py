@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 import signal
+import sys
 import threading
 import warnings
 from collections.abc import Callable, Iterator
@@ -16,6 +17,8 @@ from contextlib import contextmanager, suppress
 from multiprocessing import get_context, parent_process
 from multiprocessing.connection import wait
 from typing import ParamSpec, TypeVar
+
+import psutil
 
 from tribo.core.errors import TriboWarning
 
@@ -31,6 +34,13 @@ THREADS = (
     "NUMEXPR_NUM_THREADS",
 )
 _starting = threading.Lock()
+
+
+def cores() -> int:
+    """Return how many cores this process may use."""
+    if sys.platform == "linux":
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
 
 
 class Processes(ThreadPoolExecutor):
@@ -74,8 +84,8 @@ class Processes(ThreadPoolExecutor):
         """End the workers at once, in the middle of what they do."""
         self._killed = True
         for number in list(self._workers):
-            with suppress(ProcessLookupError):
-                os.kill(number, signal.SIGKILL)
+            with suppress(psutil.NoSuchProcess):
+                psutil.Process(number).kill()
         self.shutdown(cancel_futures=True)
 
     def _worker(self) -> int:

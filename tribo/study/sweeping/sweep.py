@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor
@@ -11,14 +10,15 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tribo.core.errors import CaseError, OutputError
+from tribo.core.locks import BusyError
 from tribo.results.checkpoint import fingerprint
 from tribo.results.provenance import origin
 from tribo.simulation.run import Simulation
 from tribo.study.completion import is_done
 from tribo.study.sweeping.carrying import carry
-from tribo.study.sweeping.locks import BusyError, locked
+from tribo.study.sweeping.locks import locked
 from tribo.study.sweeping.points import count, points
-from tribo.study.sweeping.processes import Processes
+from tribo.study.sweeping.processes import Processes, cores
 from tribo.study.sweeping.runs_table import Row, Run, outcome, runs_table, saves_table, write_csv
 from tribo.study.sweeping.study_file import load_study
 from tribo.study.sweeping.worker import Task, failure_path
@@ -200,7 +200,7 @@ def _complete(
     if executor is not None:
         carry(tasks, executor, stop=stop, patience=PATIENCE, tell=report)
     elif tasks:
-        processes = Processes(min(jobs or len(os.sched_getaffinity(0)), len(tasks)))
+        processes = Processes(min(jobs or cores(), len(tasks)))
         try:
             carry(tasks, processes, stop=stop, patience=None, tell=report)
         except BaseException:

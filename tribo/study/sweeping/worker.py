@@ -11,11 +11,12 @@ from pathlib import Path
 from typing import Any
 
 from tribo.core.errors import CaseError, Interrupted, TriboError
+from tribo.core.locks import BusyError
 from tribo.core.state import Snapshot
 from tribo.interfaces.observer import Observer
 from tribo.simulation.run import Simulation
 from tribo.study.completion import complete, is_done
-from tribo.study.sweeping.locks import BusyError, locked
+from tribo.study.sweeping.locks import locked
 
 GLANCE = 0.5
 """Time between two looks at whether to stop, in s."""

@@ -1,0 +1,8 @@
+"""Nothing needs the modules that Windows lacks."""
+
+from without_posix import run_in
+
+
+def test_a_case_a_resume_and_a_sweep_run_without_fcntl_and_resource(tmp_path):
+    ended = run_in(tmp_path)
+    assert (ended.stdout, ended.returncode) == ("run, resumed, swept\n", 0), ended.stderr

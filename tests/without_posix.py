@@ -1,0 +1,76 @@
+"""Run, resume and sweep where `fcntl` and `resource` cannot be imported, as on Windows.
+
+python tests/without_posix.py FOLDER
+"""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+# On Linux psutil itself needs `resource`. The workers of a sweep begin with this too.
+BLOCK = """
+import sys, psutil
+sys.modules["fcntl"] = sys.modules["resource"] = None
+"""
+STUDY = """
+case = "case.toml"
+[settings]
+grid.cells = 32
+grid.size = "1.3 mm"
+kinematics.duration = 20
+output.save_times = [10]
+[grid]
+load.normal = [50, 100]
+"""
+SCRIPT = """
+import sys
+from pathlib import Path
+from tribo import Interrupted, Simulation
+from tribo.interfaces.observer import Observer
+from tribo.study import sweep
+from tribo.study.sweeping.study_file import load_study
+from tribo.templates import template
+
+
+class StopAt(Observer):
+    def on_step(self, snapshot):
+        if snapshot.state.steps == 5:
+            raise KeyboardInterrupt
+
+
+if __name__ == "__main__":
+    assert sys.modules["fcntl"] is sys.modules["resource"] is None
+    Path("case.toml").write_text(template("ball_on_disk"), encoding="utf-8")
+    _, case = load_study("study.toml")
+    whole = Simulation(case).run("whole.h5")
+    try:
+        Simulation(case).run("stopped.h5", observers=[StopAt()])
+    except Interrupted:
+        resumed = Simulation(case).resume("stopped.h5")
+    assert resumed.pressure(-1).tobytes() == whole.pressure(-1).tobytes()
+    assert [row["status"] for row in sweep("study.toml", jobs=1).rows] == ["done", "done"]
+    print("run, resumed, swept")
+"""
+
+
+def run_in(folder):
+    """Return the ended process that did it all in an empty folder."""
+    for name, text in (("sitecustomize", BLOCK), ("runs", SCRIPT)):
+        (folder / f"{name}.py").write_text(text, encoding="utf-8")
+    (folder / "study.toml").write_text(STUDY, encoding="utf-8")
+    return subprocess.run(
+        [sys.executable, "runs.py"],
+        cwd=folder,
+        env={**os.environ, "PYTHONPATH": str(folder), "PYTHONWARNINGS": "ignore"},
+        capture_output=True,
+        text=True,
+        timeout=100,
+        check=False,
+    )
+
+
+if __name__ == "__main__":
+    ended = run_in(Path(sys.argv[1]).resolve())
+    print(ended.stdout, ended.stderr)
+    sys.exit(ended.returncode)
