@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
@@ -54,12 +55,12 @@ class Grid(Table):
     def _both_axes(cls, value: Any) -> Any:
         return (value, value) if isinstance(value, int | float | str) else value
 
-    @property
+    @cached_property
     def spacing(self) -> tuple[float, float]:
         """Edge lengths of a cell along x and y, in m."""
         return self.size[0] / self.cells[0], self.size[1] / self.cells[1]
 
-    @property
+    @cached_property
     def cell_area(self) -> float:
         """Area of a cell, in m²."""
         dx, dy = self.spacing

@@ -58,52 +58,52 @@ class Model:
         """
         return 0.0 if self.system.curvature is None else -between_cells(-self.gap)
 
-    @property
+    @cached_property
     def grid(self) -> Grid:
         """The window."""
         return self.case.grid
 
-    @property
+    @cached_property
     def load(self) -> float:
         """Normal load, in N."""
         return self.case.load.normal
 
-    @property
+    @cached_property
     def bodies(self) -> Mapping[str, Body]:
         """The bodies, by name."""
         return self.case.bodies
 
-    @property
+    @cached_property
     def contact(self) -> ContactSolver:
         """How the contact is solved."""
         return self.case.contact
 
-    @property
+    @cached_property
     def kinematics(self) -> Kinematics:
         """How the bodies move."""
         return self.case.kinematics
 
-    @property
+    @cached_property
     def stepping(self) -> Implicit | Explicit:
         """How the run moves on."""
         return self.case.stepping
 
-    @property
+    @cached_property
     def stop(self) -> Stop:
         """What ends the run early."""
         return self.case.stop
 
-    @property
+    @cached_property
     def friction_coefficient(self) -> float | None:
         """Coefficient of friction, if the case has one."""
         return None if self.case.friction is None else self.case.friction.coefficient
 
-    @property
+    @cached_property
     def may_reach_edge(self) -> bool:
         """Whether the contact may reach the edge of the window."""
         return self.grid.ends_at_window or self.contact.periodic
 
-    @property
+    @cached_property
     def end_time(self) -> float:
         """When the run ends if no depth stops it earlier, in s."""
         return motion.end_time(self.kinematics, self.stop.distance)
@@ -116,7 +116,7 @@ class Model:
                 component.model_dump(mode="json")
         return self.case.model_dump(mode="json")
 
-    @property
+    @cached_property
     def laws(self) -> list[WearLaw]:
         """The wear laws of the bodies that wear."""
         return [body.wear for body in self.bodies.values() if body.wear is not None]
