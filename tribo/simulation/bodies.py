@@ -35,7 +35,7 @@ def check_sliding(body: Body, height: Array, exposure: Exposure) -> None:
 
 
 def check_law(law: WearLaw[WearLawConfig], body: Body) -> None:
-    """Refuse a law that does not suit its body (`CaseError`) or declare its state (`PluginError`)."""
+    """Refuse a law that does not suit its body, or whose state is not as it declares it."""
     with calling(law, body.name):
         law.check(body.material)
         given = law.initial_state()
