@@ -38,6 +38,16 @@ def test_ten_half_widths_cost_three_percent_and_twenty_half_of_that_or_less():
     assert groove_excess(10e-3, 0.5e-3, 1.6e-6, 4.4e-6) < 0.015
 
 
+@pytest.mark.parametrize(
+    ("stroke", "deep", "found"),
+    [(2.25, 0.26, 17.2), (3.88, 0.2, 6.1), (5.75, 0.14, 2.4), (4.44, 0.6, 13)],
+)
+def test_a_ball_that_wears_ten_times_faster_makes_shallow_grooves_too_deep(stroke, deep, found):
+    # Strokes in half-widths and grooves in approaches, from `compared` in the benchmark.
+    stated = 100 * groove_excess(stroke, 1.0, deep, 1.0, volume_ratio=10.0)
+    assert stated == pytest.approx(found, abs=1.5)
+
+
 def test_a_shallow_groove_is_average_down_to_strokes_of_two_half_widths_only():
     assert groove_excess(3.0, 1.0, 1e-9, 1.0) < 0.01
     assert groove_excess(1.0, 1.0, 1e-9, 1.0) == pytest.approx(0.6, abs=0.1)
@@ -45,19 +55,19 @@ def test_a_shallow_groove_is_average_down_to_strokes_of_two_half_widths_only():
 
 
 def test_the_papers_end_is_said_with_a_number_and_a_remedy():
-    said = stroke().track_limitation(GRID, 0.5e-3, 8.05e-6, 4.4e-6)
+    said = stroke().track_limitation(GRID, 0.5e-3, 8.05e-6, 4.4e-6, 1.0)
     assert "4 half-widths" in said
     assert "18 % too deep" in said
     assert "about 3 % with a stroke of 9.7 half-widths, 4.9 mm" in said
 
 
 def test_a_stroke_of_a_fraction_of_the_contact_is_several_times_too_deep():
-    said = stroke("1 nm", allow_short_stroke=True).track_limitation(GRID, 0.15e-3, 0.0, 0.0)
+    said = stroke("1 nm", allow_short_stroke=True).track_limitation(GRID, 0.15e-3, 0.0, 0.0, 1.0)
     assert "several times too deep" in said
 
 
 def test_a_groove_far_shallower_than_the_approach_is_not_limited():
-    assert stroke().track_limitation(GRID, 0.5e-3, 0.3e-6, 4.4e-6) is None
+    assert stroke().track_limitation(GRID, 0.5e-3, 0.3e-6, 4.4e-6, 1.0) is None
     assert "% too deep" in stroke().limitation(GRID, 0.5e-3)
 
 

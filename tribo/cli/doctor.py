@@ -67,7 +67,7 @@ def _print(found: dict[str, Any]) -> None:
     for plugin in found["plugins"]:
         name = f"plugin {plugin['distribution']} {plugin['version']} ({plugin['entry_point']})"
         well = plugin["status"] in ("loaded", "disabled")
-        _line(well, name, f"{plugin['status']} {plugin['reason']}".rstrip())
+        _line(well, name, f"{plugin['status']}: {plugin['reason']}".rstrip(": "))
     for conflict in found["conflicts"]:
         _line(False, "name", conflict)
     for hint in found["hints"]:

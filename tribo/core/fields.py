@@ -30,7 +30,7 @@ class Field:
 
 
 def name_fault(fields: Iterable[Field]) -> str:
-    """Return why `fields` cannot be called what they are; empty if they can."""
+    """Return what is wrong with the names of `fields`; empty if they can."""
     seen: set[str] = set()
     for each in fields:
         if not (isinstance(each.name, str) and each.name.isidentifier()):

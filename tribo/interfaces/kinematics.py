@@ -78,7 +78,12 @@ class Kinematics(Component):
         return None
 
     def track_limitation(
-        self, grid: Grid, half_width_x: float, depth: float, approach: float
+        self,
+        grid: Grid,
+        half_width_x: float,
+        depth: float,
+        approach: float,
+        volume_ratio: float,
     ) -> str | None:
         """Return why the averaging does not hold for a track worn so deep; `limitation` if left.
 
@@ -92,6 +97,8 @@ class Kinematics(Component):
             Largest worn depth of a swept body, in m.
         approach : float
             Elastic approach of the first contact, in m.
+        volume_ratio : float
+            Volume lost by the bodies that stay over that lost by the swept ones.
         """
         return self.limitation(grid, half_width_x)
 

@@ -31,7 +31,8 @@ class Reciprocating(Kinematics):
 
     The track average is the paper's model, and makes a groove too deep at mid-stroke. One as deep
     as the elastic approach is 4 % too deep where S is 10 half-widths of the contact and 12 % where
-    it is 4; one several times deeper, twice as much (see `tribo.kinematics.averaging`).
+    it is 4; one several times deeper, twice as much, where both bodies wear alike (see
+    `tribo.kinematics.averaging`).
     """
 
     model_config = ConfigDict(
@@ -108,10 +109,15 @@ class Reciprocating(Kinematics):
         return excess_words(self.stroke, half_width_x, math.inf, 0.0)
 
     def track_limitation(
-        self, grid: Grid, half_width_x: float, depth: float, approach: float
+        self,
+        grid: Grid,
+        half_width_x: float,
+        depth: float,
+        approach: float,
+        volume_ratio: float,
     ) -> str | None:
         """Return what the stroke average costs, once that is more than 5 % of the depth."""
-        return excess_words(self.stroke, half_width_x, depth, approach)
+        return excess_words(self.stroke, half_width_x, depth, approach, volume_ratio)
 
     def check_contact(self, half_width_x: float) -> None:
         """Refuse a stroke that is shorter than the half-width, unless the case allows it."""

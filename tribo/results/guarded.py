@@ -137,7 +137,7 @@ class GuardedFile:
                 raise ValueError(f"its shape is {dataset.shape} instead of {needed}")
             values = np.asarray(dataset[index], np.float64 if finite else None)
             if finite and not (np.abs(values) < LARGEST).all():
-                raise ValueError("it is not finite, or beyond all measure")
+                raise ValueError("it is not finite, or above 1e100")
             return values
 
     def text(self, name: str) -> str:

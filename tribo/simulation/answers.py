@@ -15,7 +15,7 @@ from tribo.core.errors import PluginError
 
 
 class BadValues(PluginError):
-    """An answer of the right form with values that cannot be: not finite, or negative.
+    """An answer of the right form whose values are not finite, or negative.
 
     A state that a step only tries may be one that a model was not made for, and
     a shorter step then does; the same answer at an accepted state is a fault.

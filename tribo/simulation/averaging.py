@@ -26,10 +26,21 @@ def limitation(model: Model, state: State) -> str | None:
         half_width,
         max((float(np.max(state.bodies[name].wear)) for name in changing), default=0.0),
         state.reference_depth,
+        _volume_ratio(model, state),
     )
     # A contact all over the period that repeats has no ends.
     endless = model.contact.periodic and 2 * half_width > model.grid.size[0] * (1 - 1e-9)
     return words if changing and not endless else None
+
+
+def _volume_ratio(model: Model, state: State) -> float:
+    """Return the volume worn off the bodies that stay over that off those that are swept."""
+    lost = {True: 0.0, False: 0.0}
+    for name, body in state.bodies.items():
+        lost[model.is_swept(name)] += model.exposures[name].volume(body.wear)
+    if lost[True] == 0:
+        return 1.0 if lost[False] == 0 else np.inf
+    return lost[False] / lost[True]
 
 
 def _changing(model: Model) -> list[str]:

@@ -36,7 +36,7 @@ def check_sliding(body: str, surface: Surface, height: Array, exposure: Exposure
 
 
 def check_law(body: str, law: WearLaw, material: Material) -> None:
-    """Raise `CaseError` if a law does not suit its body, `PluginError` if its state is none."""
+    """Refuse a law that does not suit its body, or whose state is not as it declares it."""
     with calling(law, body):
         law.check(material)
         given = law.initial_state()

@@ -80,7 +80,9 @@ def cycle_speeds(motion: Motion) -> list[tuple[float, float]] | None:
         for speed, share in pairs
     ]
     if min((min(pair) for pair in speeds), default=-1.0) < 0:
-        raise PluginError(f"{who} gave speeds of a cycle with their shares that are none: {speeds}")
+        raise PluginError(
+            f"{who} gave no speeds of a cycle, or a negative speed or share: {speeds}"
+        )
     total = sum(share for _, share in speeds)
     if abs(total - 1) > WHOLE:
         raise PluginError(f"{who} gave shares of the path that add up to {total:g}, not to 1")
@@ -88,11 +90,16 @@ def cycle_speeds(motion: Motion) -> list[tuple[float, float]] | None:
 
 
 def averaging_limit(
-    motion: Motion, grid: Grid, half_width_x: float, depth: float, approach: float
+    motion: Motion,
+    grid: Grid,
+    half_width_x: float,
+    depth: float,
+    approach: float,
+    volume_ratio: float,
 ) -> str | None:
     """Return why the motion's averaging no longer holds, if so."""
     with calling(motion):
-        answer = motion.track_limitation(grid, half_width_x, depth, approach)
+        answer = motion.track_limitation(grid, half_width_x, depth, approach, volume_ratio)
     if not isinstance(answer, str | None):
         raise PluginError(f"{named(motion)} gave a {type(answer).__name__} as its limitation")
     return answer

@@ -9,7 +9,7 @@ from tribo.analysis.first_contact import HertzContact, hertz_contact
 from tribo.case import Output
 from tribo.config.stepping import Explicit, Implicit
 from tribo.config.usual import unusual
-from tribo.core.errors import CaseError, NumericalError
+from tribo.core.errors import CaseError, NumericalError, PluginError
 from tribo.core.grid import Grid
 from tribo.core.measures import Measures
 from tribo.core.state import State
@@ -80,13 +80,13 @@ class CoarseRun:
     """The end of a coarse run, and when its contact outgrew the case's window.
 
     `outgrown` is in s; None if it did not. `limitation` is what the motion says of its averaging at
-    the end. `failure` says why there is no end.
+    the end. `error` is why there is no end.
     """
 
     last: Measures | None
     outgrown: float | None = None
     limitation: str | None = None
-    failure: str | None = None
+    error: CaseError | NumericalError | None = None
 
 
 def predict(model: Model) -> Prediction:
@@ -119,6 +119,8 @@ def predict(model: Model) -> Prediction:
         (CaseError.exit_code, unstable if _stops_at_once(model) else None),
         (NumericalError.exit_code, _unsettled(model, state)),
         (NumericalError.exit_code, _outgrown(model, coarse) if holds is False else None),
+        # What a coarse grid alone cannot carry through, a finer one may.
+        (coarse.error.exit_code if isinstance(coarse.error, PluginError) else 0, _failed(coarse)),
     ]
     problems = [
         problem
@@ -134,8 +136,6 @@ def predict(model: Model) -> Prediction:
         )
         if problem is not None
     ]
-    if coarse.failure is not None and not problems:
-        problems.append(f"a trial run on a coarse grid failed: {coarse.failure}")
     facts = {}
     for place, component in model.case.components():
         with calling(component):
@@ -153,7 +153,7 @@ def predict(model: Model) -> Prediction:
         file_size=_file_size(model),
         facts={place: stated for place, stated in facts.items() if stated},
         problems=tuple(problems),
-        exit_code=next((code for code, text in stopping if text is not None), 0),
+        exit_code=next((code for code, text in stopping if text is not None and code), 0),
     )
 
 
@@ -161,15 +161,20 @@ def _file_size(model: Model) -> float:
     """Return the size of the result file without compression, in bytes."""
     nx, ny = model.grid.cells
     saves = len({0.0, model.end_time, *model.case.output.save_times})
-    # Per save: the pressure, and of each body its plastic depth, its wear and its state.
+    # Per save: the pressure, and of each body what effects compute for it, its plastic depth, its
+    # wear and its state.
     field = 8.0 * nx * ny
-    each = field
+    each = field * (1 + len(model.bodies) * sum(len(effect.provides) for effect in model.effects))
     for name, body in model.bodies.items():
         own = field / nx if model.is_swept(name) else field
         states = len(body.wear.state_fields) if body.wear is not None else 0
         each += field + (1 + states) * own
     heights = field * len(model.bodies)
     return BARE_FILE + heights + saves * each
+
+
+def _failed(coarse: CoarseRun) -> str | None:
+    return f"a trial run on a coarse grid failed: {coarse.error}" if coarse.error else None
 
 
 def _few_cells(across: tuple[float, float]) -> str | None:
@@ -268,7 +273,7 @@ def _coarsened(model: Model, margin: float) -> Model:
 def _coarse_run(model: Model) -> CoarseRun:
     if not model.contact.accepts_wear_compliance:
         return CoarseRun(None)
-    failure = None
+    failed: CaseError | NumericalError | None = None
     # A body or a period that ends at the window has no more to give in a wider one.
     for margin in (1.0,) if model.may_reach_edge else MARGINS:
         outgrown = None
@@ -280,7 +285,7 @@ def _coarse_run(model: Model) -> CoarseRun:
                 if outgrown is None and not _inside(model, measure(coarse, state)):
                     outgrown = state.time
         except (CaseError, NumericalError) as error:
-            failure = failure or str(error)
+            failed = failed or error
             continue
         return CoarseRun(measure(coarse, state), outgrown, limitation(coarse, state))
-    return CoarseRun(None, failure=failure)
+    return CoarseRun(None, error=failed)
