@@ -127,7 +127,7 @@ def test_a_wrong_value_is_told(changes, message):
         ),
         (
             {"path": "bodies.ball.wear.kk"},
-            "unknown key 'kk'; did you mean 'k'? Allowed: type, k, K, hardness",
+            "unknown key 'kk'; did you mean 'k'? Allowed: k, K, hardness",
         ),
         ({"path": "load.normal.x"}, "fit[0].path: load.normal is 100.0 in this case, no table"),
         ({"path": "bodies.ball.wear"}, "fit[0].path: bodies.ball.wear is a table in this case"),

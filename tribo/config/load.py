@@ -18,6 +18,8 @@ from tribo.core.depth import check_depth, too_deep
 from tribo.core.errors import CaseError
 from tribo.registry.registry import Registry, default_registry
 
+FEWEST = 4
+"""Cells along an axis of a case."""
 _LARGEST = 10_000_000
 _HDF5 = b"\x89HDF\r\n\x1a\n"
 _DEFAULT_TYPES = {"contact": "dcfft", "stepping": "implicit"}
@@ -68,9 +70,13 @@ def validate_case(data: Mapping[str, Any], *, registry: Registry | None = None) 
         # Before any name is looked up: what lacks is then told by the package to install.
         check_requirements(requires, known.plugins)
     try:
-        return Case.model_validate(data, context={"registry": known})
+        case = Case.model_validate(data, context={"registry": known})
     except ValidationError as error:
         raise case_error(error, Case, data, known) from None
+    fewest = min(case.grid.cells)
+    if fewest < FEWEST:
+        raise CaseError(f"{fewest}: must be at least {FEWEST}", "grid.cells")
+    return case
 
 
 def _is_requirement(text: object) -> bool:

@@ -13,7 +13,7 @@ from tribo.core.table import Table
 from tribo.core.units import Quantity
 
 Length = Annotated[float, Quantity("m", above=0, usual=(1e-9, 0.1))]
-Cells = Annotated[int, Field(ge=4, le=16384)]
+Cells = Annotated[int, Field(ge=1, le=16384)]
 
 
 def _or_one(schema: dict[str, Any]) -> None:
