@@ -168,7 +168,7 @@ def test_a_run_that_was_interrupted_goes_on(tmp_path):
             case(),
             grid(axes),
             tmp_path,
-            observers=lambda: [StopAt(Observer(type="stop_at"))],
+            observers=lambda: [StopAt()],
         )
     with compare(case(), grid(axes), tmp_path) as resumed, compare(case(), grid(axes)) as whole:
         for a, b in zip(resumed.results.values(), whole.results.values(), strict=True):
