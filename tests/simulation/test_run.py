@@ -288,6 +288,9 @@ def test_a_result_that_lost_rows_is_not_padded(tmp_path):
     with pytest.raises(Interrupted):
         Simulation(case()).run(path, observers=[Stopper(after=5)])
     with edited(path) as file:
+        file["history"].visititems(
+            lambda _, item: item.resize(2, axis=0) if isinstance(item, h5py.Dataset) else None
+        )
         file["history/time"].resize(2, axis=0)
     with pytest.warns(TriboWarning, match=r"ckpt counts rows that run\.h5 lacks: going on from"):
         resumed = Simulation(case()).resume(path)

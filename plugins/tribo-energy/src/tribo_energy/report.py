@@ -10,7 +10,7 @@ from tribo.plugin import Array, LabRow, Result
 
 def dissipated(result: Result) -> Array | None:
     """Return the energy dissipated by each step of the run, μ F s, in J; None without friction."""
-    friction = result.case["friction"]
+    friction = result.case.get("friction")
     if friction is None:
         return None
     energy: Array = (

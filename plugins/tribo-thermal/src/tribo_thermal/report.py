@@ -18,7 +18,8 @@ def temperatures(result: Result) -> dict[str, Array]:
     case has no `Flash`, or nothing slid.
     """
     case = result.case
-    asked = [effect for effect in case["effects"] if effect["type"] == "thermal.flash"]
+    effects = case.get("effects", ())
+    asked = [effect for effect in effects if effect["type"] == "thermal.flash"]
     if not asked or len(result.times) < 2:
         return {}
     flash = Flash.model_validate(asked[0])
