@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from edited import edited
 from paper_models import archard, flat, motion, named, small, sphere, steel
-from tribo.simulation.describe import describe
 
 from tribo import CaseError, Grid, Interrupted, Result, Simulation
 from tribo.core.errors import OutputError, TriboWarning
@@ -166,7 +165,7 @@ def test_a_checkpoint_that_cannot_be_is_not_gone_on_with(sound, tmp_path, change
     path.write_bytes(sound.read_bytes())
     with edited(path) as file:
         file.attrs["status"] = "interrupted"
-    case = describe(model())
+    case = model().data
     write_checkpoint(path, begin(model()), 0.0, case)
     assert read_checkpoint(path, case)[0].steps == 0
     with edited(checkpoint_path(path)) as file:

@@ -7,6 +7,7 @@ import subprocess
 import sys
 from copy import deepcopy
 from pathlib import Path
+from typing import ClassVar
 
 import pytest
 from edited import edited
@@ -25,14 +26,14 @@ from tribo.surfaces.sphere import Sphere
 class Stated(Sphere):
     """A sphere that states what it was read from."""
 
-    serial = "7"
+    serial: ClassVar[str] = "7"
 
     def facts(self):
         return {"serial number": self.serial}
 
 
 def stated():
-    return Stated(Sphere(radius="5 mm"))
+    return Stated(radius="5 mm")
 
 
 def model():
@@ -122,8 +123,11 @@ def test_a_run_does_not_go_on_with_another_file_behind_its_surface(tmp_path, mon
 
 @pytest.mark.parametrize("facts", [None, ["size"], {"size": 1.0}, {1: "m"}])
 def test_facts_that_are_not_text_are_an_error_that_names_the_component(facts):
-    wrong = stated()
-    wrong.facts = lambda: facts
+    class Wrong(Stated):
+        def facts(self):
+            return facts
+
+    wrong = Wrong(radius="5 mm")
     with pytest.raises(PluginError, match=r"'sphere' states .* as its facts"):
         stated_facts(wrong)
 

@@ -18,7 +18,7 @@ from tribo.core.depth import check_depth, too_deep
 from tribo.core.errors import CaseError
 from tribo.registry.registry import Registry, default_registry
 
-FEWEST = 4
+FEWEST, MOST = 4, 16384
 """Cells along an axis of a case."""
 _LARGEST = 10_000_000
 _HDF5 = b"\x89HDF\r\n\x1a\n"
@@ -73,9 +73,11 @@ def validate_case(data: Mapping[str, Any], *, registry: Registry | None = None) 
         case = Case.model_validate(data, context={"registry": known})
     except ValidationError as error:
         raise case_error(error, Case, data, known) from None
-    fewest = min(case.grid.cells)
+    fewest, most = min(case.grid.cells), max(case.grid.cells)
     if fewest < FEWEST:
         raise CaseError(f"{fewest}: must be at least {FEWEST}", "grid.cells")
+    if most > MOST:
+        raise CaseError(f"{most}: must be at most {MOST}", "grid.cells")
     return case
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
@@ -13,7 +12,7 @@ from tribo.core.table import Table
 from tribo.core.units import Quantity
 
 Length = Annotated[float, Quantity("m", above=0, usual=(1e-9, 0.1))]
-Cells = Annotated[int, Field(ge=1, le=16384)]
+Cells = Annotated[int, Field(ge=1)]
 
 
 def _or_one(schema: dict[str, Any]) -> None:
@@ -55,12 +54,12 @@ class Grid(Table):
     def _both_axes(cls, value: Any) -> Any:
         return (value, value) if isinstance(value, int | float | str) else value
 
-    @cached_property
+    @property
     def spacing(self) -> tuple[float, float]:
         """Edge lengths of a cell along x and y, in m."""
         return self.size[0] / self.cells[0], self.size[1] / self.cells[1]
 
-    @cached_property
+    @property
     def cell_area(self) -> float:
         """Area of a cell, in m²."""
         dx, dy = self.spacing

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from tribo.case import Output
 from tribo.config.stepping import Explicit, Implicit
 from tribo.core.errors import CaseError, NumericalError
+from tribo.core.grid import Grid
 from tribo.core.measures import Measures
 from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.march import begin, march
@@ -163,7 +164,7 @@ def _run(model: Model, cells: tuple[int, int], config: Implicit | Explicit) -> L
     level = assemble(
         varied(
             model.case,
-            grid=model.grid.model_copy(update={"cells": cells}),
+            grid=Grid(model.grid.size, cells, model.grid.ends_at_window),
             stepping=config,
             output=Output(),
         )

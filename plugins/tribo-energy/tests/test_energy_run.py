@@ -20,10 +20,18 @@ ALPHA, MU, LOAD = 3.11e-15, 0.1, 100.0
 class Last(Observer):
     type = "test.last"
 
-    state = None
+    _seen: object = None
 
     def on_step(self, snapshot):
-        self.state, self.measures = snapshot.state, snapshot.measures
+        self._seen = snapshot
+
+    @property
+    def state(self):
+        return self._seen.state
+
+    @property
+    def measures(self):
+        return self._seen.measures
 
 
 def case(duration=200, **wear):

@@ -23,7 +23,7 @@ def coefficient(law, temperature, material=STEEL):
 
 
 def arrhenius(energy="50 kJ/mol"):
-    return Arrhenius(Arrhenius(k=3e-16, activation_energy=energy, reference_temperature="90 degC"))
+    return Arrhenius(k=3e-16, activation_energy=energy, reference_temperature="90 degC")
 
 
 def softening(**config):

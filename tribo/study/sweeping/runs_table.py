@@ -16,6 +16,7 @@ from tribo.case import Case
 from tribo.config.overrides import path_keys
 from tribo.core.errors import CaseError, OutputError
 from tribo.core.units import Quantity
+from tribo.interfaces.component import Component
 from tribo.results.columns import labelled
 from tribo.results.read import Result
 from tribo.study.sweeping.worker import failure_path
@@ -161,7 +162,9 @@ def _leaves(
     """Yield name, value and unit of all that lies at `keys` in a table; nothing if none does."""
     inside: Mapping[Any, Any] | None = None
     if isinstance(value, BaseModel):
-        inside = {key: getattr(value, key) for key in type(value).model_fields}
+        inside = dict(value)
+        if isinstance(value, Component):
+            inside = {"type": value.type, **inside}
     elif isinstance(value, Mapping):
         inside = value
     elif isinstance(value, list | tuple):
@@ -173,7 +176,7 @@ def _leaves(
     for key, item in inside.items():
         if keys and key != keys[0]:
             continue
-        under = type(value).model_fields[key] if isinstance(value, BaseModel) else field
+        under = type(value).model_fields.get(key) if isinstance(value, BaseModel) else field
         yield from _leaves(f"{name}.{key}" if name else key, item, under, keys[1:])
 
 
