@@ -151,7 +151,7 @@ def test_a_requirement_that_does_not_hold_is_told_by_the_doctor_and_where_it_is_
     assert told in named.stderr
     seen = command(tmp_path, "doctor")
     assert seen.returncode == 3
-    assert "incompatible it requires tribo<0.0.1" in seen.stdout
+    assert "incompatible: it requires tribo<0.0.1" in seen.stdout
 
 
 MEDDLING = """
