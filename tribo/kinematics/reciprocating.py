@@ -25,7 +25,7 @@ class Reciprocating(Kinematics):
     """Stroke S at frequency f: mean speed 2 S f, one body swept over the stroke.
 
     With ``waveform = "sinusoidal"`` the position is −(S/2) cos(2πft) and the
-    speed πSf |sin(2πft)|. The track average is over positions, so the waveform
+    speed ``πSf |sin(2πft)|``. The track average is over positions, so the waveform
     changes only the path at times inside a half cycle, and the speeds at which
     effects and wear laws are asked.
 
