@@ -79,6 +79,6 @@ def test_an_unknown_swept_body_is_refused():
 
 
 def test_a_disk_track_is_a_circumference():
-    motion = Unidirectional(Unidirectional(speed="0.1 m/s", track_radius="16 mm", revolutions=10))
+    motion = Unidirectional(speed="0.1 m/s", track_radius="16 mm", revolutions=10)
     assert motion.lap == pytest.approx(2 * math.pi * 16e-3)
     assert motion.distance_at(motion.end_time) == pytest.approx(10 * motion.lap)
