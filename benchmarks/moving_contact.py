@@ -15,15 +15,15 @@ import numpy as np
 from common import Row, Tables, main
 from scipy.optimize import brentq
 
-from tribo.analysis.scar import crown
+from tribo.closed_forms.ball_on_track import ball_on_track
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
 from tribo.core.grid import Grid
 from tribo.core.measures import centre, half_widths
-from tribo.kinematics.averaging import groove_excess
+from tribo.lab.scar import crown
+from tribo.motion.averaging import groove_excess
 from tribo.simulation.march import march
 from tribo.simulation.step import first_contact
-from tribo.testing.reference.ball_on_track import ball_on_track
 from tribo.verification.moving import to_and_fro
 from tribo.verification.problems import LOAD, RADIUS, WEAR_COEFFICIENT, ball, half_space, on_flat
 

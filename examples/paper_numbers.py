@@ -11,9 +11,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from tribo.analysis import conversion
-from tribo.analysis.ball import ball_cap_depth, cap_diameter
-from tribo.testing.reference.ball_on_track import BallOnTrack, ball_on_track
+from tribo.closed_forms.ball_on_track import BallOnTrack, ball_on_track
+from tribo.lab import conversion
+from tribo.lab.ball import ball_cap_depth, cap_diameter
 
 LOAD = 100.0  # N
 RADIUS = 5e-3  # m, of the ball

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from tribo import TriboWarning
-from tribo.analysis.first_contact import hertz_contact
+from tribo.lab.first_contact import hertz_contact
 from tribo.study import Comparison, compare
 
 CASE = Path(__file__).with_name("ball_on_disk.toml")

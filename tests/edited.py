@@ -4,7 +4,7 @@ from contextlib import closing, contextmanager
 
 import h5py
 
-from tribo.results.sealed_writer import SealedWriter
+from tribo.result.sealed_writer import SealedWriter
 
 
 @contextmanager

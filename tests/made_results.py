@@ -6,10 +6,10 @@ from tribo.core.contact import ContactSolution, ContactSystem, Residuals
 from tribo.core.grid import Grid
 from tribo.core.measures import BodyMeasures, Measures, centre, contact_area, half_widths
 from tribo.core.state import BodyInfo, BodyState, RunInfo, Snapshot, State
-from tribo.results.guarded import GuardedFile
-from tribo.results.provenance import provenance
-from tribo.results.read import Result
-from tribo.results.store import ResultWriter
+from tribo.result.guarded import GuardedFile
+from tribo.result.provenance import provenance
+from tribo.result.read import Result
+from tribo.result.store import ResultWriter
 
 GRID = Grid((2e-3, 1.6e-3), (50, 40))
 RADIUS = 5e-3

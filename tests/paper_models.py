@@ -6,7 +6,7 @@ from tribo.contact.dcfft import DcFft
 from tribo.contact.winkler import Winkler
 from tribo.core.grid import Grid
 from tribo.core.material import Material
-from tribo.kinematics.reciprocating import Reciprocating
+from tribo.motion.reciprocating import Reciprocating
 from tribo.simulation.assembly import assemble
 from tribo.simulation.march import begin, march
 from tribo.surfaces.flat import Flat

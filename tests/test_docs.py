@@ -8,7 +8,7 @@ import pytest
 import tribo
 import tribo.plugin
 import tribo.units
-from tribo.interfaces.component import Component
+from tribo.component import Component
 from tribo.registry import hookspecs
 from tribo.registry.registry import Registry
 

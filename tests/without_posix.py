@@ -27,7 +27,7 @@ SCRIPT = """
 import sys
 from pathlib import Path
 from tribo import Interrupted, Simulation
-from tribo.interfaces.observer import Observer
+from tribo.observers.observer import Observer
 from tribo.study import sweep
 from tribo.study.sweeping.study_file import load_study
 from tribo.templates import template

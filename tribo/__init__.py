@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from tribo.config.stop import Stop as Stop
     from tribo.contact.dcfft import DcFft as DcFft
     from tribo.contact.periodic import Periodic as Periodic
+    from tribo.contact.solver import ContactSolver as ContactSolver
     from tribo.contact.winkler import Winkler as Winkler
     from tribo.core.errors import CaseError as CaseError
     from tribo.core.errors import Interrupted as Interrupted
@@ -31,22 +32,20 @@ if TYPE_CHECKING:
     from tribo.core.grid import Grid as Grid
     from tribo.core.material import Material as Material
     from tribo.core.units import Quantity as Quantity
-    from tribo.interfaces.contact import ContactSolver as ContactSolver
-    from tribo.interfaces.effect import Effect as Effect
-    from tribo.interfaces.kinematics import Kinematics as Kinematics
-    from tribo.interfaces.observer import Observer as Observer
-    from tribo.interfaces.surface import Surface as Surface
-    from tribo.interfaces.wear import WearLaw as WearLaw
-    from tribo.kinematics.reciprocating import Reciprocating as Reciprocating
-    from tribo.kinematics.unidirectional import Unidirectional as Unidirectional
+    from tribo.effects.effect import Effect as Effect
+    from tribo.motion.kinematics import Kinematics as Kinematics
+    from tribo.motion.reciprocating import Reciprocating as Reciprocating
+    from tribo.motion.unidirectional import Unidirectional as Unidirectional
+    from tribo.observers.observer import Observer as Observer
     from tribo.registry.hookspecs import hookimpl as hookimpl
     from tribo.registry.registry import Registry as Registry
-    from tribo.results.read import Result as Result
+    from tribo.result.read import Result as Result
     from tribo.simulation.run import Simulation as Simulation
     from tribo.surfaces.cylinder import Cylinder as Cylinder
     from tribo.surfaces.flat import Flat as Flat
     from tribo.surfaces.paraboloid import Paraboloid as Paraboloid
     from tribo.surfaces.sphere import Sphere as Sphere
+    from tribo.surfaces.surface import Surface as Surface
     from tribo.units import GPa as GPa
     from tribo.units import Hz as Hz
     from tribo.units import MPa as MPa
@@ -66,6 +65,7 @@ if TYPE_CHECKING:
     from tribo.units import nm as nm
     from tribo.units import um as um
     from tribo.wear.archard import Archard as Archard
+    from tribo.wear.law import WearLaw as WearLaw
     from tribo.wear.power import Power as Power
 
 _HOME = {
@@ -73,10 +73,10 @@ _HOME = {
     "Body": "tribo.case",
     "Case": "tribo.case",
     "CaseError": "tribo.core.errors",
-    "ContactSolver": "tribo.interfaces.contact",
+    "ContactSolver": "tribo.contact.solver",
     "Cylinder": "tribo.surfaces.cylinder",
     "DcFft": "tribo.contact.dcfft",
-    "Effect": "tribo.interfaces.effect",
+    "Effect": "tribo.effects.effect",
     "Explicit": "tribo.config.stepping",
     "Field": "tribo.core.fields",
     "Flat": "tribo.surfaces.flat",
@@ -84,27 +84,27 @@ _HOME = {
     "Grid": "tribo.core.grid",
     "Implicit": "tribo.config.stepping",
     "Interrupted": "tribo.core.errors",
-    "Kinematics": "tribo.interfaces.kinematics",
+    "Kinematics": "tribo.motion.kinematics",
     "Load": "tribo.case",
     "Material": "tribo.core.material",
     "NumericalError": "tribo.core.errors",
-    "Observer": "tribo.interfaces.observer",
+    "Observer": "tribo.observers.observer",
     "Output": "tribo.case",
     "Paraboloid": "tribo.surfaces.paraboloid",
     "Periodic": "tribo.contact.periodic",
     "Power": "tribo.wear.power",
     "Quantity": "tribo.core.units",
-    "Reciprocating": "tribo.kinematics.reciprocating",
+    "Reciprocating": "tribo.motion.reciprocating",
     "Registry": "tribo.registry.registry",
-    "Result": "tribo.results.read",
+    "Result": "tribo.result.read",
     "Simulation": "tribo.simulation.run",
     "Sphere": "tribo.surfaces.sphere",
     "Stop": "tribo.config.stop",
-    "Surface": "tribo.interfaces.surface",
+    "Surface": "tribo.surfaces.surface",
     "TriboError": "tribo.core.errors",
     "TriboWarning": "tribo.core.errors",
-    "Unidirectional": "tribo.kinematics.unidirectional",
-    "WearLaw": "tribo.interfaces.wear",
+    "Unidirectional": "tribo.motion.unidirectional",
+    "WearLaw": "tribo.wear.law",
     "WearRate": "tribo.core.fields",
     "Winkler": "tribo.contact.winkler",
     "hookimpl": "tribo.registry.hookspecs",

@@ -9,24 +9,24 @@ from typing import TYPE_CHECKING, Annotated, Any
 from packaging.requirements import InvalidRequirement, Requirement
 from pydantic import field_validator
 
+from tribo.component import Component
 from tribo.config.slot import Slot
 from tribo.config.stepping import Explicit, Implicit, Stepping
 from tribo.config.stop import Stop
 from tribo.contact.dcfft import DcFft
+from tribo.contact.solver import ContactSolver
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.core.table import Table
 from tribo.core.units import Quantity
-from tribo.interfaces.component import Component
-from tribo.interfaces.contact import ContactSolver
-from tribo.interfaces.effect import Effect
-from tribo.interfaces.kinematics import Kinematics
-from tribo.interfaces.observer import Observer
-from tribo.interfaces.surface import Surface
-from tribo.interfaces.wear import WearLaw
+from tribo.effects.effect import Effect
+from tribo.motion.kinematics import Kinematics
+from tribo.observers.observer import Observer
+from tribo.surfaces.surface import Surface
+from tribo.wear.law import WearLaw
 
 if TYPE_CHECKING:
-    from tribo.results.read import Result
+    from tribo.result.read import Result
 
 
 class Load(Table):

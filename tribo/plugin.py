@@ -7,10 +7,12 @@ A plugin is a module with hooks that return its classes::
 and entry points that declare their names (see the page *Write a plugin*).
 """
 
+from tribo.component import Component
 from tribo.contact.bounded import solve_bounded
 from tribo.contact.conditions import residuals
 from tribo.contact.love import nyquist_compliance
 from tribo.contact.operator import HalfSpace, Operator
+from tribo.contact.solver import ContactSolver
 from tribo.core.arrays import Array
 from tribo.core.contact import (
     ContactProblem,
@@ -27,17 +29,15 @@ from tribo.core.measures import BodyMeasures, Measures
 from tribo.core.state import BodyInfo, BodyState, RunInfo, Snapshot, State
 from tribo.core.table import Table
 from tribo.core.units import Quantity
-from tribo.interfaces.component import Component
-from tribo.interfaces.contact import ContactSolver
-from tribo.interfaces.effect import Effect
-from tribo.interfaces.exposure import Exposure, Stationary, Track
-from tribo.interfaces.kinematics import Kinematics
-from tribo.interfaces.observer import Observer
-from tribo.interfaces.surface import Surface
-from tribo.interfaces.wear import WearLaw
+from tribo.effects.effect import Effect
+from tribo.motion.exposure import Exposure, Stationary, Track
+from tribo.motion.kinematics import Kinematics
+from tribo.observers.observer import Observer
 from tribo.registry.contributions import CaseTemplate, ExportFormat, LabRow
 from tribo.registry.hookspecs import hookimpl
-from tribo.results.read import Result
+from tribo.result.read import Result
+from tribo.surfaces.surface import Surface
+from tribo.wear.law import WearLaw
 
 __all__ = [
     "Array",

@@ -21,16 +21,16 @@ import tribo.plugin
 from tribo.case import Body, Case
 from tribo.cli.main import COMMANDS
 from tribo.cli.main import tribo as command_line
+from tribo.component import Component
 from tribo.config.slot import Slot
 from tribo.config.stepping import Explicit, Implicit
 from tribo.core.dimensions import _PREFIXES, _SYMBOLS, _UNPREFIXED
 from tribo.core.errors import TriboError
 from tribo.core.units import _KINDS, Quantity
-from tribo.interfaces.component import Component
 from tribo.registry import hookspecs
 from tribo.registry.kinds import KINDS
 from tribo.registry.registry import Registry
-from tribo.results.columns import BODY_COLUMNS, COLUMNS
+from tribo.result.columns import BODY_COLUMNS, COLUMNS
 
 
 def write(folder: Path) -> None:

@@ -9,7 +9,7 @@ from made_results import made
 
 from tribo.cli.main import tribo
 from tribo.core.errors import CaseError
-from tribo.results.seal import write_sealed
+from tribo.result.seal import write_sealed
 from tribo.templates import template
 
 QUICK = ["--set", "grid.cells=24", "--set", "grid.size=0.7 mm", "--set", "kinematics.duration=60"]

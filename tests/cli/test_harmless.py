@@ -11,9 +11,9 @@ from rich.console import Console as RichConsole
 from tribo.cli.console import Console
 from tribo.cli.harmless import harmless
 from tribo.cli.main import main
-from tribo.results.provenance import provenance
-from tribo.results.seal import write_sealed
-from tribo.results.store import write_text
+from tribo.result.provenance import provenance
+from tribo.result.seal import write_sealed
+from tribo.result.store import write_text
 from tribo.templates import template
 
 EVIL = "\x1b]0;pwned\x07\x1b[2J\x9b31m\r\x08[/x]"

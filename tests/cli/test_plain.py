@@ -7,7 +7,7 @@ import sys
 import pytest
 from made_results import made
 
-from tribo.results.seal import write_sealed
+from tribo.result.seal import write_sealed
 
 
 @pytest.fixture(scope="module")

@@ -9,7 +9,7 @@ import pytest
 from paper_models import case, motion
 
 from tribo import Grid, Simulation
-from tribo.interfaces.observer import Observer
+from tribo.observers.observer import Observer
 from tribo.observers.progress import Progress
 
 

@@ -9,7 +9,7 @@ from rich.console import Console
 
 from tribo import Grid, Simulation
 from tribo.cli.report import print_report
-from tribo.kinematics.reciprocating import Reciprocating
+from tribo.motion.reciprocating import Reciprocating
 
 
 def printed(result, width=80):

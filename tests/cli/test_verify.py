@@ -39,7 +39,7 @@ def test_the_table_has_every_column_and_a_verdict():
     assert done.exit_code == 0, done.output
     for word in ("quantity", "expected", "got", "error", "order", "verdict"):
         assert word in done.stdout
-    assert "tribo.testing.reference.sinusoid" in done.stdout
+    assert "tribo.closed_forms.sinusoid" in done.stdout
     assert "0.99 (1)" in done.stdout
     assert "4 hold, 0 fail, 0 need" in done.stdout
     assert max(map(len, done.stdout.splitlines())) <= 80

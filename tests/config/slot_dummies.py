@@ -13,12 +13,12 @@ from tribo.core.fields import LocalConditions, WearRate
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.core.units import Quantity
-from tribo.interfaces.observer import Observer
-from tribo.interfaces.surface import Surface
-from tribo.interfaces.wear import WearLaw
+from tribo.observers.observer import Observer
 from tribo.registry.hookspecs import hookimpl
 from tribo.registry.plugins import given
 from tribo.registry.registry import Registry
+from tribo.surfaces.surface import Surface
+from tribo.wear.law import WearLaw
 
 
 class Linear(WearLaw):

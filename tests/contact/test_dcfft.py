@@ -11,9 +11,9 @@ from pydantic import ValidationError
 
 from tribo.contact import dcfft
 from tribo.contact.bounded import solve_bounded
-from tribo.contact.box import around
 from tribo.contact.dcfft import DcFft
 from tribo.contact.operator import HalfSpace
+from tribo.core.box import around
 from tribo.core.contact import ContactProblem, ContactSolution, WearCompliance
 from tribo.core.grid import Grid
 

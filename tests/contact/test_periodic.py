@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 from contact_problems import MODULUS, ball, problem
 
-from tribo.contact import hertz
+from tribo.closed_forms import hertz, sinusoid
 from tribo.contact.periodic import Periodic, PeriodicHalfSpace
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
 from tribo.core.grid import Grid
-from tribo.testing.reference import sinusoid
 
 WAVELENGTH, AMPLITUDE = 1e-4, 1e-6
 

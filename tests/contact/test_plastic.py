@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from contact_problems import HARDNESS, MODULUS, ONSET, RADIUS, ball, solver
 
-from tribo.contact import hertz
+from tribo.closed_forms import hertz
 from tribo.core.contact import ContactProblem, ContactSolution
 from tribo.core.errors import CaseError
 

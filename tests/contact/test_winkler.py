@@ -9,7 +9,7 @@ import pytest
 from contact_problems import HARDNESS, MODULUS, RADIUS, ball, problem
 from pydantic import ValidationError
 
-from tribo.contact import hertz
+from tribo.closed_forms import hertz
 from tribo.contact.winkler import Layer, Winkler
 from tribo.core.contact import ContactProblem, ContactSystem, WearCompliance
 from tribo.core.errors import CaseError

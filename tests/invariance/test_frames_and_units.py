@@ -18,8 +18,8 @@ from tribo.contact.winkler import Winkler
 from tribo.core.contact import ContactProblem
 from tribo.core.grid import Grid
 from tribo.core.material import Material
-from tribo.interfaces.surface import Surface
 from tribo.simulation.march import begin, march
+from tribo.surfaces.surface import Surface
 from tribo.wear.archard import Archard
 
 # The solver stops at a residual of 1e-10, far below what is held against the answers.

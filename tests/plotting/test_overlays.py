@@ -7,7 +7,7 @@ from made_results import GRID, made
 from tribo.core.errors import CaseError
 from tribo.plotting.difference import difference_map
 from tribo.plotting.overlays import pressure_overlay, profile_overlay, save_overlays
-from tribo.results.export import profile
+from tribo.result.export import profile
 
 
 @pytest.fixture(scope="module")

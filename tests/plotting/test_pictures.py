@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from made_results import GRID, TIMES, half_width, made
 
-from tribo.analysis.first_contact import hertz_contact
 from tribo.core.errors import CaseError
+from tribo.lab.first_contact import hertz_contact
 from tribo.plotting import (
     body_profiles,
     contact_history,
@@ -15,7 +15,7 @@ from tribo.plotting import (
     wear_history,
     worn_section,
 )
-from tribo.results.export import profile
+from tribo.result.export import profile
 
 DRAWINGS = {
     "pressure_map": pressure_map,

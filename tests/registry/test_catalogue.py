@@ -11,7 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from tribo.core.errors import CaseError
 from tribo.core.units import Quantity
-from tribo.interfaces.observer import Observer
+from tribo.observers.observer import Observer
 from tribo.registry.catalogue import catalogue, describe, find
 from tribo.registry.plugins import given
 from tribo.registry.registry import Registry

@@ -13,12 +13,12 @@ import pytest
 from fake_distributions import distribute, observer, plugins
 
 from tribo.core.errors import CaseError
-from tribo.interfaces.observer import Observer
-from tribo.interfaces.surface import Surface
+from tribo.observers.observer import Observer
 from tribo.registry.hookspecs import hookimpl
 from tribo.registry.plugins import builtin
 from tribo.registry.registry import Registry, default_registry
 from tribo.registry.selection import selected
+from tribo.surfaces.surface import Surface
 
 
 class Quiet(Observer):

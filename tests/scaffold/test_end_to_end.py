@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 from scaffold.plugins_of_each_kind import NAMES
 
-from tribo.results.read import Result
+from tribo.result.read import Result
 from tribo.scaffold import PluginName, write_plugin
 
 # Whatever else is installed where the tests run takes no part.

@@ -7,10 +7,10 @@ import pytest
 from paper_models import K, archard, case, flat, motion, named, small, steel
 
 from tribo import Simulation
+from tribo.closed_forms.sinusoid import compliance, worn_amplitude
 from tribo.config.stepping import Implicit
 from tribo.contact.periodic import Periodic
 from tribo.core.grid import Grid
-from tribo.interfaces.surface import Surface
 from tribo.simulation.rates import Moment
 from tribo.simulation.step import (
     explicit_step,
@@ -18,7 +18,7 @@ from tribo.simulation.step import (
     implicit_step,
     largest_stable_increment,
 )
-from tribo.testing.reference.sinusoid import compliance, worn_amplitude
+from tribo.surfaces.surface import Surface
 
 WAVELENGTH = 1e-4
 GRID = Grid((4e-4, 4e-4), (32, 32))

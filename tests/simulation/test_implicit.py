@@ -19,9 +19,9 @@ from paper_models import (
 from tribo.config.stepping import Implicit
 from tribo.core.contact import ContactProblem
 from tribo.core.fields import ContactConditions, Field, WearRate
-from tribo.interfaces.effect import Effect
-from tribo.interfaces.wear import WearLaw
+from tribo.effects.effect import Effect
 from tribo.simulation.step import first_contact, geometry, implicit_step
+from tribo.wear.law import WearLaw
 from tribo.wear.power import Power
 
 

@@ -27,8 +27,8 @@ from tribo.contact.dcfft import DcFft
 from tribo.contact.periodic import Periodic
 from tribo.core.errors import NumericalError, TriboWarning
 from tribo.core.grid import Grid
-from tribo.interfaces.surface import Surface
 from tribo.simulation.invariants import CHATTERING, VOLUME, handed_back
+from tribo.surfaces.surface import Surface
 
 
 class Rough(Surface):

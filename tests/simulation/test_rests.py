@@ -6,7 +6,7 @@ from paper_models import motion, small
 
 from tribo import Simulation
 from tribo.config.stepping import Explicit, Implicit
-from tribo.kinematics.unidirectional import Unidirectional
+from tribo.motion.unidirectional import Unidirectional
 
 
 class Pauses(Unidirectional):

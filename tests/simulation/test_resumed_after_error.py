@@ -8,7 +8,7 @@ from paper_models import motion, small
 
 from tribo import Grid, Result, Simulation, TriboError
 from tribo.config.stop import Stop
-from tribo.results.store import ResultWriter
+from tribo.result.store import ResultWriter
 
 
 def model(**changes):

@@ -12,13 +12,13 @@ from edited import edited
 from paper_models import K, archard, case, flat, motion, named, small, sphere, states, steel
 
 from tribo import CaseError, Grid, Interrupted, NumericalError, Result, Simulation
+from tribo.component import Component
 from tribo.config.stepping import Explicit, Implicit
 from tribo.config.stop import Stop
 from tribo.contact.periodic import Periodic
 from tribo.core.errors import OutputError, TriboWarning
-from tribo.interfaces.component import Component
-from tribo.interfaces.observer import Observer
 from tribo.observers import recorder
+from tribo.observers.observer import Observer
 
 
 class Stopper(Observer):

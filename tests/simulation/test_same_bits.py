@@ -29,7 +29,7 @@ STOPPED = """
 import sys, warnings
 from tribo import Simulation
 from tribo.config.load import load_case
-from tribo.interfaces.observer import Observer
+from tribo.observers.observer import Observer
 warnings.simplefilter("ignore")
 class Stop(Observer):
     type = "stop"

@@ -9,7 +9,7 @@ from paper_models import K, flat, foundation, motion, named, small, sphere, stee
 from tribo import Grid, Simulation
 from tribo.config.stepping import Explicit
 from tribo.core.errors import PluginError
-from tribo.kinematics.reciprocating import Reciprocating
+from tribo.motion.reciprocating import Reciprocating
 from tribo.plugin import Effect, Field, WearLaw, WearRate
 
 SINE = {"waveform": "sinusoidal"}

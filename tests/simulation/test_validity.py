@@ -6,7 +6,7 @@ import pytest
 from paper_models import archard, flat, named, small, steel
 
 from tribo import Grid, Simulation, TriboWarning
-from tribo.kinematics.unidirectional import Unidirectional
+from tribo.motion.unidirectional import Unidirectional
 from tribo.simulation.predict import predict
 from tribo.surfaces.sphere import Sphere
 

@@ -9,7 +9,7 @@ from tribo import Grid
 from tribo.config.stepping import Implicit
 from tribo.contact.winkler import Winkler
 from tribo.core.material import Material
-from tribo.kinematics.unidirectional import Unidirectional
+from tribo.motion.unidirectional import Unidirectional
 from tribo.simulation.step import first_contact, implicit_step
 from tribo.surfaces.flat import Flat
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy.stats import binom, norm
 
+from tribo.closed_forms.ball_on_track import ball_on_track
 from tribo.core.errors import CaseError, NumericalError
 from tribo.study.calibration.fit import Problem, fit, interval
-from tribo.testing.reference.ball_on_track import ball_on_track
 
 TRUE = np.array([7.08e-15, 7.08e-16])
 NAMES = ("ball", "disk")

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scipy.stats import binom
 
+from tribo.closed_forms.ball_on_track import ball_on_track
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError, NumericalError, TriboWarning
@@ -19,7 +20,6 @@ from tribo.study.calibration.parameters import Parameter, find_parameters
 from tribo.study.calibration.quantities import QUANTITIES, percent
 from tribo.study.calibration.runs import Runs
 from tribo.templates import template
-from tribo.testing.reference.ball_on_track import ball_on_track
 
 TRUE = {"bodies.ball.wear.k": 3.11e-16, "bodies.disk.wear.k": 1.5e-16}
 CHEAP = {

@@ -155,7 +155,7 @@ def test_a_folder_with_another_case_is_left_alone(tmp_path):
 
 def test_a_run_that_was_interrupted_goes_on(tmp_path):
     from tribo import Interrupted
-    from tribo.interfaces.observer import Observer
+    from tribo.observers.observer import Observer
 
     class StopAt(Observer):
         def on_step(self, snapshot):
@@ -176,7 +176,7 @@ def test_a_run_that_was_interrupted_goes_on(tmp_path):
 
 
 def test_a_run_that_was_killed_goes_on(tmp_path):
-    from tribo.interfaces.observer import Observer
+    from tribo.observers.observer import Observer
 
     class Watch(Observer):
         """Copies what a kill would leave after 150 s, and notes the times of all steps."""

@@ -10,7 +10,7 @@ from made_results import made
 
 from tribo.cli.main import tribo
 from tribo.core.errors import CaseError
-from tribo.results.seal import write_sealed
+from tribo.result.seal import write_sealed
 from tribo.study import compare, compare_files
 from tribo.study.differences import differences
 from tribo.templates import template

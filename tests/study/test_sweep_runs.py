@@ -217,7 +217,7 @@ def test_a_damaged_result_is_done_again(tmp_path, damage):
 def test_results_of_other_components_are_made_anew(tmp_path, monkeypatch):
     path = sweeps.study(tmp_path)
     sweep(path, executor=sweeps.Inline())
-    monkeypatch.setattr("tribo.results.provenance._code", lambda package: "edited")
+    monkeypatch.setattr("tribo.result.provenance._code", lambda package: "edited")
     executor = sweeps.Inline()
     with pytest.warns(TriboWarning, match="is begun anew: .* is done, with other components: "):
         assert statuses(sweep(path, executor=executor)) == ["done"] * 4

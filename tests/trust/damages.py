@@ -16,9 +16,9 @@ from click.testing import CliRunner
 from trust.trial import command, start, whole
 
 from tribo import CaseError, Result
-from tribo.analysis.report import lab_report
 from tribo.cli.show import show
-from tribo.results.seal import PAGE
+from tribo.lab.report import lab_report
+from tribo.result.seal import PAGE
 
 REFUSED, HARMLESS, WRONG = 2, 10, 11
 NAMES = {REFUSED: "refused", HARMLESS: "read right", WRONG: "silently wrong", 70: "traceback"}

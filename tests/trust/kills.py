@@ -15,10 +15,10 @@ from tempfile import TemporaryDirectory
 from trust.trial import command, contents, dying, resume, run, same, start, whole
 
 from tribo import CaseError, Result
-from tribo.results.checkpoint import checkpoint_path, previous_path
-from tribo.results.journal import journal_path
-from tribo.results.seal import NotSealedError
-from tribo.results.sealed_file import SealedFile
+from tribo.result.checkpoint import checkpoint_path, previous_path
+from tribo.result.journal import journal_path
+from tribo.result.seal import NotSealedError
+from tribo.result.sealed_file import SealedFile
 
 WRITES = 700
 """About as many writes as a run makes."""

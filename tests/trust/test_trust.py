@@ -13,9 +13,9 @@ from trust.kills import kill_and_resume
 from trust.trial import contents, resume, run, same, start, whole
 
 from tribo.observers import recorder
-from tribo.results import sealed_file
-from tribo.results.checkpoint import checkpoint_path, write_checkpoint
-from tribo.results.store import ResultWriter
+from tribo.result import sealed_file
+from tribo.result.checkpoint import checkpoint_path, write_checkpoint
+from tribo.result.store import ResultWriter
 
 
 # Some are cut off from power, which tears the journal.

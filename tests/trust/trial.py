@@ -18,10 +18,10 @@ from strangers.running_in import RunningIn
 import tribo.simulation.run
 from tribo import Grid, Simulation
 from tribo.core.errors import TriboError
-from tribo.interfaces.observer import Observer
 from tribo.observers import recorder
+from tribo.observers.observer import Observer
 from tribo.observers.recorder import Recorder
-from tribo.results import sealed_writer
+from tribo.result import sealed_writer
 
 SAVES = tuple(range(10, 100, 10))
 TIME_LIMIT = 120.0

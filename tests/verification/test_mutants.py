@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import pytest
 
-from tribo.analysis import ball, track
 from tribo.contact import dcfft, love, operator, periodic
 from tribo.core.fields import WearRate
 from tribo.core.material import contact_modulus
-from tribo.interfaces.exposure import Track
+from tribo.lab import ball, track
+from tribo.motion.exposure import Track
 from tribo.simulation import assembly, rates, solving, step
 from tribo.verification.check import run_check
 from tribo.verification.suite import CHECKS

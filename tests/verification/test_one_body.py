@@ -16,8 +16,8 @@ from paper_models import (
 )
 
 from tribo import Grid, Simulation
+from tribo.closed_forms import ball_wear, winkler
 from tribo.config.stepping import Implicit
-from tribo.testing.reference import ball_wear, winkler
 
 
 def ball_only(**changes):

@@ -9,8 +9,8 @@ where the grid shows, 4 % in the largest pressure.
 import pytest
 
 from tribo import Simulation
+from tribo.closed_forms.ball_on_track import ball_on_track, track_profile
 from tribo.templates import template
-from tribo.testing.reference.ball_on_track import ball_on_track, track_profile
 
 K = 3.11e-16
 RIGID = {

@@ -10,9 +10,9 @@ from typing import Any
 
 import click
 
-from tribo.analysis.report import yield_words
 from tribo.cli.harmless import echo
 from tribo.core.errors import CaseError, NumericalError
+from tribo.lab.report import yield_words
 from tribo.simulation.model import Model
 from tribo.simulation.predict import Prediction
 

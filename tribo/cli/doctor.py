@@ -32,7 +32,7 @@ def doctor(as_json: bool, time_limit: float | None) -> None:
     from tribo.registry.probe import probe
     from tribo.registry.registry import Registry
     from tribo.registry.selection import selected
-    from tribo.results.provenance import environment
+    from tribo.result.provenance import environment
     from tribo.simulation.selftest import self_test
 
     with ThreadPoolExecutor(2) as pool:

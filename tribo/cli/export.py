@@ -29,8 +29,8 @@ def export(output: Path, directory: Path | None, name: str) -> None:
     """
     from tribo.core.errors import OutputError
     from tribo.registry.contributions import choose
-    from tribo.results.export import export_csv
-    from tribo.results.read import Result
+    from tribo.result.export import export_csv
+    from tribo.result.read import Result
 
     write = export_csv
     if name != "csv":

@@ -23,7 +23,7 @@ def plot(output: Path, directory: Path | None, suffix: str) -> None:
       tribo plot my.h5 -d pictures --format pdf
     """
     from tribo.plotting.figures import save_figures
-    from tribo.results.read import Result
+    from tribo.result.read import Result
 
     folder = directory or output.with_name(output.stem + "-plots")
     with Result.open(output) as result:

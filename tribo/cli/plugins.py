@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 if TYPE_CHECKING:
-    from tribo.interfaces.component import Component
+    from tribo.component import Component
 
 
 @click.group()

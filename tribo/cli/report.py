@@ -12,10 +12,10 @@ from rich.measure import Measurement
 from rich.table import Table
 from rich.text import Text
 
-from tribo.analysis.inferred import InferredVolume
-from tribo.analysis.report import BodyReport, FirstContact, lab_report
 from tribo.cli.console import Console
-from tribo.results.read import Result
+from tribo.lab.inferred import InferredVolume
+from tribo.lab.report import BodyReport, FirstContact, lab_report
+from tribo.result.read import Result
 
 DISPENSABLE = ("area", "p centre", "path", "along", "across")
 """Columns that a narrow terminal does without, the first one first."""

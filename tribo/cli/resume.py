@@ -22,7 +22,7 @@ def resume(output: Path, allow_changed: bool) -> None:
     from tribo.cli.report import print_report
     from tribo.core.errors import CaseError
     from tribo.observers.progress import Progress
-    from tribo.results.read import Result
+    from tribo.result.read import Result
     from tribo.simulation.run import Simulation
 
     with Result.open(output) as stopped:

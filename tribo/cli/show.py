@@ -19,12 +19,12 @@ def show(output: Path, as_json: bool) -> None:
       tribo show my.h5
       tribo show my.h5 --json
     """
-    from tribo.results.read import Result
+    from tribo.result.read import Result
 
     with Result.open(output) as result:
         result.check()
         if as_json:
-            from tribo.analysis.report import lab_report
+            from tribo.lab.report import lab_report
 
             lab = lab_report(result).as_json()
             click.echo(json.dumps({**result.summary(), "lab": lab}, indent=2))

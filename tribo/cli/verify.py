@@ -54,7 +54,7 @@ def verify(case: Path | None, overrides: tuple[str, ...], only: str | None, as_j
 
 def _verify_installation(only: str | None, as_json: bool) -> None:
     from tribo.core.errors import CaseError, NumericalError
-    from tribo.results.provenance import environment
+    from tribo.result.provenance import environment
     from tribo.verification.suite import CHECKS, run_suite
 
     wanted = (only or "").casefold()

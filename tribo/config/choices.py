@@ -9,9 +9,9 @@ from typing import Literal
 
 from pydantic import BaseModel
 
+from tribo.component import Component
 from tribo.core.errors import TriboWarning
 from tribo.core.words import said
-from tribo.interfaces.component import Component
 from tribo.registry.kinds import KINDS
 from tribo.registry.registry import Registry
 

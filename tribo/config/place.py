@@ -12,9 +12,9 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
+from tribo.component import Component
 from tribo.config.slot import Slot
 from tribo.core.errors import CaseError
-from tribo.interfaces.component import Component
 from tribo.registry.registry import Registry
 
 Key = str | int

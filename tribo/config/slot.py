@@ -11,10 +11,10 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, InitErrorDetails, PydanticCustomError, core_schema
 from pydantic_core.core_schema import SerializationInfo, ValidationInfo
 
+from tribo.component import Component
 from tribo.config.schema import slot_schema
 from tribo.core.errors import CaseError
 from tribo.core.words import said
-from tribo.interfaces.component import Component
 from tribo.registry.kinds import KINDS
 from tribo.registry.registry import Registry, default_registry
 

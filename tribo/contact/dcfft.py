@@ -10,16 +10,16 @@ import numpy as np
 from pydantic import Field
 
 from tribo.contact.bounded import solve_bounded
-from tribo.contact.box import Box, around, whole
 from tribo.contact.conditions import check_window
 from tribo.contact.love import nyquist_compliance
 from tribo.contact.nested import coarsen, prolong
 from tribo.contact.operator import HalfSpace, Operator, WornOperator
+from tribo.contact.solver import ContactSolver
 from tribo.core.arrays import Array, Mask
+from tribo.core.box import Box, around, whole
 from tribo.core.contact import ContactProblem, ContactSolution, ContactSystem, WearCompliance
 from tribo.core.errors import NumericalError
 from tribo.core.units import Quantity
-from tribo.interfaces.contact import ContactSolver
 
 _MARGIN = 2
 _COARSEST = 64

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from tribo.contact.box import Box, around
 from tribo.core.arrays import Array
+from tribo.core.box import Box, around
 from tribo.core.contact import ContactProblem, WearCompliance
 from tribo.core.grid import Grid
 

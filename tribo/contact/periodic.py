@@ -12,10 +12,10 @@ from pydantic import Field
 
 from tribo.contact.bounded import solve_bounded
 from tribo.contact.conditions import check_window
+from tribo.contact.solver import ContactSolver
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactProblem, ContactSolution, ContactSystem
 from tribo.core.units import Quantity
-from tribo.interfaces.contact import ContactSolver
 
 
 class PeriodicHalfSpace:

@@ -7,12 +7,12 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import BaseModel, ConfigDict, model_validator
 
-from tribo.contact import hertz
+from tribo.closed_forms import hertz
 from tribo.contact.foundation import solve_foundation
+from tribo.contact.solver import ContactSolver
 from tribo.core.contact import ContactProblem, ContactSolution, ContactSystem
 from tribo.core.errors import CaseError
 from tribo.core.units import Quantity
-from tribo.interfaces.contact import ContactSolver
 
 Match = Literal["contact_radius", "peak_pressure", "approach"]
 

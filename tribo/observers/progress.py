@@ -13,7 +13,7 @@ from rich.live import Live
 from rich.text import Text
 
 from tribo.core.state import RunInfo, Snapshot
-from tribo.interfaces.observer import Observer
+from tribo.observers.observer import Observer
 
 QUIET = 2.0
 RENEWED = 0.1

@@ -14,11 +14,11 @@ from pydantic import PrivateAttr
 from tribo.core.errors import CaseError, OutputError
 from tribo.core.state import RunInfo, Snapshot
 from tribo.core.units import Quantity
-from tribo.interfaces.observer import Observer
-from tribo.results.checkpoint import remove_checkpoint, write_checkpoint
-from tribo.results.guarded import GuardedFile
-from tribo.results.read import Result
-from tribo.results.store import ResultWriter
+from tribo.observers.observer import Observer
+from tribo.result.checkpoint import remove_checkpoint, write_checkpoint
+from tribo.result.guarded import GuardedFile
+from tribo.result.read import Result
+from tribo.result.store import ResultWriter
 
 SYNC_EVERY = 1.0
 """Wall time between waits for the disk, in s. A power failure may lose what came in between, a

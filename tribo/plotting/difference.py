@@ -15,7 +15,7 @@ from tribo.plotting.maps import Frame, draw_image, draw_lines, frame, new_maps
 from tribo.plotting.style import difference_colours, house_style
 from tribo.plotting.units import Unit, height_unit, pressure_unit
 from tribo.plotting.window import scar_mask
-from tribo.results.read import Result
+from tribo.result.read import Result
 
 _LEVELS = (-0.5, -0.25, 0.25, 0.5)
 """Lines on a map of differences, in parts of the largest one."""

@@ -18,7 +18,7 @@ from tribo.plotting.section import worn_section
 from tribo.plotting.style import house_style
 from tribo.plotting.window import number_of_saves, removed
 from tribo.registry.contributions import from_plugins_of
-from tribo.results.read import Result
+from tribo.result.read import Result
 
 # No dates, so that the same result gives the same file.
 _METADATA: dict[str, dict[str, Any]] = {"pdf": {"CreationDate": None}, "svg": {"Date": None}}

@@ -23,7 +23,7 @@ from tribo.plotting.style import (
 )
 from tribo.plotting.units import MG, MM3, height_unit, length_unit, pressure_unit, time_unit
 from tribo.plotting.window import number_of_saves
-from tribo.results.read import Result
+from tribo.result.read import Result
 
 ALONG = Stroke("#56b4e9", width=2.4)
 LARGEST = Stroke("#e69f00", width=2.4)

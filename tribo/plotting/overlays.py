@@ -24,8 +24,8 @@ from tribo.plotting.style import (
 )
 from tribo.plotting.units import pressure_unit
 from tribo.plotting.window import joined, positions, removed, scar_mask, section_limits
-from tribo.results.export import profile
-from tribo.results.read import Result
+from tribo.result.export import profile
+from tribo.result.read import Result
 
 Results = Mapping[str, Result]
 

@@ -13,9 +13,9 @@ from matplotlib.patches import Ellipse
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator
 
-from tribo.analysis.first_contact import HertzContact, hertz_contact
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
+from tribo.lab.first_contact import HertzContact, hertz_contact
 from tribo.plotting.maps import Frame, draw_image, draw_lines, frame, new_maps
 from tribo.plotting.sections import Section
 from tribo.plotting.style import (
@@ -31,8 +31,8 @@ from tribo.plotting.style import (
 )
 from tribo.plotting.units import Unit, pressure_unit, time_labels
 from tribo.plotting.window import checked_save, limits, number_of_saves, positions, section_limits
-from tribo.results.export import profile
-from tribo.results.read import Result
+from tribo.result.export import profile
+from tribo.result.read import Result
 
 HERTZ = Stroke("#909090", width=0.7)
 _EVEN = 0.1

@@ -9,8 +9,8 @@ from tribo.plotting.sections import Section, draw_profiles
 from tribo.plotting.style import save_strokes
 from tribo.plotting.units import time_labels
 from tribo.plotting.window import number_of_saves, positions, removed, scar_mask, section_limits
-from tribo.results.export import profile
-from tribo.results.read import Result
+from tribo.result.export import profile
+from tribo.result.read import Result
 
 
 def body_profiles(result: Result, name: str, axis: int) -> Figure:

@@ -20,9 +20,9 @@ from tribo.plotting.window import (
     section_limits,
     spread,
 )
-from tribo.results.body import BodyResult
-from tribo.results.export import profile
-from tribo.results.read import Result
+from tribo.result.body import BodyResult
+from tribo.result.export import profile
+from tribo.result.read import Result
 
 WORN = Stroke("black", width=1.0)
 UNWORN = (

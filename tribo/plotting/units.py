@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tribo.core.arrays import Array
-from tribo.results.read import Result
+from tribo.result.read import Result
 
 MM3 = 1e9
 """mm³ in a m³."""

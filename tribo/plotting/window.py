@@ -9,7 +9,7 @@ import numpy as np
 from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
-from tribo.results.read import Result
+from tribo.result.read import Result
 
 MARGIN = 0.2
 """Shown beyond the contact or the scar on each side, in parts of its half-width."""

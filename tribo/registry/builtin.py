@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
+from tribo.component import Component
 from tribo.contact.dcfft import DcFft
 from tribo.contact.periodic import Periodic
 from tribo.contact.winkler import Winkler
-from tribo.interfaces.component import Component
-from tribo.kinematics.reciprocating import Reciprocating
-from tribo.kinematics.unidirectional import Unidirectional
+from tribo.motion.reciprocating import Reciprocating
+from tribo.motion.unidirectional import Unidirectional
 from tribo.observers.progress import Progress
 from tribo.observers.recorder import Recorder
 from tribo.registry.contributions import CaseTemplate, ExportFormat
 from tribo.registry.hookspecs import hookimpl
-from tribo.results.export import export_csv
+from tribo.result.export import export_csv
 from tribo.surfaces.cylinder import Cylinder
 from tribo.surfaces.flat import Flat
 from tribo.surfaces.paraboloid import Paraboloid

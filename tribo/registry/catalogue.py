@@ -11,11 +11,11 @@ from typing import Any, get_args
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
+from tribo.component import Component
 from tribo.core.errors import CaseError
 from tribo.core.fields import Field
 from tribo.core.units import Quantity
 from tribo.core.words import did_you_mean, suggestion
-from tribo.interfaces.component import Component
 from tribo.registry.kinds import KINDS, kind_of
 from tribo.registry.plugins import Plugin
 from tribo.registry.registry import Registry

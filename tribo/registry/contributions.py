@@ -13,7 +13,7 @@ from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.registry import default_registry
 
 if TYPE_CHECKING:
-    from tribo.results.read import Result
+    from tribo.result.read import Result
 
 
 class LabRow(NamedTuple):

@@ -10,9 +10,9 @@ import pluggy
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from tribo.interfaces.component import Component
+    from tribo.component import Component
     from tribo.registry.contributions import CaseTemplate, ExportFormat, LabRow
-    from tribo.results.read import Result
+    from tribo.result.read import Result
 
 PROJECT = "tribo"
 """Name of the plugin manager, and group of the entry points that it reads."""

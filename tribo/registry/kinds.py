@@ -7,13 +7,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from tribo.interfaces.component import Component
-from tribo.interfaces.contact import ContactSolver
-from tribo.interfaces.effect import Effect
-from tribo.interfaces.kinematics import Kinematics
-from tribo.interfaces.observer import Observer
-from tribo.interfaces.surface import Surface
-from tribo.interfaces.wear import WearLaw
+from tribo.component import Component
+from tribo.contact.solver import ContactSolver
+from tribo.effects.effect import Effect
+from tribo.motion.kinematics import Kinematics
+from tribo.observers.observer import Observer
+from tribo.surfaces.surface import Surface
+from tribo.wear.law import WearLaw
 
 
 @dataclass(frozen=True)

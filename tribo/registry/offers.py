@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+from tribo.component import Component
 from tribo.core.fields import Field, name_fault
-from tribo.interfaces.component import Component
 from tribo.registry.kinds import kind_of
 
 Classes = dict[str, type[Component]]

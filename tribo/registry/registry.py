@@ -17,10 +17,10 @@ from typing import Any
 import numpy as np
 import pluggy
 
+from tribo.component import Component
 from tribo.core.distributions import unmet
 from tribo.core.errors import CaseError, PluginError
 from tribo.core.words import did_you_mean, said, suggestion
-from tribo.interfaces.component import Component
 from tribo.registry import hookspecs
 from tribo.registry.kinds import KINDS, kind_of
 from tribo.registry.offers import Classes, offered

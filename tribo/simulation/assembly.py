@@ -11,11 +11,11 @@ import numpy as np
 from tribo.case import Body, Case
 from tribo.config.requirements import check_requirements
 from tribo.config.stepping import Implicit
+from tribo.contact.solver import ContactSolver
 from tribo.core.arrays import readonly
 from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError, located
 from tribo.core.material import contact_modulus
-from tribo.interfaces.contact import ContactSolver
 from tribo.simulation import motion
 from tribo.simulation.bodies import check_law, check_sliding, curvature, surface_height
 from tribo.simulation.calling import calling

@@ -11,11 +11,11 @@ from tribo.core.errors import CaseError, PluginError
 from tribo.core.fields import name_fault
 from tribo.core.grid import Grid
 from tribo.core.material import Material
-from tribo.interfaces.exposure import Exposure
-from tribo.interfaces.surface import Surface
-from tribo.interfaces.wear import WearLaw
+from tribo.motion.exposure import Exposure
 from tribo.simulation import answers
 from tribo.simulation.calling import calling, named
+from tribo.surfaces.surface import Surface
+from tribo.wear.law import WearLaw
 
 
 def surface_height(body: str, surface: Surface, grid: Grid) -> Array:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from types import TracebackType
 
+from tribo.component import Component
 from tribo.core.errors import Interrupted, NumericalError, PluginError, TriboError
 from tribo.core.words import said
-from tribo.interfaces.component import Component
 from tribo.registry.kinds import KINDS
 
 Called = Component | type[Component]

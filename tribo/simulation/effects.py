@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from tribo.case import Case
 from tribo.core.errors import CaseError, PluginError, located
 from tribo.core.fields import FRICTION_COEFFICIENT, name_fault
-from tribo.interfaces.effect import Effect
+from tribo.effects.effect import Effect
 from tribo.simulation.calling import calling, named
 from tribo.simulation.model import Model
 

@@ -8,8 +8,8 @@ from tribo.core.arrays import Array, readonly
 from tribo.core.contact import WearCompliance
 from tribo.core.errors import PluginError
 from tribo.core.grid import Grid
-from tribo.interfaces.exposure import Exposure
-from tribo.interfaces.kinematics import Kinematics
+from tribo.motion.exposure import Exposure
+from tribo.motion.kinematics import Kinematics
 from tribo.simulation import answers
 from tribo.simulation.calling import calling, named
 

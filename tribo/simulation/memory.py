@@ -9,8 +9,8 @@ import psutil
 
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
-from tribo.interfaces.effect import Effect
-from tribo.interfaces.wear import WearLaw
+from tribo.effects.effect import Effect
+from tribo.wear.law import WearLaw
 
 Law = WearLaw
 AnyEffect = Effect

@@ -10,17 +10,17 @@ from typing import Any
 from tribo.case import Body, Case
 from tribo.config.stepping import Explicit, Implicit
 from tribo.config.stop import Stop
+from tribo.contact.solver import ContactSolver
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSystem
 from tribo.core.grid import Grid
 from tribo.core.measures import between_cells
-from tribo.interfaces.contact import ContactSolver
-from tribo.interfaces.effect import Effect
-from tribo.interfaces.exposure import Exposure
-from tribo.interfaces.kinematics import Kinematics
-from tribo.interfaces.wear import WearLaw
+from tribo.effects.effect import Effect
+from tribo.motion.exposure import Exposure
+from tribo.motion.kinematics import Kinematics
 from tribo.simulation import motion
 from tribo.simulation.calling import calling
+from tribo.wear.law import WearLaw
 
 
 @dataclass(frozen=True)

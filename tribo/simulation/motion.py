@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 
 from tribo.core.errors import PluginError, located
 from tribo.core.grid import Grid
-from tribo.interfaces.exposure import Exposure
-from tribo.interfaces.kinematics import Kinematics
+from tribo.motion.exposure import Exposure
+from tribo.motion.kinematics import Kinematics
 from tribo.simulation.answers import number
 from tribo.simulation.calling import calling, named
 from tribo.simulation.exposed import CheckedExposure

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from tribo.analysis.first_contact import HertzContact, hertz_contact
 from tribo.case import Output
 from tribo.config.stepping import Explicit, Implicit
 from tribo.config.usual import unusual
@@ -13,7 +12,8 @@ from tribo.core.errors import CaseError, NumericalError, PluginError
 from tribo.core.grid import Grid
 from tribo.core.measures import Measures
 from tribo.core.state import State
-from tribo.results.provenance import stated_facts
+from tribo.lab.first_contact import HertzContact, hertz_contact
+from tribo.result.provenance import stated_facts
 from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.averaging import check_stroke, limitation
 from tribo.simulation.calling import calling

@@ -7,17 +7,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tribo.contact.box import around_region, whole
 from tribo.core.arrays import Array, readonly
+from tribo.core.box import around_region, whole
 from tribo.core.contact import ContactSolution
 from tribo.core.errors import PluginError
 from tribo.core.fields import FRICTION_COEFFICIENT, ContactConditions, LocalConditions, WearRate
 from tribo.core.state import State
-from tribo.interfaces.wear import WearLaw
 from tribo.simulation.answers import BadValues, spread
 from tribo.simulation.calling import calling, named
 from tribo.simulation.model import Model
 from tribo.simulation.motion import cycle_speeds
+from tribo.wear.law import WearLaw
 
 Law = WearLaw
 

@@ -15,13 +15,13 @@ from tribo.case import Case
 from tribo.config.load import load_case, validate_case
 from tribo.core.errors import CaseError, Interrupted, TriboError, TriboWarning
 from tribo.core.state import BodyInfo, RunInfo, Snapshot, State
-from tribo.interfaces.observer import Observer
+from tribo.observers.observer import Observer
 from tribo.observers.recorder import Recorder
 from tribo.registry.plugins import Plugin
 from tribo.registry.registry import Registry, default_registry
-from tribo.results.checkpoint import read_checkpoint, tidied
-from tribo.results.provenance import changed_components, origin, provenance
-from tribo.results.read import Result
+from tribo.result.checkpoint import read_checkpoint, tidied
+from tribo.result.provenance import changed_components, origin, provenance
+from tribo.result.read import Result
 from tribo.simulation.assembly import assemble
 from tribo.simulation.bodies import surface_height
 from tribo.simulation.calling import calling

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tribo.analysis.first_contact import hertz_contact
 from tribo.core.errors import TriboError
+from tribo.lab.first_contact import hertz_contact
 from tribo.simulation.run import Simulation
 
 _CASE = {

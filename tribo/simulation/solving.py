@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from tribo.contact.solver import ContactSolver
 from tribo.core.arrays import Array, readonly
 from tribo.core.contact import (
     ContactProblem,
@@ -11,7 +12,6 @@ from tribo.core.contact import (
     WearCompliance,
 )
 from tribo.core.errors import PluginError
-from tribo.interfaces.contact import ContactSolver
 from tribo.simulation.answers import field, number
 from tribo.simulation.calling import calling, named
 

@@ -15,7 +15,7 @@ from dataclasses import replace
 from tribo.core.arrays import Array, readonly
 from tribo.core.errors import TriboError, TriboWarning
 from tribo.core.state import RunInfo, Snapshot
-from tribo.interfaces.observer import Observer
+from tribo.observers.observer import Observer
 from tribo.simulation.calling import calling
 
 Watcher = Observer

@@ -13,7 +13,7 @@ from typing import Any, Self
 from tribo.config.load import read_toml
 from tribo.core.errors import CaseError
 from tribo.registry.registry import Registry
-from tribo.results.read import Result
+from tribo.result.read import Result
 from tribo.study.differences import common_bodies, common_times, differences, same_grid
 from tribo.study.matching import left_out, matched, own_names
 from tribo.study.runs import Observers, run_variants

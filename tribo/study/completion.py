@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from tribo.core.errors import CaseError, TriboWarning
-from tribo.interfaces.observer import Observer
-from tribo.results.read import Result
+from tribo.observers.observer import Observer
+from tribo.result.read import Result
 from tribo.simulation.run import Simulation
 
 

@@ -9,8 +9,8 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
-from tribo.results.export import profile
-from tribo.results.read import SAME_TIME, Result
+from tribo.result.export import profile
+from tribo.result.read import SAME_TIME, Result
 
 PRESSURE = "pressure"
 

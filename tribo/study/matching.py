@@ -8,8 +8,8 @@ from dataclasses import replace
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
-from tribo.results.body import BodyResult
-from tribo.results.read import Result
+from tribo.result.body import BodyResult
+from tribo.result.read import Result
 
 
 class Renamed(Result):

@@ -8,9 +8,9 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from tribo.core.errors import CaseError, OutputError, TriboError
-from tribo.interfaces.observer import Observer
+from tribo.observers.observer import Observer
 from tribo.registry.registry import Registry
-from tribo.results.read import Result
+from tribo.result.read import Result
 from tribo.simulation.run import Simulation
 from tribo.study.completion import complete, is_done
 from tribo.study.variation import Variant

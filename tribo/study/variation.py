@@ -15,7 +15,7 @@ from tribo.core.depth import check_depth
 from tribo.core.errors import CaseError
 from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.registry import Registry
-from tribo.results.read import SAME_TIME
+from tribo.result.read import SAME_TIME
 from tribo.simulation.run import Simulation
 
 _NAMED = 3

@@ -6,7 +6,7 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
-from tribo.interfaces.surface import Surface
+from tribo.surfaces.surface import Surface
 
 
 class Flat(Surface):

@@ -9,7 +9,7 @@ from pydantic import ConfigDict, model_validator
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
 from tribo.core.units import Quantity
-from tribo.interfaces.surface import Surface
+from tribo.surfaces.surface import Surface
 
 
 class Paraboloid(Surface):

@@ -11,7 +11,7 @@ from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.core.units import Quantity
-from tribo.interfaces.surface import Surface
+from tribo.surfaces.surface import Surface
 
 
 class Sphere(Surface):

@@ -1,4 +1,4 @@
-"""Conformance checks for plugins, and closed-form solutions in `tribo.testing.reference`."""
+"""Conformance checks for plugins, and closed-form solutions in `tribo.closed_forms`."""
 
 from tribo.testing.kit import check, example_configs, parametrize_checks
 from tribo.testing.report import Outcome, Report

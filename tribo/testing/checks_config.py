@@ -8,9 +8,9 @@ from typing import Annotated, Any
 
 from pydantic import TypeAdapter, ValidationError, create_model
 
+from tribo.component import Component
 from tribo.config.schema import json_schema
 from tribo.config.slot import Slot
-from tribo.interfaces.component import Component
 from tribo.registry.hookspecs import hookimpl
 from tribo.registry.kinds import KINDS
 from tribo.registry.registry import Registry

@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 
 from tribo.core.fields import ContactConditions, LocalConditions, WearRate
-from tribo.interfaces.wear import WearLaw
 from tribo.testing import samples
 from tribo.testing.checks_calls import Exercise, call_checks, locked
 from tribo.testing.compare import expect_array
 from tribo.testing.declared import expect_declared
 from tribo.testing.subject import Subject, fact, require
+from tribo.wear.law import WearLaw
 
 
 def _inputs(subject: Subject, effect: Any, number: int) -> ContactConditions:

@@ -12,7 +12,7 @@ from tribo.config.stop import Stop
 from tribo.core.arrays import Array
 from tribo.core.contact import WearCompliance
 from tribo.core.grid import Grid
-from tribo.interfaces.exposure import Exposure
+from tribo.motion.exposure import Exposure
 from tribo.testing import samples
 from tribo.testing.checks_calls import Exercise, call_checks
 from tribo.testing.checks_config import has_unit

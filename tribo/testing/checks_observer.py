@@ -15,7 +15,7 @@ from pydantic import PrivateAttr
 
 from tribo.case import Output
 from tribo.core.state import RunInfo, Snapshot
-from tribo.interfaces.observer import Observer
+from tribo.observers.observer import Observer
 from tribo.simulation.run import Simulation
 from tribo.testing import samples
 from tribo.testing.checks_calls import Exercise, call_checks, locked

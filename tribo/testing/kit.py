@@ -12,8 +12,8 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from tribo.component import Component
 from tribo.core.words import said
-from tribo.interfaces.component import Component
 from tribo.registry.kinds import Kind, kind_of
 from tribo.testing import (
     checks_contact_solver,

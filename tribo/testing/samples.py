@@ -14,8 +14,8 @@ from tribo.core.fields import ContactConditions, Field, LocalConditions
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.core.state import State
-from tribo.interfaces.effect import Effect
-from tribo.kinematics.reciprocating import Reciprocating
+from tribo.effects.effect import Effect
+from tribo.motion.reciprocating import Reciprocating
 from tribo.simulation.assembly import assemble
 from tribo.simulation.march import begin, march
 from tribo.simulation.model import Model

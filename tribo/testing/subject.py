@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 from functools import cached_property, partial
 from typing import Any, overload
 
+from tribo.component import Component
 from tribo.core.arrays import Array
-from tribo.interfaces.component import Component
 
 FieldValue = float | Callable[[Array], Array]
 """The value of a local field, or how it follows from the pressure."""

@@ -8,10 +8,10 @@ from functools import partial
 
 import numpy as np
 
+from tribo.contact.solver import ContactSolver
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactProblem, ContactSolution, ContactSystem, Residuals
 from tribo.core.grid import Grid
-from tribo.interfaces.contact import ContactSolver
 from tribo.registry.registry import default_registry
 from tribo.verification.check import Check, Found, Quantity
 from tribo.verification.plasticity import ONSET

@@ -5,11 +5,11 @@ from __future__ import annotations
 import tomllib
 from typing import Any
 
+from tribo.closed_forms.ball_on_track import ball_on_track
 from tribo.simulation.march import begin, march
 from tribo.simulation.measure import measure
 from tribo.simulation.run import Simulation
 from tribo.templates import template
-from tribo.testing.reference.ball_on_track import ball_on_track
 from tribo.verification.check import Check, Found, Quantity
 from tribo.verification.problems import LOAD, RADIUS, WEAR_COEFFICIENT
 
@@ -47,7 +47,7 @@ ELASTIC = "the bodies are elastic; 0.6 % by an independent elastic run"
 CHECKS = (
     Check(
         "the paper's hour, ball and disk",
-        "rigid limit: tribo.testing.reference.ball_on_track",
+        "rigid limit: tribo.closed_forms.ball_on_track",
         _paper,
         (
             Quantity("depth of the ball", "m", 1e-2, note=ELASTIC),

@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
-from tribo.analysis import ball, track
 from tribo.core.arrays import Array
+from tribo.lab import ball, track
 from tribo.verification.check import Check, Found, Quantity
 
 RADIUS, GROOVE = 5e-3, 8e-3

@@ -6,7 +6,6 @@ import numpy as np
 
 from tribo.core.grid import Grid
 from tribo.core.material import Material
-from tribo.interfaces.wear import WearLaw
 from tribo.simulation.measure import measure
 from tribo.verification.check import Check, Found, Quantity
 from tribo.verification.problems import (
@@ -23,6 +22,7 @@ from tribo.verification.problems import (
     slide,
 )
 from tribo.wear.archard import Archard
+from tribo.wear.law import WearLaw
 from tribo.wear.power import Power
 
 K, REFERENCE = WEAR_COEFFICIENT, 1e9

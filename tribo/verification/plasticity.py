@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from tribo.contact import hertz
+from tribo.closed_forms import hertz
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.core.measures import contact_area

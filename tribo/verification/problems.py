@@ -10,21 +10,21 @@ from tribo.case import Body, Case
 from tribo.config.stepping import Explicit, Implicit
 from tribo.contact.dcfft import DcFft
 from tribo.contact.periodic import Periodic
+from tribo.contact.solver import ContactSolver
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactProblem, ContactSolution, ContactSystem
 from tribo.core.grid import Grid
 from tribo.core.material import Material, contact_modulus
 from tribo.core.state import State
-from tribo.interfaces.contact import ContactSolver
-from tribo.interfaces.surface import Surface
-from tribo.interfaces.wear import WearLaw
-from tribo.kinematics.unidirectional import Unidirectional
+from tribo.motion.unidirectional import Unidirectional
 from tribo.simulation.assembly import assemble
 from tribo.simulation.model import Model
 from tribo.simulation.step import explicit_step, first_contact, implicit_step
 from tribo.surfaces.flat import Flat
 from tribo.surfaces.paraboloid import Paraboloid
+from tribo.surfaces.surface import Surface
 from tribo.wear.archard import Archard
+from tribo.wear.law import WearLaw
 
 YOUNG, POISSON = 207e9, 0.3
 HARDNESS = 4e9

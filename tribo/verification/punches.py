@@ -6,12 +6,12 @@ import math
 
 import numpy as np
 
+from tribo.closed_forms.punch_wear import disc_rates, strip_rates
 from tribo.contact.dcfft import DcFft
 from tribo.contact.periodic import Periodic
 from tribo.core.arrays import Array, Mask
 from tribo.core.grid import Grid
 from tribo.core.state import State
-from tribo.testing.reference.punch_wear import disc_rates, strip_rates
 from tribo.verification.check import Check, Found, Quantity
 from tribo.verification.contacts import square
 from tribo.verification.problems import (
@@ -81,7 +81,7 @@ def _strips(cells: int, placement: float) -> Found:
 # 2 - 1/ln(a/h), with 16 to 100 cells a radius.
 ORDER = 1.75
 NOTE = "h^2 ln(1/h), for the mode's slope is infinite at the edge"
-SOURCE = "Galin (1976); tribo.testing.reference.punch_wear"
+SOURCE = "Galin (1976); tribo.closed_forms.punch_wear"
 CHECKS = (
     Check(
         "flat round punch wears",

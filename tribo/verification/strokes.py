@@ -9,7 +9,7 @@ import numpy as np
 from tribo.core.grid import Grid
 from tribo.core.measures import half_widths
 from tribo.core.state import State
-from tribo.kinematics.averaging import groove_excess
+from tribo.motion.averaging import groove_excess
 from tribo.simulation.march import begin, march
 from tribo.simulation.model import Model
 from tribo.verification.check import Check, Found, Quantity

@@ -6,10 +6,9 @@ import math
 
 import numpy as np
 
-from tribo.contact import hertz
+from tribo.closed_forms import hertz, sinusoid
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
-from tribo.testing.reference import sinusoid
 from tribo.verification.check import Check, Found, Quantity
 from tribo.verification.contacts import PRESSURE, SHAPE
 from tribo.verification.problems import MODULUS, norm, periodic, press

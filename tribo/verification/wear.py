@@ -7,6 +7,7 @@ from functools import partial
 
 import numpy as np
 
+from tribo.closed_forms import ball_wear, sinusoid, winkler
 from tribo.contact.winkler import Winkler
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
@@ -15,7 +16,6 @@ from tribo.core.measures import Measures, contact_area
 from tribo.simulation.march import begin, march
 from tribo.simulation.measure import measure
 from tribo.simulation.model import Model
-from tribo.testing.reference import ball_wear, sinusoid, winkler
 from tribo.verification.check import Check, Found, Quantity
 from tribo.verification.problems import (
     LOAD,
@@ -122,7 +122,7 @@ FULL_CONTACT = (
 CHECKS = (
     Check(
         "ball on springs wears for 20 m, equal steps",
-        "tribo.testing.reference.winkler; Johnson (1985), section 4.3",
+        "tribo.closed_forms.winkler; Johnson (1985), section 4.3",
         _foundation,
         (
             Quantity("pressure at the centre", "Pa", 5e-3, 1.0),
@@ -154,7 +154,7 @@ CHECKS = (
     *(
         Check(
             f"wave in full contact, one decay length, {name} steps",
-            "tribo.testing.reference.sinusoid",
+            "tribo.closed_forms.sinusoid",
             partial(_full_contact, explicit=name == "explicit"),
             FULL_CONTACT,
             levels=(20, 40, 80),

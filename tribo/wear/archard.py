@@ -11,7 +11,7 @@ from tribo.core.errors import CaseError
 from tribo.core.fields import LocalConditions, WearRate
 from tribo.core.material import Material
 from tribo.core.units import Quantity
-from tribo.interfaces.wear import WearLaw
+from tribo.wear.law import WearLaw
 
 
 class Archard(WearLaw):

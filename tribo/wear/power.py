@@ -8,7 +8,7 @@ from pydantic import ConfigDict
 
 from tribo.core.fields import LocalConditions, WearRate
 from tribo.core.units import Quantity
-from tribo.interfaces.wear import WearLaw
+from tribo.wear.law import WearLaw
 
 
 class Power(WearLaw):

@@ -5,8 +5,8 @@ import pytest
 from tribo.contact.dcfft import DcFft
 from tribo.contact.periodic import Periodic
 from tribo.contact.winkler import Winkler
-from tribo.kinematics.reciprocating import Reciprocating
-from tribo.kinematics.unidirectional import Unidirectional
+from tribo.motion.reciprocating import Reciprocating
+from tribo.motion.unidirectional import Unidirectional
 from tribo.observers.progress import Progress
 from tribo.observers.recorder import Recorder
 from tribo.registry.kinds import KINDS

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from tribo.testing.reference import ball_wear
-from tribo.testing.reference.ball_on_track import ball_on_track, track_profile
+from tribo.closed_forms import ball_wear
+from tribo.closed_forms.ball_on_track import ball_on_track, track_profile
 
 EQUAL = {
     "load": 100.0,

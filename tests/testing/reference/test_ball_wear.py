@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tribo.testing.reference import ball_wear, winkler
+from tribo.closed_forms import ball_wear, winkler
 
 CASE = {"load": 100.0, "radius": 5e-3, "wear_coefficient": 3.11e-16}
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from tribo.testing.reference import cone, disc, punch, sinusoid
+from tribo.closed_forms import cone, disc, punch, sinusoid
 
 MODULUS = 113.736e9
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tribo.testing.reference.punch_wear import disc_rates, strip_rates
+from tribo.closed_forms.punch_wear import disc_rates, strip_rates
 
 
 def test_the_first_rates_are_the_known_ones():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from tribo.testing.reference import winkler
+from tribo.closed_forms import winkler
 
 STIFFNESS = 1.2973e15  # 16E*/3πa of the steel case, to five digits
 CASE = {"load": 100.0, "radius": 5e-3, "stiffness": STIFFNESS, "wear_coefficient": 3.11e-16}

@@ -8,15 +8,15 @@ from typing import Literal
 
 import numpy as np
 
-from tribo.analysis.conversion import mass_from_volume
-from tribo.analysis.inferred import track_section
-from tribo.analysis.scar import crown, diameter
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.measures import between_cells
-from tribo.results.body import BodyResult
-from tribo.results.export import profile
-from tribo.results.read import Result
+from tribo.lab.conversion import mass_from_volume
+from tribo.lab.inferred import track_section
+from tribo.lab.scar import crown, diameter
+from tribo.result.body import BodyResult
+from tribo.result.export import profile
+from tribo.result.read import Result
 from tribo.simulation.model import Model
 
 Reading = Callable[[Result, BodyResult, int], float]

@@ -13,7 +13,7 @@ from tribo.config.overrides import apply_settings
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, NumericalError, TriboWarning, located
 from tribo.registry.registry import Registry
-from tribo.results.read import Result
+from tribo.result.read import Result
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.measured import Measured
 from tribo.study.calibration.parameters import Parameter

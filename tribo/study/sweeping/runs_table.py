@@ -11,14 +11,14 @@ from typing import Any, get_args
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from tribo.analysis.report import lab_report
 from tribo.case import Case
+from tribo.component import Component
 from tribo.config.overrides import path_keys
 from tribo.core.errors import CaseError, OutputError
 from tribo.core.units import Quantity
-from tribo.interfaces.component import Component
-from tribo.results.columns import labelled
-from tribo.results.read import Result
+from tribo.lab.report import lab_report
+from tribo.result.columns import labelled
+from tribo.result.read import Result
 from tribo.study.sweeping.worker import failure_path
 
 Row = dict[str, Any]

@@ -11,8 +11,8 @@ from pathlib import Path
 
 from tribo.core.errors import CaseError, OutputError
 from tribo.core.locks import BusyError
-from tribo.results.checkpoint import fingerprint
-from tribo.results.provenance import origin
+from tribo.result.checkpoint import fingerprint
+from tribo.result.provenance import origin
 from tribo.simulation.run import Simulation
 from tribo.study.completion import is_done
 from tribo.study.sweeping.carrying import carry

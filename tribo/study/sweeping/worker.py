@@ -13,7 +13,7 @@ from typing import Any
 from tribo.core.errors import CaseError, Interrupted, TriboError
 from tribo.core.locks import BusyError
 from tribo.core.state import Snapshot
-from tribo.interfaces.observer import Observer
+from tribo.observers.observer import Observer
 from tribo.simulation.run import Simulation
 from tribo.study.completion import complete, is_done
 from tribo.study.sweeping.locks import locked

@@ -1,0 +1,68 @@
+"""The numbers a lab would report, in one place."""
+
+import numpy as np
+import pytest
+from made_results import half_width, made
+
+from tribo.closed_forms.hertz import first_yield_pressure
+from tribo.lab.report import lab_report, yield_ratio, yield_words
+
+H = 4e9
+
+
+def test_the_lab_block_is_that_of_the_worn_bodies():
+    # made() wears 3.11e-14 m³ per m of sliding at 100 N.
+    lab = lab_report(made(densities=(7850.0, None), cap=H)).as_json()
+    ball, disk = lab["bodies"]["ball"], lab["bodies"]["disk"]
+    assert ball["specific_wear_rate_mm3_per_Nm"] == pytest.approx(3.11e-7, rel=1e-6, abs=0)
+    assert ball["mass_kg"] == pytest.approx(7850 * 3.11e-14 * 360, rel=1e-6, abs=0)
+    # To a twentieth of a cell of 40 µm.
+    assert ball["scar_along_m"] == pytest.approx(2 * half_width(3600), abs=2e-6)
+    assert ball["scar_across_m"] == pytest.approx(2.2 * half_width(3600), abs=2e-6)
+    assert disk["mass_kg"] is None
+    assert disk["scar_along_m"] is None
+    assert disk["scar_across_m"] == pytest.approx(2.2 * half_width(3600), abs=2e-6)
+
+
+def test_the_first_contact_is_the_computed_one_beside_hertz():
+    result = made(cap=H)
+    first = lab_report(result).as_json()["first_contact"]
+    assert first["hertz_peak_pressure_Pa"] == pytest.approx(2.155e9, rel=1e-3)
+    assert first["max_pressure_Pa"] == result.pressure(0).max()
+    assert first["yield_ratio"] == first["max_pressure_Pa"] / first_yield_pressure(H)
+
+
+@pytest.mark.parametrize(
+    ("changes", "hertz", "ratio"),
+    [({"cap": None}, True, False), ({"cap": H, "curvature": None}, False, False)],
+)
+def test_what_is_not_known_is_null(changes, hertz, ratio):
+    first = lab_report(made(**changes)).as_json()["first_contact"]
+    assert (first["hertz_peak_pressure_Pa"] is not None) == hertz
+    assert (first["yield_ratio"] is not None) == ratio
+
+
+def test_nothing_slid_has_no_wear_rate():
+    lab = lab_report(made(times=(0.0,))).as_json()
+    assert lab["bodies"]["ball"]["specific_wear_rate_mm3_per_Nm"] is None
+    assert lab["bodies"]["ball"]["scar_across_m"] == 0
+
+
+def test_yield_is_said_in_three_stages():
+    assert yield_ratio(1.6 * H / 2.8, H) == pytest.approx(1)
+    assert yield_words(0.5 * H, H).startswith("88 % of the pressure at which")
+    assert yield_words(0.5 * H, H).endswith("(1.6 H/2.8)")
+    assert yield_words(0.8 * H, H).startswith("the softer body yields beneath the surface at first")
+    assert "yields from the start" in yield_words(H, H)
+
+
+def test_a_line_contact_yields_at_its_own_factor():
+    # Johnson (1985), section 6.1: von Mises' stress of a Hertzian line, in plane strain.
+    z = np.linspace(0.01, 3, 3000)
+    across, down = 2 * z - (1 + 2 * z**2) / np.hypot(1, z), -1 / np.hypot(1, z)
+    along = 0.3 * (across + down)
+    pairs = (across - down, down - along, along - across)
+    mises = np.sqrt(0.5 * sum(difference**2 for difference in pairs))
+    onset = H / 2.8 / np.max(mises)
+    assert yield_ratio(onset, H, line=True) == pytest.approx(1, rel=3e-3)
+    assert yield_words(0.5 * H, H, line=True).endswith("(1.79 H/2.8)")

@@ -1,0 +1,146 @@
+"""The size of a scar, against the worn ball in the rigid limit."""
+
+import numpy as np
+import pytest
+
+from tribo.closed_forms.ball_on_track import ball_on_track, track_profile
+from tribo.core.grid import Grid
+from tribo.lab.ball import ball_cap_volume
+from tribo.lab.scar import crown, diameter, scar
+
+R = 5e-3
+
+
+CASE = {
+    "load": 100.0,
+    "radius": R,
+    "track_length": 2e-3,
+    "ball_wear_coefficient": 3.11e-16,
+    "flat_wear_coefficient": 3.11e-16,
+}
+
+
+def worn_ball(cells=(240, 260)):
+    """Depth of the ball after 360 m, rigid limit, and its grid."""
+    grid = Grid((1.2e-3, 1.3e-3), cells)
+    half = track_profile(grid.y, 360.0, **CASE).half_length
+    return np.maximum(half**2 - grid.x[:, None] ** 2, 0.0) / (2 * R), grid
+
+
+def test_scar_of_a_worn_ball():
+    depth, grid = worn_ball()
+    worn = ball_on_track([360.0], **CASE)
+    seen = scar(depth, grid)
+    # A tenth of a cell.
+    assert seen.along == pytest.approx(2 * worn.half_width_along[0], abs=5e-7)
+    assert seen.across == pytest.approx(2 * worn.half_width_across[0], abs=5e-7)
+    assert seen.mean_diameter == pytest.approx((seen.along + seen.across) / 2)
+    # The four middle cells lie 3.5 µm off the centre.
+    assert seen.centre_depth == pytest.approx(worn.ball_depth[0], rel=1e-4)
+    assert seen.peak_depth == pytest.approx(worn.ball_depth[0], rel=1e-4)
+    # Cells cut by the border: second order, (5/500)².
+    assert seen.volume == pytest.approx(worn.ball_volume[0], rel=1e-4, abs=0)
+
+
+def cap(depth, cells, radius=R, per_cell=8.3, middle=0.0):
+    """A flat scar on a ball, some 17 cells wide, off the window's centre by a part of a cell."""
+    half = np.sqrt(depth * (2 * radius - depth))
+    cell = half / per_cell
+    grid = Grid((cells * cell, cells * cell), (cells, cells))
+    x, y = grid.mesh
+    fallen = (x - middle * cell) ** 2 + y**2
+    drop = fallen / (radius + np.sqrt(radius**2 - fallen))
+    return np.maximum(depth - drop, 0.0), grid, 2 * half
+
+
+@pytest.mark.parametrize("depth", [1e-9, 2e-9, 1e-7, 1e-6, 1e-4])
+@pytest.mark.parametrize("cells", [24, 25])
+@pytest.mark.parametrize("per_cell", [5.1, 8.0, 8.3, 8.5, 8.9])
+@pytest.mark.parametrize("middle", [0.0, 0.2, 0.4])
+def test_a_flat_scar_of_any_depth_is_as_wide_as_it_is(depth, cells, per_cell, middle):
+    worn, grid, wide = cap(depth, cells, per_cell=per_cell, middle=middle)
+    cell = grid.spacing[0]
+    # On even grids no line of cells runs through the middle.
+    assert scar(worn, grid).along == pytest.approx(wide, abs=0.06 * cell)
+    assert scar(worn, grid).across == pytest.approx(wide, abs=0.06 * cell)
+
+
+@pytest.mark.parametrize("cells", [128, 129, 160])
+def test_an_exact_formula_is_exact_on_a_grid(cells):
+    depth = 20e-6
+    worn, grid, _ = cap(depth, cells, per_cell=0.31 * cells)
+    exact = np.pi * depth**2 * (3 * R - depth) / 3
+    inferred = ball_cap_volume(scar(worn, grid).mean_diameter, R)
+    assert inferred == pytest.approx(exact, rel=1e-3, abs=0)
+
+
+@pytest.mark.parametrize("deepest", [5e-9, 20e-9, 5e-6])
+@pytest.mark.parametrize("half", [20.0, 20.3, 20.6, 20.9])
+def test_a_track_of_any_depth_is_as_wide_as_it_is(deepest, half):
+    """Its depth runs out as the power 3/2, as that of a groove under a worn ball."""
+    y = np.arange(64) - 31.5
+    groove = deepest * np.maximum(1 - (y / half) ** 2, 0.0) ** 1.5
+    assert diameter(groove[None, :], 1, 1.0) == pytest.approx(2 * half, abs=0.01)
+
+
+def test_an_even_wear_ends_between_worn_and_unworn_cells():
+    depth = np.zeros((12, 12))
+    depth[3:9, 0:5] = 1e-6
+    assert diameter(depth, 0, 1.0) == pytest.approx(6.0)
+    assert diameter(depth, 1, 1.0) == pytest.approx(5.0)
+
+
+def test_unworn_ball_has_no_scar():
+    grid = Grid((1e-3, 1e-3), (5, 4))
+    nothing = scar(np.zeros((5, 4)), grid)
+    assert (nothing.along, nothing.across, nothing.volume) == (0.0, 0.0, 0.0)
+
+
+def test_crown_is_the_depth_of_the_groove_across_and_nothing_along():
+    depth, grid = worn_ball()
+    x, y = grid.mesh
+    height = -(x**2 + y**2) / (2 * R) - depth
+    row, column = grid.cells[0] // 2, grid.cells[1] // 2
+    worn = ball_on_track([360.0], **CASE)
+    across = crown(height[row], depth[row])
+    assert across == pytest.approx(worn.flat_depth[0], rel=1e-3, abs=0)
+    assert crown(height[:, column], depth[:, column]) == pytest.approx(0.0, abs=1e-12)
+    assert crown(height[row], np.zeros_like(depth[row])) == 0.0
+
+
+@pytest.mark.parametrize("cells", [(24, 24), (25, 25), (31, 30)])
+def test_crown_on_a_coarse_grid_grows_as_the_groove_does(cells):
+    """The edge of the scar lies anywhere between cells, some 20 of which it is wide."""
+    grid = Grid((1.3e-3, 1.3e-3), cells)
+    x, y = grid.mesh
+    row = (cells[0] - 1) // 2
+    found, exact = [], []
+    for more in np.exp(np.linspace(-0.5, 0.0, 26)):
+        case = {**CASE, "flat_wear_coefficient": more * CASE["flat_wear_coefficient"]}
+        half = track_profile(grid.y, 360.0, **case).half_length
+        depth = np.maximum(half**2 - x**2, 0.0) / (2 * R)
+        found.append(crown((-(x**2 + y**2) / (2 * R) - depth)[row], depth[row]))
+        exact.append(ball_on_track([360.0], **case).flat_depth[0])
+    assert found == pytest.approx(exact, rel=0.04, abs=0)
+    slope = np.log(np.divide(found[10:], found[:-10])) / np.log(np.divide(exact[10:], exact[:-10]))
+    assert slope == pytest.approx(1.0, abs=0.25)
+
+
+def test_crown_does_not_see_a_tilt():
+    x = np.linspace(-1.0, 1.0, 201) * 1e-3
+    depth = np.where(np.abs(x) < 0.5e-3, 1e-6, 0.0)
+    bulge = -(x**2) / (2 * R)
+    assert crown(bulge + 0.01 * x, depth) == pytest.approx(crown(bulge, depth), rel=1e-9, abs=0)
+
+
+@pytest.mark.parametrize(
+    ("power", "off"), [(0.5, 1.1), (0.7, 0.7), (1, 1e-6), (1.2, 0.01), (1.5, 0.01)]
+)
+def test_a_diameter_grows_evenly_with_the_scar(power, off):
+    """Also where the depth runs out more steeply, or in a toe, as it does under elastic bodies."""
+    y = np.arange(40) - 19.5
+    halves = np.arange(8.0, 11.0, 0.02)
+    lines = [np.maximum(1 - (y / half) ** 2, 0.0) ** power for half in halves]
+    found = [diameter(line[None, :], 1, 1.0) for line in lines]
+    assert found == pytest.approx(2 * halves, abs=off)
+    assert np.max(np.diff(found)) < 0.3

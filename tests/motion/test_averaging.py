@@ -1,0 +1,90 @@
+"""What the stroke average costs, as a motion states it, against runs of a moving contact."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tribo.core.errors import CaseError
+from tribo.core.grid import Grid
+from tribo.motion.averaging import groove_excess
+from tribo.motion.reciprocating import Reciprocating
+from tribo.motion.unidirectional import Unidirectional
+
+GRID = Grid((1e-3, 1e-3), (10, 10))
+FIGURES = Path(__file__).parents[2] / "docs" / "_data" / "moving_contact.json"
+TABLES = json.loads(FIGURES.read_text(encoding="utf-8"))["tables"]
+
+
+def stroke(value="2 mm", **more):
+    return Reciprocating(stroke=value, frequency="25 Hz", duration="1 h", **more)
+
+
+@pytest.mark.parametrize("row", TABLES["paper"], ids=lambda row: row["case"])
+def test_the_papers_hours_are_as_far_off_as_stated(row):
+    assert row["estimate_percent"] == pytest.approx(row["too_deep_percent"], rel=0.1)
+
+
+@pytest.mark.parametrize(
+    "row", [row for row in TABLES["grooves"] if row["flat_over_ball"] == 1], ids=str
+)
+def test_deep_grooves_are_as_far_off_as_stated(row):
+    assert row["estimate_percent"] == pytest.approx(row["too_deep_percent"], abs=1.0)
+
+
+def test_ten_half_widths_cost_three_percent_and_twenty_half_of_that_or_less():
+    # Grooves of the paper's load and path: 3.3 and 1.6 µm, where the elastic approach is 4.4 µm.
+    assert groove_excess(5e-3, 0.5e-3, 3.3e-6, 4.4e-6) == pytest.approx(0.03, abs=0.005)
+    assert groove_excess(10e-3, 0.5e-3, 1.6e-6, 4.4e-6) < 0.015
+
+
+@pytest.mark.parametrize(
+    ("stroke", "deep", "found"),
+    [(2.25, 0.26, 17.2), (3.88, 0.2, 6.1), (5.75, 0.14, 2.4), (4.44, 0.6, 13)],
+)
+def test_a_ball_that_wears_ten_times_faster_makes_shallow_grooves_too_deep(stroke, deep, found):
+    # Strokes in half-widths and grooves in approaches, from `compared` in the benchmark.
+    stated = 100 * groove_excess(stroke, 1.0, deep, 1.0, volume_ratio=10.0)
+    assert stated == pytest.approx(found, abs=1.5)
+
+
+def test_a_shallow_groove_is_average_down_to_strokes_of_two_half_widths_only():
+    assert groove_excess(3.0, 1.0, 1e-9, 1.0) < 0.01
+    assert groove_excess(1.0, 1.0, 1e-9, 1.0) == pytest.approx(0.6, abs=0.1)
+    assert groove_excess(0.3, 1.0, 1e-9, 1.0) > 3
+
+
+def test_the_papers_end_is_said_with_a_number_and_a_remedy():
+    said = stroke().track_limitation(GRID, 0.5e-3, 8.05e-6, 4.4e-6, 1.0)
+    assert "4 half-widths" in said
+    assert "18 % too deep" in said
+    assert "about 3 % with a stroke of 9.7 half-widths, 4.9 mm" in said
+
+
+def test_a_stroke_of_a_fraction_of_the_contact_is_several_times_too_deep():
+    said = stroke("1 nm", allow_short_stroke=True).track_limitation(GRID, 0.15e-3, 0.0, 0.0, 1.0)
+    assert "several times too deep" in said
+
+
+def test_a_groove_far_shallower_than_the_approach_is_not_limited():
+    assert stroke().track_limitation(GRID, 0.5e-3, 0.3e-6, 4.4e-6, 1.0) is None
+    assert "% too deep" in stroke().limitation(GRID, 0.5e-3)
+
+
+def test_a_stroke_under_one_half_width_is_refused_with_a_remedy():
+    with pytest.raises(CaseError, match=r"^kinematics\.stroke: 0\.1 mm is shorter") as refused:
+        stroke("0.1 mm").check_contact(0.15e-3)
+    assert "1.5 mm" in str(refused.value)
+    assert "kinematics.allow_short_stroke = true" in str(refused.value)
+    stroke("0.16 mm").check_contact(0.15e-3)
+    stroke("0.1 mm", allow_short_stroke=True).check_contact(0.15e-3)
+
+
+@pytest.mark.parametrize(
+    ("track", "place"), [({"track_length": 1e-4}, "length"), ({"track_radius": 1e-5}, "radius")]
+)
+def test_a_closed_track_under_one_half_width_is_refused(track, place):
+    given = {"speed": 0.1, "distance": 1, **track}
+    with pytest.raises(CaseError, match=rf"^kinematics\.track_{place}: .*allow_short_track"):
+        Unidirectional(**given).check_contact(0.15e-3)
+    Unidirectional(**given, allow_short_track=True).check_contact(0.15e-3)

@@ -1,0 +1,84 @@
+import math
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from tribo.core.errors import CaseError
+from tribo.core.grid import Grid
+from tribo.motion.exposure import Stationary, Track
+from tribo.motion.reciprocating import Reciprocating
+from tribo.motion.unidirectional import Unidirectional
+
+GRID = Grid((1e-3, 1e-3), (10, 10))
+
+
+def reciprocating(**values):
+    values = {"stroke": "2 mm", "frequency": "25 Hz", "duration": "1 h", **values}
+    return Reciprocating(**values)
+
+
+def test_the_papers_hour_is_360_metres():
+    motion = reciprocating()
+    assert motion.end_time == 3600
+    assert motion.distance_at(3600) == pytest.approx(360)
+    assert motion.distance_at(0.25) == pytest.approx(0.025)
+
+
+def test_the_end_may_be_given_as_time_cycles_or_distance():
+    for end in ({"cycles": 90000}, {"distance": "360 m"}):
+        assert reciprocating(duration=None, **end).end_time == pytest.approx(3600)
+
+
+@pytest.mark.parametrize("given", [{}, {"duration": 1, "cycles": 2}])
+def test_the_end_is_given_once(given):
+    with pytest.raises(ValidationError, match="exactly one of duration, cycles and distance"):
+        Reciprocating(stroke=1, frequency=1, **given)
+
+
+def test_sinusoidal_path_is_the_integral_of_the_speed():
+    motion = reciprocating(waveform="sinusoidal")
+    omega, amplitude = 2 * math.pi * 25, 1e-3
+    for end in (0.004, 0.0137, 0.033):
+        t = np.linspace(0, end, 200_001)
+        speed = np.abs(amplitude * omega * np.sin(omega * t))
+        assert motion.distance_at(end) == pytest.approx(np.trapezoid(speed, t), rel=1e-7)
+
+
+@pytest.mark.parametrize("waveform", ["constant_speed", "sinusoidal"])
+def test_whole_cycles_slide_the_same_whatever_the_waveform(waveform):
+    motion = reciprocating(waveform=waveform)
+    assert motion.distance_at(40 / 25) == pytest.approx(40 * 2 * 2e-3, rel=1e-12, abs=0)
+
+
+@pytest.mark.parametrize(
+    "motion",
+    [
+        reciprocating(),
+        reciprocating(waveform="sinusoidal"),
+        Unidirectional(speed="0.1 m/s", track_radius="16 mm", distance="10 m"),
+    ],
+)
+def test_time_is_the_inverse_of_distance(motion):
+    for time in (0.001, 0.0123, 1.0, 77.7):
+        assert motion.time_at(motion.distance_at(time)) == pytest.approx(time, rel=1e-9)
+
+
+def test_the_last_body_is_swept_unless_named():
+    exposures = reciprocating().exposures(GRID, ["ball", "disk"])
+    assert isinstance(exposures["ball"], Stationary)
+    assert isinstance(exposures["disk"], Track)
+    assert exposures["disk"].length == 2e-3
+    named = reciprocating(swept="ball").exposures(GRID, ["ball", "disk"])
+    assert isinstance(named["ball"], Track)
+
+
+def test_an_unknown_swept_body_is_refused():
+    with pytest.raises(CaseError, match=r"kinematics\.swept: .*'bal'.*ball, disk"):
+        reciprocating(swept="bal").exposures(GRID, ["ball", "disk"])
+
+
+def test_a_disk_track_is_a_circumference():
+    motion = Unidirectional(speed="0.1 m/s", track_radius="16 mm", revolutions=10)
+    assert motion.lap == pytest.approx(2 * math.pi * 16e-3)
+    assert motion.distance_at(motion.end_time) == pytest.approx(10 * motion.lap)

@@ -1,0 +1,137 @@
+"""What effects compute is kept in the result, for the pressure saved with it."""
+
+import csv
+import json
+
+import h5py
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from paper_models import small
+from strangers.oxidation import OXIDE, OxideFilm
+
+from tribo import CaseError, Interrupted, Result, Simulation, TriboError
+from tribo.cli.show import show
+from tribo.observers.observer import Observer
+from tribo.plugin import Field
+from tribo.result.export import export_csv
+
+POWER, FRICTION, SPEED = 1e7, 0.1, 0.1
+
+
+def film():
+    return OxideFilm(power=POWER)
+
+
+def model(effect=None):
+    return small(effects=[effect or film()], friction_coefficient=FRICTION, save_times=(20, 100))
+
+
+def expected(pressure):
+    heat = FRICTION * pressure * SPEED
+    return heat / (heat + POWER)
+
+
+@pytest.fixture(scope="module")
+def path(tmp_path_factory):
+    path = tmp_path_factory.mktemp("effects") / "run.h5"
+    Simulation(model().case).run(path).close()
+    return path
+
+
+def test_each_save_has_the_field_of_its_own_pressure(path):
+    with Result.open(path) as result:
+        for name in ("ball", "disk"):
+            kept = result.body(name).effects[OXIDE]
+            assert kept.shape == (4, 48, 48)
+            for save in range(4):
+                np.testing.assert_allclose(
+                    kept[save], expected(result.pressure(save)), rtol=1e-9, atol=0
+                )
+
+
+def test_it_has_unit_and_meaning(path):
+    with Result.open(path) as result:
+        (field,) = result.body("ball").effect_fields
+    assert (field.name, field.unit) == (OXIDE, "1")
+    with h5py.File(path) as file:
+        dataset = file[f"bodies/disk/effects/{OXIDE}"]
+        assert dataset.attrs["units"] == "1"
+        assert dataset.attrs["long_name"] == "Part of the surface under oxide."
+        assert [scale.label or scale[0].name for scale in dataset.dims] == ["/time", "/x", "/y"]
+
+
+def test_it_is_exported_in_the_profiles(path, tmp_path):
+    with Result.open(path) as result:
+        export_csv(result, tmp_path)
+    with (tmp_path / "profiles_x.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    for row in rows[::7]:
+        film = expected(float(row["pressure_Pa"]))
+        assert float(row[f"bodies.ball.effects.{OXIDE}"]) == pytest.approx(film, rel=0.01, abs=1e-9)
+
+
+def test_json_has_its_range_at_each_save(path):
+    shown = CliRunner().invoke(show, [str(path), "--json"])
+    saves = json.loads(shown.stdout)["saves"]
+    for save in saves:
+        low, high = (save["bodies"]["ball"]["effects"][OXIDE][key] for key in ("min", "max"))
+        assert low == 0
+        assert high == pytest.approx(expected(save["max_pressure_Pa"]), rel=1e-9, abs=0)
+
+
+class StopAt(Observer):
+    def on_step(self, snapshot):
+        if snapshot.state.steps == 8:
+            raise KeyboardInterrupt
+
+
+def test_a_resumed_run_keeps_the_same_bits(path, tmp_path):
+    stopped = tmp_path / "stopped.h5"
+    with pytest.raises(Interrupted):
+        Simulation(model().case).run(stopped, observers=[StopAt()])
+    with Result.open(stopped) as result:
+        np.testing.assert_allclose(
+            result.body("disk").effects[OXIDE][-1], expected(result.pressure(-1)), rtol=1e-9, atol=0
+        )
+    with Simulation(model().case).resume(stopped) as resumed, Result.open(path) as whole:
+        for name in ("ball", "disk"):
+            kept = resumed.body(name).effects[OXIDE]
+            assert kept.tobytes() == whole.body(name).effects[OXIDE].tobytes()
+
+
+class Fails(OxideFilm):
+    def fields(self, contact):
+        raise ValueError("too hot")
+
+
+def test_where_an_effect_fails_the_rest_of_the_save_stays(tmp_path):
+    path = tmp_path / "failed.h5"
+    with pytest.raises(TriboError, match="too hot"):
+        Simulation(model(Fails(power=POWER))).run(path)
+    with Result.open(path) as result:
+        assert np.isfinite(result.pressure(0)).all()
+        assert np.isnan(result.body("ball").effects[OXIDE]).all()
+        (save,) = result.summary()["saves"]
+    assert save["bodies"]["ball"]["effects"][OXIDE] == {"min": None, "max": None}
+
+
+class Renamed(OxideFilm):
+    provides = (Field("film", "1", "Part of the surface under oxide."),)
+
+    def fields(self, contact):
+        return {"film": super().fields(contact)[OXIDE]}
+
+
+def test_a_run_does_not_resume_with_effects_that_provide_other_fields(tmp_path):
+    stopped = tmp_path / "stopped.h5"
+    with pytest.raises(Interrupted):
+        Simulation(model().case).run(stopped, observers=[StopAt()])
+    changed = Simulation(model(Renamed(power=POWER)))
+    with pytest.raises(CaseError, match=f"provide film, but the result keeps {OXIDE}"):
+        changed.resume(stopped, allow_changed=True)
+
+
+def test_a_run_without_effects_keeps_none():
+    body = Simulation(small()).run().body("ball")
+    assert (body.effects, body.effect_fields) == ({}, ())

@@ -1,0 +1,79 @@
+"""What a wear law keeps per material point is kept in the result."""
+
+import csv
+
+import h5py
+import numpy as np
+import pytest
+from paper_models import archard, case, flat, named, small, sphere, steel
+from strangers.running_in import RunningIn
+
+from tribo import Result, Simulation
+from tribo.result.export import export_csv
+from tribo.simulation.predict import predict
+
+LAW = RunningIn(k_first=9e-16, k_last=3e-16, length=20.0)
+
+
+def model(**changes):
+    bodies = [named("ball", sphere(), steel(), LAW), named("disk", flat(), steel(), LAW)]
+    return small(bodies=bodies, save_times=(20,), **changes)
+
+
+@pytest.fixture(scope="module")
+def path(tmp_path_factory):
+    path = tmp_path_factory.mktemp("state") / "run.h5"
+    Simulation(model().case).run(path).close()
+    return path
+
+
+def test_it_is_read_back_with_unit_and_meaning(path):
+    with Result.open(path) as result:
+        ball, disk = result.body("ball"), result.body("disk")
+        distances = result.distances
+    (slip,) = ball.state_fields
+    assert (slip.name, slip.unit) == ("slip", "m")
+    assert "slid under pressure" in slip.description
+    assert ball.state["slip"].shape == disk.state["slip"].shape == (3, 48, 48)
+    # What is in contact from the beginning slides all the way, what never is does not.
+    np.testing.assert_allclose(ball.state["slip"].max(axis=(1, 2)), distances, rtol=1e-12)
+    assert ball.state["slip"].min() == 0
+    assert np.all(disk.state["slip"] == disk.state["slip"][:, :1])
+
+
+def test_it_lies_in_the_file_as_the_wear_depth_does(path):
+    with h5py.File(path) as file:
+        for body, shape in (("ball", (3, 48, 48)), ("disk", (3, 48))):
+            slip = file[f"bodies/{body}/state/slip"]
+            assert slip.shape == file[f"bodies/{body}/wear_depth"].shape == shape
+            assert slip.attrs["units"] == "m"
+            assert "slid" in slip.attrs["long_name"]
+
+
+def test_it_is_exported_in_the_profiles(path, tmp_path):
+    with Result.open(path) as result:
+        export_csv(result, tmp_path)
+    with (tmp_path / "profiles_y.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    slips = [float(row["bodies.disk.state.slip_m"]) for row in rows]
+    assert max(slips[:48]) == 0 < max(slips[48:96]) < max(slips[96:])
+
+
+def test_a_law_without_state_keeps_none():
+    bodies = [named("ball", sphere(), steel(), archard()), named("disk", flat(), steel())]
+    with Simulation(case(bodies=bodies)).run() as result:
+        assert result.body("ball").state == result.body("disk").state == {}
+
+
+def test_the_predicted_size_counts_it(path):
+    def size(grid_model):
+        return predict(grid_model).file_size
+
+    bodies = [
+        named("ball", sphere(), steel(), archard()),
+        named("disk", flat(), steel(), archard()),
+    ]
+    without = small(bodies=bodies, save_times=(20,))
+    # Three saves of a field on the ball and of a line on the disk.
+    assert size(model()) - size(without) == 3 * 8 * (48 * 48 + 48)
+    assert path.stat().st_size < size(model())

@@ -1,0 +1,179 @@
+"""Where each model of a result came from, and when it counts as another."""
+
+import io
+import json
+import os
+import subprocess
+import sys
+from copy import deepcopy
+from pathlib import Path
+from typing import ClassVar
+
+import pytest
+from edited import edited
+from paper_models import archard, flat, named, small, steel
+from rich.console import Console
+
+from tribo import CaseError, Simulation
+from tribo.cli.report import print_provenance
+from tribo.component import Component
+from tribo.core.errors import PluginError
+from tribo.result.provenance import changed_components, origin, provenance, stated_facts
+from tribo.result.read import Result
+from tribo.surfaces.sphere import Sphere
+
+
+class Stated(Sphere):
+    """A sphere that states what it was read from."""
+
+    serial: ClassVar[str] = "7"
+
+    def facts(self):
+        return {"serial number": self.serial}
+
+
+def stated():
+    return Stated(radius="5 mm")
+
+
+def model():
+    bodies = [named("ball", stated(), steel(), archard()), named("disk", flat(), steel())]
+    return small(bodies=bodies, save_times=(20,))
+
+
+def made(**changes):
+    before = provenance({"contact": origin(archard())})
+    before["components"]["contact"].update(changes)
+    return before
+
+
+def test_each_component_of_a_model_made_of_objects_has_its_configuration_and_facts():
+    with Simulation(model().case).run() as result:
+        components = result.provenance["components"]
+        bodies = result.case["bodies"]
+    ball = components["bodies.ball.surface"]
+    assert ball["config"] == {"type": "sphere", "radius": 0.005}
+    assert ball["facts"] == {"serial number": "7"}
+    assert components["bodies.disk.surface"]["facts"] == {}
+    assert components["bodies.ball.wear"]["config"] == bodies["ball"]["wear"]
+    assert "bodies.disk.wear" not in components
+
+
+def test_show_prints_configuration_and_facts_of_each():
+    with Simulation(model().case).run() as result:
+        console = Console(file=io.StringIO(), width=60, highlight=False)
+        print_provenance(result, console)
+    text = console.file.getvalue()
+    lines = text.splitlines()
+    assert f", source code {origin(stated())['code'][:10]}\n" in text
+    at = next(i for i, line in enumerate(lines) if line.startswith("  bodies.ball.surface: sphere"))
+    assert lines[at + 1 : at + 3] == ["      radius = 0.005", "      serial number: 7"]
+    assert "      type" not in text
+
+
+def test_being_editable_is_no_change():
+    assert changed_components(made(editable=False), made(editable=True)) == []
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"version": "9.9"}, "Archard of tribo 9.9"),
+        ({"class": "other.Law"}, "other.Law of tribo"),
+        ({"distribution": "fork"}, "Archard of fork"),
+        ({"code": "abcdef0123456789"}, "(source code abcdef0123)"),
+        ({"facts": {"sha256": "beef"}}, "(with sha256 beef)"),
+    ],
+)
+def test_a_change_is_told_by_what_differs(changes, words):
+    ((place, old, new),) = changed_components(made(), made(**changes))
+    assert place == "contact"
+    assert words in new
+    assert old != new
+
+
+def test_only_what_differs_is_told():
+    ((_, old, new),) = changed_components(made(), made(version="9.9", editable=True))
+    assert "source code" not in old + new
+    assert "editable" not in old + new
+
+
+def test_a_component_more_or_less_is_a_change():
+    fewer = made()
+    del fewer["components"]["contact"]
+    ((_, old, new),) = changed_components(fewer, made())
+    assert (old, new[:6]) == ("not there", "tribo.")
+
+
+def test_all_of_it_is_plain_data():
+    data = provenance({"ball": origin(stated())})
+    assert json.loads(json.dumps(data)) == data
+
+
+def test_a_run_does_not_go_on_with_another_file_behind_its_surface(tmp_path, monkeypatch):
+    path = tmp_path / "stopped.h5"
+    Simulation(model().case).run(path).close()
+    # As if it had been stopped.
+    with edited(path) as file:
+        file.attrs["status"] = "interrupted"
+    monkeypatch.setattr(Stated, "serial", "8")
+    with pytest.raises(CaseError, match=r"was .*\(with serial number 7\), is .*number 8\)"):
+        Simulation(model().case).resume(path)
+
+
+@pytest.mark.parametrize("facts", [None, ["size"], {"size": 1.0}, {1: "m"}])
+def test_facts_that_are_not_text_are_an_error_that_names_the_component(facts):
+    class Wrong(Stated):
+        def facts(self):
+            return facts
+
+    wrong = Wrong(radius="5 mm")
+    with pytest.raises(PluginError, match=r"'sphere' states .* as its facts"):
+        stated_facts(wrong)
+
+
+def test_most_components_state_nothing():
+    assert Component.facts(archard()) == {}
+    assert deepcopy(stated_facts(archard())) == {}
+
+
+PIPED = """
+from typing import Literal
+
+import numpy as np
+from paper_models import flat, named, small, sphere, steel
+
+from tribo import Simulation
+from tribo.plugin import WearLaw, WearRate
+
+
+class Linear(WearLaw):
+    type = "linear"
+
+    def rate(self, local):
+        return WearRate(3e-16 * local.pressure, np.full_like(local.pressure, 3e-16))
+
+
+bodies = [named("ball", sphere(), steel(), Linear()), named("disk", flat(), steel())]
+Simulation(small(bodies=bodies)).run("piped.h5")
+"""
+
+
+def test_a_law_piped_to_python_runs_and_its_source_is_said_not_to_be_available(tmp_path):
+    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[1])}
+    done = subprocess.run(
+        [sys.executable, "-"],
+        input=PIPED,
+        cwd=tmp_path,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    console = Console(file=io.StringIO(), width=200, highlight=False)
+    with Result.open(tmp_path / "piped.h5") as result:
+        print_provenance(result, console)
+    (line,) = (line for line in console.file.getvalue().splitlines() if "__main__.Linear" in line)
+    assert line.startswith("  bodies.ball.wear: linear, ")
+    assert line.endswith(", source not available")

@@ -1,1 +1,0 @@
-"""The abstract classes a plugin implements."""

@@ -1,0 +1,174 @@
+"""What a track or the block on a ring has lost, by width and section.
+
+R is the ball's radius and d the width of the track, in m. The formulas are
+those of the standards named, derived again from the geometry; the tests
+integrate the shapes they stand for.
+
+References
+----------
+ASTM G99 (ball on disk), G133 (reciprocating ball on flat), D7755 (SRV, wear
+volume), G77 (block on ring); ISO 18535 and ISO 20808.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from tribo.lab.ball import ball_cap_volume
+
+
+def groove_radius(width: float, area: float) -> float:
+    """Radius of a groove from its width and its section, R' = d⊥³/12W_q (ASTM D7755).
+
+    It takes the groove for a parabola of width d⊥ and section W_q.
+
+    Parameters
+    ----------
+    width : float
+        Width d⊥ of the track, in m.
+    area : float
+        Section W_q, in m²; see `planimetric_area`.
+
+    Returns
+    -------
+    float
+        Radius, in m.
+    """
+    return width**3 / (12.0 * area)
+
+
+def planimetric_area(depth: ArrayLike, spacing: float) -> float:
+    """Section of a track below the original surface, W_q (ASTM D7755, G133, ISO 20808).
+
+    Of several profiles, as a lab takes them along the track, it is the mean.
+    Material piled up above the original surface is not subtracted.
+
+    Parameters
+    ----------
+    depth : array_like, shape (n,) or (profiles, n)
+        Depth below the original surface across the track, at the centres of
+        equal intervals, in m; negative above.
+    spacing : float
+        Interval, in m.
+
+    Returns
+    -------
+    float
+        Area, in m².
+    """
+    below = np.maximum(np.asarray(depth, dtype=float), 0.0)
+    return float(np.mean(np.sum(below, axis=-1))) * spacing
+
+
+def planimetric_volume(area: float, track_length: float) -> float:
+    """Volume of a track from one section, V = W_q ℓ (ASTM G133, D7755).
+
+    The rounded ends of a reciprocating track are not part of it.
+
+    Parameters
+    ----------
+    area : float
+        Section W_q, in m².
+    track_length : float
+        Stroke, or 2πr of a circular track, in m.
+
+    Returns
+    -------
+    float
+        Volume, in m³.
+    """
+    return area * track_length
+
+
+def circular_groove_area(width: float, radius: float) -> float:
+    """Section of a track with the shape of an unworn ball (ASTM G99).
+
+    A = R² asin(d/2R) − (d/4)√(4R² − d²), a segment of the ball's section. Where the
+    ball wears too the track is shallower than that.
+
+    Parameters
+    ----------
+    width : float
+        Width d of the track, in m; at most 2R.
+    radius : float
+        Ball radius R, in m.
+
+    Returns
+    -------
+    float
+        Area, in m².
+    """
+    return radius**2 * math.asin(width / (2.0 * radius)) - 0.25 * width * math.sqrt(
+        4.0 * radius**2 - width**2
+    )
+
+
+def disk_track_volume(width: float, radius: float, track_radius: float) -> float:
+    """Volume of a circular track with the shape of an unworn ball (ASTM G99).
+
+    V = 2πr A with `circular_groove_area` A.
+
+    Parameters
+    ----------
+    width : float
+        Width of the track, in m.
+    radius : float
+        Ball radius R, in m.
+    track_radius : float
+        Radius r of the track, in m.
+
+    Returns
+    -------
+    float
+        Volume, in m³.
+    """
+    return 2.0 * math.pi * track_radius * circular_groove_area(width, radius)
+
+
+def reciprocating_track_volume(width: float, radius: float, stroke: float) -> float:
+    """Volume of a straight track with the shape of an unworn ball, ends included.
+
+    `circular_groove_area` times the stroke, and half a ball cap at each end
+    (after ASTM G133).
+
+    Parameters
+    ----------
+    width : float
+        Width of the track, in m.
+    radius : float
+        Ball radius R, in m.
+    stroke : float
+        Stroke, in m.
+
+    Returns
+    -------
+    float
+        Volume, in m³.
+    """
+    return stroke * circular_groove_area(width, radius) + ball_cap_volume(width, radius)
+
+
+def block_on_ring_volume(scar_width: float, ring_diameter: float, block_width: float) -> float:
+    """Volume off the block of a block-on-ring test (ASTM G77).
+
+    V = (D²t/8)(2θ − sin 2θ), θ = asin(b/D).
+
+    Parameters
+    ----------
+    scar_width : float
+        Mean scar width b, in m; at most D.
+    ring_diameter : float
+        Ring diameter D, in m.
+    block_width : float
+        Block width t, in m.
+
+    Returns
+    -------
+    float
+        Volume, in m³.
+    """
+    twice = 2.0 * math.asin(scar_width / ring_diameter)
+    return ring_diameter**2 * block_width / 8.0 * (twice - math.sin(twice))

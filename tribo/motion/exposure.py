@@ -1,0 +1,163 @@
+"""How a body's material points meet the contact: staying in it, or passing through."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+
+import numpy as np
+
+from tribo.core.arrays import Array
+from tribo.core.contact import WearCompliance
+from tribo.core.grid import Grid
+
+
+class Exposure(ABC):
+    """Maps rates in the contact frame on to a body's own surface.
+
+    Fields on a body's surface have shape (nx, ny) where its points stay in the
+    contact, and (1, ny) where they are swept through it.
+    """
+
+    swept: bool = False
+    """Whether the body's points pass through the contact."""
+
+    shape_stays: bool = True
+    """Whether the body's initial shape stands still in the contact frame. It does not where a body
+    passes as a whole, so that its surface must not vary along x; it does for a body that stays, and
+    for one that turns about an axis across the sliding direction."""
+
+    @abstractmethod
+    def average(self, rate: Array) -> Array:
+        """Return the rate each point of the body sees per metre of sliding.
+
+        Parameters
+        ----------
+        rate : ndarray, shape (nx, ny)
+            Rate per metre of sliding in the contact frame.
+
+        Returns
+        -------
+        ndarray
+            Its mean over a whole motion, on the body's surface.
+        """
+
+    @abstractmethod
+    def envelope(self, field: Array) -> Array:
+        """Return the largest value of `field` that each point of the body meets.
+
+        Parameters
+        ----------
+        field : ndarray, shape (nx, ny)
+            Field in the contact frame.
+
+        Returns
+        -------
+        ndarray
+            On the body's surface.
+        """
+
+    @abstractmethod
+    def volume(self, depth: Array) -> float:
+        """Return the volume of a depth field on the body's whole surface, in m³."""
+
+    def compliance(self, derivative: Array, pressure: Array) -> WearCompliance | None:
+        """Return the wear per metre of sliding as a compliance, or None.
+
+        It is an approximation that the implicit step corrects to its exact
+        rate; None leaves the step to plain iteration.
+
+        Parameters
+        ----------
+        derivative : ndarray, shape (nx, ny)
+            Derivative of the depth per metre with respect to pressure, in 1/Pa.
+        pressure : ndarray, shape (nx, ny)
+            Pressure at which the derivative was taken, in Pa.
+        """
+        return None
+
+
+class Stationary(Exposure):
+    """The same material points stay in contact.
+
+    Parameters
+    ----------
+    grid : Grid
+        The window.
+    """
+
+    def __init__(self, grid: Grid) -> None:
+        self._grid = grid
+
+    def average(self, rate: Array) -> Array:
+        """Return `rate` itself: every point sees its own."""
+        return rate
+
+    def envelope(self, field: Array) -> Array:
+        """Return `field` itself."""
+        return field
+
+    def volume(self, depth: Array) -> float:
+        """Return the integral of `depth` over the window, in m³."""
+        return float(np.sum(depth)) * self._grid.cell_area
+
+    def compliance(self, derivative: Array, pressure: Array) -> WearCompliance:
+        """Return the derivative as a local compliance."""
+        return WearCompliance(derivative, np.zeros(derivative.shape[1]))
+
+
+class Track(Exposure):
+    """Points pass through the contact along x, all over a track of given length.
+
+    The mean over the track is (J r)(y) = (Δx/ℓ) Σₓ r(x, y), whatever the
+    window: equation 5 of Andersson, Almqvist & Larsson with N = L. Fields on
+    the body have shape (1, ny).
+
+    Valid on a closed track. Where the contact reverses inside the track it is
+    an approximation, too deep at mid-track (see
+    `tribo.motion.averaging.groove_excess`).
+
+    Parameters
+    ----------
+    grid : Grid
+        The window.
+    length : float
+        Track length ℓ, in m: the stroke, or the circumference.
+    shape_stays : bool, optional
+        Whether the body turns, so that its shape stands still while its
+        points pass: the disks of a twin-disk tester.
+    """
+
+    swept = True
+
+    def __init__(self, grid: Grid, length: float, *, shape_stays: bool = False) -> None:
+        self._grid = grid
+        self._length = length
+        self.shape_stays = shape_stays
+
+    @property
+    def length(self) -> float:
+        """Track length ℓ, in m."""
+        return self._length
+
+    def average(self, rate: Array) -> Array:
+        """Return the track average, shape (1, ny)."""
+        line = np.sum(rate, axis=0, keepdims=True)
+        return np.asarray(line * (self._grid.spacing[0] / self._length))
+
+    def envelope(self, field: Array) -> Array:
+        """Return the maximum along the track, shape (1, ny)."""
+        return np.asarray(np.max(field, axis=0, keepdims=True))
+
+    def volume(self, depth: Array) -> float:
+        """Return the track length times the area of its cross-section, in m³."""
+        section = np.max(np.broadcast_to(depth, (depth.shape[0], self._grid.cells[1])), axis=0)
+        return float(np.sum(section)) * self._grid.spacing[1] * self._length
+
+    def compliance(self, derivative: Array, pressure: Array) -> WearCompliance:
+        """Return the load-weighted mean derivative of each row as a swept compliance."""
+        line_load = np.sum(pressure, axis=0)
+        loaded = line_load > 0
+        weighted = np.sum(derivative * pressure, axis=0) / np.where(loaded, line_load, 1.0)
+        # A row that is yet to be touched has the derivative that its law gives nearby.
+        mean = np.where(loaded, weighted, np.max(derivative, axis=0))
+        return WearCompliance(np.zeros_like(derivative), mean / self._length)

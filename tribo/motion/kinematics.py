@@ -1,0 +1,106 @@
+"""How far has it slid at time t, and which points of which body see the contact?"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Mapping, Sequence
+
+from tribo.component import Component
+from tribo.core.grid import Grid
+from tribo.motion.exposure import Exposure
+
+
+class Kinematics(Component):
+    """A sliding motion along x."""
+
+    @property
+    @abstractmethod
+    def end_time(self) -> float:
+        """Time at which the motion ends, in s."""
+
+    @abstractmethod
+    def distance_at(self, time: float) -> float:
+        """Return the sliding distance from 0 to `time` (s), in m; never decreasing."""
+
+    def time_at(self, distance: float) -> float:
+        """Return the time at which the sliding distance reaches `distance` (m), in s.
+
+        Found by bisection of `distance_at` unless overridden.
+        """
+        low, high = 0.0, self.end_time
+        while True:
+            middle = 0.5 * (low + high)
+            if not low < middle < high:
+                return high
+            low, high = (middle, high) if self.distance_at(middle) < distance else (low, middle)
+
+    def speeds(self) -> Sequence[tuple[float, float]] | None:
+        """Return the sliding speeds of a cycle, each with its share of the path.
+
+        Effects and wear laws are asked at each of these speeds, and their rates
+        averaged over the path, however long a step is.
+
+        Returns
+        -------
+        sequence of (float, float) or None
+            Speeds in m/s, and shares that add up to 1. None, unless overridden:
+            then they are asked at the mean speed over each step.
+        """
+        return None
+
+    @abstractmethod
+    def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
+        """Return how each body, by name, meets the contact.
+
+        Parameters
+        ----------
+        grid : Grid
+            The window.
+        bodies : sequence of str
+            Names of the bodies, in the order of the case.
+
+        Raises
+        ------
+        CaseError
+            If the motion names a body that the case does not have.
+        """
+
+    def limitation(self, grid: Grid, half_width_x: float) -> str | None:
+        """Return why the motion's averaging no longer holds, or None while it does.
+
+        Parameters
+        ----------
+        grid : Grid
+            The window; its spacing is the accuracy of `half_width_x`.
+        half_width_x : float
+            Half the extent of the contact along x, in m.
+        """
+        return None
+
+    def track_limitation(
+        self,
+        grid: Grid,
+        half_width_x: float,
+        depth: float,
+        approach: float,
+        volume_ratio: float,
+    ) -> str | None:
+        """Return why the averaging does not hold for a track worn so deep; `limitation` if left.
+
+        Parameters
+        ----------
+        grid : Grid
+            The window.
+        half_width_x : float
+            Half the extent of the contact along x, in m.
+        depth : float
+            Largest worn depth of a swept body, in m.
+        approach : float
+            Elastic approach of the first contact, in m.
+        volume_ratio : float
+            Volume lost by the bodies that stay over that lost by the swept ones.
+        """
+        return self.limitation(grid, half_width_x)
+
+    def check_contact(self, half_width_x: float) -> None:
+        """Raise `CaseError` if a first contact of this half-width makes the averaging absurd."""

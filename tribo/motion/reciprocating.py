@@ -1,0 +1,134 @@
+"""Back and forth over a stroke, as in a ball-on-disk oscillation tester."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Literal, Self
+
+import numpy as np
+from pydantic import ConfigDict, model_validator
+
+from tribo.core.errors import CaseError
+from tribo.core.grid import Grid
+from tribo.core.units import Quantity
+from tribo.motion.averaging import excess_words
+from tribo.motion.exposure import Exposure
+from tribo.motion.kinematics import Kinematics
+from tribo.motion.swept import one_swept_body
+
+PHASES = 6
+"""Speeds of a sinusoidal cycle: means of its powers up to the third are exact to 1e-6."""
+
+
+class Reciprocating(Kinematics):
+    """Stroke S at frequency f: mean speed 2 S f, one body swept over the stroke.
+
+    With ``waveform = "sinusoidal"`` the position is −(S/2) cos(2πft) and the
+    speed ``πSf |sin(2πft)|``. The track average is over positions, so the waveform
+    changes only the path at times inside a half cycle, and the speeds at which
+    effects and wear laws are asked.
+
+    The track average is the paper's model, and makes a groove too deep at mid-stroke. One as deep
+    as the elastic approach is 4 % too deep where S is 10 half-widths of the contact and 12 % where
+    it is 4; one several times deeper, twice as much, where both bodies wear alike (see
+    `tribo.motion.averaging`).
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"examples": [{"stroke": "2 mm", "frequency": "25 Hz", "cycles": 100}]}
+    )
+
+    type = "reciprocating"
+    stroke: Annotated[float, Quantity("m", above=0, usual=(1e-9, 1.0))]
+    """Distance between the two points of reversal."""
+    frequency: Annotated[float, Quantity("Hz", above=0, usual=(1e-6, 1e5))]
+    """Full cycles, back and forth, per second."""
+    duration: Annotated[float, Quantity("s", above=0)] | None = None
+    """How long it runs."""
+    cycles: Annotated[float, Quantity("1", above=0)] | None = None
+    """How many full cycles it runs."""
+    distance: Annotated[float, Quantity("m", above=0)] | None = None
+    """How far it slides."""
+    waveform: Literal["constant_speed", "sinusoidal"] = "constant_speed"
+    """How the speed varies along the stroke."""
+    swept: str | None = None
+    """Name of the body whose points pass through the contact; the last body if left out."""
+    allow_short_stroke: bool = False
+    """Whether a stroke shorter than the first contact's half-width is accepted."""
+
+    @model_validator(mode="after")
+    def _one_end(self) -> Self:
+        if sum(end is not None for end in (self.duration, self.cycles, self.distance)) != 1:
+            raise ValueError("give exactly one of duration, cycles and distance")
+        return self
+
+    @property
+    def end_time(self) -> float:
+        """Time at which the motion ends, in s."""
+        if self.duration is not None:
+            return self.duration
+        if self.cycles is not None:
+            return self.cycles / self.frequency
+        assert self.distance is not None
+        return self.time_at(self.distance)
+
+    def distance_at(self, time: float) -> float:
+        """Return the path slid until `time`, in m."""
+        half_cycles = 2 * self.frequency * time
+        if self.waveform == "constant_speed":
+            return half_cycles * self.stroke
+        whole = math.floor(half_cycles)
+        return (whole + math.sin(0.5 * math.pi * (half_cycles - whole)) ** 2) * self.stroke
+
+    def time_at(self, distance: float) -> float:
+        """Return the time at which `distance` is reached, in s."""
+        strokes = distance / self.stroke
+        if self.waveform == "sinusoidal":
+            whole = math.floor(strokes)
+            strokes = whole + math.asin(math.sqrt(strokes - whole)) / (0.5 * math.pi)
+        return strokes / (2 * self.frequency)
+
+    def speeds(self) -> Sequence[tuple[float, float]] | None:
+        """Return speeds of a sinusoidal cycle, at Gauss points of the phase; else None."""
+        if self.waveform == "constant_speed":
+            return None
+        nodes, weights = np.polynomial.legendre.leggauss(PHASES)
+        # From a reversal to mid-stroke; the path is as the integral of the speed over the phase.
+        sines = np.sin(0.25 * math.pi * (nodes + 1))
+        shares = weights * sines / np.sum(weights * sines)
+        largest = math.pi * self.stroke * self.frequency
+        return [(largest * float(s), float(w)) for s, w in zip(sines, shares, strict=True)]
+
+    def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
+        """Return a track as long as the stroke for the swept body."""
+        return one_swept_body(grid, bodies, self.swept, self.stroke)
+
+    def limitation(self, grid: Grid, half_width_x: float) -> str | None:
+        """Return what the stroke average costs a groove far deeper than the elastic approach."""
+        return excess_words(self.stroke, half_width_x, math.inf, 0.0)
+
+    def track_limitation(
+        self,
+        grid: Grid,
+        half_width_x: float,
+        depth: float,
+        approach: float,
+        volume_ratio: float,
+    ) -> str | None:
+        """Return what the stroke average costs, once that is more than 5 % of the depth."""
+        return excess_words(self.stroke, half_width_x, depth, approach, volume_ratio)
+
+    def check_contact(self, half_width_x: float) -> None:
+        """Refuse a stroke that is shorter than the half-width, unless the case allows it."""
+        stroke = self.stroke
+        if stroke >= half_width_x or self.allow_short_stroke:
+            return
+        raise CaseError(
+            f"{1e3 * stroke:.3g} mm is shorter than the half-width of the first contact, "
+            f"{1e3 * half_width_x:.3g} mm: the average over the stroke would make the groove "
+            "several times too deep; give a stroke of 10 half-widths or more "
+            f"({1e4 * half_width_x:.3g} mm), or set kinematics.allow_short_stroke = true to "
+            "go on without",
+            "kinematics.stroke",
+        )

@@ -1,0 +1,38 @@
+"""The commonest arrangement: one body stays in contact, the other is swept."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from tribo.core.errors import CaseError
+from tribo.core.grid import Grid
+from tribo.motion.exposure import Exposure, Stationary, Track
+
+
+def one_swept_body(
+    grid: Grid, bodies: Sequence[str], swept: str | None, track_length: float
+) -> dict[str, Exposure]:
+    """Return a `Track` for the swept body and `Stationary` for the others.
+
+    Parameters
+    ----------
+    grid : Grid
+        The window.
+    bodies : sequence of str
+        Names of the bodies.
+    swept : str or None
+        Name of the swept body; the last body if None.
+    track_length : float
+        In m.
+
+    Raises
+    ------
+    CaseError
+        If there is no body of that name.
+    """
+    name = bodies[-1] if swept is None else swept
+    if name not in bodies:
+        raise CaseError(
+            f"no body is called {name!r}; the bodies are {', '.join(bodies)}", "kinematics.swept"
+        )
+    return {b: Track(grid, track_length) if b == name else Stationary(grid) for b in bodies}

@@ -1,0 +1,29 @@
+"""Who watches the run?"""
+
+from __future__ import annotations
+
+from tribo.component import Component
+from tribo.core.state import RunInfo, Snapshot
+
+
+class Observer(Component):
+    """Watches a run through read-only views; it has no say in the answer.
+
+    An exception that an observer raises stops the run; one raised in `on_finish`
+    is only warned of where the run did not come to its end.
+    """
+
+    def on_start(self, run: RunInfo) -> None:
+        """Before the first contact is solved, or when a run is resumed."""
+
+    def on_step(self, snapshot: Snapshot) -> None:
+        """After each accepted step, and after the first contact."""
+
+    def on_save(self, snapshot: Snapshot) -> None:
+        """At t = 0, at each requested save time, and at the end."""
+
+    def on_finish(self, snapshot: Snapshot | None, reason: str) -> None:
+        """When the run ends: ``"done"``, ``"interrupted"`` or ``"failed"``.
+
+        `snapshot` is the last accepted state, None if there is none.
+        """

@@ -1,0 +1,204 @@
+"""Which versions, which classes and which plugins made a result."""
+
+from __future__ import annotations
+
+import json
+import platform
+import sys
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cache
+from hashlib import sha256
+from importlib import metadata
+from itertools import takewhile
+from pathlib import Path
+from typing import Any
+
+from tribo.component import Component
+from tribo.core.distributions import entry_points
+from tribo.core.errors import PluginError
+
+_IDENTITY = ("class", "distribution", "version", "code", "facts")
+PACKAGES = ("tribo", "numpy", "scipy", "h5py", "pydantic", "pluggy")
+
+
+def provenance(
+    components: Mapping[str, Mapping[str, object]],
+    plugins: Iterable[Mapping[str, object]] = (),
+) -> dict[str, object]:
+    """Return versions, and for each component where it came from and how it is configured.
+
+    Parameters
+    ----------
+    components : Mapping[str, Mapping]
+        The `origin` of each, by its place in the case.
+    plugins : iterable of Mapping
+        Every plugin that was found, loaded or not, as plain data.
+
+    Returns
+    -------
+    dict
+        Plain data, ready for JSON.
+    """
+    return {
+        **environment(),
+        "components": {place: dict(made) for place, made in components.items()},
+        "plugins": [dict(plugin) for plugin in plugins],
+    }
+
+
+def environment() -> dict[str, object]:
+    """Return the versions of Python, the platform and the packages that matter."""
+    return {
+        "python": platform.python_version(),
+        "platform": platform.platform(),
+        "packages": {name: _version(name) for name in PACKAGES},
+    }
+
+
+def changed_components(
+    before: Mapping[str, Any], now: Mapping[str, Any]
+) -> list[tuple[str, str, str]]:
+    """Return the components that are not what they were: place, before, now.
+
+    A component is what its class, distribution, version and source code make
+    of it, and the facts it states. Whether it is installed to be edited, and
+    its configuration, which is compared with the whole case, do not count.
+
+    Parameters
+    ----------
+    before, now : Mapping
+        What `provenance` returned.
+    """
+    old, new = before["components"], now["components"]
+    changes = []
+    for place in {**old, **new}:
+        was, is_now = old.get(place, {}), new.get(place, {})
+        differing = [key for key in _IDENTITY if was.get(key) != is_now.get(key)]
+        if differing:
+            changes.append((place, _words(was, differing), _words(is_now, differing)))
+    return changes
+
+
+def stated_facts(component: Component) -> dict[str, str]:
+    """Return what a component states of itself.
+
+    Raises
+    ------
+    PluginError
+        If that is not text by text.
+    """
+    facts = component.facts()
+    if not isinstance(facts, Mapping) or not all(
+        isinstance(text, str) for pair in facts.items() for text in pair
+    ):
+        raise PluginError(f"{component.type!r} states {facts!r} as its facts, not text by text")
+    return dict(facts)
+
+
+def _words(origin: Mapping[str, Any], differing: Sequence[str]) -> str:
+    """Return which class of which version it is, and of the rest what makes the difference."""
+    if not origin:
+        return "not there"
+    words = f"{origin['class']} of {origin['distribution'] or 'no distribution'}"
+    words = f"{words} {origin['version']}".rstrip()
+    if "code" in differing:
+        words += f" (source code {origin['code'][:10] or 'unknown'})"
+    if "facts" in differing:
+        stated = ", ".join(f"{name} {text}" for name, text in origin["facts"].items())
+        words += f" (with {stated or 'no facts'})"
+    return words
+
+
+def origin(component: Component) -> dict[str, object]:
+    """Return where a component came from and how it is configured, as plain data.
+
+    Raises
+    ------
+    PluginError
+        If the facts it states are not text by text.
+    """
+    cls = type(component)
+    distribution = _distribution(cls.__module__)
+    made: dict[str, object] = {
+        "type": cls.type,
+        "class": f"{cls.__module__}.{cls.__qualname__}",
+        "distribution": "",
+        "version": "",
+        "editable": False,
+        # The version says nothing of what is edited in place.
+        "code": _code(cls.__module__.split(".")[0]),
+        "config": component.model_dump(mode="json"),
+        "facts": stated_facts(component),
+    }
+    if distribution is not None:
+        source = json.loads(distribution.read_text("direct_url.json") or "{}")
+        made["distribution"] = distribution.name
+        made["version"] = distribution.version
+        made["editable"] = bool(source.get("dir_info", {}).get("editable"))
+        if "vcs_info" in source:
+            made["commit"] = source["vcs_info"].get("commit_id", "")
+    return made
+
+
+@cache
+def _code(package: str) -> str:
+    """Return a hash of the source files of a top-level package or module that is imported.
+
+    Empty where there are none to read, as of what is typed in or piped to Python.
+    """
+    module = sys.modules.get(package)
+    files = [
+        path
+        for folder in getattr(module, "__path__", ())
+        for path in sorted(Path(folder).rglob("*.py"))
+    ]
+    file = getattr(module, "__file__", None)
+    if not files and file:
+        files = [Path(file)]
+    digest = sha256()
+    try:
+        for path in files:
+            digest.update(path.read_bytes())
+    except OSError:
+        return ""
+    return digest.hexdigest() if files else ""
+
+
+def _shared(left: Sequence[str], right: Sequence[str]) -> int:
+    """Return how many parts two dotted paths share from their beginning."""
+    pairs = zip(left, right, strict=False)
+    return sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], pairs))
+
+
+@cache
+def _named_modules() -> tuple[tuple[list[str], metadata.Distribution], ...]:
+    """Return the modules that entry points name, in parts, each with its distribution."""
+    return tuple(
+        (point.value.split(":")[0].strip().split("."), distribution)
+        for distribution, point in entry_points()
+        if point.group in ("tribo", "console_scripts")
+    )
+
+
+@cache
+def _distribution(module: str) -> metadata.Distribution | None:
+    """Return the distribution that a module came with."""
+    # An editable installation lists no packages, but its entry points name modules. Of
+    # distributions that share a namespace, that of the longest common path is meant.
+    parts = module.split(".")
+    best: tuple[int, metadata.Distribution | None] = (0, None)
+    for named, distribution in _named_modules():
+        common = _shared(named, parts)
+        if common > best[0]:
+            best = common, distribution
+    if best[1] is not None:
+        return best[1]
+    names = metadata.packages_distributions().get(parts[0], [])
+    return metadata.distribution(names[0]) if names else None
+
+
+def _version(distribution: str) -> str:
+    try:
+        return metadata.version(distribution)
+    except metadata.PackageNotFoundError:
+        return ""

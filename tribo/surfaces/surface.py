@@ -1,0 +1,41 @@
+"""What is the initial height map of a body?"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+
+from tribo.component import Component
+from tribo.core.arrays import Array
+from tribo.core.grid import Grid
+
+
+class Surface(Component):
+    """The shape of a body before it wears."""
+
+    @abstractmethod
+    def height(self, grid: Grid) -> Array:
+        """Return the height outward from the body, in m.
+
+        Parameters
+        ----------
+        grid : Grid
+            Where to sample it, in contact-frame x and y.
+
+        Returns
+        -------
+        ndarray, shape (nx, ny)
+            Any constant may be added: the gap is shifted to minimum 0.
+
+        Raises
+        ------
+        CaseError
+            If the surface does not reach over the window.
+        """
+
+    @property
+    def curvature(self) -> tuple[float, float] | None:
+        """Curvature at the highest point along x and y, in 1/m, or None if not known.
+
+        Positive where the body is convex.
+        """
+        return None

@@ -1,0 +1,47 @@
+"""How deep does one metre of sliding wear this point, under these conditions?"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from typing import ClassVar
+
+from tribo.component import Component
+from tribo.core.fields import Field, LocalConditions, WearRate
+from tribo.core.material import Material
+
+
+class WearLaw(Component):
+    """A pointwise law of wear.
+
+    It knows nothing of grids, strokes or the other body: averaging along a
+    track belongs to the kinematics.
+    """
+
+    requires: ClassVar[tuple[str, ...]] = ()
+    """Names of the local fields it needs besides pressure and speed."""
+
+    state_fields: ClassVar[tuple[Field, ...]] = ()
+    """Fields it keeps per material point; each starts at `initial_state`."""
+
+    def check(self, material: Material) -> None:
+        """Raise `CaseError` if the law cannot serve a body of `material`."""
+
+    def initial_state(self) -> dict[str, float]:
+        """Return the initial value of each state field; zero unless overridden."""
+        return {field.name: 0.0 for field in self.state_fields}
+
+    @abstractmethod
+    def rate(self, local: LocalConditions) -> WearRate:
+        """Return depth per metre of sliding and its derivative in pressure, at fixed fields.
+
+        Parameters
+        ----------
+        local : LocalConditions
+            Conditions at each point; not to be written to.
+
+        Returns
+        -------
+        WearRate
+            Arrays of the pressure's shape. Where the pressure is 0 the depth
+            is 0.
+        """
