@@ -83,7 +83,7 @@ def exponent_one_more(patch):
     def mutant(self, local):
         found = rate(self, local)
         ratio = local.pressure / self.reference_pressure
-        return WearRate(found.depth * ratio, found.derivative * ratio)
+        return WearRate(found.depth_rate * ratio, found.depth_slope * ratio)
 
     patch(Power, "rate", mutant)
 
@@ -94,7 +94,7 @@ def reference_pressure_left_out(patch):
     def mutant(self, local):
         found = rate(self, local)
         less = self.reference_pressure / 2e9
-        return WearRate(found.depth * less, found.derivative * less)
+        return WearRate(found.depth_rate * less, found.depth_slope * less)
 
     patch(Power, "rate", mutant)
 

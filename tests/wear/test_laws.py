@@ -18,7 +18,7 @@ def at(pressure, material=STEEL):
 
 def test_archard_is_depth_k_p_s():
     rate = Archard(k="3.11e-16 1/Pa").rate(at(PRESSURE))
-    np.testing.assert_allclose(rate.depth, 3.11e-16 * PRESSURE)
+    np.testing.assert_allclose(rate.depth_rate, 3.11e-16 * PRESSURE)
 
 
 def test_archard_takes_k_as_coefficient_over_hardness():
@@ -58,4 +58,6 @@ def test_derivatives_match_differences(law):
     step = 1e3
     centre = law.rate(at(PRESSURE + 1e8))
     up, down = law.rate(at(PRESSURE + 1e8 + step)), law.rate(at(PRESSURE + 1e8 - step))
-    np.testing.assert_allclose(centre.derivative, (up.depth - down.depth) / (2 * step), rtol=1e-6)
+    np.testing.assert_allclose(
+        centre.depth_slope, (up.depth_rate - down.depth_rate) / (2 * step), rtol=1e-6
+    )

@@ -35,43 +35,43 @@ class AnswersNothing(Law):
 @bad_later("gave a depth per metre that is not finite in")
 class NotANumber(Law):
     def spoilt(self, good, local):
-        return WearRate(good.depth * np.nan, good.derivative)
+        return WearRate(good.depth_rate * np.nan, good.depth_slope)
 
 
 @bad_later("gave a derivative that is not finite in")
 class EndlessSlope(Law):
     def spoilt(self, good, local):
-        return WearRate(good.depth, good.derivative * np.inf)
+        return WearRate(good.depth_rate, good.depth_slope * np.inf)
 
 
 @bad_later("gave a depth per metre that is not an array of shape")
 class WrongShape(Law):
     def spoilt(self, good, local):
-        return WearRate(good.depth[1:], good.derivative)
+        return WearRate(good.depth_rate[1:], good.depth_slope)
 
 
 @bad_later("gave a depth per metre that is not an array of shape")
 class Words(Law):
     def spoilt(self, good, local):
-        return WearRate("deep", good.derivative)
+        return WearRate("deep", good.depth_slope)
 
 
 @bad_later("complex128")
 class Complex(Law):
     def spoilt(self, good, local):
-        return WearRate(good.depth * 1j, good.derivative)
+        return WearRate(good.depth_rate * 1j, good.depth_slope)
 
 
 @bad_later("gave a negative depth per metre (-")
 class Grows(Law):
     def spoilt(self, good, local):
-        return WearRate(-good.depth, good.derivative)
+        return WearRate(-good.depth_rate, good.depth_slope)
 
 
 @bad_later("gave a depth per metre that is not 0 in")
 class WearsUntouched(Law):
     def spoilt(self, good, local):
-        return WearRate(3e-16 * (local.pressure + 1e8), good.derivative)
+        return WearRate(3e-16 * (local.pressure + 1e8), good.depth_slope)
 
 
 @bad_later("read-only")
@@ -96,7 +96,7 @@ class Leaves(Law):
 @bad_later("gave a int as rates of its state")
 class StateIsANumber(Law):
     def spoilt(self, good, local):
-        return WearRate(good.depth, good.derivative, 7)
+        return WearRate(good.depth_rate, good.depth_slope, 7)
 
 
 class Slides(Law):
@@ -106,13 +106,13 @@ class Slides(Law):
 @bad_later("gave a rate of 'slid' that is not an array of shape (32, 32): a str")
 class StateInWords(Slides):
     def spoilt(self, good, local):
-        return WearRate(good.depth, good.derivative, {"slid": "far"})
+        return WearRate(good.depth_rate, good.depth_slope, {"slid": "far"})
 
 
 @bad_later("gave no rate for its state field 'slid'")
 class ForgetsItsState(Slides):
     def spoilt(self, good, local):
-        return WearRate(good.depth, good.derivative)
+        return WearRate(good.depth_rate, good.depth_slope)
 
 
 @bad("declares the state fields ['slid'], but starts with {}")

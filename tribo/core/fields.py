@@ -86,20 +86,20 @@ class WearRate:
 
     Parameters
     ----------
-    depth : ndarray
+    depth_rate : ndarray
         Depth worn away per metre of sliding, in m/m; not negative.
-    derivative : ndarray
-        Derivative of `depth` in pressure, in 1/Pa, with the fields as they
+    depth_slope : ndarray
+        Derivative of `depth_rate` in pressure, in 1/Pa, with the fields as they
         are; through a field only if the law requires the slope of that field
         too. Implicit steps converge by it. How long an explicit step may be is
         found by difference, through all fields.
-    state : Mapping[str, ndarray]
+    state_rates : Mapping[str, ndarray]
         Change of each state field per metre of sliding.
     """
 
-    depth: Array
-    derivative: Array
-    state: Mapping[str, Array] = field(default_factory=dict)
+    depth_rate: Array
+    depth_slope: Array
+    state_rates: Mapping[str, Array] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

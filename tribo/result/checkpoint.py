@@ -185,7 +185,7 @@ def _write_state(file: h5py.File, state: State, wall_time: float) -> None:
     scalars["invariants"] = vars(state.invariants)
     scalars["wall_time"] = wall_time
     scalars["bodies"] = {name: sorted(body.law) for name, body in state.bodies.items()}
-    scalars["rates"] = {name: sorted(rate.state) for name, rate in state.rates.items()}
+    scalars["rates"] = {name: sorted(rate.state_rates) for name, rate in state.rates.items()}
     # json writes floats so that they read back to the same bits.
     write_text(file, "scalars", json.dumps(scalars))
     write_array(file, "pressure", contact.pressure)
@@ -198,9 +198,9 @@ def _write_state(file: h5py.File, state: State, wall_time: float) -> None:
         for field, values in body.law.items():
             write_array(file, f"bodies/{name}/law/{field}", values)
     for name, rate in state.rates.items():
-        write_array(file, f"rates/{name}/depth", rate.depth)
-        write_array(file, f"rates/{name}/derivative", rate.derivative)
-        for field, values in rate.state.items():
+        write_array(file, f"rates/{name}/depth", rate.depth_rate)
+        write_array(file, f"rates/{name}/derivative", rate.depth_slope)
+        for field, values in rate.state_rates.items():
             write_array(file, f"rates/{name}/state/{field}", values)
 
 
@@ -223,9 +223,9 @@ def _read_state(file: GuardedFile) -> tuple[State, float]:
     }
     rates = {
         name: WearRate(
-            depth=file.array(f"rates/{name}/depth"),
-            derivative=file.array(f"rates/{name}/derivative"),
-            state={field: file.array(f"rates/{name}/state/{field}") for field in fields},
+            depth_rate=file.array(f"rates/{name}/depth"),
+            depth_slope=file.array(f"rates/{name}/derivative"),
+            state_rates={field: file.array(f"rates/{name}/state/{field}") for field in fields},
         )
         for name, fields in scalars["rates"].items()
     }

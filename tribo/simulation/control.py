@@ -26,7 +26,7 @@ def first_increment(model: Model, state: State, remaining: float) -> float:
     """Return a first increment that wears a small part of the elastic approach, in m."""
     moment = Moment(state.time, state.distance, remaining / (model.end_time - state.time))
     rates = wear_rates(model, state.contact, law_states(state), moment)
-    fastest = max((float(np.max(rate.depth)) for rate in rates.values()), default=0.0)
+    fastest = max((float(np.max(rate.depth_rate)) for rate in rates.values()), default=0.0)
     part = FIRST * state.reference_depth
     # Two flats that repeat have no approach, and wear evenly.
     return min(remaining, part / fastest) if fastest > 0 and part > 0 else remaining

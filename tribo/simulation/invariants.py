@@ -62,7 +62,7 @@ def wear_balance(
     volume = regrowth = 0.0
     for name, depth in worn.items():
         exposure = model.exposures[name]
-        asked = increment * float(np.sum(rates[name].depth)) * model.grid.cell_area
+        asked = increment * float(np.sum(rates[name].depth_rate)) * model.grid.cell_area
         error = abs(exposure.volume(depth) - asked)
         if not error <= VOLUME * asked:
             asked = max(asked, SMALL * exposure.volume(before.bodies[name].wear))

@@ -88,13 +88,13 @@ def wear_rates(
 
 
 def _times(share: float, rate: WearRate) -> WearRate:
-    state = {name: share * values for name, values in rate.state.items()}
-    return WearRate(share * rate.depth, share * rate.derivative, state)
+    state = {name: share * values for name, values in rate.state_rates.items()}
+    return WearRate(share * rate.depth_rate, share * rate.depth_slope, state)
 
 
 def _sum(one: WearRate, other: WearRate) -> WearRate:
-    state = {name: values + other.state[name] for name, values in one.state.items()}
-    return WearRate(one.depth + other.depth, one.derivative + other.derivative, state)
+    state = {name: values + other.state_rates[name] for name, values in one.state_rates.items()}
+    return WearRate(one.depth_rate + other.depth_rate, one.depth_slope + other.depth_slope, state)
 
 
 def _rates_at(
@@ -126,7 +126,7 @@ def _rates_at(
             answer = body.wear.rate(local)
         rate = _checked(named(body.wear, who), body.wear, answer, local.pressure, moment)
         if not box.is_window:
-            rate = WearRate(box.embed(rate.depth), box.embed(rate.derivative))
+            rate = WearRate(box.embed(rate.depth_rate), box.embed(rate.depth_slope))
         rates[who] = rate
     return rates
 
@@ -185,8 +185,8 @@ def _checked(who: object, law: Law, rate: object, pressure: Array, moment: Momen
     if not isinstance(rate, WearRate):
         raise PluginError(f"{who} gave a {type(rate).__name__} instead of a WearRate")
     when, shape = moment.words, pressure.shape
-    depth, least, _ = spread(who, "a depth per metre", rate.depth, shape, when)
-    slope, flattest, _ = spread(who, "a derivative", rate.derivative, shape, when)
+    depth, least, _ = spread(who, "a depth per metre", rate.depth_rate, shape, when)
+    slope, flattest, _ = spread(who, "a derivative", rate.depth_slope, shape, when)
     if least < 0:
         raise BadValues(
             f"{who} gave a negative depth per metre ({least:.3g}){when}; wear only removes"
@@ -197,12 +197,12 @@ def _checked(who: object, law: Law, rate: object, pressure: Array, moment: Momen
             f"{who} gave a depth per metre that is not 0 in {bare} cells where the pressure is 0"
             f"{when}; what is not touched does not wear"
         )
-    if not isinstance(rate.state, Mapping):
-        raise PluginError(f"{who} gave a {type(rate.state).__name__} as rates of its state")
+    if not isinstance(rate.state_rates, Mapping):
+        raise PluginError(f"{who} gave a {type(rate.state_rates).__name__} as rates of its state")
     state = {}
     for field in law.state_fields:
-        if field.name not in rate.state:
+        if field.name not in rate.state_rates:
             raise PluginError(f"{who} gave no rate for its state field {field.name!r}")
         what = f"a rate of {field.name!r}"
-        state[field.name], _, _ = spread(who, what, rate.state[field.name], shape, when)
+        state[field.name], _, _ = spread(who, what, rate.state_rates[field.name], shape, when)
     return WearRate(depth, np.maximum(slope, 0.0) if flattest < 0 else slope, state)

@@ -49,7 +49,7 @@ def _twice(
     for name, body in model.bodies.items():
         if body.wear is not None:
             rate, repeated = once[name], again[name]
-            yield body.wear, name, rate.depth, repeated.depth
-            yield body.wear, name, rate.derivative, repeated.derivative
-            for field, values in rate.state.items():
-                yield body.wear, name, values, repeated.state[field]
+            yield body.wear, name, rate.depth_rate, repeated.depth_rate
+            yield body.wear, name, rate.depth_slope, repeated.depth_slope
+            for field, values in rate.state_rates.items():
+                yield body.wear, name, values, repeated.state_rates[field]

@@ -251,10 +251,10 @@ def _steepened(
     others = wear_rates(model, nudged, law_states(state), moment)
     steeper = dict(rates)
     for name in following:
-        change = others[name].depth - rates[name].depth
+        change = others[name].depth_rate - rates[name].depth_rate
         slope = np.divide(change, stripes, out=np.zeros_like(change), where=stripes != 0)
-        derivative = np.maximum(rates[name].derivative, slope)
-        steeper[name] = replace(rates[name], derivative=derivative)
+        derivative = np.maximum(rates[name].depth_slope, slope)
+        steeper[name] = replace(rates[name], depth_slope=derivative)
     return steeper
 
 
@@ -279,7 +279,8 @@ def _solve(
 
 def _worn(model: Model, rates: Mapping[str, WearRate], increment: float) -> dict[str, Array]:
     return {
-        name: increment * model.exposures[name].average(rate.depth) for name, rate in rates.items()
+        name: increment * model.exposures[name].average(rate.depth_rate)
+        for name, rate in rates.items()
     }
 
 
@@ -295,7 +296,7 @@ def _advanced(
 ) -> dict[str, dict[str, Array]]:
     after = {name: dict(fields) for name, fields in before.items()}
     for name, rate in rates.items():
-        for field, values in rate.state.items():
+        for field, values in rate.state_rates.items():
             change = increment * model.exposures[name].average(values)
             after[name][field] = before[name][field] + change
     return after
@@ -318,7 +319,7 @@ def _compliance(
     local = np.zeros(model.grid.cells)
     swept = np.zeros(model.grid.cells[1])
     for name, rate in rates.items():
-        part = model.exposures[name].compliance(rate.derivative, pressure)
+        part = model.exposures[name].compliance(rate.depth_slope, pressure)
         if part is not None:
             local += increment * part.local
             swept += increment * part.swept

@@ -87,9 +87,9 @@ def _view(snapshot: Snapshot) -> Snapshot:
     rates = {
         name: replace(
             rate,
-            depth=readonly(rate.depth),
-            derivative=readonly(rate.derivative),
-            state=_views(rate.state),
+            depth_rate=readonly(rate.depth_rate),
+            depth_slope=readonly(rate.depth_slope),
+            state_rates=_views(rate.state_rates),
         )
         for name, rate in state.rates.items()
     }

@@ -33,7 +33,11 @@ def _inputs(subject: Subject, law: Any, number: int) -> LocalConditions:
 
 def _call(law: Any, local: LocalConditions) -> Mapping[str, Any]:
     rate = law.rate(local)
-    return {"depth": rate.depth, "derivative": rate.derivative, "state": dict(rate.state)}
+    return {
+        "depth": rate.depth_rate,
+        "derivative": rate.depth_slope,
+        "state": dict(rate.state_rates),
+    }
 
 
 EXERCISE = Exercise(_inputs, _call)
@@ -47,7 +51,7 @@ def _slid(subject: Subject, law: Any) -> LocalConditions:
     """Return conditions in which every point has its own state: after sliding 1 m."""
     local = _inputs(subject, law, 0)
     rate = law.rate(local)
-    state = {name: local.state[name] + np.asarray(rate.state[name]) for name in local.state}
+    state = {name: local.state[name] + np.asarray(rate.state_rates[name]) for name in local.state}
     return locked(replace(local, state=state))  # type: ignore[no-any-return]
 
 
@@ -58,8 +62,8 @@ def rates_are_finite_arrays(subject: Subject) -> None:
     for number in (0, 1):
         rate = law.rate(locked(_inputs(subject, law, number)))
         require(isinstance(rate, WearRate), f"rate gave {type(rate).__name__}, not a WearRate")
-        expect_array("depth", rate.depth, _SHAPE)
-        expect_array("derivative", rate.derivative, _SHAPE)
+        expect_array("depth", rate.depth_rate, _SHAPE)
+        expect_array("derivative", rate.depth_slope, _SHAPE)
 
 
 @fact
@@ -75,7 +79,9 @@ def nothing_wears_without_pressure(subject: Subject) -> None:
 def wear_only_removes(subject: Subject) -> None:
     """The depth per metre is never negative."""
     law = subject.make()
-    least = min(_ladder(subject, law).depth.min(), law.rate(_slid(subject, law)).depth.min())
+    least = min(
+        _ladder(subject, law).depth_rate.min(), law.rate(_slid(subject, law)).depth_rate.min()
+    )
     require(least >= 0, f"the depth per metre falls to {least:.3g}; it must be at least 0")
 
 
@@ -85,10 +91,13 @@ def derivative_is_that_of_the_depth(subject: Subject) -> None:
     law = subject.make()
     step = 1e-5 * _LADDER
     rate, up, down = (_ladder(subject, law, _LADDER + s) for s in (0 * step, step, -step))
-    forward, backward = (up.depth - rate.depth) / step, (rate.depth - down.depth) / step
-    found = np.asarray(rate.derivative)
+    forward, backward = (
+        (up.depth_rate - rate.depth_rate) / step,
+        (rate.depth_rate - down.depth_rate) / step,
+    )
+    found = np.asarray(rate.depth_slope)
     # At a kink one side is right. Round-off of the depth is 1e-11 of depth/p.
-    allowed = 1e-4 * np.maximum(np.abs(found), rate.depth / _LADDER)
+    allowed = 1e-4 * np.maximum(np.abs(found), rate.depth_rate / _LADDER)
     error = np.min([np.abs(found - s) for s in (forward, backward, (forward + backward) / 2)], 0)
     at = int(np.argmax(error - allowed))
     slope = (forward[at] + backward[at]) / 2
@@ -100,14 +109,14 @@ def derivative_is_that_of_the_depth(subject: Subject) -> None:
 
 
 def _falls(subject: Subject) -> str | None:
-    falls = np.any(_ladder(subject, subject.make()).derivative < 0)
+    falls = np.any(_ladder(subject, subject.make()).depth_slope < 0)
     return "its derivative is negative somewhere" if falls else None
 
 
 @fact(unless=_falls)
 def depth_grows_with_pressure(subject: Subject) -> None:
     """Where the derivative is not negative, more pressure never wears less."""
-    depth = _ladder(subject, subject.make()).depth
+    depth = _ladder(subject, subject.make()).depth_rate
     at = int(np.argmin(np.diff(depth)))
     require(
         depth[at + 1] >= depth[at] * (1 - 1e-12),
@@ -156,7 +165,7 @@ def every_state_field_has_a_rate(subject: Subject) -> None:
     law = subject.make()
     declared = {field.name for field in law.state_fields}
     rate = law.rate(locked(_inputs(subject, law, 0)))
-    for what, given in (("initial_state", law.initial_state()), ("rate", rate.state)):
+    for what, given in (("initial_state", law.initial_state()), ("rate", rate.state_rates)):
         require(
             set(given) == declared,
             f"{what} has {sorted(given)}; state_fields declares {sorted(declared)}",
@@ -211,7 +220,9 @@ def _at(subject: Subject, law: Any, pressure: Array) -> LocalConditions:
 def _ladder(subject: Subject, law: Any, pressure: Array = _LADDER) -> WearRate:
     rate: WearRate = law.rate(_at(subject, law, pressure[:, None].copy()))
     shape = (pressure.size, 1)
-    depth, derivative = (np.broadcast_to(v, shape)[:, 0] for v in (rate.depth, rate.derivative))
+    depth, derivative = (
+        np.broadcast_to(v, shape)[:, 0] for v in (rate.depth_rate, rate.depth_slope)
+    )
     return WearRate(depth, derivative)
 
 
@@ -230,8 +241,13 @@ def _chosen(local: LocalConditions, order: Any) -> LocalConditions:
 
 
 def _pairs(part: WearRate, whole: WearRate) -> list[tuple[str, Array, Array]]:
-    pairs = [("depth", part.depth, whole.depth), ("derivative", part.derivative, whole.derivative)]
-    pairs += [(f"the rate of {n!r}", part.state[n], whole.state[n]) for n in whole.state]
+    pairs = [
+        ("depth", part.depth_rate, whole.depth_rate),
+        ("derivative", part.depth_slope, whole.depth_slope),
+    ]
+    pairs += [
+        (f"the rate of {n!r}", part.state_rates[n], whole.state_rates[n]) for n in whole.state_rates
+    ]
     return [
         (name, np.asarray(found).reshape(-1), np.broadcast_to(needed, _SHAPE))
         for name, found, needed in pairs

@@ -271,12 +271,12 @@ def expect_volume_balance(model: Model) -> None:
         moment = Moment(after.time, after.distance, increment / (after.time - before.time))
         rates = wear_rates(model, after.contact, law_states(after), moment)
         for name, rate in rates.items():
-            needed = increment * float(np.sum(rate.depth)) * model.grid.cell_area
+            needed = increment * float(np.sum(rate.depth_rate)) * model.grid.cell_area
             volume = model.exposures[name].volume
             found = volume(after.bodies[name].wear) - volume(before.bodies[name].wear)
             # The step's nonlinear tolerance is 1e-8 of the deepest cell. State fields lag by
             # one pass behind the pressure, which shows where wear is just beginning.
-            part = 1e-2 if rate.state else 1e-6
+            part = 1e-2 if rate.state_rates else 1e-6
             allowed = part * needed + 1e-12 * volume(after.bodies[name].wear)
             require(
                 abs(found - needed) <= allowed,

@@ -63,8 +63,8 @@ def test_derivative_is_that_of_depth_through_the_traction(config, energy):
     pressure, step = PRESSURE + 2e6, 1e6
     up, down = rate(pressure + step, energy, **config), rate(pressure - step, energy, **config)
     np.testing.assert_allclose(
-        rate(pressure, energy, **config).derivative,
-        (up.depth - down.depth) / (2 * step),
+        rate(pressure, energy, **config).depth_slope,
+        (up.depth_rate - down.depth_rate) / (2 * step),
         rtol=1e-9,
         atol=1e-9 * 3.11e-16,
     )

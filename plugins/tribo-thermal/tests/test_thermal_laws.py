@@ -18,8 +18,8 @@ def coefficient(law, temperature, material=STEEL):
     """Depth per metre and pascal, after a check that it is the derivative too."""
     fields = {"temperature": np.full_like(PRESSURE, temperature)}
     rate = law.rate(LocalConditions(PRESSURE, 0.1, material, fields))
-    np.testing.assert_allclose(rate.depth, rate.derivative * PRESSURE)
-    return rate.derivative[0, 0]
+    np.testing.assert_allclose(rate.depth_rate, rate.depth_slope * PRESSURE)
+    return rate.depth_slope[0, 0]
 
 
 def arrhenius(energy="50 kJ/mol"):

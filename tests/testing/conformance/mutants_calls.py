@@ -30,7 +30,7 @@ class Remembers(Law):
     def rate(self, local):
         self._slid += 0.1
         rate = super().rate(local)
-        return replace(rate, depth=rate.depth * np.exp(-self._slid))
+        return replace(rate, depth_rate=rate.depth_rate * np.exp(-self._slid))
 
 
 @caught_by("answers_may_be_overwritten")

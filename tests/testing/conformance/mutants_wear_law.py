@@ -13,35 +13,35 @@ from tribo.plugin import Field
 @caught_by("rates_are_finite_arrays")
 class ScalarDerivative(Law):
     def rate(self, local):
-        return replace(super().rate(local), derivative=1e-16)
+        return replace(super().rate(local), depth_slope=1e-16)
 
 
 @caught_by("rates_are_finite_arrays")
 class SinglePrecision(Law):
     def rate(self, local):
         rate = super().rate(local)
-        return replace(rate, depth=rate.depth.astype(np.float32))
+        return replace(rate, depth_rate=rate.depth_rate.astype(np.float32))
 
 
 @caught_by("rates_are_finite_arrays")
 class DividesByZero(Law):
     def rate(self, local):
         with np.errstate(invalid="ignore"):
-            return replace(super().rate(local), derivative=local.pressure / local.pressure)
+            return replace(super().rate(local), depth_slope=local.pressure / local.pressure)
 
 
 @caught_by("nothing_wears_without_pressure")
 class WearsByItself(Law):
     def rate(self, local):
         rate = super().rate(local)
-        return replace(rate, depth=rate.depth + 1e-12)
+        return replace(rate, depth_rate=rate.depth_rate + 1e-12)
 
 
 @caught_by("wear_only_removes")
 class Grows(Law):
     def rate(self, local):
         rate = super().rate(local)
-        return replace(rate, depth=-rate.depth, derivative=-rate.derivative)
+        return replace(rate, depth_rate=-rate.depth_rate, depth_slope=-rate.depth_slope)
 
 
 @caught_by("derivative_is_that_of_the_depth")
@@ -49,7 +49,7 @@ class SecantAsDerivative(Law):
     def rate(self, local):
         rate = super().rate(local)
         touching = np.where(local.pressure > 0, local.pressure, 1.0)
-        return replace(rate, derivative=rate.depth / touching)
+        return replace(rate, depth_slope=rate.depth_rate / touching)
 
 
 @caught_by("depth_grows_with_pressure")
@@ -57,21 +57,21 @@ class FallsUnseen(Law):
     def rate(self, local):
         rate = super().rate(local)
         fall = np.where(local.pressure > 1e9, 1e9 / np.maximum(local.pressure, 1.0), 1.0)
-        return replace(rate, depth=rate.depth * fall**4)
+        return replace(rate, depth_rate=rate.depth_rate * fall**4)
 
 
 @caught_by("points_are_independent")
 class Normalised(Law):
     def rate(self, local):
         rate = super().rate(local)
-        return replace(rate, depth=rate.depth * np.mean(local.pressure) / 1e9)
+        return replace(rate, depth_rate=rate.depth_rate * np.mean(local.pressure) / 1e9)
 
 
 @caught_by("points_are_independent")
 class AveragesItself(Law):
     def rate(self, local):
         rate = super().rate(local)
-        mean = np.mean(rate.depth, axis=0, keepdims=True)
+        mean = np.mean(rate.depth_rate, axis=0, keepdims=True)
         return replace(rate, depth=np.where(local.pressure > 0, mean, 0.0))
 
 
@@ -80,7 +80,7 @@ class AsksForMore(Law):
     def rate(self, local):
         warm = local.fields.get("temperature", 300.0)
         rate = super().rate(local)
-        return replace(rate, depth=rate.depth * (warm / 300))
+        return replace(rate, depth_rate=rate.depth_rate * (warm / 300))
 
 
 @caught_by("every_state_field_has_a_rate")

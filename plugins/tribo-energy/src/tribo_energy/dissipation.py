@@ -68,7 +68,7 @@ class Dissipation(WearLaw):
             alpha *= np.clip(onset, 0.0, 1.0)
         excess = traction - self.threshold_traction
         return WearRate(
-            depth=alpha * np.maximum(excess, 0.0),
-            derivative=alpha * np.where(excess >= 0, slope, 0.0),
+            depth_rate=alpha * np.maximum(excess, 0.0),
+            depth_slope=alpha * np.where(excess >= 0, slope, 0.0),
             state={ENERGY.name: traction},
         )
