@@ -52,7 +52,7 @@ def test_a_step_is_exact_backward_euler(laws, contact):
         if body.wear is None:
             continue
         local = type("Local", (), {"pressure": pressure, "material": body.material})
-        rate = body.wear.rate(local).depth
+        rate = body.wear.rate(local).depth_rate
         np.testing.assert_allclose(
             state.bodies[name].wear,
             1.0 * model.exposures[name].average(rate),

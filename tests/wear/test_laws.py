@@ -23,9 +23,9 @@ def test_archard_is_depth_k_p_s():
 
 def test_archard_takes_k_as_coefficient_over_hardness():
     from_material = Archard(K=1.244e-6).rate(at(PRESSURE))
-    np.testing.assert_allclose(from_material.depth, 3.11e-16 * PRESSURE)
+    np.testing.assert_allclose(from_material.depth_rate, 3.11e-16 * PRESSURE)
     own = Archard(K=1.244e-6, hardness="2 GPa").rate(at(PRESSURE))
-    np.testing.assert_allclose(own.depth, 2 * from_material.depth)
+    np.testing.assert_allclose(own.depth_rate, 2 * from_material.depth_rate)
 
 
 def test_archard_needs_a_hardness_for_the_coefficient():
@@ -42,7 +42,7 @@ def test_archard_takes_one_coefficient(given):
 
 def test_power_of_one_is_archard():
     power = Power(k="3.11e-16 1/Pa", p_exponent=1, reference_pressure="1 GPa")
-    np.testing.assert_allclose(power.rate(at(PRESSURE)).depth, 3.11e-16 * PRESSURE)
+    np.testing.assert_allclose(power.rate(at(PRESSURE)).depth_rate, 3.11e-16 * PRESSURE)
 
 
 @pytest.mark.parametrize(

@@ -71,7 +71,7 @@ def nothing_wears_without_pressure(subject: Subject) -> None:
     """Where the pressure is 0 the depth is 0."""
     law = subject.make()
     local = _slid(subject, law)
-    idle = law.rate(local).depth[local.pressure == 0]
+    idle = law.rate(local).depth_rate[local.pressure == 0]
     require(not idle.any(), f"the depth per metre is up to {np.max(np.abs(idle)):.3g} where p = 0")
 
 
@@ -170,7 +170,7 @@ def every_state_field_has_a_rate(subject: Subject) -> None:
             set(given) == declared,
             f"{what} has {sorted(given)}; state_fields declares {sorted(declared)}",
         )
-    for name, values in rate.state.items():
+    for name, values in rate.state_rates.items():
         expect_array(f"the rate of {name!r}", values, _SHAPE)
 
 
@@ -186,7 +186,7 @@ def runs_under_implicit_stepping(subject: Subject) -> None:
     law = subject.make()
     peak = law.rate(_at(subject, law, np.array([[samples.PEAK]])))
     approach = 2.2e-6  # of the small case, in m
-    depth = float(peak.depth[0, 0])
+    depth = float(peak.depth_rate[0, 0])
     distance = 0.3 * approach / depth if depth > 0 else 1.0
     samples.expect_volume_balance(
         samples.small_model(

@@ -43,8 +43,8 @@ def test_friction_traction_is_mu_p_on_both_bodies():
 
 def test_depth_is_alpha_times_the_energy_of_a_metre():
     answer = rate(PRESSURE)
-    np.testing.assert_allclose(answer.depth, 3.11e-15 * MU * PRESSURE)
-    np.testing.assert_allclose(answer.state["dissipated_energy"], MU * PRESSURE)
+    np.testing.assert_allclose(answer.depth_rate, 3.11e-15 * MU * PRESSURE)
+    np.testing.assert_allclose(answer.state_rates["dissipated_energy"], MU * PRESSURE)
 
 
 CONFIGS = [
@@ -71,7 +71,7 @@ def test_derivative_is_that_of_depth_through_the_traction(config, energy):
 
 
 def test_nothing_wears_below_the_threshold_traction():
-    depth = rate(PRESSURE, threshold_traction="120 MPa").depth
+    depth = rate(PRESSURE, threshold_traction="120 MPa").depth_rate
     assert np.all(depth[PRESSURE <= 1.2e9] == 0)
     np.testing.assert_allclose(
         depth[PRESSURE > 1.2e9], 3.11e-15 * (MU * PRESSURE[PRESSURE > 1.2e9] - 120e6)
@@ -83,7 +83,7 @@ def test_the_onset_of_wear_costs_exactly_the_threshold_energy():
     threshold, pressure = 1e9, np.full((1, 1), 1e9)
     energy = np.linspace(0, 3e9, 30001)
     per_energy = [
-        rate(pressure, e, threshold_energy=threshold).depth[0, 0] / (3.11e-15 * MU * 1e9)
+        rate(pressure, e, threshold_energy=threshold).depth_rate[0, 0] / (3.11e-15 * MU * 1e9)
         for e in energy
     ]
     assert per_energy[0] == 0

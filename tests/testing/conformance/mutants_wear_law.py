@@ -86,7 +86,7 @@ class AsksForMore(Law):
 @caught_by("every_state_field_has_a_rate")
 class ForgetsItsState(Law):
     def rate(self, local):
-        return replace(super().rate(local), state={})
+        return replace(super().rate(local), state_rates={})
 
 
 @caught_by("state_fields_are_declared")

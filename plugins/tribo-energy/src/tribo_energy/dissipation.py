@@ -70,5 +70,5 @@ class Dissipation(WearLaw):
         return WearRate(
             depth_rate=alpha * np.maximum(excess, 0.0),
             depth_slope=alpha * np.where(excess >= 0, slope, 0.0),
-            state={ENERGY.name: traction},
+            state_rates={ENERGY.name: traction},
         )
