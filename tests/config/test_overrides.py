@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from tribo.config.overrides import apply_overrides
+from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError
 
 DATA: dict[str, Any] = {
@@ -20,7 +20,7 @@ DATA: dict[str, Any] = {
 
 def changed(*overrides: str) -> dict[str, Any]:
     before = copy.deepcopy(DATA)
-    result = apply_overrides(DATA, overrides)
+    result = apply_settings(DATA, overrides)
     assert before == DATA
     return result
 
@@ -90,13 +90,13 @@ def test_the_last_of_two_counts() -> None:
     ("override", "message"),
     [
         ("load.normal", "'load.normal' is not of the form path=value, as in load.normal=50"),
-        ("=3", "'=3' is not of the form path=value"),
-        ("a..b=3", "'a..b=3' is not of the form"),
-        ("a b=3", "'a b=3' is not of the form"),
-        ("a\nb=3", "is not of the form"),
-        ("effects.2.rate=1", "effects: '2' is no index; allowed: 0 to 1"),
-        ("effects.x=1", "effects: 'x' is no index"),
-        ("load.normal.x=1", "load.normal: is no table"),
+        ("=3", "'' is not a path"),
+        ("a..b=3", "'a..b' is not a path"),
+        ("a b=3", "'a b' is not a path"),
+        ("a\nb=3", "is not a path"),
+        ("effects.2.rate=1", "effects: '2' is not an index; allowed: 0 to 1"),
+        ("effects.x=1", "effects: 'x' is not an index"),
+        ("load.normal.x=1", "load.normal: is not a table"),
     ],
 )
 def test_a_malformed_override_is_refused(override: str, message: str) -> None:

@@ -133,7 +133,7 @@ def test_a_wrong_value_is_told(changes, message):
         ({"path": "bodies.ball.wear"}, "fit[0].path: bodies.ball.wear is a table in this case"),
         ({"path": "bodies.ball.wear.K"}, "bodies.ball.wear.K is not given in this case"),
         ({"path": "grid.cells.0"}, "grid.cells.0 is 16 in this case; only a number with decimals"),
-        ({"path": "a..b"}, "fit[0].path: 'a..b' is no path"),
+        ({"path": "a..b"}, "fit[0].path: 'a..b' is not a path"),
         (
             {"path": "bodies.ball.wear.k", "start": "1 Pa"},
             "fit[0].start: '1 Pa' is a pressure [Pa]; an inverse pressure [1/Pa] is needed",

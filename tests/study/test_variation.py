@@ -94,7 +94,7 @@ def test_a_table_is_named_by_its_type_and_its_keys():
     ("axes", "message"),
     [
         (["load.normal"], "'load.normal' is not of the form path=values, as in contact.type="),
-        (["load..normal=1"], "'load..normal' is no path"),
+        (["load..normal=1"], "'load..normal' is not a path"),
         (["load.normal="], "load.normal: no value is given; write"),
         (["load.normal=[]"], "load.normal: no value is given; write"),
         (["load.normal=1,,2"], "load.normal: an empty value is given; write"),

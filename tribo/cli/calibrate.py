@@ -47,11 +47,11 @@ def calibrate(
       tribo calibrate my.toml --measured weighed.toml
     """
     from tribo.config.load import read_toml
-    from tribo.config.overrides import apply_overrides
+    from tribo.config.overrides import apply_settings
     from tribo.study import calibrate
 
     found = calibrate(
-        apply_overrides(read_toml(case), overrides), measured, level=level, on_run=_tell
+        apply_settings(read_toml(case), overrides), measured, level=level, on_run=_tell
     )
     if as_json:
         click.echo(json.dumps(found.as_json(), indent=2, allow_nan=False))

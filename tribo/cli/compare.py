@@ -99,14 +99,14 @@ def _comparison(
 
     if vary:
         from tribo.config.load import read_toml
-        from tribo.config.overrides import apply_overrides
+        from tribo.config.overrides import apply_settings
         from tribo.observers.progress import Progress
         from tribo.study.variation import Axis, grid
 
         if len(files) > 1:
             raise CaseError(f"--vary varies one case, {len(files)} files are given")
         return run(
-            apply_overrides(read_toml(files[0]), overrides),
+            apply_settings(read_toml(files[0]), overrides),
             grid([Axis.parse(text) for text in vary]),
             folder,
             times=times,

@@ -12,7 +12,7 @@ from pydantic import ValidationError
 
 from tribo.case import Case
 from tribo.config.explain import case_error
-from tribo.config.overrides import apply_overrides
+from tribo.config.overrides import apply_settings
 from tribo.config.requirements import check_requirements
 from tribo.core.depth import check_depth, too_deep
 from tribo.core.errors import CaseError
@@ -35,7 +35,7 @@ def load_case(
     path : str or Path
         The file.
     overrides : sequence of str
-        Changes to it, as ``"load.normal=50"``; see `apply_overrides`.
+        Changes to it, as ``"load.normal=50"``; see `apply_settings`.
     registry : Registry, optional
         Where to look components up; the installed plugins if left out.
 
@@ -44,7 +44,7 @@ def load_case(
     CaseError
         If the file cannot be read, or what it says is wrong; one line an error.
     """
-    return validate_case(apply_overrides(read_toml(path), overrides), registry=registry)
+    return validate_case(apply_settings(read_toml(path), overrides), registry=registry)
 
 
 def validate_case(data: Mapping[str, Any], *, registry: Registry | None = None) -> Case:

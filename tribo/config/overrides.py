@@ -1,61 +1,58 @@
-"""Changes to a case from the command line."""
+"""Values of a case by path, as ``load.normal``: change them, and read them with their units."""
 
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from copy import deepcopy
-from typing import Any
+from typing import Any, get_args
 
+from pydantic import BaseModel
+
+from tribo.component import Component
 from tribo.core.depth import LEVELS, check_depth, too_deep
 from tribo.core.errors import CaseError
+from tribo.core.units import Quantity
 from tribo.core.words import shown
 
-_Override = tuple[list[str], Any]
 
-
-def apply_overrides(data: Mapping[str, Any], overrides: Sequence[str]) -> dict[str, Any]:
+def apply_settings(
+    data: Mapping[str, Any], settings: Mapping[str, Any] | Sequence[str]
+) -> dict[str, Any]:
     """Return `data` with values replaced.
 
     Setting the ``type`` of a table to another one drops the table's other
     keys, which belong to the former type. Such changes are made first,
-    whatever the order in `overrides`; of the others, the last one counts.
+    whatever the order in `settings`; of the others, the last one counts.
 
     Parameters
     ----------
     data : Mapping
         Tables as read from TOML; left unchanged.
-    overrides : sequence of str
-        ``"path=value"``, as ``"bodies.ball.wear.k=1e-15"`` or
-        ``"effects.0.rate=2"``. The value is read as TOML, or else as text.
-        Missing tables are added; what no such case has is left for validation
-        to find.
+    settings : Mapping or sequence of str
+        Values by path, as TOML would give them, or texts ``"path=value"``, as
+        ``"effects.0.rate=2"``, whose value is read as TOML or else as text.
+        Missing tables are added; validation finds keys that no case has.
 
     Raises
     ------
     CaseError
-        If an override is not of that form, or its path leads through a value
-        that is no table.
+        If a text is not of that form, or a path leads through a value that is
+        not a table.
     """
-    return _applied(data, [_parse(text) for text in overrides])
-
-
-def apply_settings(data: Mapping[str, Any], settings: Mapping[str, Any]) -> dict[str, Any]:
-    """Return `data` with values replaced, as `apply_overrides` does.
-
-    Parameters
-    ----------
-    data : Mapping
-        Tables as read from TOML; left unchanged.
-    settings : Mapping
-        Values, as TOML would give them, by path.
-
-    Raises
-    ------
-    CaseError
-        If a path is none, or leads through a value that is no table.
-    """
-    return _applied(data, [(path_keys(path), value) for path, value in settings.items()])
+    check_depth(data, "the case")
+    pairs = settings.items() if isinstance(settings, Mapping) else map(_pair, settings)
+    changes = [(path_keys(path), value) for path, value in pairs]
+    for keys, value in changes:
+        path = shown(".".join(keys))
+        if len(keys) > LEVELS:
+            raise too_deep(path)
+        check_depth(value, path)
+    changed = deepcopy(dict(data))
+    types = sorted((c for c in changes if c[0][-1] == "type"), key=lambda c: len(c[0]))
+    for keys, value in types + [c for c in changes if c[0][-1] != "type"]:
+        _set(changed, keys, deepcopy(value))
+    return changed
 
 
 def path_keys(path: str) -> list[str]:
@@ -64,11 +61,18 @@ def path_keys(path: str) -> list[str]:
     Raises
     ------
     CaseError
-        If it is no path.
+        If `path` is not one.
     """
-    keys = _keys(path)
+    try:
+        table: Any = tomllib.loads(f"{path} = 0") if "\n" not in path else {}
+    except ValueError:
+        table = {}
+    keys = []
+    while isinstance(table, dict) and len(table) == 1:
+        ((key, table),) = table.items()
+        keys.append(key)
     if not keys:
-        raise CaseError(f"{path!r} is no path to a value of a case, as load.normal is one")
+        raise CaseError(f"{path!r} is not a path to a value of a case, as load.normal is")
     return keys
 
 
@@ -82,38 +86,49 @@ def parse_value(text: str) -> Any:
     return read["value"] if len(read) == 1 else text
 
 
-def _applied(data: Mapping[str, Any], overrides: Sequence[_Override]) -> dict[str, Any]:
-    check_depth(data, "the case")
-    for keys, value in overrides:
-        path = shown(".".join(keys))
-        if len(keys) > LEVELS:
-            raise too_deep(path)
-        check_depth(value, path)
-    changed = deepcopy(dict(data))
-    types = sorted((o for o in overrides if o[0][-1] == "type"), key=lambda o: len(o[0]))
-    for keys, value in types + [o for o in overrides if o[0][-1] != "type"]:
-        _set(changed, keys, deepcopy(value))
-    return changed
+def leaves(
+    value: object, annotation: Any = None, place: tuple[str | int, ...] = ()
+) -> Iterator[tuple[tuple[str | int, ...], Any, Quantity | None]]:
+    """Yield every value in a case that is not a table or list: its keys, itself, its quantity."""
+    if isinstance(value, BaseModel):
+        if isinstance(value, Component):
+            yield (*place, "type"), value.type, None
+        for name, field in type(value).model_fields.items():
+            declared = (field.annotation, *field.metadata)
+            yield from leaves(getattr(value, name), declared, (*place, name))
+    elif isinstance(value, Mapping):
+        for key, item in value.items():
+            yield from leaves(item, annotation, (*place, str(key)))
+    elif isinstance(value, list | tuple):
+        for index, item in enumerate(value):
+            yield from leaves(item, annotation, (*place, index))
+    else:
+        yield place, value, next(quantities(annotation), None)
 
 
-def _parse(text: str) -> _Override:
+def leaves_at(case: BaseModel, path: str) -> list[tuple[str, Any, str]]:
+    """Return path, value and unit ("1" for none) of all `leaves` at or below a path."""
+    keys = path_keys(path)
+    return [
+        (".".join(map(str, place)), value, mark.unit if mark else "1")
+        for place, value, mark in leaves(case)
+        if [str(key) for key in place[: len(keys)]] == keys
+    ]
+
+
+def quantities(annotation: Any) -> Iterator[Quantity]:
+    """Yield the quantities in an annotation, however it is wrapped."""
+    if isinstance(annotation, Quantity):
+        yield annotation
+    for part in annotation if isinstance(annotation, tuple) else get_args(annotation):
+        yield from quantities(part)
+
+
+def _pair(text: str) -> tuple[str, Any]:
     path, equals, value = text.partition("=")
-    keys = _keys(path.strip())
-    if not (equals and keys):
+    if not equals:
         raise CaseError(f"{text!r} is not of the form path=value, as in load.normal=50")
-    return keys, parse_value(value.strip())
-
-
-def _keys(path: str) -> list[str]:
-    try:
-        table: Any = tomllib.loads(f"{path} = 0") if "\n" not in path else {}
-    except ValueError:
-        return []
-    keys = []
-    while isinstance(table, dict) and len(table) == 1:
-        ((key, table),) = table.items()
-        keys.append(key)
-    return keys
+    return path.strip(), parse_value(value.strip())
 
 
 def _set(data: dict[str, Any], keys: list[str], value: Any) -> None:
@@ -134,7 +149,7 @@ def _set(data: dict[str, Any], keys: list[str], value: Any) -> None:
         elif isinstance(inside, list):
             holder, place = inside, _index(inside, keys[: depth + 1])
         else:
-            raise CaseError("is no table, so that nothing in it can be set", ".".join(keys[:depth]))
+            raise CaseError("is not a table; nothing in it can be set", ".".join(keys[:depth]))
     holder[place] = value
 
 
@@ -142,5 +157,5 @@ def _index(items: list[Any], keys: list[str]) -> int:
     key = keys[-1]
     if not (key.isascii() and key.isdigit() and int(key) < len(items)):
         count = f"0 to {len(items) - 1}" if items else "none: the list is empty"
-        raise CaseError(f"{key!r} is no index; allowed: {count}", ".".join(keys[:-1]))
+        raise CaseError(f"{key!r} is not an index; allowed: {count}", ".".join(keys[:-1]))
     return int(key)

@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import Any, get_args
-
 from pydantic import BaseModel
 
-from tribo.core.units import Quantity
+from tribo.config.overrides import leaves
 
 
-def unusual(value: object, place: str = "") -> list[str]:
+def unusual(case: BaseModel) -> list[str]:
     """Ask about each quantity that is out of its usual range.
 
     Parameters
     ----------
-    value : BaseModel, Mapping or sequence
-        A case, a table of it, or several by their place.
-    place : str, optional
-        Where in the case it stands.
+    case : BaseModel
+        A case, or a table of it.
 
     Returns
     -------
@@ -26,36 +21,17 @@ def unusual(value: object, place: str = "") -> list[str]:
         As ``"bodies.ball.surface.radius is 5 m, usual are 1e-09 to 1 m: a unit
         forgotten, as in '5 mm'?"``.
     """
-    # Of a pair written as one value both are the same.
-    return list(dict.fromkeys(_asked(value, (), place)))
+    found = []
+    for place, value, mark in leaves(case):
+        doubt = mark.doubt(value) if mark and isinstance(value, float) else None
+        if doubt is not None:
+            while isinstance(place[-1], int):
+                # Both of a pair written as one value are the same.
+                place = place[:-1]
+            found.append(f"{_joined(place)} is {doubt}")
+    return list(dict.fromkeys(found))
 
 
-def quantities(annotation: Any) -> Iterator[Quantity]:
-    """Yield the quantities in an annotation, however it is wrapped."""
-    if isinstance(annotation, Quantity):
-        yield annotation
-    for part in annotation if isinstance(annotation, tuple) else get_args(annotation):
-        yield from quantities(part)
-
-
-def _asked(value: object, annotation: tuple[Any, ...], place: str) -> Iterator[str]:
-    if isinstance(value, BaseModel):
-        for name, field in type(value).model_fields.items():
-            declared = (field.annotation, *field.metadata)
-            yield from _asked(getattr(value, name), declared, _joined(place, name))
-    elif isinstance(value, Mapping):
-        for key, item in value.items():
-            yield from _asked(item, annotation, _joined(place, str(key)))
-    elif isinstance(value, list | tuple):
-        for index, item in enumerate(value):
-            inside = place if isinstance(item, float) else f"{place}[{index}]"
-            yield from _asked(item, annotation, inside)
-    elif isinstance(value, float):
-        for mark in quantities(annotation):
-            doubt = mark.doubt(value)
-            if doubt is not None:
-                yield f"{place} is {doubt}"
-
-
-def _joined(place: str, key: str) -> str:
-    return f"{place}.{key}" if place else key
+def _joined(place: tuple[str | int, ...]) -> str:
+    text = "".join(f"[{key}]" if isinstance(key, int) else f".{key}" for key in place)
+    return text.removeprefix(".")

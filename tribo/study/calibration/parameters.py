@@ -10,8 +10,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from tribo.case import Case
-from tribo.config.overrides import path_keys
-from tribo.config.usual import quantities
+from tribo.config.overrides import path_keys, quantities
 from tribo.core.errors import CaseError, located
 from tribo.core.units import Quantity
 from tribo.core.words import did_you_mean, shown, suggestion
