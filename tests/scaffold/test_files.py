@@ -99,7 +99,7 @@ def test_its_conformance_test_covers_every_class_of_the_hook(tmp_path: Path) -> 
     text = module.read_text()
     second = text[text.index("class Fretting") :]
     second = second.replace("Fretting", "Second").replace("acme.fretting", "acme.second")
-    module.write_text(text + "\n\n" + second.replace("depth=k", "depth=2 * k"))
+    module.write_text(text + "\n\n" + second.replace("depth_rate=k", "depth_rate=2 * k"))
     package = folder / "src/acme_fretting/__init__.py"
     package.write_text(
         package.read_text()

@@ -72,7 +72,7 @@ class AveragesItself(Law):
     def rate(self, local):
         rate = super().rate(local)
         mean = np.mean(rate.depth_rate, axis=0, keepdims=True)
-        return replace(rate, depth=np.where(local.pressure > 0, mean, 0.0))
+        return replace(rate, depth_rate=np.where(local.pressure > 0, mean, 0.0))
 
 
 @caught_by("only_declared_fields_are_asked_for")
