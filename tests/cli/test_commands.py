@@ -132,7 +132,8 @@ def test_check_begins_with_its_verdict(tmp_path):
     done = tribo("check", "my.toml", *long, cwd=tmp_path)
     assert done.stdout.startswith("my.toml is valid.\n")
     # As the report of the run words it.
-    assert "94 % of the pressure at which the softer body first yields" in done.stdout
+    assert "94 % of the pressure at which the softer body first" in done.stdout
+    assert max(map(len, done.stdout.splitlines())) <= 80
     small = [*long, "--set", "grid.size=0.9 mm", "--set", "grid.cells=64"]
     done = tribo("check", "my.toml", *small, cwd=tmp_path)
     assert done.returncode == 3
@@ -141,7 +142,8 @@ def test_check_begins_with_its_verdict(tmp_path):
     assert verdict == "my.toml is valid, but:"
     assert first.startswith("  - the contact outgrows the window of 0.9 × 0.9 mm")
     data = json.loads(tribo("check", "my.toml", *small, "--json", cwd=tmp_path).stdout)
-    assert data["problems"] == [first.removeprefix("  - ")]
+    (problem,) = data["problems"]
+    assert problem in " ".join(done.stdout.split())
 
 
 EXPLICIT = ["stepping.type=explicit", "stepping.time_step=50"]
@@ -289,7 +291,11 @@ def test_a_contact_that_outgrows_the_window_exits_with_3(tmp_path):
     done = tribo("run", "case.toml", *settings, cwd=tmp_path)
     assert done.returncode == 3
     assert "grid.size" in done.stderr
+    assert "case.h5 holds what was saved until then" in done.stderr
     assert tribo("show", "case.h5", cwd=tmp_path).returncode == 0
+    again = tribo("run", "case.toml", *settings, cwd=tmp_path)
+    assert again.returncode == 2
+    assert "tribo resume case.h5" in again.stderr
 
 
 def test_a_solve_that_does_not_converge_exits_with_3(tmp_path):

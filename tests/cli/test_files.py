@@ -68,6 +68,11 @@ def test_a_case_given_for_a_result_is_told(monkeypatch, folder, command):
     assert "tribo run case.toml" in text
 
 
+def test_a_unit_without_quotes_is_told_to_take_them(monkeypatch, folder):
+    (folder / "bare.toml").write_text('a = "b"\nyoung = 207 GPa\n')
+    assert told(monkeypatch, folder, "check {}", "bare.toml").endswith("young = '207 GPa'")
+
+
 @pytest.mark.parametrize("name", ["out.csv", "out.toml"])
 def test_a_result_is_not_written_under_the_name_of_another_format(monkeypatch, folder, name):
     text = told(monkeypatch, folder, "run case.toml -o {}", name)

@@ -2,12 +2,13 @@
 
 import io
 
+import numpy as np
 import pytest
 from made_results import made
 from paper_models import archard, case, flat, foundation, named, sphere, steel
 from rich.console import Console
 
-from tribo import Grid, Simulation
+from tribo import Effect, Field, Grid, Simulation
 from tribo.cli.report import print_report
 from tribo.motion.reciprocating import Reciprocating
 
@@ -52,6 +53,18 @@ def test_a_body_that_does_not_wear_has_no_scar():
     text = printed(made(worn=(True, False)))
     assert row(text, "scar along sliding, mm") == ["1.100", "–"]
     assert row(text, "scar across, mm") == ["1.210", "–"]
+
+
+class Warmth(Effect):
+    type = "test.warmth"
+    provides = (Field("warmth", "K", "How warm it is."),)
+
+    def fields(self, contact):
+        return {"warmth": dict.fromkeys(contact.materials, np.full((1, 1), 293.0))}
+
+
+def test_what_effects_provide_is_shown():
+    assert "disk warmth_K: 293 to 293 at the end." in printed(brief(effects=[Warmth()]))
 
 
 def test_yield_is_judged_by_the_pressure_that_was_computed():

@@ -30,7 +30,7 @@ def test_a_failure_names_the_quantity_out_of_its_usual_range(case, command, sett
     assert isinstance(failed.exception, CaseError)
     words = str(failed.exception)
     assert words.count("a unit forgotten") == 1
-    assert f"{FORGOTTEN[setting]}, usual are " in words
+    assert words.startswith(f"{FORGOTTEN[setting]}, usual are ")
 
 
 def test_a_check_that_finds_nothing_else_still_asks(case):
@@ -39,7 +39,7 @@ def test_a_check_that_finds_nothing_else_still_asks(case):
     assert asked.exit_code == 0
     verdict, first, *_ = asked.stdout.splitlines()
     assert verdict.endswith("is valid, but:")
-    assert first.startswith("  - bodies.ball.material.density is 7.85 kg/m^3, usual are 10 to")
+    assert first.startswith("  - bodies.ball.material.density is 7.85 kg/m^3, usual are")
 
 
 @pytest.mark.parametrize("k", ["0", "'1e-6 mm^3/(N m)'"])

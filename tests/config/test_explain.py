@@ -73,7 +73,7 @@ def lines(dummies: Any) -> Callable[..., list[str]]:
         (
             ball(material={"poisson": 0.3}),
             "bodies.ball.material.young",
-            f"missing; {PRESSURE}",
+            "missing; a pressure [Pa] is needed, as in '207 GPa'",
         ),
         (
             ball(wear="linear"),

@@ -93,6 +93,7 @@ def test_the_last_of_two_counts() -> None:
         ("=3", "'' is not a path"),
         ("a..b=3", "'a..b' is not a path"),
         ("a b=3", "'a b' is not a path"),
+        ("x" * 3000, "xxx… is not of the form"),
         ("a\nb=3", "is not a path"),
         ("effects.2.rate=1", "effects: '2' is not an index; allowed: 0 to 1"),
         ("effects.x=1", "effects: 'x' is not an index"),

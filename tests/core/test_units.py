@@ -97,6 +97,7 @@ def test_conversion_rounds_once(text: str, unit: str, exactly: float) -> None:
         ("5 {m}", "m", "cannot read the unit '{m}'"),
         ("46 W/m K", "W/(m K)", "put the divisor in parentheses"),
         ("1e-6 mm³/N·m", "1/Pa", "put the divisor in parentheses, as in 'mm^3/(N m)'"),
+        ("60 rpm", "Hz", "for rpm write '60 1/min', or Hz"),
         ("62 HRC", "Pa", "Rockwell hardness has no fixed conversion; give GPa or HV"),
         ("700 HV", "m", "'700 HV' is a pressure [Pa]; a length [m] is needed"),
         ("207,0 GPa", "Pa", "'207,0 GPa' has a comma; write a decimal point, as in '20.5'"),

@@ -55,6 +55,7 @@ def test_a_time_limit_that_is_none_is_one_clear_error(
         ),
         ("leaves", "import os; os._exit(7)", "broken", "exit code 7"),
         ("fails", "1/0", "broken", "fails.py, line 1)"),
+        ("typo", "1 +", "broken", "typo.py, line 1)"),
         ("asks", "input()" + observer("probe.calm"), "broken", "EOFError"),
     ],
 )
@@ -65,3 +66,4 @@ def test_a_plugin_cannot_hold_up_who_tries_it(
     tried = probe(plugin(folder, name, code), limit)
     assert tried.status == status
     assert reason in tried.reason
+    assert tried.reason.count(".py, line") <= 1

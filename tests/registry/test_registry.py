@@ -14,6 +14,7 @@ from fake_distributions import distribute, observer, plugins
 
 from tribo.core.errors import CaseError
 from tribo.observers.observer import Observer
+from tribo.registry.catalogue import catalogue
 from tribo.registry.hookspecs import hookimpl
 from tribo.registry.plugins import builtin
 from tribo.registry.registry import Registry, default_registry
@@ -203,6 +204,8 @@ def test_a_plugin_whose_requirements_do_not_hold_is_not_used(
     code = {"needy": observer("needy.calm")}
     distribute(folder, "needy", "1", {"needy.calm": "needy"}, [requires], **code)
     registry = found("needy")
+    (row,) = (row for row in catalogue(registry) if row["name"] == "needy.calm")
+    assert (row["status"], told in row["reason"]) == ("incompatible", True)
     with pytest.raises(CaseError, match=r"'needy\.calm' cannot be used: needy 1 is incompatible"):
         registry.lookup("observer", "needy.calm")
     assert told in registry.plugins[0].reason

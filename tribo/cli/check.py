@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Iterable
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 import click
+from rich.padding import Padding
+from rich.table import Table
+from rich.text import Text
 
-from tribo.cli.harmless import echo
+from tribo.cli.console import Console
 from tribo.core.errors import CaseError, NumericalError
 from tribo.lab.report import yield_words
 from tribo.simulation.model import Model
@@ -43,23 +47,28 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
         click.echo(json.dumps(_finite(asdict(prediction)), indent=2, allow_nan=False))
     else:
         _print(case, model, prediction)
-    would_end = f"a run of {case} would stop on its way"
-    if prediction.exit_code == CaseError.exit_code:
-        raise CaseError(would_end)
-    if prediction.exit_code == NumericalError.exit_code:
-        raise NumericalError(would_end)
+    for kind in (CaseError, NumericalError):
+        if prediction.exit_code == kind.exit_code:
+            raise kind(f"a run of {case} would stop on its way")
 
 
 def _print(case: Path, model: Model, prediction: Prediction) -> None:
-    echo(f"{case} is valid, but:" if prediction.problems else f"{case} is valid.")
-    for problem in prediction.problems:
-        echo(f"  - {problem}")
-    for name, value in _lines(model, prediction):
-        echo(f"  {name:<26}{value}")
+    console = Console(highlight=False)
+    verdict = f"{case} is valid{', but:' if prediction.problems else '.'}"
+    console.print(verdict, markup=False, soft_wrap=True)
+    console.print(_rows(("-", problem) for problem in prediction.problems))
+    console.print(_rows(_lines(model, prediction)))
     for place, facts in prediction.facts.items():
-        echo(f"  {place}:")
-        for name, text in facts.items():
-            echo(f"    {name:<24}{text}")
+        console.print(f"  {place}:", markup=False)
+        console.print(_rows((f"  {name}", text) for name, text in facts.items()))
+
+
+def _rows(rows: Iterable[tuple[str, str]]) -> Padding:
+    """Return names and texts in two columns, wrapped to the width."""
+    table = Table.grid(padding=(0, 1))
+    for row in rows:
+        table.add_row(*map(Text, row))
+    return Padding(table, (0, 0, 0, 2))
 
 
 def _finite(value: Any) -> Any:
@@ -72,38 +81,48 @@ def _finite(value: Any) -> Any:
 
 
 def _lines(model: Model, prediction: Prediction) -> list[tuple[str, str]]:
-    lines = []
-    hertz = prediction.hertz
+    return [*_first(model, prediction), *_end(model, prediction), *_size(prediction)]
+
+
+def _first(model: Model, prediction: Prediction) -> list[tuple[str, str]]:
+    hertz, peak = prediction.hertz, prediction.first.max_pressure
     if hertz is None or prediction.cells_across is None:
-        lines.append(("first contact", "no Hertz solution for these surfaces"))
-    else:
-        a, b = hertz.half_width_x, hertz.half_width_y
-        if math.isinf(a) or math.isinf(b):
-            lines.append(("Hertz half-width", f"{1e6 * min(a, b):.4g} µm of a line contact"))
-        else:
-            lines.append(("Hertz half-widths", f"{1e6 * a:.4g} × {1e6 * b:.4g} µm along × across"))
-        p0 = f"{1e-6 * hertz.peak_pressure:.1f} MPa"
-        found = f"computed {1e-6 * prediction.first.max_pressure:.1f} MPa"
-        lines.append(("Hertz peak pressure p0", f"{p0}, {found}"))
-        if model.system.cap is not None:
-            hardness = model.system.cap
-            lines.append(("p0/H", f"{hertz.peak_pressure / hardness:.3f}"))
-            peak = prediction.first.max_pressure
-            lines.append(("yield", yield_words(peak, hardness, line=hertz.is_line)))
-        across = [f"{n:.0f}" for n in prediction.cells_across if math.isfinite(n)]
-        lines.append(("cells across the contact", " × ".join(across)))
+        return [("first contact", "no Hertz solution for these surfaces")]
+    a, b = hertz.half_width_x, hertz.half_width_y
+    widths = f"{1e6 * a:.4g} × {1e6 * b:.4g} µm along × across"
+    if hertz.is_line:
+        widths = f"{1e6 * min(a, b):.4g} µm of a line contact"
+    p0 = f"{1e-6 * hertz.peak_pressure:.1f} MPa, computed {1e-6 * peak:.1f} MPa"
+    lines = [("Hertz half-widths", widths), ("Hertz peak pressure p0", p0)]
+    hardness = model.system.cap
+    if hardness is not None:
+        lines.append(("p0/H", f"{hertz.peak_pressure / hardness:.3f}"))
+        lines.append(("yield", yield_words(peak, hardness, line=hertz.is_line)))
+    across = [f"{n:.0f}" for n in prediction.cells_across if math.isfinite(n)]
+    return [*lines, ("cells across the contact", " × ".join(across))]
+
+
+def _end(model: Model, prediction: Prediction) -> list[tuple[str, str]]:
     last = prediction.last
     if last is None:
-        lines.append(("final scar", "not estimated"))
-    else:
-        size = f"{2e3 * last.half_width_x:.2f} × {2e3 * last.half_width_y:.2f} mm"
-        lines.append(("contact at the end, about", size))
-        window = " × ".join(f"{1e3 * edge:.4g}" for edge in model.grid.size)
-        verdict = "holds it" if prediction.window_holds else "TOO SMALL"
-        lines.append((f"window of {window} mm", verdict))
-        for name, body in last.bodies.items():
-            depth = f"{1e6 * body.max_wear_depth:.3g} µm, {1e9 * body.wear_volume:.3g} mm³"
-            lines.append((f"wear of {name}, about", depth))
-    lines.append(("memory, at most", f"{prediction.memory / 2**20:.0f} MiB"))
-    lines.append(("result file, at most", f"{prediction.file_size / 2**20:.1f} MiB"))
-    return lines
+        return [("final scar", "not estimated")]
+    size = f"{2e3 * last.half_width_x:.2f} × {2e3 * last.half_width_y:.2f} mm"
+    window = " × ".join(f"{1e3 * edge:.4g}" for edge in model.grid.size)
+    return [
+        ("contact at the end, about", size),
+        (f"window of {window} mm", "holds it" if prediction.window_holds else "TOO SMALL"),
+        *(
+            (
+                f"wear of {name}, about",
+                f"{1e6 * body.max_wear_depth:.3g} µm, {1e9 * body.wear_volume:.3g} mm³",
+            )
+            for name, body in last.bodies.items()
+        ),
+    ]
+
+
+def _size(prediction: Prediction) -> list[tuple[str, str]]:
+    return [
+        ("memory, at most", f"{prediction.memory / 2**20:.0f} MiB"),
+        ("result file, at most", f"{prediction.file_size / 2**20:.1f} MiB"),
+    ]

@@ -47,13 +47,13 @@ def compare(
     \b
     Example:
       tribo compare my.toml --vary contact.type=dcfft,winkler
-      tribo compare my.toml --vary load.normal='50 N,100 N' --vary grid.cells=64,128
+      tribo compare my.toml --vary load.normal='50 N,100 N' --vary grid.cells=64,128 -o grids
       tribo compare a.h5 b.h5 --at 0 --at '10 min'
     """
     from tribo.cli.side_by_side import print_comparison
 
     stems = dict.fromkeys(path.stem for path in files)
-    folder = output or files[0].with_name("-".join([*stems, "compare"]))
+    folder = output or files[0].with_name("-".join([*stems, *match, "compare"]))
     times = _times(at)
     with _comparison(files, vary, overrides, folder, times, _matches(match), force) as comparison:
         chosen = comparison.chosen_times(times)

@@ -131,7 +131,7 @@ def main() -> None:
     except TriboError as error:
         if debug:
             raise
-        _fail(str(error), error.exit_code)
+        _fail("\n".join([str(error), *getattr(error, "__notes__", ())]), error.exit_code)
     except MemoryError:
         if debug:
             raise

@@ -36,6 +36,8 @@ def print_report(result: Result, console: Console | None = None) -> None:
     console.print(_first_contact(lab.first_contact))
     for row in lab.rows:
         console.print(f"{escape(row.label)}: {row.value:.4g} {escape(row.unit)}".rstrip())
+    for line in _effects(result):
+        console.print(line, markup=False)
     totals = result.totals()
     worst = result.worst()
     took = "" if result.wall_time is None else f", {result.wall_time:.1f} s"
@@ -185,6 +187,14 @@ def _inferred(volumes: Sequence[InferredVolume]) -> Table:
             f"{100 * each.relative_error:+.0f}",
         )
     return table
+
+
+def _effects(result: Result) -> Iterator[str]:
+    """Yield the range of each field that the effects provide, at the last save."""
+    for body, values in result.summary()["saves"][-1]["bodies"].items():
+        for name, ends in values.get("effects", {}).items():
+            low, high = (NOTHING if end is None else f"{end:.4g}" for end in ends.values())
+            yield f"{body} {name}: {low} to {high} at the end."
 
 
 def _worn(body: BodyReport) -> dict[str, str]:

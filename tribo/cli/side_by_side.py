@@ -33,7 +33,7 @@ def print_comparison(
         console.print(f"Varied: {', '.join(paths)}")
     console.print(
         f"Percentages are relative to {escape(comparison.reference)}; those of fields are the L2 "
-        "norm and the largest difference."
+        "norm and the largest difference, which of a pressure is often that of a cell at the rim."
     )
     # A label is broken between its words, unless two of them would not fit.
     longest = max((len(word) for label in labels for word in label.split()), default=0)

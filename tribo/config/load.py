@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -99,6 +100,14 @@ def _with_default_types(data: Mapping[str, Any]) -> dict[str, Any]:
     return completed
 
 
+def _quotes(content: bytes, error: ValueError) -> str:
+    """Return what to write where a TOML error is in a line with a unit but no quotes."""
+    at = re.search(r"at line (\d+)", str(error))
+    line = content.splitlines()[int(at[1]) - 1].decode() if at else ""
+    bare = re.fullmatch(r"([\w.-]+ *= *)([\d.e+-]+ *[A-Za-zµ°][^\"'#]*)", line.strip())
+    return f"; a value with a unit is quoted: {bare[1]}'{bare[2]}'" if bare else ""
+
+
 def read_toml(path: str | Path) -> dict[str, Any]:
     """Read a TOML file.
 
@@ -125,6 +134,8 @@ def read_toml(path: str | Path) -> dict[str, Any]:
         raise CaseError(f"{path} is a result, not a case; see it with: tribo show {path}")
     if not content.strip():
         raise CaseError(f"{path} is empty; 'tribo new' writes a case to start from")
+    if b"\0" in content:
+        raise CaseError(f"{path} is not text in UTF-8; 'tribo new' writes a case to start from")
     try:
         # Editors on Windows put a mark at the start, which TOML does not know.
         data = tomllib.loads(content.decode("utf-8-sig"))
@@ -132,7 +143,7 @@ def read_toml(path: str | Path) -> dict[str, Any]:
         line = content.count(b"\n", 0, error.start) + 1
         raise CaseError(f"{path}, line {line}: not UTF-8 text; save the file as UTF-8") from None
     except ValueError as error:
-        raise CaseError(f"{path} is not TOML: {error}") from None
+        raise CaseError(f"{path} is not TOML: {error}{_quotes(content, error)}") from None
     except RecursionError:
         raise too_deep(path) from None
     check_depth(data, path)

@@ -72,7 +72,7 @@ def path_keys(path: str) -> list[str]:
         ((key, table),) = table.items()
         keys.append(key)
     if not keys:
-        raise CaseError(f"{path!r} is not a path to a value of a case, as load.normal is")
+        raise CaseError(f"{shown(path)} is not a path to a value of a case, as load.normal is")
     return keys
 
 
@@ -127,7 +127,7 @@ def quantities(annotation: Any) -> Iterator[Quantity]:
 def _pair(text: str) -> tuple[str, Any]:
     path, equals, value = text.partition("=")
     if not equals:
-        raise CaseError(f"{text!r} is not of the form path=value, as in load.normal=50")
+        raise CaseError(f"{shown(text)} is not of the form path=value, as in load.normal=50")
     return path.strip(), parse_value(value.strip())
 
 

@@ -97,6 +97,8 @@ def _symbol(name: str) -> tuple[Fraction, Dimension]:
         return Fraction(size) * Fraction(10) ** _PREFIXES[name[0]], dimension
     if name == "degC":
         raise ValueError("degC has an offset; use K in a compound unit")
+    if name in ("rpm", "rev"):
+        raise ValueError(f"revolutions have no unit; for {name} write '60 1/min', or Hz")
     if _ROCKWELL.fullmatch(name):
         raise ValueError("Rockwell hardness has no fixed conversion; give GPa or HV (Vickers)")
     raise ValueError(f"unknown unit {name!r}")

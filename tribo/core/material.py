@@ -15,7 +15,7 @@ class Material(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
 
-    young: Annotated[float, Quantity("Pa", above=0, usual=(1e4, 2e12))]
+    young: Annotated[float, Quantity("Pa", above=0, usual=(1e4, 2e12), example="207 GPa")]
     """Young's modulus E."""
     poisson: Annotated[float, Quantity("1", above=-1, below=0.5)]
     """Poisson's ratio."""

@@ -109,6 +109,8 @@ class Quantity:
     usual : tuple of float, optional
         Range, in `unit`, beyond which a value other than 0 is allowed but asked
         about: in `tribo check`, and where a run fails.
+    example : str, optional
+        How a value may be written; one of that unit if left out.
     """
 
     unit: str
@@ -117,11 +119,12 @@ class Quantity:
     below: float | None = None
     at_most: float | None = None
     usual: tuple[float, float] | None = None
+    example: str = ""
 
     @property
     def needed(self) -> str:
         """What is needed, as "a length [m] is needed, as in '5 mm'"."""
-        return _needed(self.unit)
+        return _needed(self.unit, self.example)
 
     def read(self, value: object) -> float:
         """Return `value` in SI.
@@ -163,7 +166,7 @@ class Quantity:
             return f"{value:g}, usual are {low:g} to {high:g}: is that meant?"
         return (
             f"{value:g} {self.unit}, usual are {low:g} to {high:g} {self.unit}: a unit forgotten, "
-            f"as in '{_example(self.unit)}'?"
+            f"as in '{self.example or _example(self.unit)}'?"
         )
 
     def __get_pydantic_core_schema__(
@@ -192,7 +195,8 @@ class Quantity:
             number["description"] = f"in {self.unit}"
         if handler.mode == "serialization":
             return {**number, "x-unit": self.unit}
-        text = {"type": "string", "description": f"with a unit, as in '{_example(self.unit)}'"}
+        example = self.example or _example(self.unit)
+        text = {"type": "string", "description": f"with a unit, as in '{example}'"}
         return {"anyOf": [number, text], "x-unit": self.unit}
 
     def _validate(self, value: object) -> float:
@@ -214,5 +218,5 @@ def _example(unit: str) -> str:
     return _KINDS[unit][1] if unit in _KINDS else f"1 {unit}"
 
 
-def _needed(unit: str) -> str:
-    return f"{_called(scale(unit)[1])} is needed, as in '{_example(unit)}'"
+def _needed(unit: str, example: str = "") -> str:
+    return f"{_called(scale(unit)[1])} is needed, as in '{example or _example(unit)}'"

@@ -12,6 +12,7 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from tribo.component import Component
+from tribo.core.distributions import unmet
 from tribo.core.errors import CaseError
 from tribo.core.fields import Field
 from tribo.core.units import Quantity
@@ -90,6 +91,8 @@ def _description(cls: type[Component]) -> str:
 
 
 def _row(name: str, cls: type[Component] | None, plugin: Plugin) -> dict[str, str]:
+    if plugin.status == "available" and (lacks := unmet(plugin.distribution)):
+        plugin = replace(plugin, status="incompatible", reason=lacks)
     facts = {key: plugin.facts[key] for key in ("distribution", "version", "status", "reason")}
     if cls is not None:
         kind, summary = kind_of(cls).words, _description(cls).partition("\n")[0]

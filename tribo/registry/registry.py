@@ -251,14 +251,14 @@ def default_registry() -> Registry:
 
 def _place(error: BaseException, *entry_points: str) -> str:
     """Return file and line of a plugin's own innermost call, as text; empty if there is none."""
+    if isinstance(error, SyntaxError):
+        return ""  # Its message has its place.
     packages = {re.split("[.:]", entry_point)[0] for entry_point in entry_points}
     places = [
         (frame.f_code.co_filename, line)
         for frame, line in walk_tb(error.__traceback__)
         if str(frame.f_globals.get("__name__")).partition(".")[0] in packages
     ]
-    if isinstance(error, SyntaxError):
-        places.append((error.filename or "", error.lineno or 0))
     return f" ({places[-1][0]}, line {places[-1][1]})" if places else ""
 
 

@@ -16,7 +16,7 @@ DEEP = 0.1
 
 @contextmanager
 def doubting(case: Case) -> Iterator[None]:
-    """Ask, in the error of a failing calculation, about each value of the case that is unusual."""
+    """Begin the error of a failing calculation with each value of the case that is unusual."""
     try:
         yield
     except PluginError:
@@ -24,7 +24,8 @@ def doubting(case: Case) -> Iterator[None]:
     except (CaseError, NumericalError) as error:
         doubts = unusual(case)
         if doubts:
-            error.args = (f"{error}. {' '.join(doubts)}",)
+            # First: what follows from a forgotten unit has remedies that mislead.
+            error.args = (f"{' '.join(doubts)} {error}",)
         raise
 
 

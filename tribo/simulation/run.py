@@ -221,6 +221,11 @@ class Simulation:
         except TriboError as error:
             # For whoever opens the result: it says why it ends here.
             snapshot = _with_notice(snapshot, f"{FAILED}: {error}")
+            if recorder.path:
+                error.add_note(
+                    f"{recorder.path} holds what was saved until then; 'tribo run' replaces it "
+                    "with --force."
+                )
             raise
         except KeyboardInterrupt as error:
             reason = "interrupted"
@@ -308,6 +313,14 @@ def _announce(before: Sequence[str], after: Sequence[str]) -> None:
             warnings.warn(notice, TriboWarning, stacklevel=4)
 
 
+def _held(path: Path) -> str:
+    """Return what an existing file is, as the end of a sentence."""
+    with suppress(CaseError), Result.open(path) as result:
+        if result.status != "done":
+            return f"holds a run that is {result.status} (tribo resume {path} goes on with it)"
+    return "exists"
+
+
 def _checked_output(output: str | Path | None, overwrite: bool) -> Path | None:
     if output is None:
         return None
@@ -320,7 +333,7 @@ def _checked_output(output: str | Path | None, overwrite: bool) -> Path | None:
         )
     # Unlike Path.exists it does not raise where a name is too long.
     if os.path.exists(path) and not overwrite:
-        raise CaseError(f"{path} exists; choose another with -o, or replace it with --force")
+        raise CaseError(f"{path} {_held(path)}; choose another with -o, or replace it with --force")
     if os.path.isdir(path):
         raise CaseError(f"{path} is a folder; give a file name, as {path / 'result.h5'}")
     if not os.path.isdir(path.parent):
