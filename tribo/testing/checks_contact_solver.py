@@ -4,188 +4,223 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from tribo.core.contact import ContactSolution
+from tribo.core.contact import ContactProblem, ContactSolution, WearCompliance
 from tribo.testing import samples
-from tribo.testing.checks_calls import Exercise, call_checks, locked
-from tribo.testing.checks_config import own_scales
-from tribo.testing.checks_contact_capabilities import CAPABILITY_CHECKS
-from tribo.testing.compare import expect_array, expect_close
-from tribo.testing.sample_contact import TOLERANCE, sample_gap, sample_problem, solved
-from tribo.testing.subject import Subject, fact, require
+from tribo.testing.checks import Checks, units_of
+from tribo.testing.compare import apply_if, expect_array, expect_close, locked, require
+from tribo.testing.samples import GRID, LOAD, ball, problem
+
+TOLERANCE = 1e-4
+"""A tenth of what the step control allows as error of the wear depth."""
 
 
-def _inputs(subject: Subject, solver: Any, number: int) -> dict[str, Any]:
-    problem = sample_problem(load=samples.LOAD * (1 + number))
-    start = solved(subject, sample_problem(load=0.9 * samples.LOAD)) if number == 0 else None
-    # Copies, so that they can be written to.
-    return {"problem": replace(problem, gap=problem.gap.copy()), "start": start}
+class ContactSolverChecks(Checks):
+    """Checks of a contact solver."""
 
+    def _inputs(self, component: Any, number: int) -> dict[str, Any]:
+        asked = problem(load=LOAD * (1 + number))
+        # Copies, so that they can be written to.
+        asked = replace(asked, gap=asked.gap.copy())
+        return {"problem": asked, "start": None if number else self._solve(load=0.9 * LOAD)}
 
-def _call(solver: Any, inputs: Any) -> Mapping[str, Any]:
-    return {"solution": solver.solve(inputs["problem"], inputs["start"])}
+    def _call(self, component: Any, inputs: Any) -> Mapping[str, Any]:
+        return {"solution": component.solve(inputs["problem"], inputs["start"])}
 
+    def _solve(self, start: ContactSolution | None = None, **of_the_problem: Any) -> Any:
+        """Return the solution of a sample problem by a new solver, asked first if it can."""
+        solver, asked = self._make(), problem(**of_the_problem)
+        solver.check(asked.system)
+        return solver.solve(asked, start)
 
-EXERCISE = Exercise(_inputs, _call)
+    @cached_property
+    def _plain(self) -> ContactSolution:
+        solution: ContactSolution = locked(self._solve())
+        return solution
 
+    def solutions_are_finite_arrays(self) -> None:
+        """Pressure and overlap are finite float64 arrays, approach is a number."""
+        solution = self._solve()
+        kind = type(solution).__name__
+        require(isinstance(solution, ContactSolution), f"solve gave {kind}, not a ContactSolution")
+        expect_array("pressure", solution.pressure, GRID.cells)
+        expect_array("overlap", solution.overlap, GRID.cells)
+        approach = solution.approach
+        finite = np.ndim(approach) == 0 and np.isfinite(approach)
+        require(finite, f"approach is {approach!r}; a finite number is needed")
 
-def _has_scales(subject: Subject) -> str | None:
-    names = own_scales(subject.config)
-    return f"its configuration has scales of its own: {', '.join(names)}" if names else None
+    def solutions_own_their_arrays(self) -> None:
+        """No array of a solution is one of the problem's, or of the start's."""
+        solver, given = self._make(), self._inputs(None, 0)
+        solution = solver.solve(given["problem"], given["start"])
+        for name in ("pressure", "overlap"):
+            for what, array in (
+                ("the gap", given["problem"].gap),
+                ("the start's pressure", given["start"].pressure),
+                ("the start's overlap", given["start"].overlap),
+            ):
+                shared = np.shares_memory(getattr(solution, name), array)
+                require(not shared, f"{name} shares memory with {what}; return a copy")
 
+    def pressure_carries_the_load(self) -> None:
+        """The pressure, summed over the cells, is the load."""
+        for load in (0.5 * LOAD, LOAD):
+            _expect_load(self._solve(load=load), load)
 
-@fact
-def solutions_are_finite_arrays(subject: Subject) -> None:
-    """Pressure and overlap are finite float64 arrays of the window's shape, approach a number."""
-    solution = solved(subject, sample_problem())
-    require(
-        isinstance(solution, ContactSolution),
-        f"solve gave {type(solution).__name__}, not a ContactSolution",
-    )
-    expect_array("pressure", solution.pressure, samples.GRID.cells)
-    expect_array("overlap", solution.overlap, samples.GRID.cells)
-    require(
-        np.ndim(solution.approach) == 0 and np.isfinite(solution.approach),
-        f"approach is {solution.approach!r}; a finite number is needed",
-    )
+    def contact_never_pulls(self) -> None:
+        """The pressure is nowhere negative."""
+        least = float(np.min(self._plain.pressure))
+        require(least >= 0, f"the pressure falls to {least:.3g} Pa; it must be at least 0")
 
+    def residuals_are_small(self) -> None:
+        """By its own residuals a solution fulfils the conditions of contact."""
+        for name in ("force", "complementarity", "penetration"):
+            value = getattr(self._plain.residuals, name)
+            small = 0 <= value <= TOLERANCE
+            require(small, f"the {name} residual is {value:.3g}; up to {TOLERANCE:g} is allowed")
 
-@fact
-def solutions_own_their_arrays(subject: Subject) -> None:
-    """No array of a solution is one of the problem's, or of the start's."""
-    start = solved(subject, sample_problem(load=0.9 * samples.LOAD))
-    problem = sample_problem()
-    solution = solved(subject, problem, start)
-    for name in ("pressure", "overlap"):
-        for what, given in (
-            ("the gap", problem.gap),
-            ("the start's pressure", start.pressure),
-            ("the start's overlap", start.overlap),
+    def mirrored_gap_mirrors_the_pressure(self) -> None:
+        """The mirror image of a gap, along x or y, has the mirror image of its pressure."""
+        for axis, name in enumerate("xy"):
+            mirrored = self._solve(gap=np.flip(ball(GRID), axis).copy()).pressure
+            needed = np.flip(self._plain.pressure, axis)
+            expect_close(f"pressure mirrored along {name}", mirrored, needed, TOLERANCE)
+
+    def moved_gap_moves_the_pressure(self) -> None:
+        """A gap moved by whole cells has the same pressure, moved as far."""
+        moved = self._solve(gap=ball(GRID, cells=(2, -3))).pressure[4:, :-6]
+        needed = self._plain.pressure[2:-2, 3:-3]
+        expect_close("pressure moved by (2, -3) cells", moved, needed, TOLERANCE)
+
+    def approach_counts_from_the_gaps_zero(self) -> None:
+        """A constant added to the gap adds to the approach and leaves the pressure as it is."""
+        lift = 3e-6
+        lifted = self._solve(gap=ball(GRID) + lift)
+        expect_close("pressure on a lifted gap", lifted.pressure, self._plain.pressure, TOLERANCE)
+        rise = lifted.approach - self._plain.approach
+        require(
+            abs(rise - lift) <= TOLERANCE * lift,
+            f"with {lift:g} m added to the gap the approach grew by {rise:.6g} m",
+        )
+
+    def scaled_contact_scales_the_pressure(self) -> None:
+        """With lengths times a and moduli times b, a load times a²b gives b times the pressure."""
+        own = [
+            name
+            for name, units in units_of(self._config).items()
+            # A table that is as by default is taken to have no scale.
+            if "1" not in units
+            and (units != {""} or getattr(self._config, name) != self._default(name))
+        ]
+        apply_if(not own, f"its configuration has scales of its own: {', '.join(own)}")
+        for scale, stiffer in ((10.0, 1.0), (1.0, 0.01), (0.1, 3.0)):
+            scaled = self._solve(scale=scale, stiffer=stiffer).pressure / stiffer
+            what = f"pressure with lengths times {scale:g} and moduli times {stiffer:g}"
+            expect_close(what, scaled, self._plain.pressure, TOLERANCE)
+
+    def _default(self, name: str) -> object:
+        return self._cls.model_fields[name].default
+
+    def more_load_goes_deeper(self) -> None:
+        """With the load grow approach, contact and the pressure in every cell."""
+        less = self._solve(load=0.25 * LOAD)
+        for part in (0.5, 1.0):
+            more = self._solve(load=part * LOAD)
+            deeper = more.approach - less.approach
+            require(deeper > 0, f"the approach changes by {deeper:.6g} m as the load is doubled")
+            fall = float(np.max(less.pressure - more.pressure))
+            require(
+                fall <= TOLERANCE * float(np.max(more.pressure)),
+                f"doubling the load lowered the pressure by up to {fall:.3g} Pa",
+            )
+            less = more
+
+    def warm_start_changes_nothing(self) -> None:
+        """From whatever solution it starts, a solve ends at the same one."""
+        elsewhere = ball(GRID, cells=(3, 2))
+        for what, start in (
+            ("its own solution", self._plain),
+            ("that of a heavier load", self._solve(load=2 * LOAD)),
+            ("that of another place", self._solve(gap=elsewhere, load=0.3 * LOAD)),
         ):
-            shared = np.shares_memory(getattr(solution, name), given)
-            require(not shared, f"{name} shares memory with {what}; return a copy")
+            warm = self._solve(locked(start)).pressure
+            expect_close(f"pressure from {what}", warm, self._plain.pressure, TOLERANCE)
 
+    def wear_compliance_adds_its_depth(self) -> None:
+        """A wear compliance acts as its depth in the gap would, on either kind of body."""
+        apply_if(self._cls.accepts_wear_compliance, "accepts_wear_compliance is False")
+        soft = 0.5 * abs(self._plain.approach) / float(np.max(self._plain.pressure))
+        (nx, ny), dx = GRID.cells, GRID.spacing[0]
+        local = soft * (0.5 + samples.pattern((nx, ny)))
+        swept = soft / GRID.size[0] * (0.5 + samples.pattern((ny,)))
+        for what, wear in (
+            ("a local", WearCompliance(local, np.zeros(ny))),
+            ("a swept", WearCompliance(np.zeros((nx, ny)), swept)),
+            ("a local and a swept", WearCompliance(local, swept)),
+        ):
+            worn = self._solve(wear=wear).pressure
+            again = self._solve(gap=ball(GRID) + wear.depth(worn, dx)).pressure
+            what = f"pressure under {what} compliance, and that with its depth in the gap"
+            expect_close(what, worn, again, 10 * TOLERANCE)
 
-@fact
-def pressure_carries_the_load(subject: Subject) -> None:
-    """The pressure, summed over the cells, is the load."""
-    for load in (0.5 * samples.LOAD, samples.LOAD):
-        solution = solved(subject, sample_problem(load=load))
-        carried = float(np.sum(solution.pressure)) * samples.GRID.cell_area
+    def pressure_stays_below_the_cap(self) -> None:
+        """The cap limits the pressure, the load is carried, and overlap is where the cap acts."""
+        self._apply_if_capped()
+        cap = 0.6 * float(np.max(self._plain.pressure))
+        solution = self._solve(cap=cap)
+        most = float(np.max(solution.pressure))
+        require(most <= cap * (1 + 1e-12), f"the pressure is {most:.6g} Pa; the cap is {cap:.6g}")
+        _expect_load(solution, LOAD)
+        require(np.min(solution.overlap) >= 0, "the overlap is negative somewhere")
+        require(np.max(solution.overlap) > 0, "nothing overlaps although the cap acts")
+        below = solution.pressure < cap * (1 - TOLERANCE)
+        idle = np.any(solution.overlap[below])
+        require(not idle, "there is overlap where the cap does not act")
+
+    def cap_out_of_reach_does_nothing(self) -> None:
+        """A cap above the elastic pressure changes nothing, and nothing overlaps."""
+        self._apply_if_capped()
+        needed = self._plain.pressure
+        solution = self._solve(cap=2 * float(np.max(needed)))
+        expect_close("pressure under a high cap", solution.pressure, needed, TOLERANCE)
+        overlaps = np.any(solution.overlap)
+        require(not overlaps, "there is overlap although the cap is not reached")
+
+    def _apply_if_capped(self) -> None:
+        solver = self._make()
+        apply_if(solver.honours_cap, "honours_cap is False")
+        apply_if(solver.plasticity, "its configuration has plasticity = false")
+
+    def no_mode_is_stiffer_than_stated(self) -> None:
+        """The smallest compliance is no more than the contact shows to a chequerboard."""
+        asked: ContactProblem = problem()
+        stated = self._make().smallest_compliance(asked.system)
+        apply_if(stated is not None, "smallest_compliance is None")
+        require(stated > 0, f"smallest_compliance is {stated:.3g} m/Pa; it must be positive")
+        plain = self._plain
+        core = plain.pressure > 0.3 * np.max(plain.pressure)
+        signs = (-1.0) ** np.add.outer(*map(np.arange, GRID.cells))
+        change = np.where(core, 1e-4 * abs(plain.approach) * signs, 0.0)
+        other = self._solve(gap=asked.gap + change)
+        both = (plain.pressure > 0) & (other.pressure > 0)
+        response = np.where(both, other.pressure - plain.pressure, 0.0)
+        # Where both touch, K (p2 - p1) is the change of the approach less that of the gap.
+        work = float(np.sum(response * (other.approach - plain.approach - change)))
+        shown = work / float(np.sum(response**2))
         require(
-            abs(carried / load - 1) <= TOLERANCE,
-            f"the pressure carries {carried:.6g} N of a load of {load:.6g} N",
+            stated <= 1.02 * shown,
+            f"smallest_compliance is {stated:.4g} m/Pa, but the contact answers a chequerboard in "
+            f"the gap with {shown:.4g} m/Pa: explicit steps would be allowed too long",
         )
 
 
-@fact
-def contact_never_pulls(subject: Subject) -> None:
-    """The pressure is nowhere negative."""
-    least = float(np.min(solved(subject, sample_problem()).pressure))
-    require(least >= 0, f"the pressure falls to {least:.3g} Pa; it must be at least 0")
-
-
-@fact
-def residuals_are_small(subject: Subject) -> None:
-    """By its own residuals a solution fulfils the conditions of contact."""
-    stated = solved(subject, sample_problem()).residuals
-    for name in ("force", "complementarity", "penetration"):
-        value = getattr(stated, name)
-        require(
-            0 <= value <= TOLERANCE,
-            f"the {name} residual is {value:.3g}; between 0 and {TOLERANCE:g} is needed",
-        )
-
-
-@fact
-def mirrored_gap_mirrors_the_pressure(subject: Subject) -> None:
-    """The mirror image of a gap, along x or y, has the mirror image of its pressure."""
-    problem = sample_problem()
-    plain = solved(subject, problem).pressure
-    for axis, name in enumerate("xy"):
-        mirrored = solved(subject, sample_problem(gap=np.flip(problem.gap, axis).copy())).pressure
-        expect_close(f"pressure mirrored along {name}", np.flip(mirrored, axis), plain, TOLERANCE)
-
-
-@fact
-def moved_gap_moves_the_pressure(subject: Subject) -> None:
-    """A gap moved by whole cells has the same pressure, moved as far."""
-    plain = solved(subject, sample_problem()).pressure
-    moved = solved(subject, sample_problem(gap=sample_gap(samples.GRID, cells=(2, -3)))).pressure
-    expect_close("pressure moved by (2, -3) cells", moved[4:, :-6], plain[2:-2, 3:-3], TOLERANCE)
-
-
-@fact
-def approach_counts_from_the_gaps_zero(subject: Subject) -> None:
-    """A constant added to the gap adds to the approach and leaves the pressure as it is."""
-    lift = 3e-6
-    plain = solved(subject, sample_problem())
-    lifted = solved(subject, sample_problem(gap=sample_gap(samples.GRID) + lift))
-    expect_close("pressure on a lifted gap", lifted.pressure, plain.pressure, TOLERANCE)
-    rise = lifted.approach - plain.approach
+def _expect_load(solution: ContactSolution, load: float) -> None:
+    carried = float(np.sum(solution.pressure)) * GRID.cell_area
     require(
-        abs(rise - lift) <= TOLERANCE * lift,
-        f"with {lift:g} m added to the gap the approach grew by {rise:.6g} m",
+        abs(carried / load - 1) <= TOLERANCE,
+        f"the pressure carries {carried:.6g} N of a load of {load:.6g} N",
     )
-
-
-@fact(unless=_has_scales)
-def scaled_contact_scales_the_pressure(subject: Subject) -> None:
-    """With lengths times a and moduli times b, a load times a²b gives b times the pressure."""
-    plain = solved(subject, sample_problem()).pressure
-    for scale, stiffer in ((10.0, 1.0), (1.0, 0.01), (0.1, 3.0)):
-        scaled = solved(subject, sample_problem(scale=scale, stiffer=stiffer)).pressure / stiffer
-        what = f"pressure with lengths times {scale:g} and moduli times {stiffer:g}"
-        expect_close(what, scaled, plain, TOLERANCE)
-
-
-@fact
-def more_load_goes_deeper(subject: Subject) -> None:
-    """With the load grow approach, contact and the pressure in every cell."""
-    loads = (25.0, 50.0, 100.0)
-    solutions = [solved(subject, sample_problem(load=load)) for load in loads]
-    for less, more, load in zip(solutions, solutions[1:], loads[1:], strict=False):
-        require(
-            more.approach > less.approach,
-            f"at {load:g} N the approach is {more.approach:.6g} m, at half the load "
-            f"{less.approach:.6g} m",
-        )
-        fall = float(np.max(less.pressure - more.pressure))
-        require(
-            fall <= TOLERANCE * float(np.max(more.pressure)),
-            f"doubling the load to {load:g} N lowered the pressure by up to {fall:.3g} Pa",
-        )
-
-
-@fact
-def warm_start_changes_nothing(subject: Subject) -> None:
-    """From whatever solution it starts, a solve ends at the same one."""
-    cold = solved(subject, sample_problem())
-    moved = sample_problem(gap=sample_gap(samples.GRID, cells=(3, 2)), load=0.3 * samples.LOAD)
-    for what, problem in (
-        ("its own solution", sample_problem()),
-        ("that of a heavier load", sample_problem(load=2 * samples.LOAD)),
-        ("that of another place", moved),
-    ):
-        warm = solved(subject, sample_problem(), locked(solved(subject, problem)))
-        expect_close(f"pressure from {what}", warm.pressure, cold.pressure, TOLERANCE)
-
-
-CHECKS = (
-    *call_checks(EXERCISE),
-    solutions_are_finite_arrays,
-    solutions_own_their_arrays,
-    pressure_carries_the_load,
-    contact_never_pulls,
-    residuals_are_small,
-    mirrored_gap_mirrors_the_pressure,
-    moved_gap_moves_the_pressure,
-    approach_counts_from_the_gaps_zero,
-    scaled_contact_scales_the_pressure,
-    more_load_goes_deeper,
-    warm_start_changes_nothing,
-    *CAPABILITY_CHECKS,
-)

@@ -10,72 +10,78 @@ import numpy as np
 
 from tribo.core.fields import ContactConditions, LocalConditions, WearRate
 from tribo.testing import samples
-from tribo.testing.checks_calls import Exercise, call_checks, locked
-from tribo.testing.compare import expect_array
-from tribo.testing.declared import expect_declared
-from tribo.testing.subject import Subject, fact, require
+from tribo.testing.checks import Checks, expect_declared
+from tribo.testing.compare import expect_array, first_difference, locked, require
 from tribo.wear.law import WearLaw
 
 
-def _inputs(subject: Subject, effect: Any, number: int) -> ContactConditions:
-    conditions = samples.contact_conditions(subject, effect)
-    if number == 0:
-        return conditions
-    return replace(conditions, pressure=0.5 * conditions.pressure, time=20.0, distance=2.0)
+class EffectChecks(Checks):
+    """Checks of an effect."""
 
+    def _inputs(self, component: Any, number: int) -> ContactConditions:
+        conditions = samples.contact_conditions(component, self._fields)
+        if number == 0:
+            return conditions
+        return replace(conditions, pressure=0.5 * conditions.pressure, time=20.0, distance=2.0)
 
-def _call(effect: Any, conditions: ContactConditions) -> Mapping[str, Any]:
-    return {name: dict(values) for name, values in effect.fields(conditions).items()}
+    def _call(self, component: Any, inputs: Any) -> Mapping[str, Any]:
+        return {name: dict(values) for name, values in component.fields(inputs).items()}
 
+    def provided_fields_are_declared(self) -> None:
+        """It provides at least one field, each with a name, an SI unit and a description."""
+        provides = self._cls.provides
+        require(provides, "provides is empty; an effect that provides nothing has no use")
+        expect_declared("provides", provides)
 
-EXERCISE = Exercise(_inputs, _call)
+    def every_declared_field_is_answered(self) -> None:
+        """Each declared field comes for each body, finite and of the window's shape, no other."""
+        effect = self._make()
+        declared = sorted(field.name for field in effect.provides)
+        for number in (0, 1):
+            answers = self._answers(effect, number)
+            require(
+                sorted(answers) == declared,
+                f"fields gave {sorted(answers)}; provides declares {declared}",
+            )
+            for field, values in answers.items():
+                require(
+                    set(values) == set(samples.BODIES),
+                    f"{field!r} came for {sorted(values)}; the bodies are {samples.BODIES}",
+                )
+                for name, value in values.items():
+                    whole = np.broadcast_to(value, samples.GRID.cells)
+                    expect_array(f"{field!r} of body {name!r}", whole, samples.GRID.cells)
 
+    def bodies_may_have_any_names(self) -> None:
+        """Nothing depends on what the bodies are called."""
+        effect = self._make()
+        usual = self._answers(effect)
+        names = ("upper", "lower")
+        given = locked(samples.contact_conditions(effect, self._fields, names))
+        renamed = self._call(effect, given)
+        for field in effect.provides:
+            for name, before in zip(names, samples.BODIES, strict=True):
+                changed = first_difference(renamed[field.name][name], usual[field.name][before])
+                require(not changed, f"{field.name!r} changes when {before!r} is called {name!r}")
 
-@fact
-def provided_fields_are_declared(subject: Subject) -> None:
-    """It provides at least one field, each with a name, an SI unit and a description."""
-    effect = subject.make()
-    require(effect.provides, "provides is empty; an effect that provides nothing has no use")
-    expect_declared("provides", effect.provides)
+    def only_declared_fields_are_asked_for(self) -> None:
+        """It asks for no field but those in `requires`."""
+        effect = self._make()
+        conditions = locked(self._inputs(effect, 0))
+        fields = samples.Asked(conditions.fields)
+        try:
+            effect.fields(replace(conditions, fields=fields))
+        except KeyError:
+            if not fields.missed:
+                raise
+        missed = ", ".join(sorted(map(str, fields.missed)))
+        require(not missed, f"it asked for the field {missed}; add that to requires")
 
-
-@fact
-def every_declared_field_is_answered(subject: Subject) -> None:
-    """Each declared field comes for each body, finite and of the window's shape; no other does."""
-    effect = subject.make()
-    for number in (0, 1):
-        _expect_answers(effect, locked(_inputs(subject, effect, number)), samples.BODIES)
-
-
-@fact
-def bodies_may_have_any_names(subject: Subject) -> None:
-    """Nothing depends on what the bodies are called."""
-    effect = subject.make()
-    names = ("upper", "lower")
-    given = locked(samples.contact_conditions(subject, effect, names))
-    answers = _expect_answers(effect, given, names)
-    usual = effect.fields(locked(samples.contact_conditions(subject, effect)))
-    for field in effect.provides:
-        for name, before in zip(names, samples.BODIES, strict=True):
-            same = np.array_equal(answers[field.name][name], usual[field.name][before])
-            require(same, f"{field.name!r} of a body changes when {before!r} is called {name!r}")
-
-
-@fact
-def only_declared_fields_are_asked_for(subject: Subject) -> None:
-    """It asks for no field but those in `requires`."""
-    effect = subject.make()
-    conditions = samples.contact_conditions(subject, effect)
-    fields: Any = samples.Asked(conditions.fields)  # type: ignore[arg-type]
-    error: Exception | None = None
-    try:
-        effect.fields(locked(replace(conditions, fields=fields)))
-    except Exception as raised:
-        error = raised
-    missed = ", ".join(sorted(fields.missed))
-    require(not missed, f"it asked for the field {missed}; add that to requires")
-    if error is not None:
-        raise error
+    def runs_in_a_case(self) -> None:
+        """In a small case a law gets the fields it requires in every step."""
+        effect = self._make()
+        law = _reads([field.name for field in effect.provides])
+        samples.run(self._fields, law=law, effects=[effect])
 
 
 def _reads(names: Sequence[str]) -> WearLaw:
@@ -86,48 +92,6 @@ def _reads(names: Sequence[str]) -> WearLaw:
         requires = tuple(names)
 
         def rate(self, local: LocalConditions) -> WearRate:
-            return samples.archard().rate(local)
+            return samples.ARCHARD.rate(local)
 
     return Reads()
-
-
-@fact
-def runs_in_a_case(subject: Subject) -> None:
-    """In a small case a law gets the fields it requires in every step."""
-    effect = subject.make()
-    law = _reads([field.name for field in effect.provides])
-    samples.expect_volume_balance(samples.small_model(subject, law=law, effects=[effect]))
-
-
-CHECKS = (
-    *call_checks(EXERCISE),
-    provided_fields_are_declared,
-    every_declared_field_is_answered,
-    bodies_may_have_any_names,
-    only_declared_fields_are_asked_for,
-    runs_in_a_case,
-)
-
-
-def _expect_answers(
-    effect: Any, conditions: ContactConditions, names: Sequence[str]
-) -> Mapping[str, Mapping[str, Any]]:
-    answers: Mapping[str, Mapping[str, Any]] = effect.fields(conditions)
-    declared = {field.name for field in effect.provides}
-    require(
-        set(answers) == declared,
-        f"fields gave {sorted(answers)}; provides declares {sorted(declared)}",
-    )
-    for field, values in answers.items():
-        require(
-            set(values) == set(names),
-            f"{field!r} came for the bodies {sorted(values)} of {sorted(names)}",
-        )
-        for name, value in values.items():
-            where = f"{field!r} of body {name!r}"
-            try:
-                whole = np.broadcast_to(value, conditions.grid.cells)
-            except ValueError:
-                whole = np.asarray(value)
-            expect_array(where, whole, conditions.grid.cells)
-    return answers

@@ -10,9 +10,8 @@ import numpy as np
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
-from tribo.testing.checks_calls import Exercise, call_checks
-from tribo.testing.compare import expect_array
-from tribo.testing.subject import Subject, fact, require
+from tribo.testing.checks import Checks
+from tribo.testing.compare import apply_if, expect_array, require
 
 _CELLS = (24, 21)
 _SIZE = (0.72e-3, 0.84e-3)
@@ -20,104 +19,80 @@ _SIZE = (0.72e-3, 0.84e-3)
 _TOLERANCE = 1e-6
 
 
-def _grid(subject: Subject, part: float = 1.0) -> Grid:
-    """Return a window that the surface reaches over, or a part of it."""
-    refused: CaseError | None = None
-    for scale in (1.0, 0.1, 0.01, 1e-3):
-        grid = Grid((scale * _SIZE[0], scale * _SIZE[1]), _CELLS)
-        try:
-            subject.make().height(grid)
-        except CaseError as error:
-            refused = refused or error
-        else:
-            return Grid((part * grid.size[0], part * grid.size[1]), _CELLS)
-    assert refused is not None
-    raise refused
+class SurfaceChecks(Checks):
+    """Checks of a surface."""
+
+    def _inputs(self, component: Any, number: int) -> Grid:
+        return _finer(self._grid(), 1 + number)
+
+    def _call(self, component: Any, inputs: Any) -> Mapping[str, Any]:
+        return {"height": component.height(inputs), "curvature": component.curvature}
+
+    def _grid(self) -> Grid:
+        """Return a window that the surface reaches over."""
+        refused: CaseError | None = None
+        for scale in (1.0, 0.1, 0.01, 1e-3):
+            grid = Grid((scale * _SIZE[0], scale * _SIZE[1]), _CELLS)
+            try:
+                self._make().height(grid)
+            except CaseError as error:
+                refused = refused or error
+            else:
+                return grid
+        assert refused is not None
+        raise refused
+
+    def heights_are_finite_arrays(self) -> None:
+        """Heights are finite float64 arrays of the window's shape, of whatever cells."""
+        grid = self._grid()
+        for sample in (grid, Grid(grid.size, (9, 16)), _finer(grid, 2)):
+            height = self._make().height(sample)
+            expect_array(f"height on {sample.cells} cells", height, sample.cells)
+
+    def finer_cells_sample_the_same_surface(self) -> None:
+        """On cells of a third of the size, the points in common have the same heights."""
+        grid, surface = self._grid(), self._make()
+        coarse, fine = surface.height(grid), surface.height(_finer(grid, 3))
+        _expect_same("on cells of a third of the size", fine[1::3, 1::3], coarse)
+
+    def smaller_window_sees_the_same_surface(self) -> None:
+        """In a window of a third of the size, the points in common have the same heights."""
+        grid, surface = self._grid(), self._make()
+        nx, ny = grid.cells[0] // 3, grid.cells[1] // 3
+        small = surface.height(Grid((grid.size[0] / 3, grid.size[1] / 3), (nx, ny)))
+        middle = surface.height(grid)[nx : 2 * nx, ny : 2 * ny]
+        _expect_same("in a window of a third of the size", small, middle)
+
+    def curvature_is_that_of_the_heights(self) -> None:
+        """The curvature is that at the highest point, positive where the body is convex."""
+        surface = self._make()
+        stated = surface.curvature
+        apply_if(stated is not None, "curvature is None")
+        require(
+            len(stated) == 2 and all(np.isfinite(c) for c in stated),
+            f"curvature is {stated!r}; two finite numbers are needed, or None",
+        )
+        grid = Grid(self._grid().size, (49, 49))
+        height = surface.height(grid)
+        i, j = _highest(height, grid)
+        dx, dy = grid.spacing
+        found = (
+            -(height[i + 1, j] - 2 * height[i, j] + height[i - 1, j]) / dx**2,
+            -(height[i, j + 1] - 2 * height[i, j] + height[i, j - 1]) / dy**2,
+        )
+        # Differences see a fourth derivative, 1 % of the curvature where cells are R/10.
+        allowed = 0.02 * max(*map(abs, stated), *map(abs, found)) + 1e-6
+        for axis, one, other in zip("xy", stated, found, strict=True):
+            hint = "; heights are outward from the body" if one * other < 0 else ""
+            require(
+                abs(one - other) <= allowed,
+                f"the curvature along {axis} is stated as {one:.6g} 1/m, but that of the heights "
+                f"is {other:.6g} 1/m{hint}",
+            )
 
 
 def _finer(grid: Grid, times: int) -> Grid:
     return Grid(grid.size, (times * grid.cells[0], times * grid.cells[1]))
-
-
-def _inputs(subject: Subject, surface: Any, number: int) -> Grid:
-    return _grid(subject) if number == 0 else _finer(_grid(subject), 2)
-
-
-def _call(surface: Any, grid: Grid) -> Mapping[str, Any]:
-    return {"height": surface.height(grid), "curvature": surface.curvature}
-
-
-EXERCISE = Exercise(_inputs, _call)
-
-
-def _states_no_curvature(subject: Subject) -> str | None:
-    return "curvature is None" if subject.make().curvature is None else None
-
-
-@fact
-def heights_are_finite_arrays(subject: Subject) -> None:
-    """Heights are finite float64 arrays of the window's shape, whatever its numbers of cells."""
-    grid = _grid(subject)
-    for sample in (grid, Grid(grid.size, (9, 16)), _finer(grid, 2)):
-        height = subject.make().height(sample)
-        expect_array(f"height on {sample.cells} cells", height, sample.cells)
-
-
-@fact
-def finer_cells_sample_the_same_surface(subject: Subject) -> None:
-    """On cells of a third of the size, the points in common have the same heights."""
-    grid = _grid(subject)
-    surface = subject.make()
-    coarse, fine = surface.height(grid), surface.height(_finer(grid, 3))
-    _expect_same("on cells of a third of the size", fine[1::3, 1::3], coarse)
-
-
-@fact
-def smaller_window_sees_the_same_surface(subject: Subject) -> None:
-    """In a window of a third of the size, the points in common have the same heights."""
-    grid = _grid(subject)
-    middle = Grid((grid.size[0] / 3, grid.size[1] / 3), (grid.cells[0] // 3, grid.cells[1] // 3))
-    surface = subject.make()
-    large, small = surface.height(grid), surface.height(middle)
-    nx, ny = middle.cells
-    _expect_same("in a window of a third of the size", small, large[nx : 2 * nx, ny : 2 * ny])
-
-
-@fact(unless=_states_no_curvature)
-def curvature_is_that_of_the_heights(subject: Subject) -> None:
-    """The curvature is that at the highest point, positive where the body is convex."""
-    surface = subject.make()
-    stated = surface.curvature
-    require(
-        len(stated) == 2 and all(np.isfinite(c) for c in stated),
-        f"curvature is {stated!r}; two finite numbers are needed, or None",
-    )
-    grid = Grid(_grid(subject).size, (49, 49))
-    height = surface.height(grid)
-    i, j = _highest(height, grid)
-    dx, dy = grid.spacing
-    found = (
-        -(height[i + 1, j] - 2 * height[i, j] + height[i - 1, j]) / dx**2,
-        -(height[i, j + 1] - 2 * height[i, j] + height[i, j - 1]) / dy**2,
-    )
-    # Differences see a fourth derivative, 1 % of the curvature where cells are R/10.
-    allowed = 0.02 * max(*map(abs, stated), *map(abs, found)) + 1e-6
-    for axis, one, other in zip("xy", stated, found, strict=True):
-        hint = "; heights are outward from the body" if one * other < 0 else ""
-        require(
-            abs(one - other) <= allowed,
-            f"the curvature along {axis} is stated as {one:.6g} 1/m, but that of the heights is "
-            f"{other:.6g} 1/m{hint}",
-        )
-
-
-CHECKS = (
-    *call_checks(EXERCISE),
-    heights_are_finite_arrays,
-    finer_cells_sample_the_same_surface,
-    smaller_window_sees_the_same_surface,
-    curvature_is_that_of_the_heights,
-)
 
 
 def _expect_same(where: str, found: Array, needed: Array) -> None:

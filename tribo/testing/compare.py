@@ -1,49 +1,64 @@
-"""Comparing what components are given and what they answer."""
+"""Compare what components are given and what they answer, and say what is off."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import fields, is_dataclass
+from typing import TypeVar
 
 import numpy as np
 
 from tribo.core.arrays import Array
-from tribo.testing.subject import require
+
+T = TypeVar("T")
 
 
-def arrays_in(value: object, path: str = "") -> Iterator[tuple[str, Array]]:
-    """Yield every array in nested dataclasses, mappings and sequences, with its path."""
-    if isinstance(value, np.ndarray):
-        yield path, value
-    elif isinstance(value, Mapping):
-        for key, inner in value.items():
-            yield from arrays_in(inner, f"{path}[{key!r}]")
-    elif isinstance(value, list | tuple):
-        for number, inner in enumerate(value):
-            yield from arrays_in(inner, f"{path}[{number}]")
-    elif is_dataclass(value) and not isinstance(value, type):
-        for part in fields(value):
-            yield from arrays_in(getattr(value, part.name), f"{path}.{part.name}".lstrip("."))
+class CheckFailed(AssertionError):
+    """The fact that a check states does not hold."""
 
 
-def flattened(value: object, path: str = "") -> Iterator[tuple[str, object]]:
+class NotApplicable(Exception):
+    """A check says nothing about this configuration."""
+
+
+def require(holds: object, message: str) -> None:
+    """Raise `CheckFailed` with `message` unless `holds`."""
+    if not holds:
+        raise CheckFailed(message)
+
+
+def apply_if(applies: object, otherwise: str) -> None:
+    """Raise `NotApplicable` with the reason `otherwise` unless `applies`."""
+    if not applies:
+        raise NotApplicable(otherwise)
+
+
+def values_in(value: object, path: str = "") -> Iterator[tuple[str, object]]:
     """Yield every value in nested dataclasses, mappings and sequences, with its path."""
     if isinstance(value, Mapping):
         for key, inner in value.items():
-            yield from flattened(inner, f"{path}[{key!r}]" if path else str(key))
+            yield from values_in(inner, f"{path}[{key!r}]" if path else str(key))
     elif isinstance(value, list | tuple):
         for number, inner in enumerate(value):
-            yield from flattened(inner, f"{path}[{number}]")
+            yield from values_in(inner, f"{path}[{number}]")
     elif is_dataclass(value) and not isinstance(value, type):
         for part in fields(value):
-            yield from flattened(getattr(value, part.name), f"{path}.{part.name}".lstrip("."))
+            yield from values_in(getattr(value, part.name), f"{path}.{part.name}".lstrip("."))
     else:
         yield path, value
 
 
+def locked(value: T) -> T:
+    """Make all arrays in `value` read-only, and return it."""
+    for _, part in values_in(value):
+        if isinstance(part, np.ndarray):
+            part.flags.writeable = False
+    return value
+
+
 def first_difference(one: object, other: object) -> str | None:
     """Return the path of the first value that differs by a bit, or None."""
-    left, right = dict(flattened(one)), dict(flattened(other))
+    left, right = dict(values_in(one)), dict(values_in(other))
     for path in sorted({*left, *right}):
         if path not in left or path not in right or not _same(left[path], right[path]):
             return path or "the answer"
@@ -54,36 +69,28 @@ def _same(one: object, other: object) -> bool:
     if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
         same_kind = one.shape == other.shape and one.dtype == other.dtype
         return same_kind and one.tobytes() == other.tobytes()
-    try:
-        return bool(one == other) or bool(one != one and other != other)  # NaN is itself here
-    except Exception:
-        return one is other
+    return bool(one == other) or bool(one != one and other != other)  # NaN is itself here
 
 
-def expect_array(name: str, value: object, shape: tuple[int, ...]) -> Array:
-    """Return `value` if it is a finite float64 array of the shape, else fail."""
-    require(
-        isinstance(value, np.ndarray),
-        f"{name} is a {type(value).__name__}; an array of shape {shape} is needed",
-    )
+def expect_array(name: str, value: object, shape: tuple[int, ...]) -> None:
+    """Fail unless `value` is a finite float64 array of the shape."""
+    kind = type(value).__name__
+    require(isinstance(value, np.ndarray), f"{name} is a {kind}; an array {shape} is needed")
     array = np.asarray(value)
     require(array.shape == shape, f"{name} has shape {array.shape}; {shape} is needed")
     require(array.dtype == np.float64, f"{name} has dtype {array.dtype}; float64 is needed")
     bad = int(np.count_nonzero(~np.isfinite(array)))
     require(not bad, f"{name} is not finite in {bad} of {array.size} points")
-    return array
 
 
 def expect_close(what: str, found: Array, needed: Array, tolerance: float) -> None:
     """Fail unless two arrays agree to `tolerance` times the largest of `needed`."""
-    require(
-        np.shape(found) == np.shape(needed),
-        f"{what}: shape {np.shape(found)} found, {np.shape(needed)} needed",
-    )
-    scale = float(np.max(np.abs(needed), initial=0.0))
+    shapes = np.shape(found), np.shape(needed)
+    require(shapes[0] == shapes[1], f"{what}: shape {shapes[0]} found, {shapes[1]} needed")
+    size = float(np.max(np.abs(needed), initial=0.0))
     worst = float(np.max(np.abs(np.asarray(found) - needed), initial=0.0))
     require(
-        worst <= tolerance * scale,
-        f"{what}: off by {worst:.3g}, with values up to {scale:.3g}; no more than "
+        worst <= tolerance * size,
+        f"{what}: off by {worst:.3g}, with values up to {size:.3g}; no more than "
         f"{tolerance:.0e} of that is allowed",
     )

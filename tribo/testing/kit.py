@@ -4,67 +4,119 @@ from __future__ import annotations
 
 import sys
 import traceback
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import Any, Literal
 
 from pydantic import ValidationError
 
 from tribo.component import Component
 from tribo.core.words import said
-from tribo.registry.kinds import Kind, kind_of
-from tribo.testing import (
-    checks_contact_solver,
-    checks_effect,
-    checks_kinematics,
-    checks_observer,
-    checks_surface,
-    checks_wear_law,
-    samples,
-)
-from tribo.testing.checks_component import COMPONENT_CHECKS
-from tribo.testing.checks_config import CONFIG_CHECKS
-from tribo.testing.report import Outcome, Report
-from tribo.testing.subject import Check, CheckFailed, FieldValue, Revival, Subject
+from tribo.registry.kinds import kind_of
+from tribo.testing.checks import Checks, FieldValue
+from tribo.testing.checks_contact_solver import ContactSolverChecks
+from tribo.testing.checks_effect import EffectChecks
+from tribo.testing.checks_kinematics import KinematicsChecks
+from tribo.testing.checks_observer import ObserverChecks
+from tribo.testing.checks_surface import SurfaceChecks
+from tribo.testing.checks_wear_law import WearLawChecks
+from tribo.testing.compare import CheckFailed, NotApplicable
 
-ENOUGH = "enough_checks_apply"
+SUITES: Mapping[str, type[Checks]] = MappingProxyType(
+    {
+        "contact_solver": ContactSolverChecks,
+        "wear_law": WearLawChecks,
+        "kinematics": KinematicsChecks,
+        "surface": SurfaceChecks,
+        "effect": EffectChecks,
+        "observer": ObserverChecks,
+    }
+)
+"""The checks of each kind of component."""
+
+Config = Component | Mapping[str, Any]
 _NOTHING: Mapping[str, Any] = MappingProxyType({})
 
 
 @dataclass(frozen=True)
-class Suite:
-    """The checks of a kind, and how many of them each configuration must pass."""
+class Outcome:
+    """What came of one check with one configuration.
 
-    checks: tuple[Check, ...]
-    minimum: int
+    Parameters
+    ----------
+    check : str
+        Name of the check.
+    fact : str
+        What the check tests, in one sentence.
+    config : str
+        The configuration, shortened.
+    status : str
+        ``passed``, ``failed`` or ``not applicable``.
+    message : str
+        What was found and what is needed, or why the check does not apply.
+    """
+
+    check: str
+    fact: str
+    config: str
+    status: Literal["passed", "failed", "not applicable"]
+    message: str = ""
 
 
-def _suite(checks: tuple[Check, ...], minimum: int) -> Suite:
-    return Suite((*CONFIG_CHECKS, *COMPONENT_CHECKS, *checks), minimum)
+@dataclass(frozen=True)
+class Report:
+    """What came of all checks of one class; its text is a table.
 
+    Parameters
+    ----------
+    title : str
+        The class, its kind and its name in a case.
+    outcomes : tuple of Outcome
+        By configuration, then by check.
+    """
 
-# The minimum is what applies to the plainest implementation, less two.
-SUITES: Mapping[str, Suite] = MappingProxyType(
-    {
-        "contact_solver": _suite(checks_contact_solver.CHECKS, 24),
-        "wear_law": _suite(checks_wear_law.CHECKS, 21),
-        "kinematics": _suite(checks_kinematics.CHECKS, 26),
-        "surface": _suite(checks_surface.CHECKS, 17),
-        "effect": _suite(checks_effect.CHECKS, 19),
-        "observer": _suite(checks_observer.CHECKS, 17),
-    }
-)
+    title: str
+    outcomes: tuple[Outcome, ...]
 
-Config = Component | Mapping[str, Any]
+    @property
+    def failures(self) -> tuple[Outcome, ...]:
+        """The checks that failed."""
+        return tuple(outcome for outcome in self.outcomes if outcome.status == "failed")
+
+    @property
+    def ok(self) -> bool:
+        """Whether nothing failed."""
+        return not self.failures
+
+    def __str__(self) -> str:
+        counts = Counter(outcome.status for outcome in self.outcomes)
+        lines = [f"{self.title}: {', '.join(f'{n} {status}' for status, n in counts.items())}"]
+        width = max(len(outcome.check) for outcome in self.outcomes)
+        spoiled = Counter(failure.message for failure in self.failures)
+        config = None
+        for outcome in self.outcomes:
+            if outcome.config != config:
+                config = outcome.config
+                lines.append(f"  with {config}")
+            message = outcome.message
+            if outcome.status == "failed":
+                # What spoils many checks is told with the first of them.
+                count = spoiled.pop(message, 0)
+                if count == 0:
+                    continue
+                message += f" (this spoils {count} checks)" if count > 1 else ""
+            line = f"    {outcome.check:<{width}}  {outcome.status}"
+            lines.append(f"{line}: {message}" if message else line)
+        return "\n".join(lines)
 
 
 def check(
     cls: type[Component],
     configs: Sequence[Config],
     *,
-    expected_failures: Mapping[str, str] = _NOTHING,
     fields: Mapping[str, FieldValue] = _NOTHING,
 ) -> Report:
     """Check that a class fulfils its interface, with each of some configurations.
@@ -79,9 +131,6 @@ def check(
     configs : sequence of Component or Mapping
         Valid configurations, as objects or as in a case; ``type`` may be left
         out.
-    expected_failures : Mapping[str, str], optional
-        Why a check, by name, cannot be passed. One that passes all the same
-        counts as a failure.
     fields : Mapping[str, float or callable], optional
         Typical values, in SI, of the local fields that the class requires. One
         that follows the pressure is given as a function of it, and belongs to
@@ -99,22 +148,15 @@ def check(
     TypeError
         If `cls` does not implement one interface.
     ValueError
-        If a configuration is not valid, or `expected_failures` names no check.
+        If there is no configuration, or one is not valid.
     """
     kind = kind_of(cls)
-    _expect_known(kind, expected_failures)
-    outcomes: list[Outcome] = []
-    for subject in subjects(cls, configs, fields):
-        outcomes += [_outcome(one, subject, expected_failures) for one in SUITES[kind.name].checks]
-        outcomes.append(_outcome(_enough(expected_failures), subject, _NOTHING))
-    if not outcomes:
-        needed = (
-            "not valid without configuration, and no example is given; put some in: "
-            "model_config = ConfigDict(json_schema_extra={'examples': [{…}]})"
-        )
-        outcomes.append(Outcome(ENOUGH, "", "no configuration", "failed", needed))
-    name = f"{cls.__qualname__} ({cls.type})"
-    return Report(name, kind.words, tuple(outcomes))
+    outcomes = [
+        _outcome(checks, name)
+        for checks in suites(cls, configs, fields)
+        for name in names_of(type(checks))
+    ]
+    return Report(f"{kind.words} {cls.__qualname__} ({cls.type})", tuple(outcomes))
 
 
 def parametrize_checks(
@@ -132,8 +174,11 @@ def parametrize_checks(
 
     Parameters
     ----------
-    cls, configs, expected_failures, fields
+    cls, configs, fields
         As in `check`.
+    expected_failures : Mapping[str, str], optional
+        Why a check, by name, cannot be passed. One that passes all the same
+        fails.
 
     Returns
     -------
@@ -144,31 +189,34 @@ def parametrize_checks(
     Raises
     ------
     TypeError, ValueError
-        As `check`; also if `configs` is empty.
+        As `check`; also if `expected_failures` names no check.
     """
     import pytest
 
-    kind = kind_of(cls)
-    _expect_known(kind, expected_failures)
-    given = subjects(cls, configs, fields)
-    if not given:
-        raise ValueError(f"configs is empty: nothing would be checked of {cls.__qualname__}")
+    suite = SUITES[kind_of(cls).name]
+    for name in expected_failures:
+        if name not in names_of(suite):
+            raise ValueError(f"expected_failures: {suite.__name__} has no check {name!r}")
+    marks = {
+        name: [pytest.mark.xfail(reason=reason, strict=True)]
+        for name, reason in expected_failures.items()
+    }
     tests = [
-        pytest.param(one, subject, id=f"{one.name}-{subject.index}")
-        for subject in given
-        for one in (*SUITES[kind.name].checks, _enough(expected_failures))
+        pytest.param(checks, name, id=f"{name}-{number}", marks=marks.get(name, ()))
+        for number, checks in enumerate(suites(cls, configs, fields))
+        for name in names_of(suite)
     ]
 
-    @pytest.mark.parametrize(("one", "subject"), tests)
-    def test_conformance(one: Check, subject: Subject) -> None:
+    @pytest.mark.parametrize(("checks", "name"), tests)
+    def test_conformance(checks: Checks, name: str) -> None:
         __tracebackhide__ = True
-        outcome = _outcome(one, subject, expected_failures)
-        if outcome.status == "failed":
-            pytest.fail(f"{one.fact} With {subject.label}: {outcome.message}", pytrace=False)
-        if outcome.status == "expected failure":
-            pytest.xfail(outcome.message)
-        if outcome.status == "not applicable":
-            pytest.skip(outcome.message)
+        try:
+            getattr(checks, name)()
+        except NotApplicable as reason:
+            pytest.skip(str(reason))
+        except CheckFailed as fault:
+            fact = _fact(checks, name)
+            pytest.fail(f"{fact} With {_label(checks)}: {fault}", pytrace=False)
 
     return test_conformance
 
@@ -195,9 +243,7 @@ def example_configs(cls: type[Component]) -> list[dict[str, Any]]:
     """
     try:
         examples = cls.model_json_schema().get("examples")
-    except KeyboardInterrupt:
-        raise
-    except BaseException as error:
+    except Exception as error:
         raise ValueError(f"making the schema of {cls.__qualname__} raised {said(error)}") from error
     if examples:
         if not (isinstance(examples, list) and all(isinstance(e, Mapping) for e in examples)):
@@ -210,88 +256,65 @@ def example_configs(cls: type[Component]) -> list[dict[str, Any]]:
     return [{}]
 
 
-def subjects(
+def suites(
     cls: type[Component], configs: Sequence[Config], fields: Mapping[str, FieldValue]
-) -> list[Subject]:
-    """Return the class with each of its configurations."""
-    valid = list(_validated(cls, configs))
-    revival = Revival(valid)
-    kind = kind_of(cls).name
-    fields = samples.following(getattr(cls, "requires", ()), fields)
-    return [Subject(cls, kind, config, fields, revival, i) for i, config in enumerate(valid)]
-
-
-def _validated(cls: type[Component], configs: Sequence[Config]) -> Iterator[Component]:
+) -> Iterator[Checks]:
+    """Yield the checks of a class with each of its configurations."""
+    if not configs:
+        raise ValueError(
+            f"nothing would be checked of {cls.__qualname__}: it is not valid without "
+            "configuration, and no example is given; put some in: "
+            "model_config = ConfigDict(json_schema_extra={'examples': [{…}]})"
+        )
     for number, config in enumerate(configs):
-        if isinstance(config, cls):
-            yield config
-            continue
         try:
-            yield cls.model_validate(config)
+            made = config if isinstance(config, cls) else cls.model_validate(config)
         except ValidationError as error:
             what = f"configs[{number}] is not valid for {cls.__qualname__}"
             raise ValueError(f"{what}: {error}") from error
+        yield SUITES[kind_of(cls).name](made, fields)
 
 
-def _expect_known(kind: Kind, expected_failures: Mapping[str, str]) -> None:
-    known = {one.name for one in SUITES[kind.name].checks}
-    for name, reason in expected_failures.items():
-        if name not in known:
-            raise ValueError(f"expected_failures: no check of a {kind.words} is called {name!r}")
-        if not reason.strip():
-            raise ValueError(f"expected_failures: say why {name!r} cannot be passed")
+def names_of(suite: type[Checks]) -> list[str]:
+    """Return the names of the checks of a suite: its public methods."""
+    methods = [name for base in reversed(suite.__mro__) for name in vars(base)]
+    return [name for name in methods if not name.startswith("_")]
 
 
-def _outcome(one: Check, subject: Subject, expected: Mapping[str, str]) -> Outcome:
+def _outcome(checks: Checks, name: str) -> Outcome:
     def came(status: Any, message: str = "") -> Outcome:
-        return Outcome(one.name, one.fact, subject.label, status, message)
+        return Outcome(name, _fact(checks, name), _label(checks), status, message)
 
-    reason = expected.get(one.name)
     try:
-        inapplicable = one.unless(subject)
-        if inapplicable is not None:
-            return came("not applicable", inapplicable)
-        one.run(subject)
+        getattr(checks, name)()
+    except NotApplicable as reason:
+        return came("not applicable", str(reason))
+    except CheckFailed as fault:
+        return came("failed", " ".join(str(fault).split()))
     except KeyboardInterrupt:
         raise
     except BaseException as error:
-        found = _found(error, subject.cls)
-        return came("failed", found) if reason is None else came("expected failure", reason)
-    if reason is not None:
-        return came("failed", f"it passed, although a failure is expected ({reason})")
+        return came("failed", f"it raised {said(error)}, in {_place(error, checks)}")
     return came("passed")
 
 
-def _found(error: BaseException, cls: type[Component]) -> str:
-    text = " ".join(str(error).split())
-    if isinstance(error, CheckFailed):
-        return text
+def _fact(checks: Checks, name: str) -> str:
+    return str(getattr(checks, name).__doc__)
+
+
+def _label(checks: Checks) -> str:
+    """Return the configuration as short text."""
+    values = checks._config.model_dump(exclude_defaults=True)
+    del values["type"]
+    text = ", ".join(f"{name}={value!r}" for name, value in values.items()) or "its defaults"
+    return text if len(text) <= 60 else text[:59] + "…"
+
+
+def _place(error: BaseException, checks: Checks) -> str:
+    """Return the last line of the class's own package that an error came through."""
     frames = traceback.extract_tb(error.__traceback__)
-    own = [frame for frame in frames if Path(frame.filename).is_relative_to(_code(cls))]
+    module = sys.modules[checks._cls.__module__.partition(".")[0]]
+    folder = next(iter(getattr(module, "__path__", ())), getattr(module, "__file__", None))
+    own = [frame for frame in frames if folder and Path(frame.filename).is_relative_to(folder)]
     where = (own or frames)[-1]
-    raised = f"it raised {type(error).__name__} in {where.filename}:{where.lineno}"
-    return f"{raised}: {text}".rstrip(": ")
-
-
-def _code(cls: type) -> Path:
-    """Return the folder of the package that a class is in, or the file of its lone module."""
-    module = sys.modules.get(cls.__module__.split(".")[0])
-    folders = list(getattr(module, "__path__", ()))
-    return Path(folders[0] if folders else getattr(module, "__file__", None) or "")
-
-
-def _enough(expected: Mapping[str, str]) -> Check:
-    def run(subject: Subject) -> None:
-        suite = SUITES[subject.kind]
-        applies = [
-            one.name
-            for one in suite.checks
-            if one.name not in expected and one.unless(subject) is None
-        ]
-        if len(applies) < suite.minimum:
-            raise CheckFailed(
-                f"only {len(applies)} of {len(suite.checks)} checks apply; at least "
-                f"{suite.minimum} must, for so little says nothing about the class"
-            )
-
-    return Check(ENOUGH, "Enough checks apply to say something.", run)
+    return f"{where.filename}:{where.lineno}"

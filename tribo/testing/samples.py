@@ -1,8 +1,10 @@
-"""Small inputs for the checks: a window, bodies, local fields, a case of a few steps."""
+"""Small inputs for the checks: a window, local fields, contacts, a case of a few steps."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import warnings
+from collections import UserDict
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -10,20 +12,19 @@ import numpy as np
 from tribo.case import Body, Case
 from tribo.contact.winkler import Winkler
 from tribo.core.arrays import Array
-from tribo.core.fields import ContactConditions, Field, LocalConditions
+from tribo.core.contact import ContactProblem, ContactSystem, WearCompliance
+from tribo.core.fields import ContactConditions, Field
 from tribo.core.grid import Grid
-from tribo.core.material import Material
-from tribo.core.state import State
+from tribo.core.material import Material, contact_modulus
 from tribo.effects.effect import Effect
 from tribo.motion.reciprocating import Reciprocating
-from tribo.simulation.assembly import assemble
-from tribo.simulation.march import begin, march
-from tribo.simulation.model import Model
-from tribo.simulation.rates import Moment, law_states, wear_rates
+from tribo.observers.observer import Observer
+from tribo.simulation.run import Simulation
 from tribo.surfaces.cylinder import Cylinder
 from tribo.surfaces.flat import Flat
 from tribo.surfaces.sphere import Sphere
-from tribo.testing.subject import FieldValue, Subject, require
+from tribo.testing.checks import FieldValue
+from tribo.testing.compare import locked
 from tribo.wear.archard import Archard
 
 # Neither square nor of square cells, so that swapped axes are noticed.
@@ -41,6 +42,8 @@ STEEL = Material(
     conductivity=46.0,
     heat_capacity=460.0,
 )
+ARCHARD = Archard(k=1e-16)
+"""It wears a third of the first approach within some metres."""
 
 _TYPICAL: Mapping[str, FieldValue] = {
     "friction_coefficient": 0.3,
@@ -50,34 +53,25 @@ _TYPICAL: Mapping[str, FieldValue] = {
 }
 """What is plausible for a field whose name ends so."""
 
-MOST_STEPS = 1000
+
+def field(name: str, names: Sequence[str], given: Mapping[str, FieldValue], p: Array) -> Array:
+    """Return a typical value of the field `name` at the pressures `p`.
+
+    As `given`, else guessed from its name; one that is unknown follows its
+    slope if that is among `names` too, and is 1 if not.
+    """
+    value = given.get(name)
+    if value is None:
+        value = next((value for end, value in _TYPICAL.items() if name.endswith(end)), None)
+    if value is None:
+        slope = f"{name}_slope"
+        return field(slope, (), given, p) * p if slope in names else np.ones_like(p)
+    return np.zeros_like(p) + (value(p) if callable(value) else value)
 
 
-def typical(name: str, given: Mapping[str, FieldValue], pressure: Array) -> Array:
-    """Return the field `name` at `pressure`: as given, or guessed from its name."""
-    guess = next((value for end, value in _TYPICAL.items() if name.endswith(end)), 1.0)
-    value = given.get(name, guess)
-    at_each: Array = np.zeros_like(pressure) + (value(pressure) if callable(value) else value)
-    return at_each
-
-
-def following(names: Sequence[str], given: Mapping[str, FieldValue]) -> dict[str, FieldValue]:
-    """Return fields as `given`; one that is not, nor typical, follows its slope, if in `names`."""
-
-    def by_slope(slope: str) -> FieldValue:
-        return lambda pressure: typical(slope, given, pressure) * pressure
-
-    guessed = {
-        name: by_slope(f"{name}_slope")
-        for name in names
-        if f"{name}_slope" in names and not name.endswith(tuple(_TYPICAL))
-    }
-    return {**guessed, **given}
-
-
-def friction_coefficient(given: Mapping[str, FieldValue]) -> float:
-    """Return the coefficient of friction of the small cases."""
-    return float(typical("friction_coefficient", given, np.zeros(())))
+def fields(names: Sequence[str], given: Mapping[str, FieldValue], p: Array) -> dict[str, Array]:
+    """Return fields that vary a little about their typical values."""
+    return {name: field(name, names, given, p) * (0.95 + 0.1 * pattern(p.shape)) for name in names}
 
 
 def pattern(shape: tuple[int, ...]) -> Array:
@@ -85,19 +79,6 @@ def pattern(shape: tuple[int, ...]) -> Array:
     golden = 0.6180339887498949
     values: Array = ((1 + np.arange(np.prod(shape, dtype=int))) * golden % 1.0).reshape(shape)
     return values
-
-
-def sample_field(name: str, given: Mapping[str, FieldValue], pressure: Array) -> Array:
-    """Return a field that varies a little about its typical value."""
-    value: Array = typical(name, given, pressure) * (0.95 + 0.1 * pattern(pressure.shape))
-    return value
-
-
-def sample_pressure(shape: tuple[int, ...]) -> Array:
-    """Return pressures up to `PEAK`, and 0 in every third point."""
-    pressure: Array = PEAK * (0.02 + 0.98 * pattern(shape))
-    pressure.reshape(-1)[::3] = 0.0
-    return pressure
 
 
 def hertz_pressure(grid: Grid) -> Array:
@@ -108,101 +89,117 @@ def hertz_pressure(grid: Grid) -> Array:
     return pressure
 
 
-class Asked(Mapping[str, Array]):
+class Asked(UserDict[str, Any]):
     """A mapping that remembers which names it was asked for in vain.
 
     Parameters
     ----------
-    values : Mapping[str, ndarray]
+    values : Mapping[str, object]
         What it holds.
     """
 
-    def __init__(self, values: Mapping[str, Array]) -> None:
-        self._values = dict(values)
-        self.missed: set[str] = set()
+    def __init__(self, values: Mapping[str, Any]) -> None:
+        super().__init__(values)
+        self.missed: set[object] = set()
 
-    def __getitem__(self, name: str) -> Array:
-        if name not in self._values:
-            self.missed.add(name)
-        return self._values[name]
+    def __missing__(self, name: str) -> Any:
+        self.missed.add(name)
+        raise KeyError(name)
 
     def __contains__(self, name: object) -> bool:
-        if name not in self._values:
-            self.missed.add(str(name))
-        return name in self._values
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._values)
-
-    def __len__(self) -> int:
-        return len(self._values)
-
-
-def local_conditions(
-    subject: Subject, law: Any, pressure: Array, state: Mapping[str, Array] | None = None
-) -> LocalConditions:
-    """Return what a law is told at points of the given pressure; state as at the start."""
-    if state is None:
-        state = {
-            name: np.full(pressure.shape, value) for name, value in law.initial_state().items()
-        }
-    return LocalConditions(
-        pressure=pressure,
-        speed=SPEED,
-        material=STEEL,
-        fields={name: sample_field(name, subject.fields, pressure) for name in law.requires},
-        state=state,
-    )
+        if name not in self.data:
+            self.missed.add(name)
+        return name in self.data
 
 
 def contact_conditions(
-    subject: Subject, effect: Any, names: Sequence[str] = BODIES
+    effect: Any, given: Mapping[str, FieldValue], names: Sequence[str] = BODIES
 ) -> ContactConditions:
     """Return what an effect is told; the second body is swept."""
     pressure = hertz_pressure(GRID)
+    known = fields(effect.requires, given, pressure)
     return ContactConditions(
         grid=GRID,
         pressure=pressure,
         speed=SPEED,
         time=10.0,
         distance=1.0,
-        friction_coefficient=friction_coefficient(subject.fields),
+        friction_coefficient=_friction(given),
         materials=dict.fromkeys(names, STEEL),
         swept=frozenset(names[1:]),
-        fields={
-            name: {body: sample_field(name, subject.fields, pressure) for body in names}
-            for name in effect.requires
-        },
+        fields={name: {body: values.copy() for body in names} for name, values in known.items()},
     )
 
 
-def given(names: Sequence[str], values: Mapping[str, FieldValue]) -> Effect:
-    """Return an effect that provides fields at sample values.
+def ball(grid: Grid, scale: float = 1.0, cells: tuple[int, int] = (0, 0)) -> Array:
+    """Return a ball with a slanted ripple, which has no symmetry, moved by some cells."""
+    x, y = grid.mesh
+    x, y = x - cells[0] * grid.spacing[0], y - cells[1] * grid.spacing[1]
+    bowl = (x**2 + y**2) / (2 * scale * RADIUS)
+    ripple = 1e-7 * scale * np.sin((3.1 * x + 4.7 * y) / (0.72e-3 * scale) + 0.4)
+    return np.asarray(bowl + ripple)
 
-    Parameters
-    ----------
-    names : sequence of str
-        Names of the fields.
-    values : Mapping[str, float or callable]
-        Typical values, where known.
+
+def problem(
+    *,
+    gap: Array | None = None,
+    load: float = LOAD,
+    cap: float | None = None,
+    wear: WearCompliance | None = None,
+    scale: float = 1.0,
+    stiffer: float = 1.0,
+) -> ContactProblem:
+    """Return a contact problem with lengths times `scale` and moduli times `stiffer`."""
+    grid = Grid((scale * GRID.size[0], scale * GRID.size[1]), GRID.cells)
+    force = scale**2 * stiffer
+    material = STEEL.model_copy(update={"young": stiffer * STEEL.young, "hardness": cap})
+    # The system states the first contact's load, whatever the problem's own is.
+    system = ContactSystem(
+        grid=grid,
+        modulus=contact_modulus([material, material]),
+        load=force * LOAD,
+        cap=cap,
+        curvature=(1 / (scale * RADIUS), 1 / (scale * RADIUS)),
+        materials=dict.fromkeys(BODIES, material),
+    )
+    gap = ball(grid, scale) if gap is None else gap
+    return locked(ContactProblem(system, gap, force * load, wear))
+
+
+def run(
+    given: Mapping[str, FieldValue],
+    *,
+    law: Any = ARCHARD,
+    kinematics: Any = None,
+    effects: Sequence[Any] = (),
+    observers: Sequence[Observer] = (),
+    watcher: Observer | None = None,
+    **more: Any,
+) -> None:
+    """Run a few steps on elastic springs, both bodies under one law.
+
+    The run itself holds in each step that a body loses just what its law says.
     """
-
-    class Given(Effect):
-        type = "tribo.testing.given"
-        provides = tuple(Field(name, "1", "A sample.") for name in names)
-
-        def fields(self, contact: ContactConditions) -> Mapping[str, Mapping[str, Array]]:
-            return {
-                name: dict.fromkeys(contact.materials, sample_field(name, values, contact.pressure))
-                for name in names
-            }
-
-    return Given()
-
-
-def archard() -> Archard:
-    """Return a law that wears a third of the first approach within some metres."""
-    return Archard(k=1e-16)
+    kinematics = kinematics or sliding(3.0)
+    known = {"friction_coefficient"}.union(*({f.name for f in e.provides} for e in effects))
+    needed = sorted({*law.requires}.union(*(e.requires for e in effects)) - known)
+    case = Case(
+        grid=GRID.model_copy(update={"ends_at_window": True}),
+        load=LOAD,
+        bodies={
+            name: Body(surface=surface, material=STEEL, wear=law)
+            for name, surface in zip(BODIES, _shapes(kinematics), strict=True)
+        },
+        contact=Winkler(plasticity=False),
+        kinematics=kinematics,
+        friction=_friction(given),
+        effects=[*([_providing(needed, given)] if needed else []), *effects],
+        observers=observers,
+        **more,
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        Simulation(case).run(observers=[watcher] if watcher else []).close()
 
 
 def sliding(distance: float) -> Reciprocating:
@@ -210,76 +207,27 @@ def sliding(distance: float) -> Reciprocating:
     return Reciprocating(stroke=2e-3, frequency=SPEED / 4e-3, distance=distance)
 
 
-def small_model(
-    subject: Subject,
-    *,
-    law: Any = None,
-    kinematics: Any = None,
-    effects: Sequence[Any] = (),
-    observers: Sequence[Any] = (),
-    **more: Any,
-) -> Model:
-    """Return a case of a few steps on elastic springs, both bodies under one law."""
-    law = law or archard()
-    kinematics = kinematics or sliding(3.0)
-    known = {"friction_coefficient"}.union(*({f.name for f in e.provides} for e in effects))
-    needed = {*law.requires}.union(*(effect.requires for effect in effects)) - known
-    extra = [given(sorted(needed), subject.fields)] if needed else []
-    shapes = _shapes(kinematics)
-    return assemble(
-        Case(
-            grid=GRID.model_copy(update={"ends_at_window": True}),
-            load=LOAD,
-            bodies={
-                name: Body(surface=surface, material=STEEL, wear=law)
-                for name, surface in zip(BODIES, shapes, strict=True)
-            },
-            contact=Winkler(plasticity=False),
-            kinematics=kinematics,
-            friction=friction_coefficient(subject.fields),
-            effects=[*extra, *effects],
-            observers=observers,
-            **more,
-        )
-    )
+def _friction(given: Mapping[str, FieldValue]) -> float:
+    return float(field("friction_coefficient", (), given, np.zeros(())))
+
+
+def _providing(names: Sequence[str], given: Mapping[str, FieldValue]) -> Effect:
+    class Given(Effect):
+        type = "tribo.testing.given"
+        provides = tuple(Field(name, "1", "A sample.") for name in names)
+
+        def fields(self, contact: ContactConditions) -> Mapping[str, Mapping[str, Array]]:
+            answers = fields(names, given, contact.pressure)
+            return {name: dict.fromkeys(contact.materials, v) for name, v in answers.items()}
+
+    return Given()
 
 
 def _shapes(kinematics: Any) -> list[Any]:
     """Return a surface for each body; those that pass as a whole do not vary along x."""
     exposures = kinematics.exposures(GRID, BODIES)
     passes = [not exposures[name].shape_stays for name in BODIES]
-    flat = Flat()
     if all(passes):
-        return [Cylinder(radius=RADIUS, axis="x"), flat]
+        return [Cylinder(radius=RADIUS, axis="x"), Flat()]
     sphere = Sphere(radius=RADIUS)
-    return [flat, sphere] if passes[0] else [sphere, flat]
-
-
-def steps(model: Model) -> Iterator[tuple[State, State]]:
-    """Yield the states before and after each step of a run."""
-    before = begin(model)
-    for number, accepted in enumerate(march(model, before)):
-        require(number < MOST_STEPS, f"a small case was not done after {MOST_STEPS} steps")
-        yield before, accepted.state
-        before = accepted.state
-
-
-def expect_volume_balance(model: Model) -> None:
-    """Fail unless each step of a run removes from each body just what its law says."""
-    for before, after in steps(model):
-        increment = after.distance - before.distance
-        moment = Moment(after.time, after.distance, increment / (after.time - before.time))
-        rates = wear_rates(model, after.contact, law_states(after), moment)
-        for name, rate in rates.items():
-            needed = increment * float(np.sum(rate.depth_rate)) * model.grid.cell_area
-            volume = model.exposures[name].volume
-            found = volume(after.bodies[name].wear) - volume(before.bodies[name].wear)
-            # The step's nonlinear tolerance is 1e-8 of the deepest cell. State fields lag by
-            # one pass behind the pressure, which shows where wear is just beginning.
-            part = 1e-2 if rate.state_rates else 1e-6
-            allowed = part * needed + 1e-12 * volume(after.bodies[name].wear)
-            require(
-                abs(found - needed) <= allowed,
-                f"from {before.distance:.4g} to {after.distance:.4g} m body {name!r} lost "
-                f"{found:.6g} m³; its law says {needed:.6g} m³",
-            )
+    return [Flat(), sphere] if passes[0] else [sphere, Flat()]

@@ -1,0 +1,233 @@
+"""What every component must fulfil, of whatever kind."""
+
+from __future__ import annotations
+
+import io
+import pickle
+import random
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import redirect_stdout
+from copy import deepcopy
+from typing import Any
+
+import numpy as np
+
+from tribo.component import Component
+from tribo.core.arrays import Array
+from tribo.core.dimensions import scale
+from tribo.core.fields import Field, name_fault
+from tribo.testing.compare import CheckFailed, first_difference, locked, require, values_in
+
+FieldValue = float | Callable[[Array], Array]
+"""The value of a local field, or how it follows from the pressure."""
+
+
+class Checks(ABC):
+    """The checks of one configuration of a class: each public method is one.
+
+    Its docstring states the fact that must hold. It returns if it does, raises
+    `CheckFailed` or what the component raises if it does not, and
+    `NotApplicable` where there is nothing to check.
+
+    Parameters
+    ----------
+    config : Component
+        The configuration.
+    fields : Mapping[str, float or callable]
+        Typical values of local fields, in SI, or functions of the pressure.
+    """
+
+    def __init__(self, config: Component, fields: Mapping[str, FieldValue]) -> None:
+        self._cls: Any = type(config)
+        self._config = config
+        self._fields = fields
+
+    @abstractmethod
+    def _inputs(self, component: Any, number: int) -> Any:
+        """Return new inputs for a call; those of number 0 and 1 differ."""
+
+    @abstractmethod
+    def _call(self, component: Any, inputs: Any) -> Mapping[str, Any]:
+        """Call the component with inputs, and return its answers by name."""
+
+    def _make(self) -> Any:
+        """Return a new component with the configuration."""
+        return self._cls.model_validate(self._config.model_dump())
+
+    def _answers(self, component: Any, number: int = 0) -> Mapping[str, Any]:
+        return self._call(component, locked(self._inputs(component, number)))
+
+    def objects_are_frozen_and_know_their_keys(self) -> None:
+        """An object cannot be changed, and a key that it does not have is an error."""
+        for option, needed in (("frozen", True), ("extra", "forbid")):
+            given = self._cls.model_config.get(option)
+            require(given == needed, f"model_config has {option}={given!r}; keep {needed!r}")
+
+    def quantities_have_units(self) -> None:
+        """Every real number in the configuration declares its unit."""
+        bare = [name for name, schema in _properties(self._cls) if _is_bare(schema)]
+        require(
+            not bare,
+            f"{', '.join(bare)}: no unit; declare it as Annotated[float, Quantity('Pa')], "
+            "Quantity('1') for none",
+        )
+
+    def fields_are_described(self) -> None:
+        """Every field of the configuration has a description."""
+        silent = [name for name, schema in _properties(self._cls) if not schema.get("description")]
+        require(not silent, f"{', '.join(silent)}: no description; put a docstring under the field")
+
+    def configuration_survives_a_file(self) -> None:
+        """Written to a file, with or without its defaults, and read back, it is the same."""
+        config = self._config
+        for how, text in (
+            ("as JSON", config.model_dump_json()),
+            ("without its defaults", config.model_dump_json(exclude_defaults=True)),
+        ):
+            again = self._cls.model_validate_json(text)
+            require(again == config, f"written {how} and read back, {config!r} is {again!r}")
+
+    def configuration_can_be_pickled(self) -> None:
+        """An object can be sent to another process, as parallel sweeps need it."""
+        try:
+            again = pickle.loads(pickle.dumps(self._config))
+        except Exception as error:
+            raise CheckFailed(
+                f"{error}; put the class in a module that can be imported by its name"
+            ) from error
+        require(again == self._config, f"{self._config!r} arrived as {again!r}")
+
+    def name_has_a_prefix(self) -> None:
+        """Its name carries a prefix, as in acme.fretting; only tribo's own do without."""
+        name = self._cls.type
+        require(
+            "." in name or self._cls.__module__.startswith("tribo."),
+            f"{name!r} needs a prefix, as in 'acme.fretting'; names without one are tribo's own",
+        )
+
+    def facts_are_text_and_stay(self) -> None:
+        """What it states of itself is text by text, and the same each time it is asked."""
+        component = self._make()
+        stated = component.facts()
+        require(isinstance(stated, Mapping), f"facts() gave {stated!r}; give a mapping")
+        for item in stated.items():
+            require(all(isinstance(x, str) for x in item), f"facts() holds {item}; write text")
+        before = dict(stated)
+        for asked in (component, self._make()):
+            later = dict(asked.facts())
+            require(later == before, f"facts() gave {before}, and then {later}")
+
+    def read_only_inputs_are_accepted(self) -> None:
+        """Arrays that cannot be written to are good enough as inputs."""
+        try:
+            self._answers(self._make())
+        except ValueError as error:
+            require("read-only" not in str(error), f"it writes to an input: {error}")
+            raise
+
+    def inputs_stay_as_they_are(self) -> None:
+        """No input is changed by a call."""
+        component = self._make()
+        inputs = self._inputs(component, 0)
+        before = deepcopy(inputs)
+        self._call(component, inputs)
+        where = first_difference(before, inputs)
+        require(where is None, f"{where} was changed; work on a copy")
+
+    def same_inputs_give_same_bits(self) -> None:
+        """The answer follows from the inputs alone, whatever was asked before."""
+        component = self._make()
+        first = deepcopy(self._answers(component))
+        again = deepcopy(self._answers(component))
+        self._answers(component, 1)
+        for when, answers in (
+            ("asked again", again),
+            ("asked after other inputs", self._answers(component)),
+            ("asked of a new object", self._answers(self._make())),
+        ):
+            where = first_difference(first, answers)
+            require(where is None, f"{where} differs when {when}; keep nothing that evolves")
+
+    def answers_may_be_overwritten(self) -> None:
+        """What a caller does to an answer does not show in the next one."""
+        component = self._make()
+        first = self._answers(component)
+        kept = deepcopy(first)
+        for _, value in values_in(first):
+            if isinstance(value, np.ndarray) and value.flags.writeable:
+                value.fill(-1.0)
+        where = first_difference(kept, self._answers(component))
+        require(
+            where is None,
+            f"{where} changed with an earlier answer: the component gave away its own array; "
+            "return a copy",
+        )
+
+    def nothing_is_printed(self) -> None:
+        """Standard output is left to the command line."""
+        with redirect_stdout(io.StringIO()) as caught:
+            self._answers(self._make())
+        said = caught.getvalue()
+        require(not said, f"it printed {said[:60]!r}; leave it out, or use sys.stderr or logging")
+
+    def no_global_random_numbers(self) -> None:
+        """Random numbers come from a generator of its own, with a seed in its configuration."""
+        component = self._make()
+        before = _generators()
+        self._answers(component)
+        where = first_difference(before, _generators())
+        require(
+            where is None,
+            f"it drew from the global generator of {where}; use numpy.random.default_rng with a "
+            "seed from the configuration",
+        )
+
+
+def expect_declared(where: str, fields: Iterable[Field]) -> None:
+    """Fail unless each field has its own name, a unit that can be read and a description."""
+    fields = tuple(fields)
+    fault = name_fault(fields)
+    require(not fault, f"{where}: {fault}")
+    for field in fields:
+        require(field.description.strip(), f"{where}: {field.name!r} has no description")
+        try:
+            size, _ = scale(field.unit)
+        except ValueError as error:
+            raise CheckFailed(f"{where}: unit of {field.name!r}: {error}") from error
+        require(size == 1, f"{where}: the unit {field.unit!r} of {field.name!r} is not SI")
+
+
+def units_of(config: Component) -> dict[str, set[str]]:
+    """Return the units of each real number of a configuration, ``""`` for those in tables."""
+    schema = type(config).model_json_schema()["properties"]
+    return {
+        name: {part.get("x-unit", "") for part in (schema[name], *schema[name].get("anyOf", ()))}
+        for name, value in config
+        if value is not None and not isinstance(value, bool | int | str)
+    }
+
+
+def _properties(cls: type[Component]) -> Iterator[tuple[str, Mapping[str, Any]]]:
+    """Yield every field with its schema, those of nested tables too, but not `type`."""
+    schema = cls.model_json_schema()
+    for table, inner in {"": schema, **schema.get("$defs", {})}.items():
+        for name, part in inner.get("properties", {}).items():
+            if name != "type":
+                yield f"{table}.{name}".lstrip("."), part
+
+
+def _is_bare(schema: Mapping[str, Any]) -> bool:
+    """Whether a number without a unit is possible here; nested tables are looked at elsewhere."""
+    if "x-unit" in schema:
+        return False
+    if schema.get("type") == "number":
+        return True
+    inner = [*schema.get("anyOf", ()), *schema.get("prefixItems", ())]
+    inner += [schema[key] for key in ("items", "additionalProperties") if key in schema]
+    return any(_is_bare(part) for part in inner if isinstance(part, Mapping))
+
+
+def _generators() -> Mapping[str, Any]:
+    legacy: Any = np.random.get_state
+    return {"random": random.getstate(), "numpy.random": deepcopy(legacy())}
