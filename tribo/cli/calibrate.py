@@ -7,15 +7,17 @@ import math
 import shlex
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import click
+import pandas as pd
 from rich import box
 from rich.markup import escape
 from rich.table import Table
 
 from tribo.cli.console import Console
-from tribo.study.calibration.outcome import Calibration, Datum, Estimate, Expected
-from tribo.study.calibration.quantities import PROFILES, in_si, in_words, percent
+from tribo.study.calibration.outcome import Calibration
+from tribo.study.calibration.quantities import in_si, in_words, percent
 
 LONGEST_NAME = 30
 """Characters of a name that a table for 80 columns has room for."""
@@ -59,7 +61,7 @@ def calibrate(
     console = Console(highlight=False)
     console.print(_estimates(found))
     console.print(_data(found))
-    if found.predictions:
+    if len(found.predictions):
         console.print(_predictions(found))
     for line in _judgement(found):
         console.print(line)
@@ -94,48 +96,41 @@ def _table(title: str, names: list[str], *columns: str) -> Table:
 
 
 def _estimates(found: Calibration) -> Table:
-    names = [each.path for each in found.parameters]
-    table = _table(
-        f"Fitted in {found.runs} runs", names, "estimate", _at_level(found), "", "resolution"
-    )
-    for each in found.parameters:
-        table.add_row(
-            each.path,
-            in_si(each.value, each.unit),
-            "held by its bound"
-            if each.held
-            else _interval(each, f"{each.lower:.3g}", f"{each.upper:.3g}"),
-            "" if each.held else _relative(each),
-            _resolution(each),
-        )
+    names = list(found.parameters["path"])
+    level = f"{100 * found.level:g} % interval"
+    table = _table(f"Fitted in {found.runs} runs", names, "estimate", level, "", "resolution")
+    for each in found.parameters.itertuples():
+        ends, relative = _interval(each, f"{each.lower:.3g}", f"{each.upper:.3g}")
+        resolution = f"±{percent(each.resolution_limit)} %" if each.resolution_limit else ""
+        if each.held:
+            ends = "held by its bound"
+        if each.held or math.isinf(each.upper):
+            relative = resolution = ""
+        table.add_row(each.path, in_si(each.value, each.unit), ends, relative, resolution)
     return table
 
 
 def _data(found: Calibration) -> Table:
-    names = [_name(each) for each in found.data]
+    rows = list(found.data.itertuples())
+    names = [_name(each) for each in rows]
     table = _table("Measured", names, "value", "uncertainty", "computed", "residual")
-    for each, name in zip(found.data, names, strict=True):
-        table.add_row(
-            name,
-            in_words(each.quantity, each.measured),
-            in_words(each.quantity, each.sigma),
-            in_words(each.quantity, each.computed),
-            f"{round(each.residual, 1) + 0.0:+.1f}",
-        )
+    for each, name in zip(rows, names, strict=True):
+        values = (each.measured, each.sigma, each.computed)
+        shown = [in_words(each.quantity, value) for value in values]
+        table.add_row(name, *shown, f"{round(each.residual, 1) + 0.0:+.1f}")
     return table
 
 
 def _predictions(found: Calibration) -> Table:
-    names = [_name(each) for each in found.predictions]
-    table = _table("Not measured, at the end", names, "computed", _at_level(found), "")
-    for each, name in zip(found.predictions, names, strict=True):
-        low = in_words(each.quantity, each.lower).split()[0]
-        table.add_row(
-            name,
-            in_words(each.quantity, each.value),
-            _interval(each, low, in_words(each.quantity, each.upper)),
-            _relative(each),
+    rows = list(found.predictions.itertuples())
+    names = [_name(each) for each in rows]
+    level = f"{100 * found.level:g} % interval"
+    table = _table("Not measured, at the end", names, "computed", level, "")
+    for each, name in zip(rows, names, strict=True):
+        value, low, high = (
+            in_words(each.quantity, value) for value in (each.value, each.lower, each.upper)
         )
+        table.add_row(name, value, *_interval(each, low.split()[0], high))
     return table
 
 
@@ -147,43 +142,28 @@ def _judgement(found: Calibration) -> Iterator[str]:
         )
     values = ", ".join(f"{value:.3g}" for value in found.singular_values)
     yield f"Standard deviations by which a change by a factor e would show: {values}."
-    for i, first in enumerate(found.parameters):
-        for j, second in enumerate(found.parameters[:i]):
-            yield (
-                f"Correlation of {second.path} and {first.path}: "
-                f"{round(found.correlation[i, j], 2) + 0.0:+.2f}."
-            )
+    paths = list(found.parameters["path"])
+    for i, first in enumerate(paths):
+        for j, second in enumerate(paths[:i]):
+            both = round(found.correlation[i, j], 2) + 0.0
+            yield f"Correlation of {second} and {first}: {both:+.2f}."
     for note in found.notes:
         yield f"[yellow]Note:[/] {escape(note)}"
 
 
-def _name(each: Datum | Expected) -> str:
-    text = f"{each.body}, {each.quantity}"
-    if isinstance(each, Datum) and each.time is not None:
-        text += f" at {each.time:g} s"
-    if isinstance(each, Datum) and each.quantity in PROFILES and each.position is not None:
-        text += f" at {1e3 * each.position:g} mm"
+def _name(row: Any) -> str:
+    """Return the name of a row of the data or of the predictions."""
+    text = f"{row.body}, {row.quantity}"
+    if pd.notna(getattr(row, "time_s", None)):
+        text += f" at {row.time_s:g} s"
+    if pd.notna(getattr(row, "position_m", None)):
+        text += f" at {1e3 * row.position_m:g} mm"
     return text
 
 
-def _at_level(found: Calibration) -> str:
-    return f"{100 * found.level:g} % interval"
-
-
-def _interval(each: Estimate | Expected, low: str, high: str) -> str:
-    if math.isinf(each.upper):
-        return f"{low} to open" if each.lower else "open"
-    return f"{low} to {high}"
-
-
-def _resolution(each: Estimate) -> str:
-    if not each.resolution_limit or each.held or math.isinf(each.upper):
-        return ""
-    return f"±{percent(each.resolution_limit)} %"
-
-
-def _relative(each: Estimate | Expected) -> str:
-    if math.isinf(each.upper):
-        return ""
-    below, above = percent(1 - each.lower / each.value), percent(each.upper / each.value - 1)
-    return f"±{above} %" if below == above else f"−{below} +{above} %"
+def _interval(row: Any, low: str, high: str) -> tuple[str, str]:
+    """Return the interval of a row, and the same relative to the value, if it is not open."""
+    if math.isinf(row.upper):
+        return f"{low} to open" if row.lower else "open", ""
+    below, above = percent(1 - row.lower / row.value), percent(row.upper / row.value - 1)
+    return f"{low} to {high}", f"±{above} %" if below == above else f"−{below} +{above} %"

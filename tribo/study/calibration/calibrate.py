@@ -3,27 +3,41 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from tribo.config.load import read_toml, validate_case
+from tribo.config.overrides import apply_settings
 from tribo.core.arrays import Array
-from tribo.core.errors import CaseError, NumericalError, located
+from tribo.core.errors import CaseError, NumericalError, TriboWarning, located
 from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.registry import Registry
 from tribo.simulation.model import Model
 from tribo.simulation.run import Simulation
-from tribo.study.calibration.far_off import check_far_off, far_off
 from tribo.study.calibration.fit import Problem, fit
-from tribo.study.calibration.judge import outcome
 from tribo.study.calibration.measured import Measured, Measurements, read_measurements
-from tribo.study.calibration.outcome import Calibration
-from tribo.study.calibration.parameters import find_parameters
-from tribo.study.calibration.quantities import PROFILES, QUANTITIES, check_available, is_available
-from tribo.study.calibration.runs import Predicted, Runs
+from tribo.study.calibration.outcome import Calibration, outcome
+from tribo.study.calibration.parameters import Parameter, find_parameters
+from tribo.study.calibration.quantities import (
+    AXES,
+    PROFILES,
+    QUANTITIES,
+    Reading,
+    check_available,
+    in_si,
+    is_available,
+    read,
+)
+
+NOTABLE, FAR, TOO_FAR = 5.0, 100.0, 300.0
+"""Factors between measured and computed: may be why a run fails, is told, is refused.
+
+A prefix is a factor of 1000; a start may be off by a few on top of it.
+"""
 
 
 def calibrate(
@@ -75,66 +89,164 @@ def calibrate(
     for i, entry in enumerate(asked.measured):
         _check_entry(model, entry, f"measured[{i}]")
     parameters = find_parameters(base, asked.fit, asked.measured)
-    count = sum(len(entry.values) for entry in asked.measured)
-    if count < len(parameters):
+    data = [reading for entry in asked.measured for reading in entry.readings]
+    places = [f"measured[{i}]" for i, entry in enumerate(asked.measured) for _ in entry.values]
+    if len(data) < len(parameters):
         raise CaseError(
-            f"{len(parameters)} parameters cannot be fitted to {count} measured "
-            f"value{'' if count == 1 else 's'}: measure more, or leave parameters out of fit"
+            f"{len(parameters)} parameters cannot be fitted to {len(data)} measured "
+            f"value{'' if len(data) == 1 else 's'}: measure more, or leave parameters out of fit"
         )
-    predicted = _predicted(model, asked.measured)
-    runs = Runs(tables, asked.measured, parameters, predicted, registry)
+    predicted = _not_measured(model, asked.measured)
+    times = sorted({entry.time for entry in asked.measured if entry.time is not None})
+    tables = apply_settings(tables, {"output.save_times": times, "observers": []})
+    runs: dict[bytes, Run] = {}
+
+    def run(values: Array) -> Run:
+        found = make_run(
+            tables, parameters, values, [*data, *predicted], registry, f"run {len(runs) + 1}"
+        )
+        for place, each, value in zip(places, data, found.responses, strict=False):
+            if value <= 0 and each.position is None:
+                raise CaseError(
+                    f"the {each.quantity} of {each.body!r} comes out as 0 in the case; begin with "
+                    "more wear: give start in fit",
+                    place,
+                )
+        runs[values.tobytes()] = found
+        return found
+
     start = np.array([p.start for p in parameters])
-    first = runs(start)
-    far = list(far_off(asked.measured, first[:count], parameters))
-    check_far_off(far)
-    sigma = np.concatenate([np.full(len(e.values), e.sigma) for e in asked.measured])
+    first = run(np.exp(np.log(start)))
+    far = far_off(asked.measured, first.responses, parameters)
+    sigma = np.concatenate([np.full(len(entry.values), entry.sigma) for entry in asked.measured])
     problem = Problem(
         names=tuple(p.path for p in parameters),
         observed=np.concatenate([entry.values for entry in asked.measured]),
-        sigma=np.hypot(sigma, runs.read_off[:count]),
-        logged=runs.logged,
+        sigma=np.hypot(sigma, first.read_off[: len(data)]),
+        logged=np.array([each.quantity not in PROFILES for each in (*data, *predicted)]),
         lower=np.array([math.log(p.lower) if p.lower > 0 else -math.inf for p in parameters]),
         upper=np.array([math.log(p.upper) for p in parameters]),
     )
-    of_run = {np.exp(np.log(start)).tobytes(): (runs.notices, runs.read_off)}
 
-    def told(responses: Array) -> Array:
+    def responses(made: Run) -> Array:
         if on_run is not None:
-            on_run(runs.count, float(np.sum(problem.residuals(responses) ** 2)))
-        return responses
-
-    def run(values: Array) -> Array:
-        responses = runs(values)
-        of_run[values.tobytes()] = runs.notices, runs.read_off
-        return told(responses)
+            on_run(len(runs), float(np.sum(problem.residuals(made.responses) ** 2)))
+        # A prediction may be 0, and is left out then.
+        return np.where(problem.logged & (made.responses <= 0), 1.0, made.responses)
 
     try:
-        fitted = fit(run, problem, start, told(first))
+        fitted = fit(lambda values: responses(run(values)), problem, start, responses(first))
     except (CaseError, NumericalError) as error:
         if not far:
             raise
-        texts = "; ".join(each.text for each in far)
-        raise type(error)(f"{error}; or is a measured value off? {texts}") from error
-    notices, read_off = of_run[np.exp(fitted.point).tobytes()]
+        raise type(error)(f"{error}; or is a measured value off? {'; '.join(far)}") from error
+    last = runs[np.exp(fitted.point).tobytes()]
+    positive = np.all([made.responses > 0 for made in runs.values()], axis=0)
     return outcome(
         fitted,
         parameters,
         asked.measured,
-        {count + i: which for i, which in enumerate(predicted) if runs.positive[i]},
+        {i: each for i, each in enumerate(predicted, len(data)) if positive[i]},
         grid=model.grid,
-        read_off=read_off,
+        read_off=last.read_off,
         level=level,
-        runs=runs.count,
-        notices=notices,
+        runs=len(runs),
+        notices=last.notices,
     )
 
 
+class Run(NamedTuple):
+    """What a run gives, the standard deviations with which its grid does, and its notices."""
+
+    responses: Array
+    read_off: Array
+    notices: tuple[str, ...]
+
+
+def make_run(
+    tables: Mapping[str, Any],
+    parameters: Sequence[Parameter],
+    values: Array,
+    wanted: Sequence[Reading],
+    registry: Registry | None = None,
+    name: str = "run",
+) -> Run:
+    """Run a case with other values of its parameters, and read numbers off the result."""
+    # The logarithm that the fit works with may round to just beyond a bound.
+    settings = {
+        p.path: min(max(float(value), p.lower), p.upper)
+        for p, value in zip(parameters, values, strict=True)
+    }
+    with warnings.catch_warnings():
+        # The notices of the run with the estimates say the same, once.
+        warnings.simplefilter("ignore", TriboWarning)
+        try:
+            case = validate_case(apply_settings(tables, settings), registry=registry)
+            result = Simulation(case, registry).run()
+        except (CaseError, NumericalError) as error:
+            named = ", ".join(f"{path} = {value:.4g}" for path, value in settings.items())
+            raise type(error)(f"{name}, with {named}: {error}") from error
+    with result:
+        given, blurred = np.array([read(result, each) for each in wanted]).T
+        return Run(given, blurred, result.notices)
+
+
+def far_off(
+    measured: Sequence[Measured], computed: Array, parameters: Sequence[Parameter]
+) -> list[str]:
+    """Return what is measured several times above or below what the first run gives, in words.
+
+    Warns of what is a factor of 100 off.
+
+    Parameters
+    ----------
+    measured : sequence of Measured
+        What was measured.
+    computed : ndarray, shape (n, ...)
+        The data as that run gives them first, in the same order.
+    parameters : sequence of Parameter
+        What it was made with.
+
+    Raises
+    ------
+    CaseError
+        If a measured value is off by more than 300 times; one line a value.
+    """
+    given = ", ".join(f"{p.path} = {in_si(p.start, p.unit)}" for p in parameters)
+    found, refused, start = [], [], 0
+    for i, entry in enumerate(measured):
+        count, value = len(entry.values), entry.largest
+        own = float(np.max(np.abs(computed[start : start + count])))
+        start += count
+        # Of less than its uncertainty, as a null result, no more is known than that it is as small.
+        factor = max(value / own, own / max(value, entry.sigma)) if own > 0 < value else 1.0
+        unit = QUANTITIES[entry.quantity].unit
+        text = (
+            f"measured[{i}] was read as {in_si(value, unit)}, and the case gives "
+            f"{in_si(own, unit)} with {given}"
+        )
+        if factor > TOO_FAR:
+            refused.append(
+                f"{text}: check the value and its unit, or give a start in fit that is nearer to it"
+            )
+        elif factor > FAR:
+            warnings.warn(
+                f"{text}: is that the value, and the unit, that was meant?",
+                TriboWarning,
+                stacklevel=3,
+            )
+        if factor > NOTABLE:
+            found.append(text)
+    if refused:
+        raise CaseError("\n".join(refused))
+    return found
+
+
 def _check_entry(model: Model, entry: Measured, place: str) -> None:
-    names = list(model.bodies)
-    if entry.body not in names:
+    if entry.body not in model.bodies:
         raise CaseError(
-            f"there is no body {entry.body!r}{suggestion(did_you_mean(entry.body, names))} "
-            f"The bodies are {', '.join(names)}",
+            f"there is no body {entry.body!r}{suggestion(did_you_mean(entry.body, model.bodies))} "
+            f"The bodies are {', '.join(model.bodies)}",
             f"{place}.body",
         )
     with located(f"{place}.quantity"):
@@ -144,18 +256,17 @@ def _check_entry(model: Model, entry: Measured, place: str) -> None:
             f"{entry.time:g} s is not reached: the run ends at {model.end_time:g} s",
             f"{place}.time",
         )
-    if entry.position is not None:
-        half = 0.5 * model.grid.size[PROFILES[entry.quantity]]
-        outside = next((p for p in entry.position if abs(p) > half), None)
-        if outside is not None:
+    for position in entry.position or ():
+        half = 0.5 * model.grid.size[AXES[entry.quantity]]
+        if abs(position) > half:
             raise CaseError(
-                f"{1e3 * outside:g} mm lies outside the window, which reaches "
+                f"{1e3 * position:g} mm lies outside the window, which reaches "
                 f"{1e3 * half:g} mm from the centre",
                 f"{place}.position",
             )
 
 
-def _predicted(model: Model, measured: Sequence[Measured]) -> list[Predicted]:
+def _not_measured(model: Model, measured: Sequence[Measured]) -> list[Reading]:
     """Return all that the runs give at their end and was not measured then."""
     known = {
         (entry.body, entry.quantity)
@@ -163,8 +274,10 @@ def _predicted(model: Model, measured: Sequence[Measured]) -> list[Predicted]:
         if entry.time is None or entry.time >= model.end_time * (1 - 1e-12)
     }
     return [
-        (body, quantity)
+        Reading(body, quantity)
         for body in model.bodies
         for quantity in QUANTITIES
-        if (body, quantity) not in known and is_available(model, body, quantity)
+        if quantity not in PROFILES
+        and (body, quantity) not in known
+        and is_available(model, body, quantity)
     ]

@@ -1,4 +1,4 @@
-"""Least squares in few runs: a surrogate of the model, and what the data say by it."""
+"""Least squares in few runs: a surrogate of the model, fitted by SciPy, and its intervals."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.optimize import OptimizeResult, brentq, least_squares
+from scipy.optimize import LinearConstraint, NonlinearConstraint, least_squares, minimize
 from scipy.special import chdtri
 
 from tribo.core.arrays import Array, Mask
@@ -20,33 +20,30 @@ LEAP = np.log(100.0)
 """How far a parameter may move between two runs."""
 REACH = np.log(1e4)
 """How far an interval is followed; beyond, the data leave it open."""
-SETTLED = 0.01
-"""Change of the responses, in standard deviations, that ends the fit; and part of χ² to gain."""
-HARDLY = 0.1
-"""The same once the misfit does not come down any more."""
+SETTLED, HARDLY = 0.01, 0.1
+"""Change of the data, in standard deviations, that ends the fit; the second once χ² falls no more.
+
+The first is also the part of χ² that counts as a fall.
+"""
 NO_EFFECT = 1e-3
 """Change of a datum, in standard deviations, per change of a parameter by e: nothing to learn."""
 NOTABLE = 0.01
-"""Relative change of a datum, per change of a parameter by e, that is none of rounding."""
-MOST_ROUNDS = 12
-MOST_IN_VAIN = 4
-"""Rounds without a lower misfit after which a fit is given up."""
-_PULL = 1e-3
+"""Relative change of a datum, per change of a parameter by e, that is above rounding."""
+MOST_ROUNDS, MOST_IN_VAIN = 12, 4
+"""Rounds, and rounds without a lower misfit, after which a fit is given up."""
 _RIDGE = 1e-12
 
 
 @dataclass(frozen=True)
 class Problem:
-    """What is to be fitted.
+    """What is fitted.
 
     Parameters
     ----------
     names : tuple of str
         What the parameters are called in messages.
-    observed : ndarray, shape (n,)
-        Measured values.
-    sigma : ndarray, shape (n,)
-        Their standard deviations.
+    observed, sigma : ndarray, shape (n,)
+        Measured values and their standard deviations.
     logged : ndarray of bool, shape (m,)
         Which of the model's responses are positive and near to power laws of
         the parameters. The first n responses answer to `observed`.
@@ -64,6 +61,11 @@ class Problem:
     def residuals(self, responses: Array) -> Array:
         """Return the misfit of the first n responses, in standard deviations."""
         return (responses[: len(self.observed)] - self.observed) / self.sigma
+
+    def change(self, before: Array, after: Array) -> Array:
+        """Return the change of responses, of their logarithms where logged."""
+        ratio = np.where(self.logged, after, 1.0) / np.where(self.logged, before, 1.0)
+        return np.where(self.logged, np.log(ratio), after - before)
 
 
 @dataclass(frozen=True)
@@ -94,10 +96,8 @@ class Surrogate:
     def at(self, point: Array) -> Array:
         """Return the responses at another point."""
         moved = np.sum(self.slopes * (point - self.point), axis=1)
-        logged = self.problem.logged
-        return np.where(
-            logged, self.responses * np.exp(np.where(logged, moved, 0.0)), self.responses + moved
-        )
+        grown = self.responses * np.exp(np.where(self.problem.logged, moved, 0.0))
+        return np.where(self.problem.logged, grown, self.responses + moved)
 
     def residuals(self, point: Array) -> Array:
         """Return the misfit of the data, in standard deviations."""
@@ -109,50 +109,30 @@ class Surrogate:
         factor = np.where(self.problem.logged, self.at(point), 1.0)[:n] / self.problem.sigma
         return np.asarray(factor[:, None] * self.slopes[:n])
 
-    def closest(self, target: tuple[Array, float, float] | None = None) -> OptimizeResult:
-        """Return the least-squares point within the bounds and a leap.
-
-        `target` = (direction, value, width) also draws direction · point to a
-        value.
-        """
-        reach = LEAP
-        if target is not None:
-            # Wide enough that only true bounds stop what follows the direction.
-            reach = 2 * REACH / np.clip(np.max(np.abs(target[0])), 0.05, 1.0)
+    def bounds(self, reach: float) -> tuple[Array, Array]:
+        """Return the bounds of a point no farther than `reach` from that of the run."""
         lower = np.maximum(self.problem.lower, self.point - reach)
-        upper = np.minimum(self.problem.upper, self.point + reach)
+        return lower, np.minimum(self.problem.upper, self.point + reach)
 
-        def residuals(point: Array) -> Array:
-            own = self.residuals(point)
-            if target is None:
-                return own
-            direction, value, width = target
-            return np.append(own, (np.sum(direction * point) - value) / width)
-
-        def jacobian(point: Array) -> Array:
-            own = self.jacobian(point)
-            return own if target is None else np.vstack([own, target[0] / target[2]])
-
-        start = np.clip(self.point, lower, upper)
-        return least_squares(
-            residuals, start, jacobian, (lower, upper), xtol=1e-10, ftol=1e-10, gtol=1e-10
-        )
+    def best(self) -> Array:
+        """Return the least-squares point within the bounds and a leap."""
+        tight = {"xtol": 1e-10, "ftol": 1e-10, "gtol": 1e-10}
+        ends = self.bounds(LEAP)
+        start = np.clip(self.point, *ends)
+        found = least_squares(self.residuals, start, self.jacobian, ends, **tight)
+        return np.asarray(found.x)
 
     def updated(self, point: Array, responses: Array) -> Surrogate:
         """Return the surrogate about a new run, its slopes corrected by Broyden's formula."""
         step = point - self.point
-        error = _change(self.problem, self.responses, responses) - np.sum(
-            self.slopes * step, axis=1
-        )
+        expected = np.sum(self.slopes * step, axis=1)
+        error = self.problem.change(self.responses, responses) - expected
         slopes = self.slopes + error[:, None] * step / np.sum(step**2)
         return replace(self, point=point, responses=responses, slopes=slopes)
 
 
 def fit(
-    model: Callable[[Array], Array],
-    problem: Problem,
-    start: Array,
-    first: Array | None = None,
+    model: Callable[[Array], Array], problem: Problem, start: Array, first: Array | None = None
 ) -> Surrogate:
     """Fit the parameters by Gauss-Newton on a surrogate, a run of the model a round.
 
@@ -187,20 +167,15 @@ def fit(
     Broyden, C. G. (1965), A class of methods for solving nonlinear
     simultaneous equations, Math. Comput. 19, 577-593.
     """
-
-    def run(point: Array) -> Array:
-        return model(np.exp(point))
-
-    point = np.log(start)
-    here = _differenced(run, problem, point, run(point) if first is None else first)
+    known = np.log(start)
+    here = _differenced(model, problem, known, model(np.exp(known)) if first is None else first)
     _check_effect(here)
-    known = point
     least, in_vain = np.inf, 0
     for rounds in range(1, MOST_ROUNDS + 1):  # noqa: B007
-        point = here.closest().x
+        point = here.best()
         shift = np.max(np.abs(here.residuals(point) - here.residuals(here.point)))
         if shift > SETTLED:
-            here = here.updated(point, run(point))
+            here = here.updated(point, model(np.exp(point)))
             misfit = float(np.sum(here.residuals(point) ** 2))
             in_vain = 0 if misfit < (1 - SETTLED) * least else in_vain + 1
             least = min(least, misfit)
@@ -210,7 +185,7 @@ def fit(
                 return here
         elif np.max(np.abs(here.point - known)) > FAR:
             known = here.point
-            here = _differenced(run, problem, known, here.responses)
+            here = _differenced(model, problem, known, here.responses)
         else:
             return here
     raise NumericalError(
@@ -220,14 +195,11 @@ def fit(
     )
 
 
-def covariance(jacobian: Array) -> Array:
-    """Return (JᵀJ)⁻¹, very large but finite where the data tell nothing."""
-    root = _root(jacobian)
-    return np.asarray(root @ root.T)
+def root_covariance(jacobian: Array) -> Array:
+    """Return a root B of the covariance (JᵀJ)⁻¹ = B Bᵀ, shape (p, p).
 
-
-def _root(jacobian: Array) -> Array:
-    """Return the matrix whose product with its transpose is the covariance, shape (p, p)."""
+    Where the data tell nothing it is very large, but finite.
+    """
     size = np.sqrt(np.sum(jacobian**2, axis=0))
     _, values, directions = np.linalg.svd(jacobian / size, full_matrices=False)
     return np.asarray(directions.T / np.sqrt(values**2 + _RIDGE) / size[:, None])
@@ -236,10 +208,10 @@ def _root(jacobian: Array) -> Array:
 def interval(here: Surrogate, direction: Array, level: float) -> tuple[float, float]:
     """Return how far direction · point may lie below and above that of the surrogate's run.
 
-    By the profile likelihood: all values that some point with χ² less than its
-    minimum plus the quantile of χ²₁ gives. It does not depend on how the
-    parameters are scaled and keeps within the bounds; infinite where the data
-    leave it open.
+    By the profile likelihood: the least and the largest value at the points
+    whose χ² is at most its minimum plus the quantile of χ²₁. It does not
+    depend on how the parameters are scaled and keeps within the bounds;
+    infinite where the data leave it open.
 
     Parameters
     ----------
@@ -250,36 +222,53 @@ def interval(here: Surrogate, direction: Array, level: float) -> tuple[float, fl
     level : float
         Probability with which it covers the truth.
     """
-    best = here.closest()
+    best = here.best()
     rise = float(chdtri(1, 1 - level))
-    allowed = 2 * best.cost + rise
-    centre = float(np.sum(direction * best.x))
-    moved = np.sum(direction[:, None] * _root(here.jacobian(best.x)), axis=0)
-    spread = float(np.sqrt(np.sum(moved**2)))
+    least = float(np.sum(here.residuals(best) ** 2))
+    root = root_covariance(here.jacobian(best))
+    # To first order χ² rises by the square of the length of z, where the point is best + root z.
+    gradient = np.sum(direction[:, None] * root, axis=0)
+    spread = float(np.sqrt(np.sum(gradient**2)))
     if spread > REACH:
         return -np.inf, np.inf
     if spread == 0:
         return 0.0, 0.0
+    lower, upper = here.bounds(2 * REACH / np.clip(np.max(np.abs(direction)), 0.05, 1.0))
 
-    def excess(distance: float) -> float:
-        found = here.closest((direction, centre + distance, _PULL * spread))
-        return float(2 * found.cost - allowed)
+    def point(z: Array) -> Array:
+        return np.asarray(best + np.sum(root * z, axis=1))
+
+    def room(z: Array) -> float:
+        return rise - float(np.sum(here.residuals(point(z)) ** 2) - least)
+
+    def room_slopes(z: Array) -> Array:
+        at = point(z)
+        steepest = np.sum(here.residuals(at)[:, None] * here.jacobian(at), axis=0)
+        return np.asarray(-2 * np.sum(steepest[:, None] * root, axis=0))
+
+    within = (
+        NonlinearConstraint(room, 0.0, np.inf, jac=room_slopes),
+        LinearConstraint(root, lower - best, upper - best),
+    )
 
     def end(sign: float) -> float:
-        # Just beyond where it is if the surrogate is linear.
-        far = float(sign * 1.1 * np.sqrt(rise) * spread)
-        while excess(far) < 0:
-            if abs(far) > REACH:
-                return sign * np.inf
-            far *= 2
-        return float(brentq(excess, 0.0, far, xtol=1e-3 * spread))
+        found = minimize(
+            lambda z: -sign * float(np.sum(gradient * z)) / spread,
+            sign * np.sqrt(rise) * gradient / spread,
+            jac=lambda z: -sign * gradient / spread,
+            method="SLSQP",
+            constraints=within,
+            options={"ftol": 1e-5, "maxiter": 200},
+        )
+        far = -float(found.fun) * spread
+        return sign * (np.inf if far > REACH else far)
 
-    offset = centre - float(np.sum(direction * here.point))
+    offset = float(np.sum(direction * (best - here.point)))
     return offset + end(-1.0), offset + end(1.0)
 
 
 def _differenced(
-    run: Callable[[Array], Array], problem: Problem, point: Array, responses: Array
+    model: Callable[[Array], Array], problem: Problem, point: Array, responses: Array
 ) -> Surrogate:
     columns = []
     for i in range(len(point)):
@@ -288,7 +277,7 @@ def _differenced(
         step = min(STEP, above) if above >= min(STEP, below) else -min(STEP, below)
         moved = point.copy()
         moved[i] += step
-        columns.append(_change(problem, responses, run(moved)) / step)
+        columns.append(problem.change(responses, model(np.exp(moved))) / step)
     return Surrogate(problem, point, responses, np.stack(columns, axis=1))
 
 
@@ -308,10 +297,3 @@ def _check_effect(here: Surrogate) -> None:
             f"{name} changes none of the measured values; leave it out of fit, or measure "
             "something that depends on it"
         )
-
-
-def _change(problem: Problem, before: Array, after: Array) -> Array:
-    """Return the change of the responses, of their logarithms where logged."""
-    logged = problem.logged
-    ratio = np.where(logged, after, 1.0) / np.where(logged, before, 1.0)
-    return np.where(logged, np.log(ratio), after - before)

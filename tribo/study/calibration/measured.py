@@ -15,12 +15,10 @@ from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.table import Table
 from tribo.core.units import Quantity
-from tribo.study.calibration.quantities import PROFILES, unit_of
+from tribo.study.calibration.quantities import PROFILES, QUANTITIES, Reading, in_words
 
-Reading = Annotated[float, Quantity("kg", above=0)]
-Position = Annotated[float, Quantity("m")]
-ATOMS = {"m": 1e-10, "m^2": 1e-20, "m^3": 1e-30, "kg": 1e-27}
-"""Size, section, volume and mass of an atom: no worn body has less to measure."""
+FINEST = 1e-6
+"""Smallest uncertainty, relative to the value: runs are good to about a thousandth."""
 _BEYOND_NOISE = 3.0
 """How many standard deviations a mean lies below 0 that noise does not explain."""
 
@@ -44,11 +42,11 @@ class Measured(Table):
     """What was measured; what a body lost, the diameters of its scar, its largest depth."""
     value: float | tuple[float, ...] | None = None
     """The value, with its unit; for a profile a list of depths."""
-    before: Reading | None = None
+    before: Annotated[float, Quantity("kg", above=0)] | None = None
     """Instead of the value of a mass: the balance's reading before the test."""
-    after: Reading | None = None
+    after: Annotated[float, Quantity("kg", above=0)] | None = None
     """The reading after it."""
-    position: tuple[Position, ...] | None = None
+    position: tuple[Annotated[float, Quantity("m")], ...] | None = None
     """Where a profile's depths were measured, from the centre of the contact."""
     uncertainty: float | None = None
     """Standard deviation; of a profile, that of each depth."""
@@ -60,11 +58,13 @@ class Measured(Table):
     @field_validator("value", "uncertainty", "resolution", mode="before")
     @classmethod
     def _in_si(cls, value: Any, info: ValidationInfo) -> Any:
-        quantity = info.data.get("quantity")
-        if value is None or quantity is None:
+        name = info.data.get("quantity")
+        if value is None or name is None:
             return None
-        above = None if info.field_name == "value" and quantity in PROFILES else 0
-        mark = Quantity(unit_of(quantity), above=above)
+        mark = Quantity(QUANTITIES[name].unit, above=0)
+        if info.field_name == "value":
+            least = None if name in PROFILES else QUANTITIES[name].atom
+            mark = Quantity(mark.unit, at_least=least)
         try:
             if isinstance(value, list | tuple):
                 return tuple(mark.read(part) for part in value)
@@ -72,50 +72,40 @@ class Measured(Table):
         except CaseError as error:
             raise ValueError(str(error)) from None
 
-    @field_validator("value")
-    @classmethod
-    def _larger_than_an_atom(cls, value: Any, info: ValidationInfo) -> Any:
-        quantity = info.data.get("quantity")
-        if value is None or quantity is None:
-            return value
-        unit = unit_of(quantity)
-        largest = float(np.max(np.abs(value)))
-        if 0 < largest < ATOMS[unit]:
-            raise ValueError(
-                f"{largest:g} {unit} is less than an atom, about {ATOMS[unit]:g} {unit}: check the "
-                "value and its unit; of a loss too small to be seen, give the smallest one that "
-                "would have been, and the same as its uncertainty"
-            )
-        return value
-
     @model_validator(mode="after")
     def _fits_together(self) -> Self:
+        depths = self.value if isinstance(self.value, tuple) else ()
         if self.quantity in PROFILES:
-            self._check_profile()
+            if not depths or len(depths) != len(self.position or ()):
+                raise ValueError(
+                    f"{self.quantity} needs value and position, two lists of the same length, not "
+                    f"{len(depths)} and {len(self.position or ())} long"
+                )
         elif self.position is not None or isinstance(self.value, tuple):
             raise ValueError(
                 f"{self.quantity} is one value, without position; a list goes with "
                 f"{' or '.join(PROFILES)}"
             )
-        self._check_readings()
+        is_mass = self.quantity == "mass"
+        missing = [reading is None for reading in (self.before, self.after)]
+        if not (all(missing) if self.value is not None else is_mass and not any(missing)):
+            raise ValueError("give value" + (", or before and after" if is_mass else ""))
+        if self.before is not None and self.after is not None and self.before <= self.after:
+            raise ValueError(
+                f"before, {1e3 * self.before:g} g, is not more than after, {1e3 * self.after:g} g: "
+                "no loss was weighed, so no coefficient can be fitted to it"
+            )
         if self.uncertainty is None and self.resolution is None:
             raise ValueError(
                 "say how well it was measured: uncertainty (a standard deviation), resolution, "
                 "or both"
             )
-        if self.quantity in PROFILES:
-            self._check_sign()
-        return self
-
-    def _check_profile(self) -> None:
-        depths = self.value if isinstance(self.value, tuple) else ()
-        if not depths or len(depths) != len(self.position or ()):
+        if self.sigma < FINEST * self.largest:
             raise ValueError(
-                f"{self.quantity} needs value and position, two lists of the same length, not "
-                f"{len(depths)} and {len(self.position or ())} long"
+                f"known to {in_words(self.quantity, self.sigma)}, less than a millionth of "
+                f"{in_words(self.quantity, self.largest)}: no run is that exact; check the "
+                "uncertainty and its unit"
             )
-
-    def _check_sign(self) -> None:
         mean = float(np.mean(self.values))
         if mean < -_BEYOND_NOISE * self.sigma / np.sqrt(len(self.values)):
             raise ValueError(
@@ -123,20 +113,7 @@ class Measured(Table):
                 "from the unworn surface, positive where it is worn: turn the sign round, or level "
                 "the profile"
             )
-
-    def _check_readings(self) -> None:
-        readings = self.before is not None, self.after is not None
-        if (self.value is not None) + all(readings) != 1 or any(readings) != all(readings):
-            raise ValueError(
-                "give value" + (", or before and after" if self.quantity == "mass" else "")
-            )
-        if any(readings) and self.quantity != "mass":
-            raise ValueError(f"before and after are readings of a mass; give {self.quantity} value")
-        if self.before is not None and self.after is not None and self.before <= self.after:
-            raise ValueError(
-                f"before, {1e3 * self.before:g} g, is not more than after, {1e3 * self.after:g} g: "
-                "no loss was weighed, so no coefficient can be fitted to it"
-            )
+        return self
 
     @property
     def values(self) -> Array:
@@ -144,6 +121,17 @@ class Measured(Table):
         if self.before is not None and self.after is not None:
             return np.array([self.before - self.after])
         return np.atleast_1d(np.array(self.value, dtype=float))
+
+    @property
+    def largest(self) -> float:
+        """The largest of the values, whatever their signs."""
+        return float(np.max(np.abs(self.values)))
+
+    @property
+    def readings(self) -> list[Reading]:
+        """What to read off a run to compare with the values."""
+        positions = self.position or (None,)
+        return [Reading(self.body, self.quantity, self.time, each) for each in positions]
 
     @property
     def from_resolution(self) -> tuple[float, float]:

@@ -1,89 +1,31 @@
-"""What a calibration found."""
+"""What a calibration found: estimates, intervals, residuals, predictions."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import asdict, dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
-from scipy.special import chdtrc
+import numpy as np
+import pandas as pd
+from scipy.special import chdtrc, chdtri
 
 from tribo.core.arrays import Array
+from tribo.core.grid import Grid
+from tribo.study.calibration.fit import NOTABLE, Surrogate, interval, root_covariance
+from tribo.study.calibration.measured import Measured
+from tribo.study.calibration.notes import notes
+from tribo.study.calibration.parameters import Parameter
+from tribo.study.calibration.quantities import QUANTITIES, Reading
+
+AT_BOUND = 1e-6
+"""How near to a bound an estimate lies on it, relative."""
 
 
-@dataclass(frozen=True)
-class Estimate:
-    """A fitted parameter.
-
-    Parameters
-    ----------
-    path : str
-        Where it stands in the case.
-    unit : str
-        SI unit of the values.
-    value : float
-        The estimate.
-    lower, upper : float
-        Ends of its interval; infinite, or 0, where the data do not bound it.
-        Its bounds where it is held by one.
-    resolution_share : float
-        Part of its variance that comes from instruments' resolution.
-    resolution_limit : float
-        How far it may be off through resolution alone, in the worst case,
-        relative to `value`.
-    held : bool
-        Whether it lies on one of its bounds, so that the data are not met as
-        well as they could be and give no interval.
-    """
-
-    path: str
-    unit: str
-    value: float
-    lower: float
-    upper: float
-    resolution_share: float
-    resolution_limit: float
-    held: bool
-
-
-@dataclass(frozen=True)
-class Datum:
-    """A measured value beside the computed one.
-
-    `residual` is computed less measured, in units of `sigma`, the standard
-    deviation of both: of the measured value, and with which the grid gives the
-    computed one; `position` is that of a profile's point, in m.
-    """
-
-    body: str
-    quantity: str
-    time: float | None
-    position: float | None
-    unit: str
-    measured: float
-    sigma: float
-    computed: float
-    residual: float
-
-
-@dataclass(frozen=True)
-class Expected:
-    """A quantity at the end of the run that was not measured, with its interval.
-
-    The interval is open, 0 to infinity, where it depends on a parameter that a bound holds.
-    """
-
-    body: str
-    quantity: str
-    unit: str
-    value: float
-    lower: float
-    upper: float
-
-
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Calibration:
-    """Estimates, what they rest on, and what they predict.
+    """Estimates, what they rest on, and what they predict; in SI units.
 
     Parameters
     ----------
@@ -91,12 +33,24 @@ class Calibration:
         Probability with which each interval is to cover the truth.
     runs : int
         Simulations that it took.
-    parameters : tuple of Estimate
-        In the order that was asked for.
-    data : tuple of Datum
-        In the order they were given.
-    predictions : tuple of Expected
-        What else the fitted case gives.
+    parameters : DataFrame
+        A row a parameter, in the order asked for: `path`, `unit`, `value`;
+        `lower` and `upper`, the ends of its interval, infinite or 0 where the
+        data do not bound it; `resolution_share`, the part of its variance that
+        comes from instruments' resolution; `resolution_limit`, how far it may
+        be off through resolution alone, in the worst case, relative to
+        `value`; `held`, whether it lies on one of its bounds, so that it has no
+        interval; `lower` and `upper` are then its bounds.
+    data : DataFrame
+        A row a measured value: `body`, `quantity`, `time_s`, `position_m` of a
+        profile's point, `unit`, `measured`, `sigma`, `computed`, and
+        `residual`, computed less measured, in units of `sigma`: the standard
+        deviation of both, of the measured value and with which the grid gives
+        the computed one.
+    predictions : DataFrame
+        What else the fitted case gives at its end: `body`, `quantity`,
+        `unit`, `value`, `lower`, `upper`. The interval is open, 0 to infinity,
+        where it depends on a parameter that a bound holds.
     chi_square : float
         Sum of the squared residuals.
     degrees_of_freedom : int
@@ -113,9 +67,9 @@ class Calibration:
 
     level: float
     runs: int
-    parameters: tuple[Estimate, ...]
-    data: tuple[Datum, ...]
-    predictions: tuple[Expected, ...]
+    parameters: pd.DataFrame
+    data: pd.DataFrame
+    predictions: pd.DataFrame
     chi_square: float
     degrees_of_freedom: int
     correlation: Array
@@ -125,7 +79,7 @@ class Calibration:
     @property
     def settings(self) -> dict[str, float]:
         """The estimates by path, as `tribo.config.overrides.apply_settings` takes them."""
-        return {each.path: each.value for each in self.parameters}
+        return {each.path: each.value for each in self.parameters.itertuples()}
 
     @property
     def p_value(self) -> float | None:
@@ -139,9 +93,9 @@ class Calibration:
         return {
             "level": self.level,
             "runs": self.runs,
-            "parameters": [_finite(asdict(each)) for each in self.parameters],
-            "data": [_datum(each) for each in self.data],
-            "predictions": [_finite(asdict(each)) for each in self.predictions],
+            "parameters": _records(self.parameters),
+            "data": _records(self.data),
+            "predictions": _records(self.predictions),
             "chi_square": self.chi_square,
             "degrees_of_freedom": self.degrees_of_freedom,
             "p_value": self.p_value,
@@ -151,14 +105,126 @@ class Calibration:
         }
 
 
-def _datum(each: Datum) -> dict[str, Any]:
-    names = {"time": "time_s", "position": "position_m"}
-    return {names.get(key, key): value for key, value in asdict(each).items()}
+def _records(table: pd.DataFrame) -> list[dict[str, Any]]:
+    """Return a dictionary a row, with None for what JSON cannot say."""
+    return [
+        {
+            key: None if isinstance(value, float) and not math.isfinite(value) else value
+            for key, value in row.items()
+        }
+        for row in table.to_dict("records")
+    ]
 
 
-def _finite(values: dict[str, Any]) -> dict[str, Any]:
-    """Replace what JSON cannot say."""
-    return {
-        key: None if isinstance(value, float) and not math.isfinite(value) else value
-        for key, value in values.items()
-    }
+def outcome(
+    fitted: Surrogate,
+    parameters: Sequence[Parameter],
+    measured: Sequence[Measured],
+    predicted: Mapping[int, Reading],
+    *,
+    grid: Grid,
+    read_off: Array,
+    level: float,
+    runs: int,
+    notices: Sequence[str],
+) -> Calibration:
+    """Return what a fit says.
+
+    Parameters
+    ----------
+    fitted : Surrogate
+        About the estimate.
+    parameters : sequence of Parameter
+        What was fitted.
+    measured : sequence of Measured
+        What it was fitted to.
+    predicted : Mapping
+        The responses that are predictions, by their index.
+    grid : Grid
+        The window of the runs.
+    read_off : ndarray, shape (m,)
+        Standard deviations with which it gives the responses.
+    level : float
+        Probability of the intervals.
+    runs : int
+        Simulations made.
+    notices : sequence of str
+        Warnings of the run with the estimates.
+    """
+    jacobian = fitted.jacobian(fitted.point)
+    root = root_covariance(jacobian)
+    deviations = np.sqrt(np.sum(root**2, axis=1))
+    estimates = _estimates(fitted, parameters, measured, level)
+    held = estimates["held"].to_numpy()
+    data = _data(fitted, measured)
+    chi_square = float(np.sum(data["residual"] ** 2))
+    spare = len(data) - int(np.sum(~held))
+    rows = []
+    for i, asked in predicted.items():
+        value, ends = float(fitted.responses[i]), (0.0, math.inf)
+        if not np.any(np.abs(fitted.slopes[i][held]) > NOTABLE):
+            low, high = _ends(fitted, fitted.slopes[i], value, level)
+            by = math.sqrt(chdtri(1, 1 - level)) * float(read_off[i])
+            ends = (
+                max(value - math.hypot(value - low, by), 0.0),
+                value + math.hypot(high - value, by),
+            )
+        rows.append((asked.body, asked.quantity, QUANTITIES[asked.quantity].unit, value, *ends))
+    return Calibration(
+        level=level,
+        runs=runs,
+        parameters=estimates,
+        data=data,
+        predictions=pd.DataFrame(
+            rows, columns=["body", "quantity", "unit", "value", "lower", "upper"]
+        ),
+        chi_square=chi_square,
+        degrees_of_freedom=spare,
+        correlation=root @ root.T / np.outer(deviations, deviations),
+        singular_values=np.asarray(np.linalg.svd(jacobian, compute_uv=False), dtype=np.float64),
+        notes=(*notes(estimates, data, measured, jacobian, grid, spare), *notices),
+    )
+
+
+def _ends(fitted: Surrogate, direction: Array, value: float, level: float) -> tuple[float, float]:
+    low, high = interval(fitted, direction, level)
+    return value * math.exp(low), value * math.exp(high)
+
+
+def _estimates(
+    fitted: Surrogate, parameters: Sequence[Parameter], measured: Sequence[Measured], level: float
+) -> pd.DataFrame:
+    values = np.exp(fitted.point)
+    lower, upper = np.array([(p.lower, p.upper) for p in parameters]).T
+    held = (values - lower <= AT_BOUND * values) | (upper - values <= AT_BOUND * values)
+    for i in np.flatnonzero(~held):
+        low, high = _ends(fitted, np.eye(len(values))[i], float(values[i]), level)
+        lower[i], upper[i] = max(low, lower[i]), min(high, upper[i])
+    effect = np.linalg.pinv(fitted.jacobian(fitted.point))
+    of_steps = np.array([entry.from_resolution for entry in measured for _ in entry.values])
+    deviation, most = of_steps.T / fitted.problem.sigma
+    return pd.DataFrame(
+        {
+            "path": [p.path for p in parameters],
+            "unit": [p.unit for p in parameters],
+            "value": values,
+            "lower": lower,
+            "upper": upper,
+            "resolution_share": np.sum((effect * deviation) ** 2, axis=1)
+            / np.sum(effect**2, axis=1),
+            "resolution_limit": np.sum(np.abs(effect) * most, axis=1),
+            "held": held,
+        }
+    )
+
+
+def _data(fitted: Surrogate, measured: Sequence[Measured]) -> pd.DataFrame:
+    readings = [reading for entry in measured for reading in entry.readings]
+    table = pd.DataFrame(readings).rename(columns={"time": "time_s", "position": "position_m"})
+    return table.assign(
+        unit=[QUANTITIES[each.quantity].unit for each in readings],
+        measured=fitted.problem.observed,
+        sigma=fitted.problem.sigma,
+        computed=fitted.responses[: len(readings)],
+        residual=fitted.problem.residuals(fitted.responses),
+    )

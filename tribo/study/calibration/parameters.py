@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
-
-from pydantic import BaseModel
 
 from tribo.case import Case
-from tribo.config.overrides import path_keys, quantities
+from tribo.config.overrides import leaves, path_keys
 from tribo.core.errors import CaseError, located
 from tribo.core.units import Quantity
 from tribo.core.words import did_you_mean, shown, suggestion
@@ -52,84 +49,48 @@ def find_parameters(
         If a path does not lead to a positive number, one is given twice, or
         bounds and start do not fit; the message says where.
     """
-    places = [f"fit[{i}]" for i in range(len(fit))]
+    asked = {f"fit[{i}]": entry for i, entry in enumerate(fit)}
     if not fit:
-        fit = [Fitted(path=path) for path in _coefficients(case, measured)]
-        places = ["fit"] * len(fit)
+        bodies = [name for name in case.bodies if any(e.body == name for e in measured)]
+        with_k = [n for n in bodies if getattr(case.bodies[n].wear, "k", None) is not None]
+        if not with_k:
+            raise CaseError(
+                "no measured body has a wear coefficient k; say what to fit, as [[fit]] with path "
+                '= "bodies.ball.wear.K"',
+                "fit",
+            )
+        asked = {f"fit {name}": Fitted(path=f"bodies.{name}.wear.k") for name in with_k}
     found: dict[tuple[str, ...], Parameter] = {}
-    for place, entry in zip(places, fit, strict=True):
+    for place, entry in asked.items():
         with located(f"{place}.path"):
             keys = tuple(path_keys(entry.path))
             if keys in found:
                 raise CaseError(f"{entry.path!r} is given twice")
             value, mark = _number(case, keys)
-        found[keys] = _bounded(place, entry, value, mark)
+        found[keys] = _bounded(place.split()[0], entry, value, mark)
     return list(found.values())
 
 
-def _coefficients(case: Case, measured: Sequence[Measured]) -> list[str]:
-    bodies = {entry.body for entry in measured}
-    paths = [
-        f"bodies.{name}.wear.k"
-        for name, body in case.bodies.items()
-        if name in bodies and getattr(body.wear, "k", None) is not None
-    ]
-    if not paths:
-        raise CaseError(
-            "no measured body has a wear coefficient k; say what to fit, as [[fit]] with path = "
-            '"bodies.ball.wear.K"',
-            "fit",
-        )
-    return paths
-
-
-def _number(case: Case, keys: Sequence[str]) -> tuple[float, Quantity]:
-    """Return the number that the keys lead to, and what is said of it."""
-    value: Any = case
-    annotation: Any = None
-    for depth, key in enumerate(keys):
-        if isinstance(value, BaseModel):
-            known: Sequence[str] = list(type(value).model_fields)
-        elif isinstance(value, Mapping):
-            known = list(value)
-        elif isinstance(value, tuple):
-            known = [str(i) for i in range(len(value))]
-        else:
-            raise CaseError(f"{'.'.join(keys[:depth])} is {_kind(value)} in this case, no table")
-        if key not in known:
-            raise CaseError(
-                f"{'.'.join(keys)}: unknown key {key!r}{suggestion(did_you_mean(key, known))} "
-                f"Allowed: {', '.join(known) or 'none'}"
-            )
-        if isinstance(value, BaseModel):
-            field = type(value).model_fields[key]
-            annotation, value = (field.annotation, *field.metadata), getattr(value, key)
-        elif isinstance(value, Mapping):
-            value = value[key]
-        else:
-            value = value[int(key)]
+def _number(case: Case, keys: tuple[str, ...]) -> tuple[float, Quantity]:
+    """Return the number that the keys lead to, and what its field says of it."""
+    known = {tuple(map(str, place)): (value, mark) for place, value, mark in leaves(case)}
+    value, mark = known.get(keys, (None, None))
     if not isinstance(value, float):
+        numbers = [".".join(place) for place, (each, _) in known.items() if isinstance(each, float)]
+        path, given = ".".join(keys), "not given" if value is None else shown(value)
         raise CaseError(
-            f"{'.'.join(keys)} is {_kind(value)} in this case; only a number with decimals can be "
-            "fitted"
+            f"{path} is {given} in this case{suggestion(did_you_mean(path, numbers))} Only a "
+            "number with decimals can be fitted"
         )
-    return value, next(quantities(annotation), Quantity("1"))
-
-
-def _kind(value: object) -> str:
-    if value is None:
-        return "not given"
-    return "a table" if isinstance(value, BaseModel) else shown(value)
+    return value, mark or Quantity("1")
 
 
 def _bounded(place: str, entry: Fitted, value: float, mark: Quantity) -> Parameter:
     positive = Quantity(mark.unit, above=0, below=mark.below, at_most=mark.at_most)
 
     def read(name: str, given: float | str | None, default: float) -> float:
-        if given is None:
-            return default
         with located(f"{place}.{name}"):
-            return positive.read(given)
+            return default if given is None else positive.read(given)
 
     start = read("start", entry.start, value)
     if start <= 0:
