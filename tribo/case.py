@@ -10,7 +10,6 @@ from packaging.requirements import InvalidRequirement, Requirement
 from pydantic import field_validator
 
 from tribo.component import Component
-from tribo.config.slot import Slot
 from tribo.config.stepping import Explicit, Implicit, Stepping
 from tribo.config.stop import Stop
 from tribo.contact.dcfft import DcFft
@@ -39,11 +38,11 @@ class Load(Table):
 class Body(Table):
     """One of the two bodies."""
 
-    surface: Annotated[Surface, Slot("surface")]
+    surface: Surface
     """Shape before it wears."""
     material: Material
     """What it is made of."""
-    wear: Annotated[WearLaw, Slot("wear_law")] | None = None
+    wear: WearLaw | None = None
     """How it wears; it does not if left out."""
 
 
@@ -89,16 +88,16 @@ class Case(Table):
     load: Load
     bodies: dict[str, Body]
     """The two bodies, by name."""
-    contact: Annotated[ContactSolver, Slot("contact_solver")] = DcFft()
+    contact: ContactSolver = DcFft()
     """How the normal contact is solved."""
-    kinematics: Annotated[Kinematics, Slot("kinematics")]
+    kinematics: Kinematics
     """How the bodies move."""
     stepping: Stepping = Implicit()
     """How the run moves on in time."""
     friction: Friction | None = None
-    effects: tuple[Annotated[Effect, Slot("effect")], ...] = ()
+    effects: tuple[Effect, ...] = ()
     """What else the contact produces."""
-    observers: tuple[Annotated[Observer, Slot("observer")], ...] = ()
+    observers: tuple[Observer, ...] = ()
     """Who watches the run."""
     output: Output = Output()
     stop: Stop = Stop()

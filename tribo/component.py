@@ -1,32 +1,48 @@
-"""What every model has in common: fields that configure it, and a name for files."""
+"""What a model is, and how a name in a case finds its class."""
 
 from __future__ import annotations
 
 import re
 from abc import ABC
 from collections.abc import Mapping
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from pydantic import (
-    BaseModel,
-    ConfigDict,
+    GetCoreSchemaHandler,
     GetJsonSchemaHandler,
     SerializerFunctionWrapHandler,
+    ValidationError,
+    ValidationInfo,
     model_serializer,
     model_validator,
 )
 from pydantic.json_schema import JsonSchemaValue
-from pydantic_core import CoreSchema
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+
+from tribo.core.errors import CaseError
+from tribo.core.explain import refused_at, told
+from tribo.core.table import Table
+from tribo.core.words import said
+
+if TYPE_CHECKING:
+    from tribo.registry.registry import Registry
+
+KIND = "x-kind"
+"""Key that marks, in a JSON schema, a place for any component of a kind."""
 
 
-class Component(BaseModel, ABC):
+class Component(Table, ABC):
     """A model: its fields are its configuration, its methods its physics.
 
     It is frozen and knows all its keys. What it caches is private and changes
     no answer; what evolves in a run is never kept in it.
-    """
 
-    model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
+    A field declared as one of the interfaces (`WearLaw`, `Surface`, …) takes
+    any component of that kind: an object, a table whose ``type`` names its
+    class, or that name alone. Names are looked up in
+    ``context={"registry": …}`` of the validation, or else among the installed
+    plugins.
+    """
 
     type: ClassVar[str]
     """The name that stands for the class in a case; its own in snake case if left out."""
@@ -35,7 +51,7 @@ class Component(BaseModel, ABC):
     def __pydantic_init_subclass__(cls, **kwargs: Any) -> None:
         """Name a class that does not name itself after itself, as in ``hot_wear``."""
         if Component not in cls.__bases__ and not hasattr(cls, "type"):
-            cls.type = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", cls.__name__).lower()
+            cls.type = _snake_case(cls.__name__)
 
     @model_validator(mode="before")
     @classmethod
@@ -49,10 +65,62 @@ class Component(BaseModel, ABC):
         return {"type": self.type, **handler(self)}
 
     @classmethod
+    def kind(cls) -> str:
+        """Return which kind of component it is, as ``"wear_law"``: its interface in snake case."""
+        interface = next(base for base in cls.__mro__ if Component in base.__bases__)
+        return _snake_case(interface.__name__)
+
+    @classmethod
+    def hint(cls, info: ValidationInfo) -> str:
+        """Return which components of its kind there are, as text."""
+        return f"installed: {_registry(info).choices(cls.kind())}"
+
+    @classmethod
+    def __get_pydantic_core_schema__(cls, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        """Let an interface take any component of its kind."""
+        # Component itself does not exist yet where this is first asked.
+        if Table in cls.__bases__ or Component not in cls.__bases__:
+            return handler(source)
+        return core_schema.with_info_plain_validator_function(
+            cls._find,
+            serialization=core_schema.plain_serializer_function_ser_schema(_dump, info_arg=True),
+        )
+
+    @classmethod
+    def _find(cls, value: object, info: ValidationInfo) -> Component:
+        if isinstance(value, cls):
+            return value
+        table = {"type": value} if isinstance(value, str) else value
+        if not isinstance(table, Mapping):
+            words = cls.kind().replace("_", " ")
+            raise told(f"a {words} is needed, as a table with its type; {cls.hint(info)}")
+        if "type" not in table:
+            raise refused_at("type", f"type is missing; {cls.hint(info)}", table)
+        name = table["type"]
+        if not isinstance(name, str):
+            raise refused_at("type", f"type must be text; {cls.hint(info)}", name)
+        try:
+            found = _registry(info).lookup(cls.kind(), name)
+        except CaseError as error:
+            if isinstance(value, str):
+                raise told(str(error)) from None
+            raise refused_at("type", str(error), name) from None
+        try:
+            return found.__pydantic_validator__.validate_python(  # type: ignore[no-any-return]
+                dict(table), context=info.context
+            )
+        except (ValidationError, PydanticCustomError, KeyboardInterrupt):
+            raise
+        except BaseException as error:
+            raise told(f"{name!r} could not read its keys: {said(error)}") from error
+
+    @classmethod
     def __get_pydantic_json_schema__(
         cls, schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> JsonSchemaValue:
-        """Add the name to the schema of the fields."""
+        """Mark the place of an interface, and add its name to the schema of a class."""
+        if Component in cls.__bases__:
+            return {KIND: cls.kind()}
         made = handler.resolve_ref_schema(handler(schema))
         named = {"const": cls.type, "default": cls.type, "title": "Type", "type": "string"}
         made["properties"] = {"type": named, **made.get("properties", {})}
@@ -81,3 +149,27 @@ class Component(BaseModel, ABC):
             Text by its name, as in ``{"size": "1.24 × 0.94 mm"}``.
         """
         return {}
+
+
+def _snake_case(name: str) -> str:
+    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()
+
+
+def _registry(info: ValidationInfo) -> Registry:
+    from tribo.registry.registry import default_registry
+
+    return (info.context or {}).get("registry") or default_registry()
+
+
+def _dump(value: Component, info: core_schema.SerializationInfo) -> dict[str, Any]:
+    return value.model_dump(
+        mode=info.mode,
+        include=info.include,  # type: ignore[arg-type]
+        exclude=info.exclude,  # type: ignore[arg-type]
+        context=info.context,
+        by_alias=info.by_alias,
+        exclude_unset=info.exclude_unset,
+        exclude_defaults=info.exclude_defaults,
+        exclude_none=info.exclude_none,
+        round_trip=info.round_trip,
+    )

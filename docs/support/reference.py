@@ -22,7 +22,6 @@ from tribo.case import Body, Case
 from tribo.cli.main import COMMANDS
 from tribo.cli.main import tribo as command_line
 from tribo.component import Component
-from tribo.config.slot import Slot
 from tribo.config.stepping import Explicit, Implicit
 from tribo.core.dimensions import _PREFIXES, _SYMBOLS, _UNPREFIXED
 from tribo.core.errors import TriboError
@@ -60,7 +59,7 @@ def case_page(registry: Registry) -> Iterator[str]:
         if name in plain:
             continue
         path = "bodies.NAME" if name == "bodies" else name
-        kind = next((slot.kind for slot in _slots(field.annotation, field.metadata)), None)
+        kind = _component_kind(field)
         many = "[[{}]]" if get_origin(field.annotation) is tuple else "[{}]"
         yield f"## `{many.format(path)}`\n"
         yield from _about(field)
@@ -73,8 +72,7 @@ def case_page(registry: Registry) -> Iterator[str]:
             for slot in ("surface", "wear"):
                 yield f"### `[{path}.{slot}]`\n"
                 yield f"{Body.model_fields[slot].description}\n"
-                (found,) = _slots(*_typed(Body.model_fields[slot]))
-                yield from _components(registry, found.kind, "####")
+                yield from _components(registry, _component_kind(Body.model_fields[slot]), "####")
         elif name == "stepping":
             for config in (Implicit, Explicit):
                 yield f'### `type = "{config.model_fields["type"].default}"`\n'
@@ -233,8 +231,6 @@ def _kind(annotation: Any, metadata: tuple[Any, ...]) -> str:
     for mark in metadata:
         if isinstance(mark, Quantity):
             return _quantity(mark)
-        if isinstance(mark, Slot):
-            return f"a {KINDS[mark.kind].words}, by its `type`"
     origin = get_origin(annotation)
     if origin is Annotated:
         inner, *marks = get_args(annotation)
@@ -248,6 +244,8 @@ def _kind(annotation: Any, metadata: tuple[Any, ...]) -> str:
         parts = get_args(annotation)
         one = _kind(parts[0], ())
         return f"list: each {one}" if parts[-1] is Ellipsis else f"one or a pair: {one}"
+    if inspect.isclass(annotation) and issubclass(annotation, Component):
+        return f"a {annotation.kind().replace('_', ' ')}, by its `type`"
     if inspect.isclass(annotation) and issubclass(annotation, BaseModel):
         return "table"
     names = {bool: "`true` or `false`", int: "whole number", float: "number", str: "text"}
@@ -315,16 +313,14 @@ def _typed(field: FieldInfo) -> tuple[Any, tuple[Any, ...]]:
     return field.annotation, tuple(field.metadata)
 
 
-def _slots(annotation: Any, metadata: Any) -> list[Slot]:
-    found = [mark for mark in metadata if isinstance(mark, Slot)]
-    for part in get_args(annotation):
-        if part is not Ellipsis:
-            found += _slots(part, getattr(part, "__metadata__", ()))
-    return found
+def _component_kind(field: FieldInfo) -> str:
+    """Return the kind of component that a field takes; empty if it takes none."""
+    model = _model(field.annotation)
+    return model.kind() if model is not None and issubclass(model, Component) else ""
 
 
 def _is_table(field: FieldInfo) -> bool:
-    return bool(_slots(*_typed(field))) or _model(field.annotation) is not None
+    return _model(field.annotation) is not None
 
 
 def _model(annotation: Any) -> Any:

@@ -9,6 +9,6 @@ import pytest
 
 @pytest.fixture
 def dummies(monkeypatch: pytest.MonkeyPatch) -> ModuleType:
-    """The module `slot_dummies`, importable by name as pickling needs it."""
+    """The module `dummies_in_tables`, importable by name as pickling needs it."""
     monkeypatch.syspath_prepend(Path(__file__).parent)
-    return importlib.import_module("slot_dummies")
+    return importlib.import_module("dummies_in_tables")

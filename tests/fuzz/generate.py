@@ -3,7 +3,9 @@
 import json
 import tomllib
 from copy import deepcopy
+from functools import reduce
 from math import inf, nan
+from operator import getitem
 from pathlib import Path
 
 import tribo.templates
@@ -76,7 +78,7 @@ class Schema:
     def value(self, schema, chance, depth=0):
         """Return a value of `schema`; rarely one that breaks it."""
         if "$ref" in schema:
-            schema = self.whole["$defs"][schema["$ref"].rsplit("/", 1)[-1]]
+            schema = reduce(getitem, schema["$ref"].split("/")[1:], self.whole)
         if chance.random() < 0.01 or depth > DEEPEST:
             return odd(chance)
         for several in ("anyOf", "oneOf"):

@@ -132,7 +132,7 @@ def test_it_is_in_the_registry_and_in_the_schema(law, registry):
     name = law.type
     assert name in registry.names("wear_law")
     schema = json_schema(Case, registry)
-    config = schema["$defs"][law.__name__]
+    config = schema["$defs"][law.type]
     assert config["properties"]["type"]["const"] == name
     for key in CONFIGS[law]:
         assert config["properties"][key]["x-unit"]

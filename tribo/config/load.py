@@ -12,11 +12,11 @@ from packaging.requirements import InvalidRequirement, Requirement
 from pydantic import ValidationError
 
 from tribo.case import Case
-from tribo.config.explain import case_error
 from tribo.config.overrides import apply_settings
 from tribo.config.requirements import check_requirements
 from tribo.core.depth import check_depth, too_deep
 from tribo.core.errors import CaseError
+from tribo.core.explain import case_error
 from tribo.registry.registry import Registry, default_registry
 
 FEWEST, MOST = 4, 16384
@@ -73,7 +73,7 @@ def validate_case(data: Mapping[str, Any], *, registry: Registry | None = None) 
     try:
         case = Case.model_validate(data, context={"registry": known})
     except ValidationError as error:
-        raise case_error(error, Case, data, known) from None
+        raise case_error(error) from None
     fewest, most = min(case.grid.cells), max(case.grid.cells)
     if fewest < FEWEST:
         raise CaseError(f"{fewest}: must be at least {FEWEST}", "grid.cells")

@@ -1,90 +1,109 @@
-"""The JSON schema of a configuration, with the components that are installed now."""
+"""The JSON schema of a case, with the components that are installed now."""
 
 from __future__ import annotations
 
-from contextvars import ContextVar
-from typing import Any
+import json
+import warnings
+from collections.abc import Iterator
+from typing import Any, Literal
 
-from pydantic import BaseModel, GetJsonSchemaHandler, TypeAdapter
-from pydantic.json_schema import JsonSchemaValue
-from pydantic_core import CoreSchema, core_schema
+from pydantic import BaseModel
 
-from tribo.config.choices import Choices, Mode, trying
+from tribo.component import KIND, Component
+from tribo.core.errors import TriboWarning
+from tribo.core.words import said
 from tribo.registry.registry import Registry, default_registry
 
-_choices: ContextVar[Choices | None] = ContextVar("_choices", default=None)
-_begun: ContextVar[frozenset[str]] = ContextVar("_begun", default=frozenset())
+Mode = Literal["validation", "serialization"]
+Schema = dict[str, Any]
 
 
 def json_schema(
-    model: type[BaseModel],
-    registry: Registry | None = None,
-    mode: Mode = "validation",
-) -> dict[str, Any]:
-    """Return the JSON schema of a configuration.
+    model: type[BaseModel], registry: Registry | None = None, mode: Mode = "validation"
+) -> Schema:
+    """Return the JSON schema of a table that components are part of.
 
-    A component that cannot be imported, or whose own schema cannot be made,
-    is left out of the choices, with a warning that names its plugin.
+    Each kind of component has a definition of its name, as
+    ``#/$defs/wear_law``: the choice among those that the registry has. A
+    component that cannot be imported, or whose own schema cannot be made, is
+    left out, with a warning that names its plugin.
 
     Parameters
     ----------
     model : type
-        A pydantic model, with slots anywhere in it.
+        A pydantic model, as `tribo.Case`.
     registry : Registry, optional
-        The components that slots may take; the installed ones if left out.
+        Where components are looked up; the installed plugins if left out.
     mode : str
         The schema of what is read (``"validation"``) or of what is written.
     """
-    token = _choices.set(Choices(registry or default_registry(), mode))
-    try:
-        return model.model_json_schema(mode=mode)
-    finally:
-        _choices.reset(token)
+    known = registry or default_registry()
+    for plugin in known.load_all():
+        _warn(f"{plugin} is left out: {plugin.reason}")
+    whole: Schema = model.model_json_schema(mode=mode)
+    defs = whole.setdefault("$defs", {})
+    waiting = list(_places(whole))
+    for place in waiting:
+        kind = place.pop(KIND)
+        place["$ref"] = f"#/$defs/{kind}"
+        if kind in defs:
+            continue
+        schemas = {
+            name: schema
+            for name in known.names(kind)
+            if (schema := _schema(known, kind, name, mode)) is not None
+        }
+        defs |= schemas
+        defs[kind] = _choice(schemas, mode)
+        for schema in schemas.values():
+            waiting += _places(schema)
+    return whole
 
 
-def slot_schema(kind: str, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
-    """Return the choice among the components of one kind.
-
-    It is made anew each time, and so follows the registry.
-    """
-    if trying.get():
-        return {}
-    configs = (_choices.get() or Choices(default_registry(), handler.mode)).of(kind)
-    if not configs:
+def _choice(schemas: dict[str, Schema], mode: Mode) -> Schema:
+    """Return a choice by type; by name alone, too, where a component needs no keys."""
+    if not schemas:
         return {"not": {}}
-    schemas = {name: TypeAdapter(config).core_schema for name, config in configs.items()}
-    refs = {name: _ref(schema) for name, schema in schemas.items()}
-    # A configuration may have a slot into which it fits itself: then it is only referred to.
-    begun = _begun.get()
-    choices = {
-        name: schema
-        if refs[name] not in begun
-        else core_schema.definition_reference_schema(refs[name])
-        for name, schema in schemas.items()
+    mapping = {name: f"#/$defs/{name}" for name in schemas}
+    choice = {
+        "oneOf": [{"$ref": ref} for ref in mapping.values()],
+        "discriminator": {"propertyName": "type", "mapping": mapping},
     }
-    token = _begun.set(begun | set(refs.values()))
-    try:
-        choice = handler(core_schema.tagged_union_schema(choices, "type"))
-    finally:
-        _begun.reset(token)
-    for name, ref in choice["discriminator"]["mapping"].items():
-        if refs[name] not in begun:
-            _require_type(handler.resolve_ref_schema({"$ref": ref}))
-    short = [name for name, config in configs.items() if _needs_nothing(config)]
-    if handler.mode == "serialization" or not short:
+    short = [name for name, schema in schemas.items() if schema["required"] == ["type"]]
+    if mode == "serialization" or not short:
         return choice
     return {"anyOf": [choice, {"type": "string", "enum": short}]}
 
 
-def _require_type(schema: JsonSchemaValue) -> None:
+def _schema(registry: Registry, kind: str, name: str, mode: Mode) -> Schema | None:
+    cls: type[Component] = registry.lookup(kind, name)
+    try:
+        schema = cls.model_json_schema(mode=mode, ref_template=f"#/$defs/{name}/$defs/{{model}}")
+        json.dumps(schema, allow_nan=False)
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:
+        (plugin,) = registry.claimants(name)
+        _warn(
+            f"{kind.replace('_', ' ')} {name!r} of {plugin} is left out: making the schema of its "
+            f"configuration raised {said(error)}"
+        )
+        return None
     schema["required"] = ["type", *(key for key in schema.get("required", []) if key != "type")]
+    return schema
 
 
-def _needs_nothing(config: type[BaseModel]) -> bool:
-    return not any(field.is_required() for field in config.model_fields.values())
+def _places(schema: Any) -> Iterator[Schema]:
+    """Yield the parts of a schema that stand for any component of a kind."""
+    if isinstance(schema, dict):
+        if KIND in schema:
+            yield schema
+        for part in list(schema.values()):
+            yield from _places(part)
+    elif isinstance(schema, list):
+        for part in schema:
+            yield from _places(part)
 
 
-def _ref(schema: CoreSchema) -> str:
-    """Return the name under which pydantic keeps the definition of a model."""
-    inner: Any = schema["schema"] if schema["type"] == "definitions" else schema
-    return str(inner["schema_ref"] if inner["type"] == "definition-ref" else inner["ref"])
+def _warn(message: str) -> None:
+    warnings.warn(message, TriboWarning, stacklevel=3)

@@ -5,22 +5,21 @@ from __future__ import annotations
 from math import pi, sqrt
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import BaseModel, ConfigDict, model_validator
+from pydantic import model_validator
 
 from tribo.closed_forms import hertz
 from tribo.contact.foundation import solve_foundation
 from tribo.contact.solver import ContactSolver
 from tribo.core.contact import ContactProblem, ContactSolution, ContactSystem
 from tribo.core.errors import CaseError
+from tribo.core.table import Table
 from tribo.core.units import Quantity
 
 Match = Literal["contact_radius", "peak_pressure", "approach"]
 
 
-class Layer(BaseModel):
+class Layer(Table):
     """A thin elastic layer bonded to a rigid body."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
 
     thickness: Annotated[float, Quantity("m", above=0, usual=(1e-9, 0.1))]
     """Thickness of the layer."""

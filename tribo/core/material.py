@@ -5,15 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Annotated
 
-from pydantic import BaseModel, ConfigDict
-
+from tribo.core.table import Table
 from tribo.core.units import Quantity
 
 
-class Material(BaseModel):
+class Material(Table):
     """An isotropic material; elastic, or elastic-perfectly-plastic with a hardness."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
 
     young: Annotated[float, Quantity("Pa", above=0, usual=(1e4, 2e12), example="207 GPa")]
     """Young's modulus E."""

@@ -121,9 +121,8 @@ class Quantity:
     usual: tuple[float, float] | None = None
     example: str = ""
 
-    @property
-    def needed(self) -> str:
-        """What is needed, as "a length [m] is needed, as in '5 mm'"."""
+    def hint(self, info: object = None) -> str:
+        """Return what is needed, as "a length [m] is needed, as in '5 mm'"."""
         return _needed(self.unit, self.example)
 
     def read(self, value: object) -> float:
@@ -143,9 +142,9 @@ class Quantity:
                 number = math.inf
             given = f"{number:g}" if self.unit == "1" else f"{number:g} {self.unit}"
         else:
-            raise CaseError(f"{shown(value)} is not a quantity; {self.needed}")
+            raise CaseError(f"{shown(value)} is not a quantity; {self.hint()}")
         if not math.isfinite(number):
-            raise CaseError(f"{given} is not finite; {self.needed}")
+            raise CaseError(f"{given} is not finite; {self.hint()}")
         for words, bound, holds in (
             ("greater than", self.above, float.__gt__),
             ("at least", self.at_least, float.__ge__),

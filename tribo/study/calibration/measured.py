@@ -9,10 +9,10 @@ from typing import Annotated, Any, Literal, Self
 import numpy as np
 from pydantic import ValidationError, ValidationInfo, field_validator, model_validator
 
-from tribo.config.explain import case_error
 from tribo.config.load import read_toml
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
+from tribo.core.explain import case_error
 from tribo.core.table import Table
 from tribo.core.units import Quantity
 from tribo.study.calibration.quantities import PROFILES, QUANTITIES, Reading, in_words
@@ -196,4 +196,4 @@ def read_measurements(source: Measurements | Mapping[str, Any] | str | Path) -> 
     try:
         return Measurements.model_validate(data)
     except ValidationError as error:
-        raise case_error(error, Measurements, data) from None
+        raise case_error(error) from None

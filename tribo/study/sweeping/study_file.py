@@ -8,10 +8,10 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, ValidationError
 
-from tribo.config.explain import case_error
 from tribo.config.load import read_toml
 from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError
+from tribo.core.explain import case_error
 from tribo.core.table import Table
 
 Values = Annotated[tuple[Any, ...], Field(min_length=1)]
@@ -116,7 +116,7 @@ def validate_study(data: Mapping[str, Any]) -> Study:
     try:
         study = Study.model_validate(data)
     except ValidationError as error:
-        raise case_error(error, Study, data) from None
+        raise case_error(error) from None
     if not (study.grid or study.zip or study.list or study.sample):
         raise CaseError("nothing varies; give [grid], [zip], [[list]] or [sample]")
     return study

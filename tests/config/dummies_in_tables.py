@@ -5,13 +5,13 @@ from __future__ import annotations
 from types import ModuleType
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import Field, model_validator
 
-from tribo.config.slot import Slot
 from tribo.core.arrays import Array
 from tribo.core.fields import LocalConditions, WearRate
 from tribo.core.grid import Grid
 from tribo.core.material import Material
+from tribo.core.table import Table
 from tribo.core.units import Quantity
 from tribo.observers.observer import Observer
 from tribo.registry.hookspecs import hookimpl
@@ -40,7 +40,7 @@ class NoWear(WearLaw):
 
 class Blend(WearLaw):
     type = "blend"
-    parts: tuple[Annotated[WearLaw, Slot("wear_law")], ...]
+    parts: tuple[WearLaw, ...]
     weight: float | Literal["auto"] = "auto"
 
     @model_validator(mode="after")
@@ -74,29 +74,25 @@ def registry(*laws: type[WearLaw]) -> Registry:
     return Registry([given(module)])
 
 
-class Frozen(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-
-class Body(Frozen):
+class Body(Table):
     material: Material
-    surface: Annotated[Surface, Slot("surface")] = Plane()
-    wear: Annotated[WearLaw, Slot("wear_law")] | None = None
+    surface: Surface = Plane()
+    wear: WearLaw | None = None
 
 
-class Slow(Frozen):
+class Slow(Table):
     type: Literal["slow"] = "slow"
     step: Annotated[float, Quantity("s", above=0)]
 
 
-class Fast(Frozen):
+class Fast(Table):
     type: Literal["fast"] = "fast"
     limit: int = 3
 
 
-class Rig(Frozen):
+class Rig(Table):
     bodies: dict[str, Body]
     cells: tuple[int, int] = (8, 8)
     verbose: bool = False
     stepping: Annotated[Slow | Fast, Field(discriminator="type")] = Fast()
-    observers: tuple[Annotated[Observer, Slot("observer")], ...] = ()
+    observers: tuple[Observer, ...] = ()
