@@ -13,7 +13,7 @@ import numpy as np
 from tribo.config.load import read_toml, validate_case
 from tribo.config.overrides import apply_settings
 from tribo.core.arrays import Array
-from tribo.core.errors import CaseError, NumericalError, TriboWarning, located
+from tribo.core.errors import CaseError, NumericalError, TriboWarning
 from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.registry import Registry
 from tribo.simulation.model import Model
@@ -27,10 +27,9 @@ from tribo.study.calibration.quantities import (
     PROFILES,
     QUANTITIES,
     Reading,
-    check_available,
     in_si,
-    is_available,
     read,
+    unavailable,
 )
 
 NOTABLE, FAR, TOO_FAR = 5.0, 100.0, 300.0
@@ -196,21 +195,8 @@ def far_off(
 ) -> list[str]:
     """Return what is measured several times above or below what the first run gives, in words.
 
-    Warns of what is a factor of 100 off.
-
-    Parameters
-    ----------
-    measured : sequence of Measured
-        What was measured.
-    computed : ndarray, shape (n, ...)
-        The data as that run gives them first, in the same order.
-    parameters : sequence of Parameter
-        What it was made with.
-
-    Raises
-    ------
-    CaseError
-        If a measured value is off by more than 300 times; one line a value.
+    `computed` begins with the data as that run gives them. Warns of what is a
+    factor of 100 off; raises CaseError, one line a value, from a factor of 300.
     """
     given = ", ".join(f"{p.path} = {in_si(p.start, p.unit)}" for p in parameters)
     found, refused, start = [], [], 0
@@ -249,8 +235,9 @@ def _check_entry(model: Model, entry: Measured, place: str) -> None:
             f"The bodies are {', '.join(model.bodies)}",
             f"{place}.body",
         )
-    with located(f"{place}.quantity"):
-        check_available(model, entry.body, entry.quantity)
+    reason = unavailable(model, entry.body, entry.quantity)
+    if reason:
+        raise CaseError(reason, f"{place}.quantity")
     if entry.time is not None and entry.time > model.end_time * (1 + 1e-12):
         raise CaseError(
             f"{entry.time:g} s is not reached: the run ends at {model.end_time:g} s",
@@ -279,5 +266,5 @@ def _not_measured(model: Model, measured: Sequence[Measured]) -> list[Reading]:
         for quantity in QUANTITIES
         if quantity not in PROFILES
         and (body, quantity) not in known
-        and is_available(model, body, quantity)
+        and not unavailable(model, body, quantity)
     ]

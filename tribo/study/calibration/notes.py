@@ -32,18 +32,9 @@ def notes(
 ) -> list[str]:
     """Return what to bear in mind, a sentence or two each.
 
-    Parameters
-    ----------
-    estimates, data : DataFrame
-        As in `tribo.study.calibration.outcome.Calibration`.
-    measured : sequence of Measured
-        The measured values as they were given.
-    jacobian : ndarray, shape (n, p)
-        Derivatives of the residuals by the logarithms of the parameters.
-    grid : Grid
-        The window of the runs.
-    spare : int
-        Degrees of freedom of χ².
+    `estimates` and `data` are those of a `Calibration`, `jacobian` the
+    derivatives of the residuals by the logarithms of the parameters, and
+    `spare` the degrees of freedom of χ².
     """
     return [
         *_on_parameters(estimates, data, measured, jacobian),

@@ -128,28 +128,10 @@ def outcome(
     runs: int,
     notices: Sequence[str],
 ) -> Calibration:
-    """Return what a fit says.
+    """Return what a fit says of its parameters, data and predictions, in that order.
 
-    Parameters
-    ----------
-    fitted : Surrogate
-        About the estimate.
-    parameters : sequence of Parameter
-        What was fitted.
-    measured : sequence of Measured
-        What it was fitted to.
-    predicted : Mapping
-        The responses that are predictions, by their index.
-    grid : Grid
-        The window of the runs.
-    read_off : ndarray, shape (m,)
-        Standard deviations with which it gives the responses.
-    level : float
-        Probability of the intervals.
-    runs : int
-        Simulations made.
-    notices : sequence of str
-        Warnings of the run with the estimates.
+    `predicted` are the responses that are predictions, by their index; `read_off`
+    are the standard deviations with which the grid gives the responses.
     """
     jacobian = fitted.jacobian(fitted.point)
     root = root_covariance(jacobian)

@@ -6,7 +6,6 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from tribo.core.errors import CaseError
 from tribo.core.measures import between_cells
 from tribo.lab.conversion import mass_from_volume
 from tribo.lab.inferred import track_section
@@ -119,33 +118,15 @@ def _crown(result: Result, body: BodyResult, save: int) -> tuple[float, float]:
     return crown(height, depth), 0.5 * EDGES * spacing * float(np.mean(np.abs(slopes)))
 
 
-def check_available(model: Model, body: str, name: str) -> None:
-    """Check that runs of a model give a quantity of a body.
-
-    Raises
-    ------
-    CaseError
-        If they do not; the message says why.
-    """
-    found, swept = model.bodies[body], model.is_swept(body)
+def unavailable(model: Model, body: str, name: str) -> str:
+    """Return why runs of a model do not give a quantity of a body; nothing if they do."""
+    found, swept, of = model.bodies[body], model.is_swept(body), QUANTITIES[name].of
     if found.wear is None:
-        raise CaseError(
-            f"body {body!r} does not wear in this case; give it a wear law, bodies.{body}.wear"
-        )
+        return f"body {body!r} does not wear in this case; give it a wear law, bodies.{body}.wear"
     if name == "mass" and found.material.density is None:
-        raise CaseError(f"a mass needs a density; add bodies.{body}.material.density to the case")
-    if QUANTITIES[name].of == "stationary" and swept:
-        raise CaseError(
-            f"body {body!r} is swept: its scar is a track, the same all along, and has no {name}"
-        )
-    if QUANTITIES[name].of == "swept" and not swept:
-        raise CaseError(f"body {body!r} stays in the contact: it has no track, and so no {name}")
-
-
-def is_available(model: Model, body: str, name: str) -> bool:
-    """Return whether runs of a model give a quantity of a body; see `check_available`."""
-    try:
-        check_available(model, body, name)
-    except CaseError:
-        return False
-    return True
+        return f"a mass needs a density; add bodies.{body}.material.density to the case"
+    if of == "stationary" and swept:
+        return f"body {body!r} is swept: its scar is a track, the same all along, and has no {name}"
+    if of == "swept" and not swept:
+        return f"body {body!r} stays in the contact: it has no track, and so no {name}"
+    return ""
