@@ -1,8 +1,9 @@
 """What a ball has lost, by the size of its scar.
 
-R is the ball's radius and d the diameter of the scar, in m. The formulas are
-those of the standards named, derived again from the geometry; the tests
-integrate the shapes they stand for.
+R is the ball's radius and d the diameter of the scar, d∥ and d⊥ along and across
+the sliding direction; all in m, volumes in m³. The formulas are those of the
+standards named, derived again from the geometry; the tests integrate the shapes
+they stand for.
 
 References
 ----------
@@ -20,15 +21,8 @@ def ball_cap_depth(diameter: float, radius: float) -> float:
 
     Parameters
     ----------
-    diameter : float
-        Scar diameter d, in m; at most 2R.
-    radius : float
-        Ball radius R, in m.
-
-    Returns
-    -------
-    float
-        Height, in m.
+    diameter, radius : float
+        Of the scar, at most 2R, and of the ball.
     """
     half = 0.5 * diameter
     # The textbook difference loses its digits for small scars.
@@ -43,15 +37,8 @@ def ball_cap_volume(diameter: float, radius: float) -> float:
 
     Parameters
     ----------
-    diameter : float
-        Scar diameter d, in m.
-    radius : float
-        Ball radius R, in m.
-
-    Returns
-    -------
-    float
-        Volume, in m³.
+    diameter, radius : float
+        Of the scar and the ball.
     """
     h = ball_cap_depth(diameter, radius)
     return math.pi * h * (0.75 * diameter**2 + h**2) / 6.0
@@ -64,15 +51,8 @@ def shallow_cap_volume(diameter: float, radius: float) -> float:
 
     Parameters
     ----------
-    diameter : float
-        Scar diameter d, in m.
-    radius : float
-        Ball radius R, in m.
-
-    Returns
-    -------
-    float
-        Volume, in m³.
+    diameter, radius : float
+        Of the scar and the ball.
     """
     return math.pi * diameter**4 / (64.0 * radius)
 
@@ -80,20 +60,12 @@ def shallow_cap_volume(diameter: float, radius: float) -> float:
 def cap_diameter(volume: float, radius: float) -> float:
     """Diameter of the flat scar that has lost this volume, exact.
 
-    Inverse of `ball_cap_volume`, V = πh²(3R − h)/3, for caps up to half the
-    ball.
+    Inverse of `ball_cap_volume`, V = πh²(3R − h)/3, for caps up to half the ball.
 
     Parameters
     ----------
-    volume : float
-        Volume lost, in m³.
-    radius : float
-        Ball radius R, in m.
-
-    Returns
-    -------
-    float
-        Scar diameter d, in m.
+    volume, radius : float
+        Volume lost, and radius of the ball.
 
     Notes
     -----
@@ -108,22 +80,15 @@ def cap_diameter(volume: float, radius: float) -> float:
 def conforming_ball_volume(along: float, across: float, radius: float, groove: float) -> float:
     """Volume off a ball whose scar conforms to a groove (ASTM D7755, DIN 51834).
 
-    V = (π/64) d∥² d⊥² (1/R − 1/R'), with the groove's radius R' from
-    `groove_radius`. The flat cap is the limit R' → ∞.
+    V = (π/64) d∥² d⊥² (1/R − 1/R'). The flat cap is the limit R' → ∞.
 
     Parameters
     ----------
-    along, across : float
-        Scar diameters d∥ and d⊥ along and across the sliding direction, in m.
-    radius : float
-        Ball radius R, in m.
+    along, across, radius : float
+        Scar diameters, and radius of the ball.
     groove : float
-        Radius R' of the groove's section, in m; larger than R.
-
-    Returns
-    -------
-    float
-        Volume, in m³.
+        Radius R' of the groove's section, larger than R; see
+        `tribo.lab.track.groove_radius`.
 
     Notes
     -----
@@ -145,14 +110,7 @@ def flat_along_ball_volume(along: float, across: float, radius: float) -> float:
 
     Parameters
     ----------
-    along, across : float
-        Scar diameters d∥ and d⊥ along and across the sliding direction, in m.
-    radius : float
-        Ball radius R, in m.
-
-    Returns
-    -------
-    float
-        Volume, in m³.
+    along, across, radius : float
+        Scar diameters, and radius of the ball.
     """
     return math.pi / 64.0 * along**3 * across / radius

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from scipy.interpolate import make_interp_spline
@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
-from tribo.core.measures import centre, vertex
+from tribo.core.measures import vertex
 
 VISIBLE = 1e-4
 """Smallest depth taken for wear, as a part of the largest."""
@@ -19,32 +19,22 @@ STEEPEST = 2.0
 """Largest power of the distance from the edge with which a depth may begin."""
 
 
-@dataclass(frozen=True)
-class Scar:
-    """A wear scar as a microscope and a profilometer see it.
+class Scar(NamedTuple):
+    """A wear scar as a microscope sees it, 0 wide where nothing is worn.
 
     Parameters
     ----------
-    along : float
-        Diameter along the sliding direction, d∥, in m.
-    across : float
-        Diameter across it, d⊥, in m.
-    mean_diameter : float
-        Mean of the two, the wear scar diameter WSD of ASTM D6425, in m.
-    centre_depth : float
-        Worn depth at the centre of the window, in m.
-    peak_depth : float
-        Largest worn depth, in m.
-    volume : float
-        Integral of the whole depth field over the window, in m³.
+    along, across : float
+        Diameters d∥ and d⊥ along and across the sliding direction, in m.
     """
 
     along: float
     across: float
-    mean_diameter: float
-    centre_depth: float
-    peak_depth: float
-    volume: float
+
+    @property
+    def mean_diameter(self) -> float:
+        """Mean of the two, the wear scar diameter WSD of ASTM D6425, in m."""
+        return 0.5 * (self.along + self.across)
 
 
 def scar(depth: Array, grid: Grid) -> Scar:
@@ -56,21 +46,8 @@ def scar(depth: Array, grid: Grid) -> Scar:
         Worn depth, in m; x along the sliding direction.
     grid : Grid
         The window.
-
-    Returns
-    -------
-    Scar
-        With diameters 0 where nothing is worn.
     """
-    along, across = (diameter(depth, axis, grid.spacing[axis]) for axis in (0, 1))
-    return Scar(
-        along=along,
-        across=across,
-        mean_diameter=0.5 * (along + across),
-        centre_depth=centre(depth),
-        peak_depth=float(np.max(depth)),
-        volume=float(np.sum(depth)) * grid.cell_area,
-    )
+    return Scar(*(diameter(depth, axis, grid.spacing[axis]) for axis in (0, 1)))
 
 
 def diameter(depth: Array, axis: int, spacing: float) -> float:

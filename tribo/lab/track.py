@@ -1,8 +1,8 @@
 """What a track or the block on a ring has lost, by width and section.
 
-R is the ball's radius and d the width of the track, in m. The formulas are
-those of the standards named, derived again from the geometry; the tests
-integrate the shapes they stand for.
+R is the ball's radius and d the width of the track; all in m, sections in m²,
+volumes in m³. The formulas are those of the standards named, derived again from
+the geometry; the tests integrate the shapes they stand for.
 
 References
 ----------
@@ -27,15 +27,8 @@ def groove_radius(width: float, area: float) -> float:
 
     Parameters
     ----------
-    width : float
-        Width d⊥ of the track, in m.
-    area : float
-        Section W_q, in m²; see `planimetric_area`.
-
-    Returns
-    -------
-    float
-        Radius, in m.
+    width, area : float
+        Width d⊥ of the track, and its section W_q; see `planimetric_area`.
     """
     return width**3 / (12.0 * area)
 
@@ -50,14 +43,9 @@ def planimetric_area(depth: ArrayLike, spacing: float) -> float:
     ----------
     depth : array_like, shape (n,) or (profiles, n)
         Depth below the original surface across the track, at the centres of
-        equal intervals, in m; negative above.
+        equal intervals; negative above.
     spacing : float
-        Interval, in m.
-
-    Returns
-    -------
-    float
-        Area, in m².
+        Interval.
     """
     below = np.maximum(np.asarray(depth, dtype=float), 0.0)
     return float(np.mean(np.sum(below, axis=-1))) * spacing
@@ -70,15 +58,8 @@ def planimetric_volume(area: float, track_length: float) -> float:
 
     Parameters
     ----------
-    area : float
-        Section W_q, in m².
-    track_length : float
-        Stroke, or 2πr of a circular track, in m.
-
-    Returns
-    -------
-    float
-        Volume, in m³.
+    area, track_length : float
+        Section W_q, and the stroke, or 2πr of a circular track.
     """
     return area * track_length
 
@@ -91,19 +72,11 @@ def circular_groove_area(width: float, radius: float) -> float:
 
     Parameters
     ----------
-    width : float
-        Width d of the track, in m; at most 2R.
-    radius : float
-        Ball radius R, in m.
-
-    Returns
-    -------
-    float
-        Area, in m².
+    width, radius : float
+        Of the track, at most 2R, and of the ball.
     """
-    return radius**2 * math.asin(width / (2.0 * radius)) - 0.25 * width * math.sqrt(
-        4.0 * radius**2 - width**2
-    )
+    half_angle = math.asin(width / (2.0 * radius))
+    return radius**2 * half_angle - 0.25 * width * math.sqrt(4.0 * radius**2 - width**2)
 
 
 def disk_track_volume(width: float, radius: float, track_radius: float) -> float:
@@ -113,17 +86,8 @@ def disk_track_volume(width: float, radius: float, track_radius: float) -> float
 
     Parameters
     ----------
-    width : float
-        Width of the track, in m.
-    radius : float
-        Ball radius R, in m.
-    track_radius : float
-        Radius r of the track, in m.
-
-    Returns
-    -------
-    float
-        Volume, in m³.
+    width, radius, track_radius : float
+        Width of the track, radius of the ball, radius r of the track.
     """
     return 2.0 * math.pi * track_radius * circular_groove_area(width, radius)
 
@@ -136,17 +100,8 @@ def reciprocating_track_volume(width: float, radius: float, stroke: float) -> fl
 
     Parameters
     ----------
-    width : float
-        Width of the track, in m.
-    radius : float
-        Ball radius R, in m.
-    stroke : float
-        Stroke, in m.
-
-    Returns
-    -------
-    float
-        Volume, in m³.
+    width, radius, stroke : float
+        Width of the track, radius of the ball, stroke.
     """
     return stroke * circular_groove_area(width, radius) + ball_cap_volume(width, radius)
 
@@ -158,17 +113,8 @@ def block_on_ring_volume(scar_width: float, ring_diameter: float, block_width: f
 
     Parameters
     ----------
-    scar_width : float
-        Mean scar width b, in m; at most D.
-    ring_diameter : float
-        Ring diameter D, in m.
-    block_width : float
-        Block width t, in m.
-
-    Returns
-    -------
-    float
-        Volume, in m³.
+    scar_width, ring_diameter, block_width : float
+        Mean scar width b, at most D; ring diameter D; block width t.
     """
     twice = 2.0 * math.asin(scar_width / ring_diameter)
     return ring_diameter**2 * block_width / 8.0 * (twice - math.sin(twice))
