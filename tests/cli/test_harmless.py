@@ -9,8 +9,8 @@ from made_results import made
 from rich.console import Console as RichConsole
 
 from tribo.cli.console import Console
-from tribo.cli.harmless import harmless
 from tribo.cli.main import main
+from tribo.cli.streams import harmless
 from tribo.result.provenance import provenance
 from tribo.result.seal import write_sealed
 from tribo.result.store import write_text

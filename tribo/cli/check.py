@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Iterable
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
 
 import click
 from rich.padding import Padding
@@ -15,6 +13,7 @@ from rich.table import Table
 from rich.text import Text
 
 from tribo.cli.console import Console
+from tribo.cli.options import CASE, JSON, SET, echo_json
 from tribo.core.errors import CaseError, NumericalError
 from tribo.lab.report import yield_words
 from tribo.simulation.model import Model
@@ -22,9 +21,9 @@ from tribo.simulation.predict import Prediction
 
 
 @click.command()
-@click.argument("case", type=click.Path(path_type=Path))
-@click.option("--set", "overrides", multiple=True, metavar="PATH=VALUE", help="Change a value.")
-@click.option("--json", "as_json", is_flag=True, help="One JSON object, in SI units.")
+@CASE
+@SET
+@JSON
 def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
     """Validate CASE and predict its first contact, its final scar, and its size.
 
@@ -44,7 +43,7 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
     model = Simulation(load_case(case, overrides=overrides)).model
     prediction = predict(model)
     if as_json:
-        click.echo(json.dumps(_finite(asdict(prediction)), indent=2, allow_nan=False))
+        echo_json(asdict(prediction))
     else:
         _print(case, model, prediction)
     for kind in (CaseError, NumericalError):
@@ -69,15 +68,6 @@ def _rows(rows: Iterable[tuple[str, str]]) -> Padding:
     for row in rows:
         table.add_row(*map(Text, row))
     return Padding(table, (0, 0, 0, 2))
-
-
-def _finite(value: Any) -> Any:
-    """Replace what JSON cannot say: the width of a line contact along itself is null."""
-    if isinstance(value, dict):
-        return {key: _finite(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_finite(item) for item in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def _lines(model: Model, prediction: Prediction) -> list[tuple[str, str]]:

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import click
 
+from tribo.cli.options import PATH
+
 AVERAGE = """\
 This is the paper's model: it averages the disk's wear over the stroke. If the
 contact is followed along its stroke, the groove is 6.8 µm deep: the average's is
@@ -16,8 +18,8 @@ contact is followed along its stroke, the groove is 6.8 µm deep: the average's 
 @click.option(
     "-d",
     "--directory",
-    type=click.Path(path_type=Path),
-    default=Path("tribo-demo"),
+    type=PATH,
+    default="tribo-demo",
     show_default=True,
     help="Folder to write to.",
 )
@@ -31,21 +33,20 @@ def demo(directory: Path, force: bool) -> None:
     """
     from tribo.cli.report import print_report
     from tribo.config.load import load_case
-    from tribo.core.errors import CaseError, OutputError
+    from tribo.core.errors import CaseError
+    from tribo.core.files import write_whole, writing
     from tribo.observers.progress import Progress
     from tribo.plotting.figures import save_figures
     from tribo.simulation.run import Simulation
     from tribo.templates import template
 
     case, output = directory / "ball_on_disk.toml", directory / "ball_on_disk.h5"
-    try:
+    with writing(directory):
         for path in (case, output):
             if path.exists() and not force:
                 raise CaseError(f"{path} exists; choose another folder with -d, or use --force")
         directory.mkdir(parents=True, exist_ok=True)
-        case.write_text(template("ball_on_disk"), encoding="utf-8")
-    except OSError as error:
-        raise OutputError(f"cannot write to {directory}: {error.strerror}") from error
+        write_whole(case, template("ball_on_disk"))
     click.echo("One hour of a steel ball rubbing on a steel disk: 100 N, 25 Hz, 360 m.")
     simulation = Simulation(load_case(case))
     with simulation.run(output, observers=[Progress()], overwrite=force) as result:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any
 
 import click
+
+from tribo.cli.options import echo_json
 
 
 @click.command()
@@ -48,7 +49,7 @@ def doctor(as_json: bool, time_limit: float | None) -> None:
         "hints": undeclared(),
     }
     if as_json:
-        click.echo(json.dumps(found, indent=2))
+        echo_json(found)
     else:
         _print(found)
     bad = [check.name for check in checks if not check.ok]

@@ -6,12 +6,12 @@ from pathlib import Path
 
 import click
 
+from tribo.cli.options import PATH, RESULT
+
 
 @click.command()
-@click.argument("output", type=click.Path(path_type=Path))
-@click.option(
-    "-d", "--directory", type=click.Path(path_type=Path), help="Folder to write to; OUTPUT-FORMAT."
-)
+@RESULT
+@click.option("-d", "--directory", type=PATH, help="Folder to write to; OUTPUT-FORMAT.")
 @click.option(
     "--format", "name", default="csv", show_default=True, help="csv, or one that a plugin offers."
 )
@@ -27,7 +27,7 @@ def export(output: Path, directory: Path | None, name: str) -> None:
     Example:
       tribo export my.h5 -d csv
     """
-    from tribo.core.errors import OutputError
+    from tribo.core.files import writing
     from tribo.registry.contributions import choose
     from tribo.result.export import export_csv
     from tribo.result.read import Result
@@ -37,9 +37,7 @@ def export(output: Path, directory: Path | None, name: str) -> None:
         write = choose("tribo_export_formats", name, "format").write
     folder = directory or output.with_name(f"{output.stem}-{name}")
     with Result.open(output) as result:
-        try:
+        with writing(folder):
             paths = write(result, folder)
-        except OSError as error:
-            raise OutputError(f"cannot write to {folder}: {error.strerror}") from error
         for path in paths:
             click.echo(f"Wrote {path}")

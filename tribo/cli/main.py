@@ -5,14 +5,14 @@ from __future__ import annotations
 import os
 import sys
 from importlib import import_module
+from typing import NoReturn
 
 import click
 
-from tribo.cli.harmless import echo
-from tribo.cli.plain import make_plain
 from tribo.cli.running import no_interrupt_lost, warnings_on_stderr
-from tribo.cli.streams import Output, Remarks, over
+from tribo.cli.streams import Output, Remarks, over, say
 from tribo.core.errors import ReaderGone, TriboError
+from tribo.core.words import did_you_mean, suggestion
 
 COMMANDS = {
     "demo": "Run the paper's one-hour test.",
@@ -41,27 +41,14 @@ class LazyGroup(click.Group):
         """Return the commands in the order a user meets them."""
         return list(COMMANDS)
 
-    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command:
         """Import the command's module, and return the command in it."""
         if cmd_name not in COMMANDS:
-            return None
+            near = suggestion(did_you_mean(cmd_name, COMMANDS))
+            raise click.UsageError(f"No such command {cmd_name!r}{near}", ctx)
         command = getattr(import_module(f"tribo.cli.{cmd_name}"), cmd_name)
         assert isinstance(command, click.Command)
         return command
-
-    def resolve_command(
-        self, ctx: click.Context, args: list[str]
-    ) -> tuple[str | None, click.Command | None, list[str]]:
-        """Suggest the nearest command for an unknown one."""
-        from difflib import get_close_matches
-
-        try:
-            return super().resolve_command(ctx, args)
-        except click.UsageError as error:
-            near = get_close_matches(args[0], COMMANDS, n=1)
-            if near:
-                raise click.UsageError(f"{error.message} Did you mean '{near[0]}'?", ctx) from None
-            raise
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """List the commands without importing any."""
@@ -106,12 +93,9 @@ def tribo(no_plugin: tuple[str, ...], only: str | None) -> None:
 
 def main() -> None:
     """Run the command; every expected error becomes one message and an exit code."""
-    debug = bool(os.environ.get("TRIBO_DEBUG"))
     # Looking for plugins of its own, pydantic falls over any malformed distribution.
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     sys.stdout, sys.stderr = over(sys.stdout, Output), over(sys.stderr, Remarks)
-    make_plain(sys.stdout)
-    make_plain(sys.stderr)
     try:
         with warnings_on_stderr(), no_interrupt_lost():
             tribo.main(standalone_mode=False)
@@ -128,25 +112,24 @@ def main() -> None:
     except ReaderGone as error:
         # A reader such as `head` has seen enough, which is no mistake.
         sys.exit(error.exit_code)
-    except TriboError as error:
-        if debug:
-            raise
-        _fail("\n".join([str(error), *getattr(error, "__notes__", ())]), error.exit_code)
-    except MemoryError:
-        if debug:
-            raise
-        _fail("out of memory; lower grid.cells, or raise the limit of this process", 3)
     except Exception as error:
-        if debug:
+        if os.environ.get("TRIBO_DEBUG"):
             raise
-        _fail(
-            f"internal error: {type(error).__name__}: {error}\n"
-            "This is a fault in tribo or in a plugin; TRIBO_DEBUG=1 shows where.",
-            1,
-        )
+        _fail(*_told(error))
 
 
-def _fail(message: str, code: int) -> None:
-    click.secho("error: ", fg="red", bold=True, err=True, nl=False)
-    echo(message, err=True)
+def _told(error: Exception) -> tuple[str, int]:
+    """Return the message and the exit code of an error."""
+    if isinstance(error, TriboError):
+        return "\n".join([str(error), *getattr(error, "__notes__", ())]), error.exit_code
+    if isinstance(error, MemoryError):
+        return "out of memory; lower grid.cells, or raise the limit of this process", 3
+    return (
+        f"internal error: {type(error).__name__}: {error}\n"
+        "This is a fault in tribo or in a plugin; TRIBO_DEBUG=1 shows where."
+    ), 1
+
+
+def _fail(message: str, code: int) -> NoReturn:
+    say("error", "red", message)
     sys.exit(code)

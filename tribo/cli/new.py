@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from tribo.cli.options import PATH
 from tribo.templates import TEMPLATES, template
 
 HOOK = "tribo_templates"
@@ -13,7 +14,7 @@ HOOK = "tribo_templates"
 
 @click.command()
 @click.argument("name", metavar="TEMPLATE")
-@click.argument("file", type=click.Path(path_type=Path))
+@click.argument("file", type=PATH)
 @click.option("--force", is_flag=True, help="Replace an existing file.")
 def new(name: str, file: Path, force: bool) -> None:
     """Write a commented case that runs, from TEMPLATE to FILE.
@@ -29,14 +30,13 @@ def new(name: str, file: Path, force: bool) -> None:
     Example:
       tribo new ball_on_disk my.toml
     """
-    from tribo.core.errors import CaseError, OutputError
+    from tribo.core.errors import CaseError
+    from tribo.core.files import write_whole, writing
     from tribo.registry.contributions import choose
 
     text = template(name) if name in TEMPLATES else choose(HOOK, name, "template").text
-    try:
+    with writing(file):
         if file.exists() and not force:
             raise CaseError(f"{file} exists; choose another name, or replace it with --force")
-        file.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise OutputError(f"cannot write {file}: {error.strerror}") from error
+        write_whole(file, text)
     click.echo(f"Wrote {file}; look it over, then: tribo check {file}")

@@ -6,12 +6,12 @@ from pathlib import Path
 
 import click
 
+from tribo.cli.options import PATH, RESULT
+
 
 @click.command()
-@click.argument("output", type=click.Path(path_type=Path))
-@click.option(
-    "-d", "--directory", type=click.Path(path_type=Path), help="Folder to write to; OUTPUT-plots."
-)
+@RESULT
+@click.option("-d", "--directory", type=PATH, help="Folder to write to; OUTPUT-plots.")
 @click.option(
     "--format", "suffix", type=click.Choice(["png", "pdf", "svg"]), default="png", show_default=True
 )

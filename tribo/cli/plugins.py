@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
+
+from tribo.cli.options import PATH, echo_json
 
 if TYPE_CHECKING:
     from tribo.component import Component
@@ -41,7 +42,7 @@ def list_(as_json: bool) -> None:
     for hint in undeclared():
         click.echo(f"hint: {hint}", err=True)
     if as_json:
-        click.echo(json.dumps(rows, indent=2))
+        echo_json(rows)
         return
     names = max(len(row["name"]) for row in rows)
     owners = [f"{row['distribution']} {row['version']}" for row in rows]
@@ -128,9 +129,7 @@ def _files_needed(cls: type[Component]) -> list[str]:
 @plugins.command()
 @click.argument("name")
 @click.option("--kind", required=True, metavar="KIND", help="wear-law, effect, surface, …")
-@click.option(
-    "-d", "--directory", type=click.Path(path_type=Path), default=Path(), help="Where to put it."
-)
+@click.option("-d", "--directory", type=PATH, default=Path(), help="Where to put it.")
 def new(name: str, kind: str, directory: Path) -> None:
     """Write a complete plugin distribution NAME that installs and passes its tests.
 

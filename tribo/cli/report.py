@@ -3,20 +3,28 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from rich import box
 from rich.markup import escape
-from rich.measure import Measurement
 from rich.table import Table
 from rich.text import Text
 
-from tribo.cli.console import Console
+from tribo.cli.console import Console, titled
 from tribo.lab.inferred import InferredVolume
 from tribo.lab.report import BodyReport, FirstContact, lab_report
 from tribo.result.read import Result
 
+COLUMNS = (
+    ("time", "s", "time_s", 1, "g"),
+    ("path", "m", "distance_m", 1, ".4g"),
+    ("p max", "MPa", "max_pressure_Pa", 1e-6, ".0f"),
+    ("p centre", "MPa", "centre_pressure_Pa", 1e-6, ".0f"),
+    ("along", "µm", "contact_half_width_x_m", 2e6, ".0f"),
+    ("across", "µm", "contact_half_width_y_m", 2e6, ".0f"),
+    ("area", "mm²", "contact_area_m2", 1e6, ".3f"),
+)
+"""Name, unit, key in a save, factor to the unit, and format of each column."""
 DISPENSABLE = ("area", "p centre", "path", "along", "across")
 """Columns that a narrow terminal does without, the first one first."""
 WIDE = 10_000
@@ -26,7 +34,7 @@ NOTHING = "–"
 
 def print_report(result: Result, console: Console | None = None) -> None:
     """Print the saves, the worn bodies and the first contact of `result`."""
-    console = console or Console(highlight=False)
+    console = console or Console()
     lab = lab_report(result)
     for part in _saves(result, console):
         console.print(part)
@@ -55,7 +63,7 @@ def print_report(result: Result, console: Console | None = None) -> None:
 
 def print_provenance(result: Result, console: Console | None = None) -> None:
     """Print where each model of `result` came from, its configuration and what it states."""
-    console = console or Console(highlight=False)
+    console = console or Console()
     made = result.provenance
     console.print()
     for again in (made, *made.get("resumed_with", ())):
@@ -92,53 +100,37 @@ def _origin(place: str, origin: Mapping[str, Any]) -> Iterator[str]:
         yield f"      {name}: {text}"
 
 
-def _table(title: str) -> Table:
-    return Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD)
-
-
 def _saves(result: Result, console: Console) -> Iterator[Table | str]:
     """Yield the table of saves, and what had to be left out of it to fit the width."""
     left_out: list[str] = []
     unbounded = console.options.update(width=WIDE)
-    table = _saves_table(result, left_out)
-    for name in DISPENSABLE:
-        if Measurement.get(console, unbounded, table).minimum <= console.width:
+    for name in (*DISPENSABLE, None):
+        table = _saves_table(result, left_out)
+        if name is None or console.measure(table, options=unbounded).minimum <= console.width:
             break
         left_out.append(name)
-        table = _saves_table(result, left_out)
     yield table
     if left_out:
         yield f"Left out for want of width: {', '.join(left_out)}."
 
 
 def _saves_table(result: Result, left_out: Sequence[str]) -> Table:
-    cells: dict[tuple[str, str], Callable[[dict[str, Any]], str]] = {
-        ("time", "s"): lambda save: f"{save['time_s']:g}",
-        ("path", "m"): lambda save: f"{save['distance_m']:.4g}",
-        ("p max", "MPa"): lambda save: f"{1e-6 * save['max_pressure_Pa']:.0f}",
-        ("p centre", "MPa"): lambda save: f"{1e-6 * save['centre_pressure_Pa']:.0f}",
-        ("along", "µm"): lambda save: f"{2e6 * save['contact_half_width_x_m']:.0f}",
-        ("across", "µm"): lambda save: f"{2e6 * save['contact_half_width_y_m']:.0f}",
-        ("area", "mm²"): lambda save: f"{1e6 * save['contact_area_m2']:.3f}",
-    }
-    shown = {head: cell for head, cell in cells.items() if head[0] not in left_out}
-    table = _table("Contact, along and across the sliding direction; wear depth of each body")
-    for name, unit in shown:
-        table.add_column(f"{name}\n{unit}", justify="right", no_wrap=True)
+    table = titled("Contact, along and across the sliding direction; wear depth of each body")
     saves = result.saves()
-    depths = {
-        body: [f"{1e6 * save['bodies'][body]['max_wear_depth_m']:.2f}" for save in saves]
-        for body in result.body_names
-    }
-    for body, column in depths.items():
+    columns = []
+    for name, unit, key, factor, digits in COLUMNS:
+        if name not in left_out:
+            table.add_column(f"{name}\n{unit}", justify="right", no_wrap=True)
+            columns.append([f"{factor * save[key]:{digits}}" for save in saves])
+    for body in result.body_names:
+        depths = [f"{1e6 * save['bodies'][body]['max_wear_depth_m']:.2f}" for save in saves]
         # A long name is broken before a number is.
         table.add_column(
-            f"{escape(body)}\nµm", justify="right", overflow="fold", min_width=max(map(len, column))
+            f"{escape(body)}\nµm", justify="right", overflow="fold", min_width=max(map(len, depths))
         )
-    for i, save in enumerate(saves):
-        table.add_row(
-            *(cell(save) for cell in shown.values()), *(column[i] for column in depths.values())
-        )
+        columns.append(depths)
+    for row in zip(*columns, strict=True):
+        table.add_row(*row)
     return table
 
 
@@ -160,12 +152,12 @@ def _first_contact(first: FirstContact) -> str:
 
 
 def _bodies(result: Result, bodies: Mapping[str, BodyReport]) -> Table:
-    table = _table(f"Wear after {result.distances[-1]:.4g} m")
+    table = titled(f"Wear after {result.distances[-1]:.4g} m")
     table.add_column("")
-    worn = [_worn(body) for body in bodies.values()]
     for name, body in bodies.items():
         heading = f"{name} (track)" if body.scar_along is None else name
         table.add_column(escape(heading), justify="right", overflow="fold")
+    worn = [_worn(body) for body in bodies.values()]
     for row in worn[0]:
         cells = [body[row] for body in worn]
         if any(cell != NOTHING for cell in cells):
@@ -175,7 +167,7 @@ def _bodies(result: Result, bodies: Mapping[str, BodyReport]) -> Table:
 
 def _inferred(volumes: Sequence[InferredVolume]) -> Table:
     """Set what a lab would infer from the scars against what was worn."""
-    table = _table("Volume by a lab's formulas, and how far that is off")
+    table = titled("Volume by a lab's formulas, and how far that is off")
     table.add_column("")
     for unit in ("mm³", "%"):
         table.add_column(unit, justify="right", no_wrap=True)
@@ -199,18 +191,21 @@ def _effects(result: Result) -> Iterator[str]:
 
 def _worn(body: BodyReport) -> dict[str, str]:
     """Return a body's cells by their row."""
-    mass, rate, along = body.mass, body.specific_wear_rate, body.scar_along
-    length = "whole track" if along is None else f"{1e3 * along:.3f}"
     scarred = body.scar_across > 0
-    return {
-        "volume, mm³": f"{1e9 * body.volume:.3g}",
-        "mass, mg": NOTHING if mass is None else f"{1e6 * mass:.3g}",
-        "specific wear rate, mm³/(N·m)": NOTHING if rate is None else f"{rate:.3g}",
-        "scar along sliding, mm": length if scarred else NOTHING,
-        "scar across, mm": f"{1e3 * body.scar_across:.3f}" if scarred else NOTHING,
-        "section of the track, mm²": f"{1e6 * body.track_section:.3g}"
-        if body.track_section and scarred
-        else NOTHING,
-        "largest depth, µm": f"{1e6 * body.max_wear_depth:.3g}",
-        "largest plastic depth, µm": f"{1e6 * body.max_plastic_depth:.3g}",
+    rows: dict[str, tuple[float | None, float, str]] = {
+        "volume, mm³": (body.volume, 1e9, ".3g"),
+        "mass, mg": (body.mass, 1e6, ".3g"),
+        "specific wear rate, mm³/(N·m)": (body.specific_wear_rate, 1, ".3g"),
+        "scar along sliding, mm": (body.scar_along if scarred else None, 1e3, ".3f"),
+        "scar across, mm": (body.scar_across or None, 1e3, ".3f"),
+        "section of the track, mm²": (body.track_section if scarred else None, 1e6, ".3g"),
+        "largest depth, µm": (body.max_wear_depth, 1e6, ".3g"),
+        "largest plastic depth, µm": (body.max_plastic_depth, 1e6, ".3g"),
     }
+    cells = {
+        row: NOTHING if value is None else f"{factor * value:{digits}}"
+        for row, (value, factor, digits) in rows.items()
+    }
+    if scarred and body.scar_along is None:
+        cells["scar along sliding, mm"] = "whole track"
+    return cells

@@ -6,9 +6,11 @@ from pathlib import Path
 
 import click
 
+from tribo.cli.options import RESULT
+
 
 @click.command()
-@click.argument("output", type=click.Path(path_type=Path))
+@RESULT
 @click.option("--allow-changed", is_flag=True, help="Go on with other versions of components.")
 def resume(output: Path, allow_changed: bool) -> None:
     """Go on with the stopped run whose result file is OUTPUT.

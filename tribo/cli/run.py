@@ -6,11 +6,13 @@ from pathlib import Path
 
 import click
 
+from tribo.cli.options import CASE, PATH, SET
+
 
 @click.command()
-@click.argument("case", type=click.Path(path_type=Path))
-@click.option("-o", "--output", type=click.Path(path_type=Path), help="Result file; CASE.h5.")
-@click.option("--set", "overrides", multiple=True, metavar="PATH=VALUE", help="Change a value.")
+@CASE
+@click.option("-o", "--output", type=PATH, help="Result file; CASE.h5.")
+@SET
 @click.option("--force", is_flag=True, help="Replace an existing result.")
 def run(case: Path, output: Path | None, overrides: tuple[str, ...], force: bool) -> None:
     """Run CASE, a TOML file, and print what a lab would report.

@@ -1,4 +1,4 @@
-"""What the commands that run a simulation share."""
+"""Warnings and Ctrl-C, as all commands handle them."""
 
 from __future__ import annotations
 
@@ -8,11 +8,9 @@ import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from threading import Timer
-from typing import TYPE_CHECKING, TextIO
+from typing import TYPE_CHECKING, Any
 
-import click
-
-from tribo.cli.harmless import echo
+from tribo.cli.streams import say
 from tribo.core.errors import TriboWarning
 
 if TYPE_CHECKING:
@@ -24,19 +22,11 @@ AGAIN = 0.2
 
 @contextmanager
 def warnings_on_stderr() -> Iterator[None]:
-    """Print a run's warnings as one line each."""
+    """Print tribo's own warnings as one line each, and no others."""
 
-    def show(
-        message: Warning | str,
-        category: type[Warning],
-        filename: str,
-        lineno: int,
-        file: TextIO | None = None,
-        line: str | None = None,
-    ) -> None:
+    def show(message: Warning | str, category: type[Warning], *_: Any, **__: Any) -> None:
         if issubclass(category, TriboWarning):
-            click.secho("warning: ", fg="yellow", bold=True, err=True, nl=False)
-            echo(str(message), err=True)
+            say("warning", "yellow", str(message))
 
     with warnings.catch_warnings():
         warnings.simplefilter("always", TriboWarning)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from contextlib import redirect_stdout
 
 import click
+
+from tribo.cli.options import echo_json
 
 
 @click.command()
@@ -23,5 +24,5 @@ def schema() -> None:
 
     # Only the schema belongs on stdout, whatever a plugin prints while it is asked for its part.
     with redirect_stdout(sys.stderr):
-        text = json.dumps(json_schema(Case), indent=2)
-    click.echo(text)
+        found = json_schema(Case)
+    echo_json(found)

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 import click
 
+from tribo.cli.options import JSON, RESULT, echo_json
+
 
 @click.command()
-@click.argument("output", type=click.Path(path_type=Path))
-@click.option("--json", "as_json", is_flag=True, help="One JSON object, in SI units.")
+@RESULT
+@JSON
 def show(output: Path, as_json: bool) -> None:
     """Print the result file OUTPUT: saves, what a lab would report, and what made it.
 
@@ -19,17 +20,14 @@ def show(output: Path, as_json: bool) -> None:
       tribo show my.h5
       tribo show my.h5 --json
     """
+    from tribo.cli.report import print_provenance, print_report
+    from tribo.lab.report import lab_report
     from tribo.result.read import Result
 
     with Result.open(output) as result:
         result.check()
         if as_json:
-            from tribo.lab.report import lab_report
-
-            lab = lab_report(result).as_json()
-            click.echo(json.dumps({**result.summary(), "lab": lab}, indent=2))
-            return
-        from tribo.cli.report import print_provenance, print_report
-
-        print_report(result)
-        print_provenance(result)
+            echo_json({**result.summary(), "lab": lab_report(result).as_json()})
+        else:
+            print_report(result)
+            print_provenance(result)

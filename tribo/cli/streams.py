@@ -1,16 +1,38 @@
-"""Standard streams that cannot be written to: a full disk, a pipe that nobody reads."""
+"""Text on its way to standard streams that may be full or closed, or lack µ, ³ and their like."""
 
 from __future__ import annotations
 
+import codecs
 import io
 import os
+import re
 import sys
 from typing import TYPE_CHECKING, TextIO
+
+import click
 
 from tribo.core.errors import OutputError, ReaderGone
 
 if TYPE_CHECKING:
     from _typeshed import ReadableBuffer
+
+PLAIN = "tribo.plain"
+SIGNS = {
+    "µ": "u",
+    "μ": "u",
+    "²": "^2",
+    "³": "^3",
+    "·": "*",
+    "×": "x",
+    "–": "-",
+    "−": "-",
+    "…": "...",
+    "°": "deg",
+}
+
+
+_CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069]")
+"""All but tab and line feed; and what turns the direction of writing."""
 
 
 class Output(io.FileIO):
@@ -39,8 +61,18 @@ class Remarks(io.FileIO):
             return memoryview(data).nbytes
 
 
+def harmless(text: str) -> str:
+    """Return `text` with control characters as escapes, as in a Python string."""
+    return _CONTROL.sub(lambda match: match[0].encode("unicode_escape").decode(), text)
+
+
+def say(what: str, colour: str, text: str) -> None:
+    """Print a message on standard error, as ``"error: there is no such file"``."""
+    click.echo(click.style(f"{what}: ", fg=colour, bold=True) + harmless(text), err=True)
+
+
 def over(stream: TextIO, kind: type[Output | Remarks]) -> TextIO:
-    """Return a stream to where `stream` goes that fails as `kind` does."""
+    """Return a stream to where `stream` goes that fails as `kind` does, in signs that it has."""
     try:
         number = stream.fileno()
     except (AttributeError, OSError, ValueError):
@@ -54,7 +86,17 @@ def over(stream: TextIO, kind: type[Output | Remarks]) -> TextIO:
     return io.TextIOWrapper(
         io.BufferedWriter(kind(number, "w", closefd=False), size),
         encoding=stream.encoding,
-        errors=stream.errors,
+        errors=PLAIN,
         line_buffering=stream.line_buffering,
         write_through=stream.write_through,
     )
+
+
+def _plain(error: UnicodeError) -> tuple[str, int]:
+    if not isinstance(error, UnicodeEncodeError):
+        raise error
+    lost = error.object[error.start : error.end]
+    return "".join(SIGNS.get(sign, "?") for sign in lost), error.end
+
+
+codecs.register_error(PLAIN, _plain)

@@ -10,7 +10,8 @@ import numpy as np
 from matplotlib.backend_bases import FigureCanvasBase
 from matplotlib.figure import Figure
 
-from tribo.core.errors import CaseError, OutputError
+from tribo.core.errors import CaseError
+from tribo.core.files import writing
 from tribo.plotting.history import contact_history, wear_history
 from tribo.plotting.pressure import pressure_map, pressure_sections
 from tribo.plotting.profiles import body_profiles, groove
@@ -67,7 +68,7 @@ def write_figures(
     """Draw pictures and write them to files of their names; see `save_figures`."""
     suffix = _known(suffix)
     paths = []
-    try:
+    with writing(folder):
         folder.mkdir(parents=True, exist_ok=True)
         for name, draw in pictures.items():
             path = folder / f"{name}.{suffix}"
@@ -75,8 +76,6 @@ def write_figures(
             with house_style():
                 figure.savefig(path, metadata=_METADATA.get(suffix))
             paths.append(path)
-    except OSError as error:
-        raise OutputError(f"cannot write to {folder}: {error.strerror}") from error
     return paths
 
 

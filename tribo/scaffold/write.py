@@ -7,7 +7,8 @@ from importlib.resources import files
 from pathlib import Path
 from string import Template
 
-from tribo.core.errors import CaseError, OutputError
+from tribo.core.errors import CaseError
+from tribo.core.files import writing
 from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.kinds import KINDS
 from tribo.scaffold.names import PluginName
@@ -58,14 +59,12 @@ def write_plugin(name: str, kind: str, folder: Path) -> list[Path]:
         "tests/test_example.py": f"{words['kind']}/test_example.py",
     }
     texts = {path: _filled(template, words) for path, template in layout.items()}
-    try:
+    with writing(folder):
         _make(folder)
         for path, text in texts.items():
             file = folder / path
             file.parent.mkdir(parents=True, exist_ok=True)
             file.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise OutputError(f"cannot write to {folder}: {error.strerror}") from error
     return sorted(folder / path for path in texts)
 
 
