@@ -9,6 +9,7 @@ from tribo.core.state import BodyInfo, BodyState, RunInfo, Snapshot, State
 from tribo.result.guarded import GuardedFile
 from tribo.result.provenance import provenance
 from tribo.result.read import Result
+from tribo.result.seal import write_sealed
 from tribo.result.store import ResultWriter
 
 GRID = Grid((2e-3, 1.6e-3), (50, 40))
@@ -63,6 +64,14 @@ def made(
         writer.append_save(snapshot)
     writer.finish(status, 1.0)
     return Result(GuardedFile(writer.file, "made"))
+
+
+def written(path, **options):
+    """Write what `made` returns to a file."""
+    file = made(**options)._file.file
+    file.flush()
+    write_sealed(path, file.id.get_file_image(), identity=bytes(16), sync=False)
+    return path
 
 
 def half_width(time):

@@ -2,11 +2,10 @@
 
 import pytest
 from click.testing import CliRunner
-from made_results import made
+from made_results import written
 
 from tribo.cli.main import tribo
 from tribo.core.errors import CaseError
-from tribo.result.seal import write_sealed
 from tribo.templates import template
 
 CASE = {
@@ -28,8 +27,7 @@ def folder(tmp_path_factory):
     path = tmp_path_factory.mktemp("files")
     (path / "case.toml").write_text(template("ball_on_disk"))
     (path / "measured.toml").write_text(MEASURED)
-    image = made()._file.file.id.get_file_image()
-    write_sealed(path / "result.h5", image, identity=bytes(16), sync=False)
+    written(path / "result.h5")
     (path / "empty").touch()
     (path / "binary").write_bytes(bytes(range(128, 256)) * 100)
     (path / "folder").mkdir()

@@ -1,64 +1,52 @@
 """Text from a file does not reach the terminal with its control characters."""
 
 import json
-import sys
 
 import pytest
+from command_line import tribo
 from edited import edited
-from made_results import made
+from made_results import written
 from rich.console import Console as RichConsole
 
 from tribo.cli.console import Console
-from tribo.cli.main import main
 from tribo.cli.streams import harmless
 from tribo.result.provenance import provenance
-from tribo.result.seal import write_sealed
 from tribo.result.store import write_text
 from tribo.templates import template
 
 EVIL = "\x1b]0;pwned\x07\x1b[2J\x9b31m\r\x08[/x]"
 
 
-def command(monkeypatch, capsys, *arguments):
-    monkeypatch.setattr(sys, "argv", ["tribo", *map(str, arguments)])
-    code = 0
-    try:
-        main()
-    except SystemExit as end:
-        code = end.code
-    printed = capsys.readouterr()
-    for text in printed:
-        assert not set(text) & set("\x1b\x07\x9b\r\x08")
-    return code, printed.out + printed.err
+def command(*arguments):
+    done = tribo(*arguments)
+    text = done.stdout + done.stderr
+    assert not set(text) & set("\x1b\x07\x9b\r\x08")
+    return done.returncode, text
 
 
 @pytest.fixture
 def result(tmp_path):
-    path = tmp_path / "x.h5"
-    file = made()._file.file
-    file.flush()
-    write_sealed(path, file.id.get_file_image(), identity=bytes(16), sync=False)
-    return path
+    return written(tmp_path / "x.h5")
 
 
-def test_notices_are_shown_without_them(result, monkeypatch, capsys):
+def test_notices_are_shown_without_them(result):
     with edited(result) as file:
         file.attrs["notices"] = json.dumps([EVIL])
-    code, text = command(monkeypatch, capsys, "show", result)
+    code, text = command("show", result)
     assert code == 0
     assert r"Note: \x1b]0;pwned" in text
 
 
-def test_provenance_is_shown_without_them(result, monkeypatch, capsys):
+def test_provenance_is_shown_without_them(result):
     made_with = provenance({}) | {"python": EVIL, "packages": {EVIL: EVIL}}
     plugin = dict.fromkeys(("distribution", "version", "status", "reason"), EVIL)
     with edited(result) as file:
         del file["provenance"], file["provenance_bytes"]
         write_text(file, "provenance", json.dumps(made_with | {"plugins": [plugin]}))
-    assert command(monkeypatch, capsys, "show", result)[0] == 0
+    assert command("show", result)[0] == 0
 
 
-def test_names_of_bodies_are_shown_without_them(result, monkeypatch, capsys):
+def test_names_of_bodies_are_shown_without_them(result):
     evil = EVIL.replace("/", "\\")
     with edited(result) as file:
         del file["case"], file["case_bytes"]
@@ -66,15 +54,15 @@ def test_names_of_bodies_are_shown_without_them(result, monkeypatch, capsys):
         for table in ("", "saves/", "history/"):
             file.move(f"{table}bodies/ball", f"{table}bodies/{evil}")
             file.move(f"{table}bodies/disk", f"{table}bodies/[disk]")
-    code, text = command(monkeypatch, capsys, "show", result)
+    code, text = command("show", result)
     assert code == 0
     assert "[disk]" in text
 
 
-def test_a_message_on_a_case_is_printed_without_them(tmp_path, monkeypatch, capsys):
+def test_a_message_on_a_case_is_printed_without_them(tmp_path):
     case = tmp_path / "case.toml"
     case.write_text(template("ball_on_disk") + '\n["\\u001b[2J"]\n')
-    code, text = command(monkeypatch, capsys, "check", case)
+    code, text = command("check", case)
     assert code == 2
     assert r"unknown key '\x1b[2J'" in text
 

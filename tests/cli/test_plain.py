@@ -5,26 +5,15 @@ import subprocess
 import sys
 
 import pytest
-from made_results import made
-
-from tribo.result.seal import write_sealed
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("plain")
-    file = made()._file.file
-    file.flush()
-    image = file.id.get_file_image()
-    write_sealed(folder / "x.h5", image, identity=bytes(16), sync=False)
-    return folder
+from made_results import written
 
 
 @pytest.mark.parametrize("encoding", ["ascii", "latin-1", "utf-8"])
-def test_a_result_is_shown_whatever_the_stream_can_carry(folder, encoding):
+def test_a_result_is_shown_whatever_the_stream_can_carry(tmp_path, encoding):
+    written(tmp_path / "x.h5")
     done = subprocess.run(
         [sys.executable, "-m", "tribo", "show", "x.h5"],
-        cwd=folder,
+        cwd=tmp_path,
         capture_output=True,
         env={**os.environ, "LC_ALL": "C", "PYTHONIOENCODING": encoding},
         timeout=120,
