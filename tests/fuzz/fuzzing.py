@@ -5,13 +5,17 @@ PYTHONPATH=tests python -m fuzz.fuzzing --only 4711 --seed 1
 """
 
 import argparse
-import multiprocessing.connection
+import multiprocessing
 import os
+import signal
 import sys
 import time
 from collections import Counter
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass, field
 from importlib.util import find_spec
+from queue import SimpleQueue
 from tempfile import TemporaryDirectory
 
 from fuzz import trial
@@ -29,8 +33,6 @@ class Fuzz:
     """How many ended how, by (kind, exit code)."""
     faults: dict = field(default_factory=dict)
     """What must not be, by the number of the case."""
-    hangs: int = 0
-    deaths: int = 0
     slowest: float = 0.0
     """In s."""
     seconds: float = 0.0
@@ -41,6 +43,12 @@ class Fuzz:
     def good(self):
         return not (self.faults or self.stopped)
 
+    def add(self, number, code, fault, seconds):
+        self.counts[trial.kind(number), code] += 1
+        self.slowest = max(self.slowest, seconds)
+        if fault is not None:
+            self.faults[number] = fault
+
     def figures(self):
         """Return the figures by name."""
         codes = Counter()
@@ -50,8 +58,8 @@ class Fuzz:
             "cases": sum(codes.values()),
             "exit codes": {str(code): codes[code] for code in sorted(codes)},
             "faults": len(self.faults),
-            "hangs": self.hangs,
-            "deaths": self.deaths,
+            "hangs": sum(fault.startswith("hang") for fault in self.faults.values()),
+            "deaths": sum(fault.startswith("death") for fault in self.faults.values()),
             "slowest, s": round(self.slowest, 2),
             "in all, s": round(self.seconds),
         }
@@ -65,99 +73,61 @@ class Fuzz:
 class Worker:
     """A process that tries one case after another, replaced where it hangs or dies."""
 
-    def __init__(self, context, seed):
-        self._context, self._seed = context, seed
-        self._folder = TemporaryDirectory()
-        self.number = None
+    def __init__(self):
         self._start()
 
     def _start(self):
-        self.pipe, far = self._context.Pipe()
-        arguments = (far, self._seed, self._folder.name)
-        self._process = self._context.Process(target=work, args=arguments, daemon=True)
-        self._process.start()
-        far.close()
+        self._folder = TemporaryDirectory()
+        context = multiprocessing.get_context(START)
+        self._pool = ProcessPoolExecutor(1, context, trial.prepare, (self._folder.name,))
+        self._pid = self._pool.submit(os.getpid).result()
 
-    def give(self, number):
-        self.number, self._end = number, time.monotonic() + HANG
-        self.pipe.send(number)
-
-    def answer(self):
-        """Return (kind, code, fault, time) of the case, or None while it is tried."""
-        kind = trial.KINDS[self.number % len(trial.KINDS)]
-        if self.pipe.poll():
-            try:
-                return self.pipe.recv()
-            except EOFError:
-                self._process.join()
-                died = self._process.exitcode
-                self._start()
-                return kind, died, f"death: the process ended with {died}", 0.0
-        if time.monotonic() > self._end:
-            self._process.kill()
-            self._process.join()
-            self._start()
-            return kind, -9, f"hang: more than {HANG:g} s", HANG
-        return None
+    def tried(self, number, seed):
+        """Return (exit code, fault, time) of a case."""
+        try:
+            return self._pool.submit(trial.timed, number, seed).result(HANG)
+        except TimeoutError:
+            os.kill(self._pid, signal.SIGKILL)
+            fault = -9, f"hang: more than {HANG:g} s", HANG
+        except BrokenProcessPool:
+            fault = -1, "death: the process ended", 0.0
+        self.stop()
+        self._start()
+        return fault
 
     def stop(self):
-        self._process.kill()
-        self._process.join()
+        self._pool.shutdown(cancel_futures=True)
         self._folder.cleanup()
-
-
-def work(pipe, seed, folder):
-    """Try cases until there are none, in a process of its own."""
-    trial.prepare()
-    os.chdir(folder)
-    while True:
-        number = pipe.recv()
-        answer = trial.timed(number, seed, folder)
-        trial.clean(folder)
-        pipe.send(answer)
 
 
 def fuzz(count, seed, *, workers=None, numbers=None):
     """Try `count` cases of `seed`, or those of certain numbers."""
     fuzz, begun = Fuzz(), time.monotonic()
-    waiting = iter(numbers if numbers is not None else range(count))
-    context = multiprocessing.get_context(START)
-    pool = [Worker(context, seed) for _ in range(workers or os.cpu_count() or 1)]
+    waiting = list(numbers if numbers is not None else range(count))
+    idle, threads = SimpleQueue(), workers or os.cpu_count() or 1
+
+    def tried(number):
+        worker = idle.get()
+        try:
+            return number, *worker.tried(number, seed)
+        finally:
+            idle.put(worker)
+
+    for _ in range(threads):
+        idle.put(Worker())
+    pool = ThreadPoolExecutor(threads)
     try:
-        busy = [worker for worker in pool if _next(worker, waiting)]
-        while busy:
-            multiprocessing.connection.wait([worker.pipe for worker in busy], 0.5)
-            for worker in list(busy):
-                answer = worker.answer()
-                if answer is None:
-                    continue
-                _add(fuzz, worker.number, *answer)
-                if not _next(worker, waiting):
-                    busy.remove(worker)
+        for answer in pool.map(tried, waiting):
+            fuzz.add(*answer)
     except KeyboardInterrupt:
         fuzz.stopped = True
         print("stopped; what was tried so far:", file=sys.stderr)
     finally:
-        for worker in pool:
-            worker.stop()
+        pool.shutdown(cancel_futures=True)
+        for _ in range(threads):
+            idle.get().stop()
     fuzz.seconds = time.monotonic() - begun
     return fuzz
-
-
-def _next(worker, waiting):
-    number = next(waiting, None)
-    if number is not None:
-        worker.give(number)
-    return number is not None
-
-
-def _add(fuzz, number, kind, code, fault, seconds):
-    fuzz.counts[kind, code] += 1
-    fuzz.slowest = max(fuzz.slowest, seconds)
-    if fault is not None:
-        fuzz.faults[number] = fault
-        fuzz.hangs += fault.startswith("hang")
-        fuzz.deaths += fault.startswith("death")
 
 
 def check_needs(parser):

@@ -5,8 +5,10 @@ import random
 import sys
 import time
 import tomllib
+from collections import Counter
 from dataclasses import replace
 
+import command_line
 import pytest
 import trials
 from fuzz import fuzzing, trial
@@ -22,8 +24,10 @@ def test_two_hundred_cases_end_as_they_should():
     done = fuzzing.fuzz(200, seed=3)
     assert done.faults == {}
     assert done.figures()["cases"] == 200
-    # Enough of them ran, and were refused.
-    assert min(done.figures()["exit codes"][code] for code in ("0", "2")) > 20
+    # Enough of them ran, on a busy machine until they were stopped, and were refused.
+    codes = Counter(done.figures()["exit codes"])
+    assert codes["0"] + codes["130"] > 20
+    assert codes["2"] > 20
 
 
 @pytest.mark.parametrize("command", [trials.main, fuzzing.main])
@@ -62,24 +66,15 @@ def test_half_of_the_plausible_cases_are_valid():
     assert valid > 50
 
 
-def hanging(pipe, seed, folder):
-    pipe.recv()
-    time.sleep(60)
-
-
-def dying(pipe, seed, folder):
-    pipe.recv()
-    os._exit(1)
-
-
-@pytest.mark.parametrize(("work", "words"), [(hanging, "hang"), (dying, "death")])
-def test_a_hang_and_a_death_are_seen(monkeypatch, work, words):
-    monkeypatch.setattr(fuzzing, "work", work)
+@pytest.mark.parametrize(
+    ("end", "words"), [(lambda *_: time.sleep(60), "hang"), (lambda *_: os._exit(1), "death")]
+)
+def test_a_hang_and_a_death_are_seen(monkeypatch, end, words):
+    monkeypatch.setattr(trial, "_schema", end)
     monkeypatch.setattr(fuzzing, "HANG", 3.0)
     monkeypatch.setattr(fuzzing, "START", "fork")
-    done = fuzzing.fuzz(2, seed=1, workers=1)
-    assert [fault.split(":")[0] for fault in done.faults.values()] == [words, words]
-    assert (done.hangs, done.deaths) == ((2, 0) if words == "hang" else (0, 2))
+    figures = fuzzing.fuzz(0, seed=1, workers=1, numbers=[0, 0]).figures()
+    assert figures["hangs" if words == "hang" else "deaths"] == figures["faults"] == 1
 
 
 @pytest.mark.parametrize(
@@ -93,8 +88,8 @@ def test_a_hang_and_a_death_are_seen(monkeypatch, work, words):
 )
 def test_an_end_that_is_not_documented_is_seen(monkeypatch, tmp_path, end, words):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(trial, "main", end)
-    _, _, fault, _ = trial.timed(trial.KINDS.index("text"), 1, tmp_path)
+    monkeypatch.setattr(command_line, "main", end)
+    _, fault, _ = trial.timed(trial.KINDS.index("text"), 1)
     assert fault.startswith(words)
 
 

@@ -1,24 +1,21 @@
 """One fuzzed case, as a user would meet it: a command line, and what came of it."""
 
-import io
 import os
 import random
-import resource
 import runpy
 import shutil
 import signal
-import sys
 import time
 import warnings
-from contextlib import redirect_stderr, redirect_stdout
 from functools import cache
 from pathlib import Path
 
 import numpy as np
+import psutil
+from command_line import tribo
 from fuzz.generate import ROOT, Schema, damaged, mutated, plausible, small, toml, valid_cases
 
 from tribo import Result
-from tribo.cli.main import main
 from tribo.simulation.invariants import CHATTERING, CONDITIONS, LOAD, VOLUME
 
 DOCUMENTED = {0, 2, 3, 130}
@@ -40,31 +37,40 @@ KINDS = (
 FORMATS = ("opd", "sur", "x3p", "asc", "npy")
 
 
-def prepare():
-    """Get ready in a new process: modules, a memory limit, no warnings as errors."""
+def prepare(folder):
+    """Get ready in a new process: its folder, modules, a memory limit, no warnings as errors."""
+    os.chdir(folder)
     warnings.simplefilter("ignore")
     # A shell may have set it to be ignored.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     # Not while a case is told to stop, which would leave half a module.
     import SurfaceTopography  # noqa: F401
 
-    address_space = int(Path("/proc/self/statm").read_text().split()[0]) * os.sysconf(
-        "SC_PAGE_SIZE"
-    )
-    limit = address_space + MEMORY
-    resource.setrlimit(resource.RLIMIT_AS, (limit, resource.getrlimit(resource.RLIMIT_AS)[1]))
+    process = psutil.Process()
+    limit = process.memory_info().vms + MEMORY
+    process.rlimit(psutil.RLIMIT_AS, (limit, process.rlimit(psutil.RLIMIT_AS)[1]))
 
 
-def trial(number, seed, folder):
-    """Make case `number` of `seed` in `folder`, try it, and return its kind, exit code and fault.
+def kind(number):
+    """Return what a case of this number is."""
+    return KINDS[number % len(KINDS)]
 
-    The fault is None, or says what must not be.
+
+def timed(number, seed):
+    """Make case `number` of `seed` in this folder, try it, and empty the folder.
+
+    Returns its exit code, its fault and the time that it took, in s. The fault is None, or says
+    what must not be; whatever comes out is one.
     """
+    begun = time.monotonic()
     chance = random.Random(f"{seed}/{number}")
-    kind = KINDS[number % len(KINDS)]
-    os.chdir(folder)
-    code, fault = globals()[f"_{kind}"](Path("case.toml"), chance)
-    return kind, code, fault
+    try:
+        code, fault = globals()[f"_{kind(number)}"](Path("case.toml"), chance)
+    except BaseException as error:
+        code, fault = -1, f"traceback: {type(error).__name__}: {error}"
+    for path in Path().iterdir():
+        shutil.rmtree(path) if path.is_dir() else path.unlink()
+    return code, fault, time.monotonic() - begun
 
 
 @cache
@@ -183,22 +189,13 @@ def _tried(path, chance, *options):
 
 def _command(*arguments, patience=PATIENCE):
     """Run a command as from the shell; return its exit code and what it wrote to stderr."""
-    out, err = io.StringIO(), io.StringIO()
     signal.signal(signal.SIGALRM, lambda *_: os.kill(os.getpid(), signal.SIGINT))
-    before, sys.argv = sys.argv, ["tribo", *arguments]
     signal.setitimer(signal.ITIMER_REAL, patience, 1.0)
     try:
-        with redirect_stdout(out), redirect_stderr(err):
-            main()
-        code = 0
-    except SystemExit as left:
-        code = left.code or 0
-    except KeyboardInterrupt:
-        code = 130
+        done = tribo(*arguments)
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)
-        sys.argv = before
-    return code, err.getvalue()
+    return done.returncode, done.stderr
 
 
 def _judged(code, text):
@@ -249,20 +246,3 @@ def same(first, second):
                 fields += [body.wear_depth, body.plastic_depth, *body.state.values()]
             found.append([v.tobytes() for v in (*history.values(), *fields)])
     return found[0] == found[1]
-
-
-def clean(folder):
-    """Empty a folder."""
-    for path in Path(folder).iterdir():
-        shutil.rmtree(path) if path.is_dir() else path.unlink()
-
-
-def timed(number, seed, folder):
-    """As `trial`, with the time that it took, in s; whatever comes out is a fault."""
-    begun = time.monotonic()
-    try:
-        kind, code, fault = trial(number, seed, folder)
-    except BaseException as error:
-        kind, code = KINDS[number % len(KINDS)], -1
-        fault = f"traceback: {type(error).__name__}: {error}"
-    return kind, code, fault, time.monotonic() - begun
