@@ -18,7 +18,7 @@ import time
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from tribo.study import sweep
+from tribo import sweep
 from tribo.templates import template
 
 STUDY = """
@@ -43,7 +43,7 @@ def timed(study: Path, jobs: int) -> tuple[float, float]:
     swept = sweep(study, study.with_name(f"jobs-{jobs}"), jobs=jobs)
     taken = time.perf_counter() - begun
     assert not swept.failures()
-    return taken, sum(row["wall_time_s"] for row in swept.rows) / (jobs * taken)
+    return taken, float(swept.table["wall_time_s"].sum()) / (jobs * taken)
 
 
 def main() -> None:

@@ -16,9 +16,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from tribo import TriboWarning
+from tribo import Comparison, TriboWarning, compare
 from tribo.lab.first_contact import hertz_contact
-from tribo.study import Comparison, compare
 
 CASE = Path(__file__).with_name("ball_on_disk.toml")
 HALF_SPACE = "half-space"

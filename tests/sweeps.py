@@ -68,13 +68,13 @@ def turn_off_energy():
 class Inline(Executor):
     """Calls at once; what `instead` returns for a case replaces the call."""
 
-    def __init__(self, instead=lambda task: None):
+    def __init__(self, instead=lambda case: None):
         self.calls = []
         self._instead = instead
 
     def submit(self, fn, /, *args, **kwargs):
         future = Future()
-        self.calls.append(args[0]["path"])
+        self.calls.append(args[1])
         given = self._instead(args[0])
         if isinstance(given, Exception):
             future.set_exception(given)
@@ -85,6 +85,4 @@ class Inline(Executor):
 
 def dies_at(load):
     """Return what an executor does whose worker dies at a load."""
-    return lambda task: (
-        BrokenProcessPool("killed") if task["case"]["load"]["normal"] == load else None
-    )
+    return lambda case: BrokenProcessPool("killed") if case["load"]["normal"] == load else None

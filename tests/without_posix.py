@@ -28,7 +28,7 @@ import sys
 from pathlib import Path
 from tribo import Interrupted, Simulation
 from tribo.observers.observer import Observer
-from tribo.study import sweep
+from tribo import sweep
 from tribo.study.sweeping.study_file import load_study
 from tribo.templates import template
 
@@ -49,7 +49,7 @@ if __name__ == "__main__":
     except Interrupted:
         resumed = Simulation(case).resume("stopped.h5")
     assert resumed.pressure(-1).tobytes() == whole.pressure(-1).tobytes()
-    assert [row["status"] for row in sweep("study.toml", jobs=1).rows] == ["done", "done"]
+    assert list(sweep("study.toml", jobs=1).table["status"]) == ["done", "done"]
     print("run, resumed, swept")
 """
 

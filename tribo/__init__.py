@@ -41,6 +41,10 @@ if TYPE_CHECKING:
     from tribo.registry.registry import Registry as Registry
     from tribo.result.read import Result as Result
     from tribo.simulation.run import Simulation as Simulation
+    from tribo.study.comparison import Comparison as Comparison
+    from tribo.study.comparison import compare as compare
+    from tribo.study.sweeping.sweep import Sweep as Sweep
+    from tribo.study.sweeping.sweep import sweep as sweep
     from tribo.surfaces.cylinder import Cylinder as Cylinder
     from tribo.surfaces.flat import Flat as Flat
     from tribo.surfaces.paraboloid import Paraboloid as Paraboloid
@@ -73,6 +77,7 @@ _HOME = {
     "Body": "tribo.case",
     "Case": "tribo.case",
     "CaseError": "tribo.core.errors",
+    "Comparison": "tribo.study.comparison",
     "ContactSolver": "tribo.contact.solver",
     "Cylinder": "tribo.surfaces.cylinder",
     "DcFft": "tribo.contact.dcfft",
@@ -101,14 +106,17 @@ _HOME = {
     "Sphere": "tribo.surfaces.sphere",
     "Stop": "tribo.config.stop",
     "Surface": "tribo.surfaces.surface",
+    "Sweep": "tribo.study.sweeping.sweep",
     "TriboError": "tribo.core.errors",
     "TriboWarning": "tribo.core.errors",
     "Unidirectional": "tribo.motion.unidirectional",
     "WearLaw": "tribo.wear.law",
     "WearRate": "tribo.core.fields",
     "Winkler": "tribo.contact.winkler",
+    "compare": "tribo.study.comparison",
     "hookimpl": "tribo.registry.hookspecs",
     "load_case": "tribo.config.load",
+    "sweep": "tribo.study.sweeping.sweep",
 }
 _UNITS = (
     "GPa",

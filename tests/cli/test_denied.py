@@ -13,9 +13,9 @@ import sweeps
 from click.testing import CliRunner
 
 import tribo as package
+from tribo import sweep
 from tribo.cli.main import tribo
 from tribo.core.errors import CaseError, OutputError
-from tribo.study import sweep
 from tribo.templates import template
 
 NOBODY = 65534

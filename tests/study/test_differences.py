@@ -5,8 +5,8 @@ import tomllib
 import numpy as np
 import pytest
 
+from tribo import compare
 from tribo.core.grid import Grid
-from tribo.study import Axis, compare, grid
 from tribo.study.differences import differences
 from tribo.templates import template
 
@@ -19,13 +19,13 @@ DATA["kinematics"]["duration"] = 300
     ("varied", "most"),
     [
         # Twice the cells change a smooth depth by the square of a cell over the scar: (37/270)².
-        (Axis("grid.cells", (48, 24)), 0.02),
+        ({"grid.cells": (48, 24)}, 0.02),
         # Cells of other sizes change it by their own errors, too.
-        (Axis("grid.size", ("0.9 mm", "0.7 mm")), 0.02),
+        ({"grid.size": ("0.9 mm", "0.7 mm")}, 0.02),
     ],
 )
 def test_a_groove_does_not_end_with_the_cells(varied, most):
-    with compare(DATA, grid([varied])) as comparison:
+    with compare(DATA, varied) as comparison:
         first, other = comparison.results.values()
         for result, reference in ((first, other), (other, first)):
             found = {each.field: each for each in differences(result, reference, 300.0)}

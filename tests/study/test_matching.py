@@ -1,19 +1,17 @@
 """Bodies of results are matched whatever they are called, and that is said."""
 
 import json
-import tomllib
 
 import numpy as np
 import pytest
 from click.testing import CliRunner
 from made_results import made
 
+from tribo import compare
 from tribo.cli.main import tribo
 from tribo.core.errors import CaseError
 from tribo.result.seal import write_sealed
-from tribo.study import compare, compare_files
 from tribo.study.differences import differences
-from tribo.templates import template
 
 BODIES = {
     "ball and disk": {"names": ("ball", "disk")},
@@ -54,20 +52,20 @@ def own(comparison):
     ],
 )
 def test_a_body_is_matched_by_name_else_by_role_else_in_order(files, other, pairs):
-    with compare_files(files("ball and disk", other)) as comparison:
+    with compare(files("ball and disk", other)) as comparison:
         assert own(comparison) == pairs
 
 
 def test_a_user_says_which_body_is_which(files):
     paths = files("ball and disk", "pin and plate")
-    with compare_files(paths, match={"ball": "plate"}) as comparison:
+    with compare(paths, match={"ball": "plate"}) as comparison:
         assert own(comparison) == {"ball": "plate", "disk": "pin"}
         reference, result = comparison.results.values()
         assert np.array_equal(result.wear_depth("ball", -1), reference.wear_depth("disk", -1))
 
 
 def test_matched_bodies_are_compared(files):
-    with compare_files(files("ball and disk", "plate and pin")) as comparison:
+    with compare(files("ball and disk", "plate and pin")) as comparison:
         found = differences(*reversed(comparison.results.values()), 200.0)
         assert {each.field: each.largest for each in found} == {
             "pressure": 0.0,
@@ -79,7 +77,7 @@ def test_matched_bodies_are_compared(files):
 
 
 def test_what_was_matched_is_told(files):
-    with compare_files(files("ball and disk", "pin and plate")) as comparison:
+    with compare(files("ball and disk", "pin and plate")) as comparison:
         (note,) = comparison.notes
         assert note.startswith("pin and plate: compares 'pin' with 'ball', 'plate' with 'disk'; ")
         assert "--match NAME=NAME" in note
@@ -88,7 +86,7 @@ def test_what_was_matched_is_told(files):
 @pytest.mark.parametrize("other", ["one body", "three bodies"])
 def test_a_file_that_has_not_two_bodies_is_refused(files, other):
     with pytest.raises(CaseError, match=r"is damaged: .* two are needed"):
-        compare_files(files("ball and disk", other))
+        compare(files("ball and disk", other))
 
 
 @pytest.mark.parametrize(
@@ -101,7 +99,7 @@ def test_a_file_that_has_not_two_bodies_is_refused(files, other):
 )
 def test_a_match_of_no_body_is_refused(files, match, message):
     with pytest.raises(CaseError) as caught:
-        compare_files(files("ball and disk", "pin and plate"), match=match)
+        compare(files("ball and disk", "pin and plate"), match=match)
     assert str(caught.value) == message
 
 
@@ -135,15 +133,3 @@ def test_the_command_takes_a_match(files):
     assert json.loads(done.stdout)["results"][1]["bodies"] == {"ball": "plate", "disk": "pin"}
     with pytest.raises(CaseError, match="--match: 'ball' is not of the form NAME=NAME"):
         invoke(*files("ball and disk", "two pins"), "--match", "ball")
-
-
-@pytest.mark.filterwarnings("ignore:lap:tribo.TriboWarning")
-def test_variants_that_name_their_bodies_otherwise_are_matched():
-    data = tomllib.loads(template("ball_on_disk"))
-    ball, disk = data["bodies"].values()
-    data |= {"grid": {"size": "0.7 mm", "cells": 24}, "output": {}}
-    data["kinematics"] = {"type": "unidirectional", "speed": 0.1, "track_length": 2e-3}
-    data["kinematics"] |= {"distance": 1e-3}
-    settings = [{"bodies": {"ball": ball, "disk": disk}}, {"bodies": {"pin": ball, "plate": disk}}]
-    with compare(data, settings, labels=["a", "b"]) as comparison:
-        assert own(comparison) == {"ball": "pin", "disk": "plate"}

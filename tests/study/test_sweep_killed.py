@@ -1,4 +1,4 @@
-"""What is killed, parent or worker, goes on; nothing is lost, nothing done twice."""
+"""A killed sweep, parent or worker, goes on; nothing is lost, nothing done twice."""
 
 import json
 import os
@@ -15,8 +15,7 @@ import sweeps
 
 from tribo import Result
 from tribo.core.errors import CaseError
-from tribo.study.sweeping.cluster import on_scheduler
-from tribo.study.sweeping.processes import THREADS, Processes
+from tribo.study.sweeping.executors import THREADS, on_scheduler, processes
 
 PATIENCE = 120.0
 LOADS = '[grid]\nload.normal = ["50 N", "60 N", "70 N", "80 N"]'
@@ -80,6 +79,20 @@ def table(folder):
     )
 
 
+def swept(folder, *options):
+    """Start a sweep; return its process once a run is in progress, and its command."""
+    command = ("sweep", sweeps.study(folder, sweeps.SLOW + LOADS), *options)
+    process = sweeps.tribo(*command, cwd=folder)
+    until(lambda: half_done(folder), "run in progress")
+    return process, command
+
+
+def assert_ends_as(whole, folder, process):
+    code, _, err = finished(process)
+    assert code == 0, err
+    pandas.testing.assert_frame_equal(table(folder), whole)
+
+
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory):
     """Return the table of a sweep that nothing disturbed."""
@@ -103,57 +116,44 @@ def test_a_killed_parent_takes_its_workers_along_and_the_command_goes_on(tmp_pat
     # A worker may still have ended its run.
     assert 0 < len(before) < 4
     assert not (tmp_path / "study-sweep" / "runs.csv").exists()
-    assert finished(sweeps.tribo(*command, cwd=tmp_path))[0] == 0
+    assert_ends_as(whole, tmp_path, sweeps.tribo(*command, cwd=tmp_path))
     assert before.items() <= done(tmp_path).items()
-    pandas.testing.assert_frame_equal(table(tmp_path), whole)
 
 
 def test_a_killed_worker_is_replaced_and_its_run_goes_on(tmp_path, whole):
-    command = ("sweep", sweeps.study(tmp_path, sweeps.SLOW + LOADS), "--jobs", 2)
-    process = sweeps.tribo(*command, cwd=tmp_path)
-    until(lambda: half_done(tmp_path), "run in progress")
+    process, _ = swept(tmp_path, "--jobs", 2)
     os.kill(workers(process)[0], signal.SIGKILL)
-    code, _, err = finished(process)
-    assert code == 0, err
-    pandas.testing.assert_frame_equal(table(tmp_path), whole)
+    assert_ends_as(whole, tmp_path, process)
 
 
 def test_ctrl_c_stops_between_two_steps_and_the_command_goes_on(tmp_path, whole):
-    command = ("sweep", sweeps.study(tmp_path, sweeps.SLOW + LOADS), "--jobs", 2)
-    process = sweeps.tribo(*command, cwd=tmp_path)
-    until(lambda: half_done(tmp_path), "run in progress")
+    process, command = swept(tmp_path, "--jobs", 2)
     # As a terminal does, to the parent and to its workers.
     os.killpg(process.pid, signal.SIGINT)
     code, _, err = finished(process)
     assert code == 130
     assert err.endswith("error: stopped; the same command goes on\n")
     assert set(table(tmp_path)["status"]) >= {"interrupted", "waiting"}
-    assert finished(sweeps.tribo(*command, cwd=tmp_path))[0] == 0
-    pandas.testing.assert_frame_equal(table(tmp_path), whole)
+    assert_ends_as(whole, tmp_path, sweeps.tribo(*command, cwd=tmp_path))
 
 
 def test_the_death_of_a_worker_costs_no_other_run():
-    processes = Processes(2)
-    fatal, slow = processes.submit(os._exit, 1), processes.submit(time.sleep, 1)
-    with pytest.raises(BrokenProcessPool):
-        fatal.result(PATIENCE)
-    assert slow.result(PATIENCE) is None
-    assert processes.submit(abs, -1).result(PATIENCE) == 1
-    processes.shutdown()
+    with processes(2) as executor:
+        fatal, slow = executor.submit(os._exit, 1), executor.submit(time.sleep, 1)
+        with pytest.raises(BrokenProcessPool):
+            fatal.result(PATIENCE)
+        assert slow.result(PATIENCE) is None
+        assert executor.submit(abs, -1).result(PATIENCE) == 1
 
 
 def test_a_worker_has_one_thread_and_leaves_those_of_its_parent(monkeypatch):
     monkeypatch.setenv(THREADS[0], "7")
     monkeypatch.delenv(THREADS[1], raising=False)
-    with Processes(1) as processes:
-        found = [processes.submit(os.getenv, name).result(PATIENCE) for name in THREADS]
+    with processes(1) as executor:
+        found = [executor.submit(os.getenv, name).result(PATIENCE) for name in THREADS]
     assert found == ["1"] * len(THREADS)
     assert os.environ[THREADS[0]] == "7"
     assert THREADS[1] not in os.environ
-
-
-def dask(*arguments, cwd):
-    return sweeps.start(["-m", "distributed.cli." + arguments[0], *arguments[1:]], cwd=cwd)
 
 
 @pytest.fixture
@@ -161,13 +161,12 @@ def cluster(tmp_path):
     """Yield the address of a scheduler, then its process and those of its two workers."""
     pytest.importorskip("distributed", reason="dask.distributed is not installed")
     where = tmp_path / "scheduler.json"
-    common = ("--scheduler-file", where)
+    worker = ("worker", "--nthreads", 1, "--no-nanny")
     processes = [
-        dask("dask_scheduler", *common, "--port", 0, "--no-dashboard", cwd=tmp_path),
-        *(
-            dask("dask_worker", *common, "--nthreads", 1, "--no-nanny", cwd=tmp_path)
-            for _ in range(2)
-        ),
+        sweeps.start(
+            ["-m", f"distributed.cli.dask_{name}", "--scheduler-file", where, *options], tmp_path
+        )
+        for name, *options in (("scheduler", "--port", 0, "--no-dashboard"), worker, worker)
     ]
     until(where.exists, "scheduler")
     yield json.loads(where.read_text())["address"], *processes
@@ -178,38 +177,28 @@ def cluster(tmp_path):
 
 def test_a_killed_worker_of_dask_costs_nothing(tmp_path, whole, cluster):
     address, _, first, _ = cluster
-    study = sweeps.study(tmp_path, sweeps.SLOW + LOADS)
-    process = sweeps.tribo("sweep", study, "--scheduler", address, cwd=tmp_path)
-    until(lambda: half_done(tmp_path), "run in progress")
+    process, _ = swept(tmp_path, "--scheduler", address)
     first.kill()
-    code, _, err = finished(process)
-    assert code == 0, err
-    pandas.testing.assert_frame_equal(table(tmp_path), whole)
+    assert_ends_as(whole, tmp_path, process)
 
 
 def test_ctrl_c_also_stops_the_workers_of_dask(tmp_path, whole, cluster):
-    command = ("sweep", sweeps.study(tmp_path, sweeps.SLOW + LOADS), "--scheduler", cluster[0])
-    process = sweeps.tribo(*command, cwd=tmp_path)
-    until(lambda: half_done(tmp_path), "run in progress")
+    process, command = swept(tmp_path, "--scheduler", cluster[0])
     process.send_signal(signal.SIGINT)
     assert finished(process)[0] == 130
     assert not list(results(tmp_path).glob("*.lock"))
     assert set(table(tmp_path)["status"]) >= {"interrupted", "waiting"}
-    assert finished(sweeps.tribo(*command, cwd=tmp_path))[0] == 0
-    pandas.testing.assert_frame_equal(table(tmp_path), whole)
+    assert_ends_as(whole, tmp_path, sweeps.tribo(*command, cwd=tmp_path))
 
 
 def test_a_scheduler_that_ends_is_told_of_and_the_command_goes_on(tmp_path, whole, cluster):
     address, scheduler, *_ = cluster
-    study = sweeps.study(tmp_path, sweeps.SLOW + LOADS)
-    process = sweeps.tribo("sweep", study, "--scheduler", address, cwd=tmp_path)
-    until(lambda: half_done(tmp_path), "run in progress")
+    process, (*command, _, _) = swept(tmp_path, "--scheduler", address)
     scheduler.kill()
     code, _, err = finished(process)
     assert code == 3
     assert "the same command goes on" in err
-    assert finished(sweeps.tribo("sweep", study, cwd=tmp_path))[0] == 0
-    pandas.testing.assert_frame_equal(table(tmp_path), whole)
+    assert_ends_as(whole, tmp_path, sweeps.tribo(*command, cwd=tmp_path))
 
 
 def test_a_cluster_of_its_own_does_not_print_what_runs_warn_of(tmp_path):
@@ -221,39 +210,26 @@ def test_a_cluster_of_its_own_does_not_print_what_runs_warn_of(tmp_path):
     assert "Warning" not in err
 
 
-def test_a_scheduler_that_does_not_answer_is_named():
+def answered_with(listener, content):
+    def answer():
+        connection, _ = listener.accept()
+        with connection:
+            connection.sendall(content)
+            connection.recv(1)
+
+    Thread(target=answer, daemon=True).start()
+
+
+# Of the banner of an SSH server dask makes the length of what follows, 2.8 EiB.
+@pytest.mark.parametrize("content", [None, b"", b"SSH-2.0-OpenSSH_9.6\r\n"])
+def test_an_address_without_a_scheduler_is_named_in_time(content):
     pytest.importorskip("distributed", reason="dask.distributed is not installed")
-    with (
-        pytest.raises(CaseError, match=r"no scheduler answers at tcp://127.0.0.1:1 within 1 s"),
-        on_scheduler("tcp://127.0.0.1:1", patience=1),
-    ):
-        pass
-
-
-def test_something_else_that_listens_is_no_scheduler():
-    pytest.importorskip("distributed", reason="dask.distributed is not installed")
-    with (
-        socket.create_server(("127.0.0.1", 0)) as silent,
-        pytest.raises(CaseError, match=r"no scheduler answers at .*something else may be"),
-        on_scheduler(f"tcp://127.0.0.1:{silent.getsockname()[1]}", patience=1),
-    ):
-        pass
-
-
-def test_something_else_that_answers_is_no_scheduler():
-    """Of the banner of an SSH server dask makes the length of what follows, 2.8 EiB."""
-    pytest.importorskip("distributed", reason="dask.distributed is not installed")
-    with socket.create_server(("127.0.0.1", 0)) as talkative:
-
-        def answer():
-            connection, _ = talkative.accept()
-            with connection:
-                connection.sendall(b"SSH-2.0-OpenSSH_9.6\r\n")
-                connection.recv(1)
-
-        Thread(target=answer, daemon=True).start()
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        address = f"tcp://127.0.0.1:{listener.getsockname()[1] if content is not None else 1}"
+        if content:
+            answered_with(listener, content)
         with (
-            pytest.raises(CaseError, match=r"no scheduler answers at .*something else may be"),
-            on_scheduler(f"tcp://127.0.0.1:{talkative.getsockname()[1]}", patience=3),
+            pytest.raises(CaseError, match=f"no scheduler answers at {address} within 2 s"),
+            on_scheduler(address, patience=2),
         ):
             pass

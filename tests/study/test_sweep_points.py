@@ -8,8 +8,7 @@ import pytest
 import sweeps
 
 from tribo.core.errors import CaseError, TriboWarning
-from tribo.study.sweeping.points import count, points
-from tribo.study.sweeping.study_file import load_study, validate_study
+from tribo.study.sweeping.study_file import count, load_study, points, validate_study
 from tribo.study.sweeping.sweep import plan
 
 RANGES = """
@@ -124,7 +123,7 @@ SAMPLE = '[sample]\nmethod = "sobol"\ncount = 2\n[sample.ranges]\n'
         ("[grid]\nload.normal=[1]\n'load.normal'=[2]", "grid: 'load.normal' is given twice"),
         (
             "[grid]\nload.normal = [1]\n[zip]\nload.normal = [2]",
-            "load.normal: varies in zip and in grid; leave it out of one",
+            "load.normal: varies twice",
         ),
         (
             "[zip]\nload.normal = [1, 2]\nkinematics.stroke = [1e-3]",
@@ -148,7 +147,7 @@ SAMPLE = '[sample]\nmethod = "sobol"\ncount = 2\n[sample.ranges]\n'
         ),
         (
             SAMPLE + "grid.cells = {low = 16, high = 32}",
-            "grid.cells: is no quantity that could be sampled; list its values in [grid]",
+            "grid.cells: is not a quantity to be sampled; list its values in [grid]",
         ),
         (
             SAMPLE + "'friction.coefficient' = {low = 0, high = 1, scale = 'log'}",

@@ -59,7 +59,11 @@ def compare(
         chosen = comparison.chosen_times(times)
         if not as_json:
             print_comparison(comparison, chosen)
-        pictures = [] if no_plots else _draw(comparison, chosen, folder)
+        pictures = []
+        if not no_plots:
+            from tribo.plotting.overlays import save_overlays
+
+            pictures = save_overlays(comparison.results, chosen, folder)
         if as_json:
             data = comparison.as_json(times) | {"pictures": [str(path) for path in pictures]}
             click.echo(json.dumps(data, indent=2, allow_nan=False))
@@ -78,11 +82,13 @@ def _times(at: tuple[str, ...]) -> list[float]:
 
 
 def _matches(given: tuple[str, ...]) -> dict[str, str]:
-    pairs = [text.partition("=") for text in given]
-    for text, (name, _, own) in zip(given, pairs, strict=True):
+    pairs = {}
+    for text in given:
+        name, _, own = text.partition("=")
         if not name or not own:
             raise CaseError(f"{text!r} is not of the form NAME=NAME, as in ball=pin", "--match")
-    return {name: own for name, _, own in pairs}
+        pairs[name] = own
+    return pairs
 
 
 def _comparison(
@@ -94,39 +100,30 @@ def _comparison(
     match: dict[str, str],
     force: bool,
 ) -> Comparison:
+    from tribo.config.load import read_toml
+    from tribo.config.overrides import apply_settings
+    from tribo.observers.progress import Progress
     from tribo.study.comparison import compare as run
-    from tribo.study.comparison import compare_files
+    from tribo.study.variation import read_axes
 
-    if vary:
-        from tribo.config.load import read_toml
-        from tribo.config.overrides import apply_settings
-        from tribo.observers.progress import Progress
-        from tribo.study.variation import Axis, grid
-
-        if len(files) > 1:
-            raise CaseError(f"--vary varies one case, {len(files)} files are given")
-        return run(
-            apply_settings(read_toml(files[0]), overrides),
-            grid([Axis.parse(text) for text in vary]),
-            folder,
-            times=times,
-            match=match,
-            observers=lambda: [Progress()],
-            tell=lambda text: click.echo(text, err=True),
-            overwrite=force,
-            alone=True,
-        )
-    cases = [path for path in files if path.suffix == ".toml"]
-    if cases:
-        raise CaseError(
-            f"{cases[0]} is a case; say what varies in it with --vary, or give result files"
-        )
-    if overrides or force:
-        raise CaseError("--set and --force are for a case that varies, with --vary")
-    return compare_files(files, match=match)
-
-
-def _draw(comparison: Comparison, times: list[float], folder: Path) -> list[Path]:
-    from tribo.plotting.overlays import save_overlays
-
-    return save_overlays(comparison.results, times, folder)
+    if not vary:
+        cases = [path for path in files if path.suffix == ".toml"]
+        if cases:
+            raise CaseError(
+                f"{cases[0]} is a case; say what varies in it with --vary, or give result files"
+            )
+        if overrides or force:
+            raise CaseError("--set and --force are for a case that varies, with --vary")
+        return run(files, match=match)
+    if len(files) > 1:
+        raise CaseError(f"--vary varies one case, {len(files)} files are given")
+    return run(
+        apply_settings(read_toml(files[0]), overrides),
+        read_axes(vary),
+        folder,
+        times=times,
+        match=match,
+        observers=lambda: [Progress()],
+        tell=lambda text: click.echo(text, err=True),
+        overwrite=force,
+    )

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 from rich import box
 from rich.markup import escape
@@ -17,9 +16,21 @@ _NAME_WIDTH = 26
 _CELL_WIDTH = 16
 _GAP = 3
 NOTHING = "–"
-
-Row = tuple[str, tuple[str, ...], float, str]
-"""Name, keys of the value in a save, factor to its unit, digits."""
+_TOTALS = (
+    ("steps", "steps", ".0f"),
+    ("contact solves", "contact_solves", ".0f"),
+    ("time to solution, s", "wall_time_s", ".1f"),
+)
+_SCALARS = (
+    ("largest pressure, MPa", "max_pressure_Pa", 1e-6, ".4g"),
+    ("centre pressure, MPa", "centre_pressure_Pa", 1e-6, ".4g"),
+    ("half-width along, µm", "contact_half_width_x_m", 1e6, ".0f"),
+    ("half-width across, µm", "contact_half_width_y_m", 1e6, ".0f"),
+)
+_OF_BODIES = (
+    ("depth, µm", "max_wear_depth_m", 1e6, ".4g"),
+    ("volume, mm³", "wear_volume_m3", 1e9, ".3g"),
+)
 
 
 def print_comparison(
@@ -52,52 +63,43 @@ def _table(
     table = Table(box=box.SIMPLE_HEAD)
     table.add_column("", no_wrap=True)
     for label in labels:
-        table.add_column(
-            escape(label),
-            justify="right",
-            overflow="fold",
-            min_width=min(max(map(len, label.split()), default=0), cell - _GAP),
-        )
-    for name, key, digits in (
-        ("steps", "steps", "{:.0f}"),
-        ("contact solves", "contact_solves", "{:.0f}"),
-        ("time to solution, s", "wall_time_s", "{:.1f}"),
-    ):
-        totals = (comparison.results[label].totals()[key] for label in labels)
-        table.add_row(name, *(NOTHING if n is None else digits.format(n) for n in totals))
+        width = min(max(map(len, label.split()), default=0), cell - _GAP)
+        table.add_column(escape(label), justify="right", overflow="fold", min_width=width)
+    totals = [comparison.results[label].totals() for label in labels]
+    for name, key, digits in _TOTALS:
+        table.add_row(name, *(NOTHING if t[key] is None else f"{t[key]:{digits}}" for t in totals))
     for time in times:
         table.add_section()
         table.add_row(f"[bold]at {time:g} s[/]")
-        expected = comparison.save(comparison.reference, time)
-        saves = {label: comparison.save(label, time) for label in labels}
-        for name, keys, factor, digits in _rows(comparison.bodies):
-            if not any(_value(save, keys) for save in (expected, *saves.values())):
-                continue
-            cells = []
-            for label, save in saves.items():
-                value = _value(save, keys)
-                off = "" if label == comparison.reference else _off(value, _value(expected, keys))
-                cells.append(f"{factor * value:{digits}}{off}")
-            table.add_row(name, *cells)
-        for name, cells in _fields(comparison, labels, time):
+        for name, cells in _at(comparison, labels, time).items():
             table.add_row(name, *cells)
     return table
 
 
-def _rows(bodies: Sequence[str]) -> Iterator[Row]:
-    yield "largest pressure, MPa", ("max_pressure_Pa",), 1e-6, ".4g"
-    yield "centre pressure, MPa", ("centre_pressure_Pa",), 1e-6, ".4g"
-    yield "half-width along, µm", ("contact_half_width_x_m",), 1e6, ".0f"
-    yield "half-width across, µm", ("contact_half_width_y_m",), 1e6, ".0f"
-    for body in bodies:
-        yield f"{body} depth, µm", ("bodies", body, "max_wear_depth_m"), 1e6, ".4g"
-        yield f"{body} volume, mm³", ("bodies", body, "wear_volume_m3"), 1e9, ".3g"
-
-
-def _value(save: Any, keys: Sequence[str]) -> float:
-    for key in keys:
-        save = save[key]
-    return float(save)
+def _at(comparison: Comparison, labels: Sequence[str], time: float) -> dict[str, list[str]]:
+    """Return the cells of each row at a time, by the row's name."""
+    reference = comparison.reference
+    # The reference first, which may stand in another table.
+    saves = {label: comparison.save(label, time) for label in (reference, *labels)}
+    rows = {name: (saves, key, factor, digits) for name, key, factor, digits in _SCALARS}
+    for body in comparison.bodies:
+        worn = {label: save["bodies"][body] for label, save in saves.items()}
+        for name, key, factor, digits in _OF_BODIES:
+            rows[f"{body} {name}"] = worn, key, factor, digits
+    found = {}
+    for name, (tables, key, factor, digits) in rows.items():
+        values = {label: float(table[key]) for label, table in tables.items()}
+        if any(values.values()):
+            off = {label: _off(values[label], values[reference]) for label in labels}
+            off[reference] = ""
+            found[name] = [f"{factor * values[label]:{digits}}{off[label]}" for label in labels]
+    first, results = comparison.results[reference], comparison.results
+    for i, label in enumerate(labels):
+        for each in differences(results[label], first, time) if label != reference else ():
+            name = each.field.removeprefix("bodies.").replace(".wear_depth", " wear")
+            cells = found.setdefault(f"{name} field", [NOTHING] * len(labels))
+            cells[i] = f"{_percent(each.l2)}, {_percent(each.largest)} %"
+    return found
 
 
 def _off(value: float, expected: float) -> str:
@@ -105,26 +107,6 @@ def _off(value: float, expected: float) -> str:
         return ""
     # Adding zero takes the sign off what rounds to it.
     return f" {round(100 * (value / expected - 1), 1) + 0.0:+.1f} %"
-
-
-def _fields(
-    comparison: Comparison, labels: Sequence[str], time: float
-) -> Iterator[tuple[str, list[str]]]:
-    first = comparison.results[comparison.reference]
-    found = {
-        label: {d.field: d for d in differences(comparison.results[label], first, time)}
-        for label in labels
-        if label != comparison.reference
-    }
-    for field in dict.fromkeys(name for fields in found.values() for name in fields):
-        name = field.removeprefix("bodies.").replace(".wear_depth", " wear")
-        yield (
-            f"{name} field",
-            [
-                f"{_percent(off.l2)}, {_percent(off.largest)} %" if off else NOTHING
-                for off in (found.get(label, {}).get(field) for label in labels)
-            ],
-        )
 
 
 def _percent(part: float) -> str:

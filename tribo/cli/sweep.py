@@ -18,11 +18,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from concurrent.futures import Executor
 
-    from tribo.study.sweeping.sweep import Progress, Sweep
-
 NAMED = 5
 EVERY = 10.0
-"""Time between two lines where stderr is no terminal, in s."""
+"""Time between two lines where stderr is not a terminal, in s."""
 
 
 @click.command()
@@ -61,72 +59,57 @@ def sweep(
 
     with _executor(scheduler, dask, jobs) as executor, _shown() as tell:
         swept = run(study, output, executor=executor, jobs=jobs, retry=retry, many=yes, tell=tell)
-    failures = swept.failures()
-    failed = sum(map(len, failures.values()))
+    total, reasons = len(swept.runs), swept.failures()
+    failed = sum(map(len, reasons.values()))
     if as_json:
-        data = {"folder": str(swept.folder), "runs": list(swept.rows)}
-        click.echo(json.dumps(data, indent=2, allow_nan=False, default=str))
+        click.echo(json.dumps(swept.as_json(), indent=2, allow_nan=False, default=str))
     else:
-        click.echo(f"{len(swept.runs) - failed} of {len(swept.runs)} runs are done.")
+        click.echo(f"{total - failed} of {total} runs are done.")
         click.echo(f"Wrote {swept.folder / 'runs.csv'} and {swept.folder / 'saves.csv'}")
     if failed:
-        raise NumericalError(_told(swept, failed))
+        lines = [f"{failed} of {total} runs failed; --retry runs them again:"]
+        for message, (first, *others) in list(reasons.items())[:NAMED]:
+            more = f" and {len(others)} more" if others else ""
+            lines.append(f"  run {first.number} ({first.label}){more}: {message}")
+        if len(reasons) > NAMED:
+            lines.append(f"  for other reasons see {swept.folder / 'runs.csv'}")
+        raise NumericalError("\n".join(lines))
 
 
 def _executor(
     scheduler: str | None, dask: bool, jobs: int | None
 ) -> AbstractContextManager[Executor | None]:
+    from tribo.study.sweeping.executors import on_local_cluster, on_scheduler
+
     if scheduler and (dask or jobs):
         raise CaseError(
             "--scheduler has workers of its own; leave out --dask and --jobs, which start some here"
         )
     if scheduler:
-        from tribo.study.sweeping.cluster import on_scheduler
-
         return on_scheduler(scheduler)
-    if dask:
-        from tribo.study.sweeping.cluster import on_local_cluster
-
-        return on_local_cluster(jobs)
-    return nullcontext()
+    return on_local_cluster(jobs) if dask else nullcontext()
 
 
 @contextmanager
-def _shown() -> Iterator[Callable[[Progress], None]]:
+def _shown() -> Iterator[Callable[[int, int, int], None]]:
     """Show on stderr how many runs have ended, and how long the others will take."""
     from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeRemainingColumn
-    from rich.progress import Progress as Bar
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 
     live = sys.stderr.isatty()
-    columns = (
-        BarColumn(),
-        MofNCompleteColumn(),
-        TextColumn("runs{task.description}"),
-        TimeRemainingColumn(),
-        TextColumn("left"),
-    )
-    with Bar(*columns, console=Console(file=sys.stderr), transient=True, disable=not live) as bar:
+    columns = BarColumn(), MofNCompleteColumn(), "runs{task.description}", TimeRemainingColumn()
+    with Progress(
+        *columns, "left", console=Console(file=sys.stderr), transient=True, disable=not live
+    ) as bar:
         shown, told = bar.add_task("", total=None), time.monotonic()
 
-        def tell(progress: Progress) -> None:
-            failed = f", {progress.failed} failed" if progress.failed else ""
-            ended = progress.done + progress.failed
-            bar.update(shown, total=progress.total, completed=ended, description=failed)
+        def tell(total: int, done: int, failed: int) -> None:
+            words, ended = f", {failed} failed" if failed else "", done + failed
+            bar.update(shown, total=total, completed=ended, description=words)
             nonlocal told
             now = time.monotonic()
-            if not live and (now - told > EVERY or ended == progress.total):
+            if not live and (now - told > EVERY or ended == total):
                 told = now
-                click.echo(f"{ended} of {progress.total} runs{failed}", err=True)
+                click.echo(f"{ended} of {total} runs{words}", err=True)
 
         yield tell
-
-
-def _told(swept: Sweep, failed: int) -> str:
-    lines = [f"{failed} of {len(swept.runs)} runs failed; --retry runs them again:"]
-    for message, runs in list(swept.failures().items())[:NAMED]:
-        more = f" and {len(runs) - 1} more" if len(runs) > 1 else ""
-        lines.append(f"  run {runs[0].number} ({runs[0].label}){more}: {message}")
-    if len(swept.failures()) > NAMED:
-        lines.append(f"  for other reasons see {swept.folder / 'runs.csv'}")
-    return "\n".join(lines)

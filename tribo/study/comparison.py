@@ -3,21 +3,23 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType, TracebackType
 from typing import Any, Self
 
+from tribo.case import Case
 from tribo.config.load import read_toml
 from tribo.core.errors import CaseError
 from tribo.registry.registry import Registry
-from tribo.result.read import Result
-from tribo.study.differences import common_bodies, common_times, differences, same_grid
-from tribo.study.matching import left_out, matched, own_names
+from tribo.result.read import SAME_TIME, Result
+from tribo.simulation.run import Simulation
+from tribo.study.differences import common_times, differences, same_grid
+from tribo.study.matching import matched, own_names
 from tribo.study.runs import Observers, run_variants
-from tribo.study.variation import check_saved, short_labels, variants
+from tribo.study.variation import grid, short_labels, variants
 
 MOST = 12
 """Most results that a table or a picture takes side by side."""
@@ -83,8 +85,8 @@ class Comparison:
 
     @property
     def bodies(self) -> list[str]:
-        """Names of the bodies that all results have."""
-        return common_bodies(list(self.results.values()))
+        """Names that the bodies go by: those of the first result."""
+        return list(self.results[self.reference].body_names)
 
     @property
     def notes(self) -> list[str]:
@@ -97,7 +99,11 @@ class Comparison:
                 f"{', '.join(apart)}: not on the grid of {self.reference}, so that only scalars "
                 "and sections are compared, the latter interpolated where both windows reach"
             )
-        notes += self._notes_on_bodies()
+        for label, result in self.results.items():
+            other = {name: own for name, own in own_names(result).items() if own != name}
+            if other:
+                pairs = ", ".join(f"{own!r} with {name!r}" for name, own in other.items())
+                notes.append(f"{label}: compares {pairs}; --match NAME=NAME pairs them otherwise")
         last = self.times[-1]
         notes += [
             f"{label} goes on to {result.times[-1]:g} s, beyond the last common save"
@@ -115,16 +121,6 @@ class Comparison:
                 warned.setdefault(notice, []).append(label)
         notes += [f"{'; '.join(labels)}: {notice}" for notice, labels in warned.items()]
         return notes
-
-    def _notes_on_bodies(self) -> Iterator[str]:
-        for label, result in self.results.items():
-            other = {name: own for name, own in own_names(result).items() if own != name}
-            if other:
-                pairs = ", ".join(f"{own!r} with {name!r}" for name, own in other.items())
-                yield f"{label}: compares {pairs}; --match NAME=NAME pairs them otherwise"
-            alone = [*left_out(result), *(n for n in result.body_names if n not in self.bodies)]
-            if alone:
-                yield f"{label}: not in all others: {', '.join(map(repr, alone))}"
 
     def chosen_times(self, times: Sequence[float] = ()) -> list[float]:
         """Return the times to show: those given, else the first and the last common one.
@@ -190,8 +186,8 @@ class Comparison:
 
 
 def compare(
-    case: str | Path | Mapping[str, Any],
-    settings: Sequence[Mapping[str, Any]],
+    what: Case | Mapping[str, Any] | str | Path | Sequence[str | Path],
+    vary: Mapping[str, Sequence[Any]] | Sequence[Mapping[str, Any]] = (),
     folder: str | Path | None = None,
     *,
     labels: Sequence[str] | None = None,
@@ -201,30 +197,36 @@ def compare(
     observers: Observers = list,
     tell: Callable[[str], None] = lambda text: None,
     overwrite: bool = False,
-    alone: bool = False,
 ) -> Comparison:
-    """Run variants of a case and set them side by side.
+    """Run variants of a case, or open result files, and set them side by side.
 
     Parameters
     ----------
-    case : str, Path or Mapping
-        A TOML file, or the tables of a case.
-    settings : sequence of Mapping
-        What sets each variant apart: values by path; `tribo.study.grid` makes
-        them from axes. The first variant is what the others are compared with.
+    what : Case, Mapping, str, Path or sequence of str or Path
+        A case that varies: itself, its tables, or its TOML file. Without
+        `vary` a list of result files, named after their stems, or whole where
+        stems are alike. The first is what the others are compared with.
+    vary : Mapping or sequence of Mapping, optional
+        Values by path, every combination of which is a variant; or what sets
+        each variant apart, values by path.
     folder : str or Path, optional
-        Where the result files go; what is done there already is taken from
-        there. In memory if left out.
+        Where the result files of variants go; what is done there already is
+        taken from there. In memory if left out.
     labels : sequence of str, optional
         What to call the variants; the values that differ if left out.
     times : sequence of float, optional
         Times, in s, at which all variants must save, so that they can be shown.
     match : Mapping, optional
-        Which body of the others is one of the first, see `compare_files`.
+        Names of bodies in the others, by names in the first. Bodies without
+        one are matched by name, else by role (swept or not), else in order.
     registry : Registry, optional
         Where to look components up; the installed plugins if left out.
-    observers, tell, overwrite, alone : optional
-        See `tribo.study.runs.run_variants`.
+    observers : callable, optional
+        Makes the watchers of a run.
+    tell : callable, optional
+        Gets a line on each run before it starts.
+    overwrite : bool, optional
+        Whether to run all anew, whatever is in the folder.
 
     Returns
     -------
@@ -234,65 +236,68 @@ def compare(
     Raises
     ------
     CaseError
-        If a variant is not valid or does not save at `times`, before any is run.
+        If a variant is not valid or does not save at `times`, before any is
+        run; if a file is not a result, or damaged, or the results have no save
+        in common; or if `match` names a body that there is not.
     TriboError
         What a run raises; the message names the variant.
 
     Examples
     --------
-    >>> from tribo.study import Axis, compare, grid
-    >>> axes = [Axis("contact.type", ("winkler", "dcfft"))]
-    >>> compare("examples/ball_on_disk.toml", grid(axes))  # doctest: +SKIP
+    >>> import tribo
+    >>> contacts = {"contact.type": ["winkler", "dcfft"]}
+    >>> tribo.compare("examples/ball_on_disk.toml", contacts)  # doctest: +SKIP
+    >>> tribo.compare(["winkler.h5", "dcfft.h5"])  # doctest: +SKIP
     """
-    if not 2 <= len(settings) <= MOST:
+    if not vary and isinstance(what, Sequence) and not isinstance(what, str):
+        return _of_files([Path(path) for path in what], match)
+    points = grid(vary) if isinstance(vary, Mapping) else [dict(point) for point in vary]
+    if not 2 <= len(points) <= MOST:
         raise CaseError(
-            f"{len(settings)} variant{'' if len(settings) == 1 else 's'}; give 2 to {MOST} to "
-            "compare"
+            f"{len(points)} variant{'' if len(points) == 1 else 's'}; give 2 to {MOST} to compare"
         )
-    data = case if isinstance(case, Mapping) else read_toml(case)
-    found = variants(data, settings, registry=registry)
-    for variant in found:
-        check_saved(variant, times, registry)
-    names = list(labels or short_labels(settings))
-    if len(set(names)) != len(settings):
-        raise CaseError(f"{len(settings)} variants need as many different labels, not {names}")
+    cases = variants(_tables(what), points, registry)
+    for label, case in cases.items():
+        _check_saved(label, case, times, registry)
+    names = list(labels or short_labels(points))
+    if len(set(names)) != len(points):
+        raise CaseError(f"{len(points)} variants need as many different labels, not {names}")
     results = run_variants(
-        found,
+        cases,
         None if folder is None else Path(folder),
         registry=registry,
         observers=observers,
         tell=tell,
         overwrite=overwrite,
-        alone=alone,
     )
     return Comparison(
         matched(dict(zip(names, results, strict=True)), match),
-        dict(zip(names, settings, strict=True)),
+        dict(zip(names, points, strict=True)),
     )
 
 
-def compare_files(
-    paths: Sequence[str | Path], *, match: Mapping[str, str] = MappingProxyType({})
-) -> Comparison:
-    """Set result files side by side.
+def _tables(case: Any) -> Mapping[str, Any]:
+    if isinstance(case, Case):
+        return case.model_dump(mode="json")
+    return case if isinstance(case, Mapping) else read_toml(case)
 
-    Parameters
-    ----------
-    paths : sequence of str or Path
-        The files, named after their stems, or whole where stems are alike. The
-        first is what the others are compared with.
-    match : Mapping, optional
-        Names of bodies in other files, by names in the first. Bodies without
-        one are matched by name, else by role (swept or not), else in order.
 
-    Raises
-    ------
-    CaseError
-        If one is not a result file, or damaged, or they have no save in common,
-        or `match` names a body that there is not.
-    """
-    files = [Path(path) for path in paths]
-    twice = [str(path) for path, count in Counter(files).items() if count > 1]
+def _check_saved(label: str, case: Case, times: Sequence[float], registry: Registry | None) -> None:
+    """Check that a variant saves at times, in s; where a depth may end it, nobody knows before."""
+    if not times or case.stop.depth is not None:
+        return
+    end = Simulation(case, registry).model.end_time
+    saved = sorted({0.0, *case.output.save_times, end})
+    for time in times:
+        if not any(abs(time - each) <= SAME_TIME * end for each in saved):
+            raise CaseError(
+                f"{label}: nothing is saved at {time:g} s, only at "
+                f"{', '.join(f'{each:g}' for each in saved)} s; add it to output.save_times"
+            )
+
+
+def _of_files(files: Sequence[Path], match: Mapping[str, str]) -> Comparison:
+    twice = [path for path, count in Counter(files).items() if count > 1]
     if twice:
         raise CaseError(f"{twice[0]} is given twice")
     stems = len({path.stem for path in files}) == len(files)

@@ -44,15 +44,6 @@ def _has(times: Array, time: float) -> bool:
     return bool(np.any(np.abs(times - time) <= SAME_TIME * np.max(times, initial=0.0)))
 
 
-def common_bodies(results: Sequence[Result]) -> list[str]:
-    """Return the names of the bodies that all results have."""
-    return [
-        name
-        for name in results[0].body_names
-        if all(name in result.body_names for result in results)
-    ]
-
-
 def same_grid(one: Result, other: Result) -> bool:
     """Whether two results have the same window and cells, so that fields compare cell by cell."""
     return one.grid.size == other.grid.size and one.grid.cells == other.grid.cells
@@ -81,7 +72,7 @@ def differences(result: Result, reference: Result, time: float) -> list[Differen
     whole = same_grid(result, reference)
     save, of_reference = result.save_at(time), reference.save_at(time)
     fields = {PRESSURE: (result.pressure(save), reference.pressure(of_reference))}
-    for name in common_bodies([reference, result]):
+    for name in reference.body_names:
         fields[f"bodies.{name}.wear_depth"] = (
             result.wear_depth(name, save),
             reference.wear_depth(name, of_reference),
@@ -110,16 +101,10 @@ def _sections(field: Array, expected: Array, grid: Grid, on: Grid) -> tuple[Arra
     for axis in (0, 1):
         own, positions = (grid.x, grid.y)[axis], (on.x, on.y)[axis]
         inside = np.abs(positions) <= 0.5 * grid.size[axis]
-        values.append(_to_the_edge(own, profile(field, axis), positions[inside]))
+        # A cell more at each end continues the line there; a single cell is even.
+        at, known = (
+            np.pad(v, 1, "reflect", reflect_type="odd") for v in (own, profile(field, axis))
+        )
+        values.append(np.interp(positions[inside], at, known))
         there.append(profile(expected, axis)[inside])
     return np.concatenate(values), np.concatenate(there)
-
-
-def _to_the_edge(positions: Array, values: Array, at: Array) -> Array:
-    """Interpolate linearly, and extrapolate so beyond the outermost of `positions`."""
-    if len(positions) == 1:
-        return np.full(at.shape, values[0])
-    cell = np.clip(np.searchsorted(positions, at) - 1, 0, len(positions) - 2)
-    left, right = positions[cell], positions[cell + 1]
-    part = (at - left) / (right - left)
-    return np.asarray(values[cell] + part * (values[cell + 1] - values[cell]))

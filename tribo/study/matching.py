@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from tribo.core.arrays import Array
@@ -13,18 +12,10 @@ from tribo.result.read import Result
 
 
 class Renamed(Result):
-    """A result whose bodies go by other names; those without one are left out.
-
-    Parameters
-    ----------
-    result : Result
-        What is read; `close` closes it.
-    names : Mapping
-        The bodies' names in `result`, by the names they go by.
-    """
+    """A result whose bodies go by other names; `names` has its own by those."""
 
     def __init__(self, result: Result, names: Mapping[str, str]) -> None:
-        super().__init__(result._file)
+        self.__dict__.update(vars(result))
         self.result = result
         self.names = names
 
@@ -45,15 +36,13 @@ class Renamed(Result):
 
     def table(self, name: str) -> dict[str, Array]:
         """Return a table as columns; see `Result.table`."""
-        table = self.result.table(name)
-        columns = {c: values for c, values in table.items() if not c.startswith("bodies.")}
-        for shown, own in self.names.items():
-            before = f"bodies.{own}."
-            columns |= {
-                f"bodies.{shown}.{column.removeprefix(before)}": values
-                for column, values in table.items()
-                if column.startswith(before)
-            }
+        shown = {own: name for name, own in self.names.items()}
+        columns = {}
+        for column, values in self.result.table(name).items():
+            of, *rest = column.split(".", 2)
+            if of == "bodies":
+                column = f"bodies.{shown[rest[0]]}.{rest[1]}"
+            columns[column] = values
         return columns
 
 
@@ -62,40 +51,21 @@ def own_names(result: Result) -> dict[str, str]:
     return dict(result.names) if isinstance(result, Renamed) else {n: n for n in result.body_names}
 
 
-def left_out(result: Result) -> list[str]:
-    """Return the bodies in the file of a result that go by no name."""
-    if not isinstance(result, Renamed):
-        return []
-    return [name for name in result.result.body_names if name not in result.names.values()]
-
-
 def matched(results: Mapping[str, Result], match: Mapping[str, str]) -> dict[str, Result]:
-    """Return results whose bodies go by the names that they have in the first.
+    """Return results whose two bodies go by the names that they have in the first.
 
-    A body is that which `match` says, else that of the same name, else the
-    next that is left of the same role, swept or not, else the next left.
-
-    Parameters
-    ----------
-    results : Mapping
-        The open results by label; the first one's names count.
-    match : Mapping
-        Names in other results, by names in the first.
-
-    Raises
-    ------
-    CaseError
-        If `match` names a body that there is not, or one twice.
+    A body is that which `match` says, else that of the same name, else that of
+    the same role, swept or not, else the next in order. CaseError if `match`
+    names a body that there is not, or one twice.
     """
-    labels = list(results)
-    first, *others = results.values()
-    _check(match, first, others)
-    found = {labels[0]: first}
-    for label, result in zip(labels[1:], others, strict=True):
-        if not match and set(result.body_names) == set(first.body_names):
-            found[label] = result
-        else:
-            found[label] = Renamed(result, _counterparts(result, first, match))
+    (reference, first), *others = results.items()
+    _check(match, first, [result for _, result in others])
+    found = {reference: first}
+    for label, result in others:
+        names = _pairs(first, result, match)
+        found[label] = (
+            Renamed(result, names) if any(n != own for n, own in names.items()) else result
+        )
     return found
 
 
@@ -103,34 +73,27 @@ def _check(match: Mapping[str, str], first: Result, others: Sequence[Result]) ->
     theirs = dict.fromkeys(name for result in others for name in result.body_names)
     for name, own in match.items():
         if name not in first.body_names:
+            known = ", ".join(first.body_names)
             raise CaseError(
-                f"the first result has no body {name!r}; its bodies are "
-                + ", ".join(first.body_names),
-                "match",
+                f"the first result has no body {name!r}; its bodies are {known}", "match"
             )
         if own not in theirs:
-            raise CaseError(
-                f"no other result has a body {own!r}; theirs are {', '.join(theirs)}", "match"
-            )
-    twice = [own for own, count in Counter(match.values()).items() if count > 1]
-    if twice:
-        raise CaseError(f"{twice[0]!r} cannot be two bodies of the first result", "match")
+            known = ", ".join(theirs)
+            raise CaseError(f"no other result has a body {own!r}; theirs are {known}", "match")
+        if list(match.values()).count(own) > 1:
+            raise CaseError(f"{own!r} cannot be two bodies of the first result", "match")
 
 
-def _counterparts(result: Result, first: Result, match: Mapping[str, str]) -> dict[str, str]:
-    """Return names in `result` by those in `first`, in the order of `first`."""
-    roles = {name: first.body(name).swept for name in first.body_names}
-    own_roles = {name: result.body(name).swept for name in result.body_names}
-    alike: tuple[Callable[[str, str], bool], ...] = (
-        lambda name, own: match.get(name) == own,
-        lambda name, own: name == own,
-        lambda name, own: roles[name] == own_roles[own],
-        lambda name, own: True,
+def _pairs(first: Result, result: Result, match: Mapping[str, str]) -> dict[str, str]:
+    """Return names in `result` by those in `first`."""
+
+    def likeness(pairs: dict[str, str]) -> tuple[int, ...]:
+        roles = [first.body(name).swept == result.body(own).swept for name, own in pairs.items()]
+        said = [match.get(name) == own for name, own in pairs.items()]
+        return sum(said), sum(name == own for name, own in pairs.items()), sum(roles)
+
+    own = result.body_names
+    straight, crossed = (
+        dict(zip(first.body_names, names, strict=True)) for names in (own, own[::-1])
     )
-    found: dict[str, str] = {}
-    for same in alike:
-        for name in roles:
-            left = (own for own in own_roles if own not in found.values() and same(name, own))
-            if name not in found and (own := next(left, None)) is not None:
-                found[name] = own
-    return {name: found[name] for name in roles if name in found}
+    return crossed if likeness(crossed) > likeness(straight) else straight

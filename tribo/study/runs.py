@@ -1,96 +1,106 @@
-"""Run variants into a folder; what is done already is not done again."""
+"""Runs into files: what is finished is taken, what was begun goes on."""
 
 from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Sequence
+import warnings
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-from tribo.core.errors import CaseError, OutputError, TriboError
+from tribo.case import Case
+from tribo.core.errors import CaseError, OutputError, TriboError, TriboWarning
 from tribo.observers.observer import Observer
 from tribo.registry.registry import Registry
 from tribo.result.read import Result
 from tribo.simulation.run import Simulation
-from tribo.study.completion import complete, is_done
-from tribo.study.variation import Variant
 
 Observers = Callable[[], Sequence[Observer]]
 _LONGEST_NAME = 100
+_OTHERWISE = "choose another folder with -o, or run all anew with --force"
+
+
+def is_done(path: Path, simulation: Simulation) -> bool:
+    """Return whether a file is the sound, finished result of a simulation as it is now."""
+    if not os.path.exists(path):
+        return False
+    try:
+        with Result.open(path) as result:
+            result.check()
+            return (
+                result.status == "done"
+                and result.case == simulation.model.data
+                and not simulation.changed_since(result)
+            )
+    except CaseError:
+        return False
+
+
+def complete(simulation: Simulation, path: Path, observers: Sequence[Observer]) -> Result:
+    """Go on with the run that a file was left by, or else run anew into it.
+
+    A file that cannot be resumed is replaced, with a warning that says why.
+
+    Raises
+    ------
+    TriboError
+        What a run raises.
+    """
+    if os.path.exists(path):
+        try:
+            go_on = simulation.reopen(path, observers=observers)
+        except CaseError as error:
+            # No good checkpoint, or other versions of components.
+            warnings.warn(f"{path} is begun anew: {error}", TriboWarning, stacklevel=2)
+        else:
+            return go_on()
+    return simulation.run(path, observers=observers, overwrite=True)
 
 
 def run_variants(
-    variants: Sequence[Variant],
+    cases: Mapping[str, Case],
     folder: Path | None,
     *,
     registry: Registry | None = None,
     observers: Observers = list,
     tell: Callable[[str], None] = lambda text: None,
     overwrite: bool = False,
-    alone: bool = False,
 ) -> list[Result]:
-    """Run variants one after another, each into a file of a folder.
+    """Run cases one after another, each into a file of a folder that is named after its label.
 
     A file there that is the finished result of the same case is taken as it
-    is, and a run that was interrupted goes on.
-
-    Parameters
-    ----------
-    variants : sequence of Variant
-        What to run.
-    folder : Path or None
-        Where to; it is made if need be. In memory if None.
-    registry : Registry, optional
-        Where to look components up; the installed plugins if left out.
-    observers : callable, optional
-        Makes the watchers of a run.
-    tell : callable, optional
-        Gets a line on each run before it starts.
-    overwrite : bool, optional
-        Whether to run all anew, whatever is in the folder.
-    alone : bool, optional
-        Whether to refuse a folder that holds results of other variants.
-
-    Returns
-    -------
-    list of Result
-        The open results.
+    is, and a run that was interrupted goes on; see `tribo.compare`.
 
     Raises
     ------
     CaseError
-        If the folder holds something else under the name of a variant.
-    OutputError
-        If the folder cannot be made.
+        If the folder holds results of other cases.
     TriboError
         What a run raises; the message names the variant.
     """
-    simulations = [Simulation(variant.case, registry) for variant in variants]
-    paths: list[Path | None] = [None] * len(variants)
+    simulations = {label: Simulation(case, registry) for label, case in cases.items()}
+    paths = dict(zip(cases, file_names(list(cases)), strict=True))
     if folder is not None:
-        paths = [folder / name for name in file_names([variant.label for variant in variants])]
-    if not overwrite:
-        for path, simulation in zip(paths, simulations, strict=True):
-            _check_own(path, simulation)
-        if folder is not None and alone:
-            _check_alone(folder, paths)
-    if folder is not None:
-        _make(folder)
+        if not overwrite:
+            _check_own(folder, {paths[label]: each for label, each in simulations.items()})
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise OutputError(f"cannot make the folder {folder}: {error.strerror}") from error
     results = []
-    for i, (variant, simulation) in enumerate(zip(variants, simulations, strict=True)):
-        path, number = paths[i], f"{i + 1} of {len(variants)}, {variant.label}"
-        if path is not None and not overwrite and is_done(path, simulation):
-            tell(f"{number}: done already, {path}")
-            results.append(Result.open(path))
-            continue
-        tell(number)
+    for number, (label, simulation) in enumerate(simulations.items(), start=1):
+        path = None if folder is None else folder / paths[label]
+        done = path is not None and not overwrite and is_done(path, simulation)
+        tell(f"{number} of {len(cases)}, {label}" + (f": done already, {path}" if done else ""))
         try:
             if path is None or overwrite:
                 results.append(simulation.run(path, observers=observers(), overwrite=True))
+            elif done:
+                results.append(Result.open(path))
             else:
                 results.append(complete(simulation, path, observers()))
         except TriboError as error:
-            raise type(error)(f"{variant.label}: {error}") from error
+            raise type(error)(f"{label}: {error}") from error
     return results
 
 
@@ -104,33 +114,21 @@ def file_names(labels: Sequence[str]) -> list[str]:
     return [f"{name}.h5" for name in names]
 
 
-def _check_alone(folder: Path, paths: Sequence[Path | None]) -> None:
-    """Check that a folder holds no results of other variants."""
-    others = sorted(path.name for path in folder.glob("*.h5") if path not in paths)
+def _check_own(folder: Path, simulations: Mapping[str, Simulation]) -> None:
+    """Check that a folder holds no results but those of these simulations."""
+    for name, simulation in simulations.items():
+        path = folder / name
+        # An empty file is what a killed run may leave.
+        if not os.path.exists(path) or path.stat().st_size == 0:
+            continue
+        try:
+            with Result.open(path) as result:
+                own = result.case == simulation.model.data
+        except CaseError as error:
+            raise CaseError(f"{error}; {_OTHERWISE}") from error
+        if not own:
+            raise CaseError(f"{path} is the result of another case; {_OTHERWISE}")
+    others = sorted(path.name for path in folder.glob("*.h5") if path.name not in simulations)
     if others:
         more = f" and {len(others) - 1} more" if len(others) > 1 else ""
-        raise CaseError(
-            f"{folder} holds another comparison, {others[0]}{more}; choose another folder with "
-            "-o, or run all anew with --force"
-        )
-
-
-def _check_own(path: Path | None, simulation: Simulation) -> None:
-    """Check that a file is not the result of another case; one that holds nothing is nobody's."""
-    if path is None or not os.path.exists(path) or path.stat().st_size == 0:
-        return
-    otherwise = "choose another folder with -o, or run all anew with --force"
-    try:
-        with Result.open(path) as result:
-            own = result.case == simulation.model.data
-    except CaseError as error:
-        raise CaseError(f"{error}; {otherwise}") from error
-    if not own:
-        raise CaseError(f"{path} is the result of another case; {otherwise}")
-
-
-def _make(folder: Path) -> None:
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputError(f"cannot make the folder {folder}: {error.strerror}") from error
+        raise CaseError(f"{folder} holds another comparison, {others[0]}{more}; {_OTHERWISE}")

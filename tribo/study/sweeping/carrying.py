@@ -16,40 +16,28 @@ from pathlib import Path
 
 from tribo.core.errors import Interrupted, OutputError
 from tribo.simulation.interrupt import InterruptGuard
-from tribo.study.sweeping.worker import Task, carry_out, failure_path, write_failure
+from tribo.study.sweeping.runs_table import Run
+from tribo.study.sweeping.worker import carry_out
 
 ATTEMPTS = 3
 """How often a run is begun whose worker dies."""
 TICK = 0.2
 """Time between two looks at whether to stop, in s."""
+Outcome = tuple[str, str]
 
 
 def carry(
-    tasks: Sequence[Task],
+    runs: Sequence[Run],
     executor: Executor,
-    *,
     stop: Path,
-    patience: float | None,
-    tell: Callable[[str], None],
+    ended: Callable[[Run, str], None],
+    patience: float | None = None,
 ) -> None:
-    """Have every task done.
+    """Have every run done; one whose worker dies is given to another one, a few times.
 
-    One whose worker dies is given to another worker, a few times; then it is
-    recorded as failed.
-
-    Parameters
-    ----------
-    tasks : sequence of Task
-        What to do.
-    executor : Executor
-        What carries them.
-    stop : Path
-        The file that tells workers to stop.
-    patience : float or None
-        How long to wait for them when they are to stop, in s; None for as
-        long as it takes.
-    tell : callable
-        Gets ``"done"`` or ``"failed"`` as a run ends.
+    `stop` is the file that tells workers to stop, `ended` gets each run as it
+    ends and why if it failed, and `patience` is how long workers may take to
+    stop, in s.
 
     Raises
     ------
@@ -58,37 +46,35 @@ def carry(
     OutputError
         If the executor has broken.
     """
-    begun: Counter[str] = Counter()
-    futures: dict[Future[str], Task] = {}
+    begun = Counter[int]()
+    futures: dict[Future[Outcome], Run] = {}
 
-    def submit(task: Task) -> None:
-        begun[task.path] += 1
-        futures[_submitted(executor, task)] = task
+    def submit(run: Run) -> None:
+        begun[run.number] += 1
+        futures[_submitted(executor, run, stop)] = run
 
     with InterruptGuard() as guard:
-        for task in tasks:
-            submit(task)
+        for run in runs:
+            submit(run)
         while futures:
-            ended, _ = wait(futures, TICK, FIRST_COMPLETED)
+            done, _ = wait(futures, TICK, FIRST_COMPLETED)
             if guard.requested:
                 _stop(futures, stop, patience)
-            for future in ended:
-                task = futures.pop(future)
-                trouble = _trouble(future, task)
-                if trouble is None:
-                    tell("failed" if failure_path(Path(task.path)).exists() else "done")
-                elif begun[task.path] < ATTEMPTS:
-                    submit(task)
+            for future in done:
+                run = futures.pop(future)
+                status, why = _outcome(future, run)
+                if status != "lost":
+                    ended(run, why)
+                elif begun[run.number] < ATTEMPTS:
+                    submit(run)
                 else:
-                    write_failure(
-                        Path(task.path), f"begun {ATTEMPTS} times, and each time {trouble}"
-                    )
-                    tell("failed")
+                    ended(run, f"begun {ATTEMPTS} times, and each time {why}")
 
 
-def _submitted(executor: Executor, task: Task) -> Future[str]:
+def _submitted(executor: Executor, run: Run, stop: Path) -> Future[Outcome]:
+    case = run.case.model_dump(mode="json")
     try:
-        return executor.submit(carry_out, task.as_data())
+        return executor.submit(carry_out, case, str(run.path.resolve()), str(stop.resolve()))
     except Exception as error:
         raise OutputError(
             f"the executor takes no more runs ({type(error).__name__}: {error}); what is done is "
@@ -96,28 +82,31 @@ def _submitted(executor: Executor, task: Task) -> Future[str]:
         ) from error
 
 
-def _trouble(future: Future[str], task: Task) -> str | None:
-    """Return in words why a run has not come to an end; None if it has."""
+def _outcome(future: Future[Outcome], run: Run) -> Outcome:
+    """Return what became of a run: ``"done"``, ``"failed"`` or ``"lost"``, and why."""
     try:
-        status = future.result()
+        status, why = future.result()
     except BrokenExecutor:
-        return "its worker process died: was it killed, or out of memory?"
+        return "lost", "its worker process died: was it killed, or out of memory?"
     except CancelledError:
         raise OutputError(
             "the executor dropped its runs: has its scheduler ended? What is done is kept, and the "
             "same command goes on"
         ) from None
     except Exception as error:
-        return f"its worker did not do it: {type(error).__name__}: {error}"
+        return "lost", f"its worker did not do it: {type(error).__name__}: {error}"
     if status == "interrupted":
-        return "its worker was stopped"
-    path = Path(task.path)
-    if not path.exists() and not failure_path(path).exists():
-        return f"its worker wrote to a folder of its own: {path.parent} must be one that all share"
-    return None
+        return "lost", "its worker was stopped"
+    if status == "done" and not run.path.exists():
+        folder = run.path.parent
+        return (
+            "lost",
+            f"its worker wrote to a folder of its own: {folder} must be one that all share",
+        )
+    return status, why
 
 
-def _stop(futures: Collection[Future[str]], stop: Path, patience: float | None) -> None:
+def _stop(futures: Collection[Future[Outcome]], stop: Path, patience: float | None) -> None:
     """Let the workers stop; what has not begun then comes back at once.
 
     Cancelling instead would lose sight of runs that dask has begun.

@@ -2,45 +2,24 @@
 
 from __future__ import annotations
 
-import csv
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, get_args
+from typing import Any
 
-from pydantic import BaseModel
-from pydantic.fields import FieldInfo
+import pandas
 
 from tribo.case import Case
-from tribo.component import Component
-from tribo.config.overrides import path_keys
+from tribo.config.overrides import leaves_at
 from tribo.core.errors import CaseError, OutputError
-from tribo.core.units import Quantity
 from tribo.lab.report import lab_report
 from tribo.result.columns import labelled
 from tribo.result.read import Result
-from tribo.study.sweeping.worker import failure_path
-
-Row = dict[str, Any]
-LAST = ("file", "message")
-"""Columns at the end."""
 
 
 @dataclass(frozen=True)
 class Run:
-    """A run of a sweep.
-
-    Parameters
-    ----------
-    number : int
-        Counted from 1, in the order of the study.
-    label : str
-        Its settings in words.
-    case : Case
-        The whole case.
-    path : Path
-        Its result file.
-    """
+    """A run of a sweep: its number from 1, its settings in words, its case, its result file."""
 
     number: int
     label: str
@@ -48,146 +27,74 @@ class Run:
     path: Path
 
 
-@dataclass(frozen=True)
-class Outcome:
-    """How a run stands.
+def tables(
+    runs: Sequence[Run], paths: Sequence[str], failures: Mapping[str, str]
+) -> tuple[pandas.DataFrame, pandas.DataFrame]:
+    """Return a row for each run, and a row for each save of those that are done.
 
-    Parameters
-    ----------
-    status : str
-        ``"done"``, ``"failed"``, ``"interrupted"`` or ``"waiting"``.
-    message : str
-        Why it failed, or what it warned of.
+    A table or list at one of `paths`, which vary, has a column for each value
+    in it. `failures` are the reasons by the names of the runs' files.
     """
+    rows, saves = [], []
+    for run in runs:
+        leaves = [leaf for path in paths for leaf in leaves_at(run.case, path)]
+        varied = {labelled(name, unit): value for name, value, unit in leaves}
+        row = {"run": run.number, "status": "waiting", **varied}
+        message = failures.get(run.path.name, "")
+        if message:
+            row["status"] = "failed"
+        elif run.path.exists():
+            try:
+                with Result.open(run.path) as result:
+                    result.check()
+                    message = "; ".join(result.notices)
+                    row["status"] = "done" if result.status == "done" else "interrupted"
+                    if result.status == "done":
+                        row |= _measured(result)
+                        begin = {"run": run.number, **varied, "save": range(len(result.times))}
+                        saves.append(pandas.DataFrame(begin | result.table("saves")))
+            except CaseError as error:
+                row["status"], message = "interrupted", str(error)
+        rows.append(row | {"file": run.path.name, "message": message})
+    table = pandas.DataFrame(rows)
+    if "steps" in table:
+        table["steps"] = table["steps"].astype("Int64")
+    last = [table.pop(name) for name in ("file", "message")]
+    table = pandas.concat([table, *last], axis=1)
+    return table, pandas.concat(saves) if saves else pandas.DataFrame(columns=["run", "save"])
 
-    status: str
-    message: str = ""
 
-
-def outcome(run: Run) -> Outcome:
-    """Return how a run stands, from its files alone."""
-    failure = failure_path(run.path)
-    if failure.exists():
-        return Outcome("failed", failure.read_text(encoding="utf-8").strip())
-    if not run.path.exists():
-        return Outcome("waiting")
+def failed_before(path: Path) -> dict[str, str]:
+    """Return why runs failed, by the names of their files, from a table; empty without one."""
     try:
-        with Result.open(run.path) as result:
-            result.check()
-            status = "done" if result.status == "done" else "interrupted"
-            return Outcome(status, "; ".join(result.notices))
-    except CaseError as error:
-        return Outcome("interrupted", str(error))
+        table = pandas.read_csv(path, dtype=str, keep_default_na=False)
+        failed = table[table["status"] == "failed"]
+        return dict(zip(failed["file"], failed["message"], strict=True))
+    except (OSError, ValueError, KeyError):
+        return {}
 
 
-def varied(run: Run, paths: Sequence[str]) -> Row:
-    """Return the values at `paths` in a run, in SI, by path and unit.
-
-    A table or list gives a value for each that is in it.
-    """
-    row: Row = {}
-    for path in paths:
-        for name, value, unit in _leaves("", run.case, None, path_keys(path)):
-            row[labelled(name, unit)] = value
-    return row
-
-
-def runs_table(runs: Sequence[Run], paths: Sequence[str]) -> list[Row]:
-    """Return a row for each run: its settings, how it stands, and what a lab would report."""
-    rows = []
-    for run in runs:
-        state = outcome(run)
-        row: Row = {"run": run.number, "status": state.status, **varied(run, paths)}
-        if state.status == "done":
-            row |= _measured(run.path)
-        rows.append(row | {"file": run.path.name, "message": state.message})
-    return rows
-
-
-def saves_table(runs: Sequence[Run], paths: Sequence[str]) -> list[Row]:
-    """Return a row for each save of the runs that are done."""
-    rows = []
-    for run in runs:
-        if outcome(run).status != "done":
-            continue
-        begin: Row = {"run": run.number, **varied(run, paths)}
-        with Result.open(run.path) as result:
-            table = result.table("saves")
-            rows += [
-                {**begin, "save": i, **{name: float(values[i]) for name, values in table.items()}}
-                for i in range(len(result.times))
-            ]
-    return rows
-
-
-def write_csv(path: Path, rows: Sequence[Row]) -> None:
-    """Write rows as CSV, all at once; what a row lacks is left empty.
+def write_csv(path: Path, table: pandas.DataFrame) -> None:
+    """Write a table without its empty columns, whole or not at all.
 
     Raises
     ------
     OutputError
         If it cannot be written.
     """
-    names = {name: None for row in rows for name, value in row.items() if value is not None}
-    header = [
-        *(name for name in names if name not in LAST),
-        *(name for name in LAST if name in names),
-    ]
     fresh = path.with_name(path.name + ".new")
     try:
-        with fresh.open("w", newline="", encoding="utf-8") as file:
-            writer = csv.DictWriter(file, header, extrasaction="ignore")
-            writer.writeheader()
-            writer.writerows(rows)
+        table.dropna(axis=1, how="all").to_csv(fresh, index=False)
         fresh.replace(path)
     except OSError as error:
         raise OutputError(f"cannot write {path}: {error.strerror}") from error
 
 
-def _measured(path: Path) -> Row:
+def _measured(result: Result) -> dict[str, Any]:
     """Return the scalars of the last save, and what a lab would report."""
-    with Result.open(path) as result:
-        row: Row = {name: float(values[-1]) for name, values in result.table("saves").items()}
-        lab = lab_report(result).as_json()
-        totals = result.totals()
+    row: dict[str, Any] = {k: float(values[-1]) for k, values in result.table("saves").items()}
+    lab, totals = lab_report(result).as_json(), result.totals()
     for name, body in lab["bodies"].items():
         row |= {f"bodies.{name}.{label}": value for label, value in body.items()}
     row |= {f"first_contact.{label}": value for label, value in lab["first_contact"].items()}
     return row | {"steps": totals["steps"], "wall_time_s": totals["wall_time_s"]}
-
-
-def _leaves(
-    name: str, value: Any, field: FieldInfo | None, keys: Sequence[str]
-) -> Iterator[tuple[str, Any, str]]:
-    """Yield name, value and unit of all that lies at `keys` in a table; nothing if none does."""
-    inside: Mapping[Any, Any] | None = None
-    if isinstance(value, BaseModel):
-        inside = dict(value)
-        if isinstance(value, Component):
-            inside = {"type": value.type, **inside}
-    elif isinstance(value, Mapping):
-        inside = value
-    elif isinstance(value, list | tuple):
-        inside = {str(i): item for i, item in enumerate(value)}
-    if inside is None:
-        if not keys:
-            yield name, value, _unit(field)
-        return
-    for key, item in inside.items():
-        if keys and key != keys[0]:
-            continue
-        under = type(value).model_fields.get(key) if isinstance(value, BaseModel) else field
-        yield from _leaves(f"{name}.{key}" if name else key, item, under, keys[1:])
-
-
-def _unit(field: FieldInfo | None) -> str:
-    """Return the unit of a field, or of what a list or an optional field holds."""
-    if field is None:
-        return "1"
-    return next((mark.unit for mark in _marks(field.annotation, field.metadata)), "1")
-
-
-def _marks(annotation: Any, metadata: Sequence[Any]) -> Iterator[Quantity]:
-    yield from (mark for mark in metadata if isinstance(mark, Quantity))
-    for part in get_args(annotation):
-        yield from _marks(part, getattr(part, "__metadata__", ()))

@@ -1,24 +1,28 @@
-"""The file of a study: a base case and what varies in it."""
+"""The file of a study: a base case, what varies in it, and the points that follow."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+import warnings
+from collections.abc import Iterable, Mapping
+from itertools import product
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, ValidationError
 
 from tribo.config.load import read_toml
-from tribo.config.overrides import apply_settings
-from tribo.core.errors import CaseError
+from tribo.config.overrides import apply_settings, leaves_at
+from tribo.core.errors import CaseError, TriboWarning
 from tribo.core.explain import case_error
 from tribo.core.table import Table
+from tribo.study.variation import Point, check_distinct, grid, valid_case
 
 Values = Annotated[tuple[Any, ...], Field(min_length=1)]
 _RANGE = frozenset({"low", "high"})
 
 
-class RangeConfig(Table):
+class Range(Table):
     """A range of a quantity."""
 
     low: Any
@@ -29,7 +33,7 @@ class RangeConfig(Table):
     """Whether values or their logarithms are spread evenly."""
 
 
-class SampleConfig(Table):
+class Sample(Table):
     """Points that fill a box of ranges."""
 
     method: Literal["latin_hypercube", "sobol"]
@@ -38,7 +42,7 @@ class SampleConfig(Table):
     """How many; a power of two for `sobol`."""
     seed: Annotated[int, Field(ge=0)] = 0
     """Another seed gives other points, the same one always the same."""
-    ranges: dict[str, RangeConfig] = Field(min_length=1)
+    ranges: dict[str, Range] = Field(min_length=1)
     """The range of each value, by its path in the case."""
 
 
@@ -55,19 +59,12 @@ class Study(Table):
     """Values by path, equally many; the first of each together, then the second, …"""
     list: tuple[dict[str, Any], ...] = ()
     """Points one by one, each a table of values by path."""
-    sample: SampleConfig | None = None
+    sample: Sample | None = None
     """Points in a box of ranges."""
 
 
 def load_study(path: str | Path) -> tuple[Study, dict[str, Any]]:
-    """Read the file of a study, and its base case.
-
-    Returns
-    -------
-    Study
-        What varies.
-    dict
-        The tables of the base case, its settings applied.
+    """Read the file of a study; return it, and the tables of its base case with its settings.
 
     Raises
     ------
@@ -90,13 +87,7 @@ def load_study(path: str | Path) -> tuple[Study, dict[str, Any]]:
 
 
 def validate_study(data: Mapping[str, Any]) -> Study:
-    """Turn tables into a study.
-
-    Parameters
-    ----------
-    data : Mapping
-        The tables of a study, as a TOML file has them. A path may be a quoted
-        key, ``"load.normal"``, or tables in each other.
+    """Turn tables into a study; a path may be a quoted key, or tables in each other.
 
     Raises
     ------
@@ -111,8 +102,7 @@ def validate_study(data: Mapping[str, Any]) -> Study:
         data["list"] = [_by_path(point, f"list[{i}]") for i, point in enumerate(data["list"])]
     sample = data.get("sample")
     if isinstance(sample, Mapping) and "ranges" in sample:
-        ranges = _by_path(sample["ranges"], "sample.ranges")
-        data["sample"] = {**sample, "ranges": ranges}
+        data["sample"] = {**sample, "ranges": _by_path(sample["ranges"], "sample.ranges")}
     try:
         study = Study.model_validate(data)
     except ValidationError as error:
@@ -122,21 +112,114 @@ def validate_study(data: Mapping[str, Any]) -> Study:
     return study
 
 
-def _by_path(table: Any, where: str) -> Any:
+def count(study: Study) -> int:
+    """Return the number of runs."""
+    lengths = [len(values) for values in study.grid.values()]
+    lengths += [len(values) for values in study.zip.values()][:1]
+    lengths += [len(study.list)] if study.list else []
+    lengths += [study.sample.count] if study.sample else []
+    return math.prod(lengths)
+
+
+def points(study: Study, data: Mapping[str, Any]) -> list[Point]:
+    """Return the settings of every run; what is listed last varies first.
+
+    Sampled quantities are read as the base case `data` has them.
+
+    Raises
+    ------
+    CaseError
+        If a path is not one or varies twice, values that go together are not
+        equally many, or a range is wrong.
+    """
+    listed = dict.fromkeys(path for point in study.list for path in point)
+    ranges = study.sample.ranges if study.sample else {}
+    check_distinct([*listed, *study.zip, *study.grid, *ranges])
+    lengths = {path: len(values) for path, values in study.zip.items()}
+    if len(set(lengths.values())) > 1:
+        given = ", ".join(f"{path} has {length}" for path, length in lengths.items())
+        raise CaseError(f"values that go together must be equally many: {given}", "zip")
+    zipped = [
+        dict(zip(study.zip, row, strict=True)) for row in zip(*study.zip.values(), strict=True)
+    ]
+    blocks = [list(study.list) or [{}], zipped or [{}], grid(study.grid)]
+    if study.sample:
+        blocks.append(_sampled(study.sample, data, _merged(block[0] for block in blocks)))
+    return [_merged(parts) for parts in product(*blocks)]
+
+
+def _by_path(table: Any, where: str, prefix: str = "") -> Any:
     """Return values by path, of tables that may lie in each other as those of the case do."""
-    found: dict[str, Any] = {}
-
-    def collect(inside: Mapping[str, Any], prefix: str) -> None:
-        for key, value in inside.items():
-            path = f"{prefix}{key}"
-            if isinstance(value, Mapping) and value and not (_RANGE & value.keys()):
-                collect(value, f"{path}.")
-            elif path in found:
-                raise CaseError(f"{path!r} is given twice", where)
-            else:
-                found[path] = value
-
     if not isinstance(table, Mapping):
         return table
-    collect(table, "")
+    found: dict[str, Any] = {}
+    for key, value in table.items():
+        path = f"{prefix}{key}"
+        nested = isinstance(value, Mapping) and value and not (_RANGE & value.keys())
+        for name, item in (_by_path(value, where, f"{path}.") if nested else {path: value}).items():
+            if name in found:
+                raise CaseError(f"{name!r} is given twice", where)
+            found[name] = item
+    return found
+
+
+def _merged(parts: Iterable[Point]) -> Point:
+    return {path: value for part in parts for path, value in part.items()}
+
+
+def _sampled(sample: Sample, data: Mapping[str, Any], first: Point) -> list[Point]:
+    """Return points in the box of ranges; `first` are the other values of the first run."""
+    low, high = (_ends(sample, end, data, first) for end in ("low", "high"))
+    for path, given in sample.ranges.items():
+        place = f"sample.ranges.{path}"
+        if low[path] >= high[path]:
+            raise CaseError(
+                f"low must be less than high; {given.low} and {given.high} are given", place
+            )
+        if given.scale == "log" and low[path] <= 0:
+            raise CaseError(
+                f"low must be greater than 0 on a log scale; {given.low} is given", place
+            )
+    return [
+        {
+            path: low[path] * math.exp(part * math.log(high[path] / low[path]))
+            if given.scale == "log"
+            else low[path] + part * (high[path] - low[path])
+            for (path, given), part in zip(sample.ranges.items(), map(float, row), strict=True)
+        }
+        for row in _spread(sample)
+    ]
+
+
+def _spread(sample: Sample) -> Any:
+    """Return points in the unit cube."""
+    from scipy.stats import qmc
+
+    if sample.method == "latin_hypercube":
+        return qmc.LatinHypercube(len(sample.ranges), seed=sample.seed).random(sample.count)
+    above = 1 << (sample.count - 1).bit_length()
+    if above != sample.count:
+        warnings.warn(
+            "sample.count: Sobol points are spread evenly where they are a power of two, as "
+            f"{above // 2} or {above}; {sample.count} are asked for",
+            TriboWarning,
+            stacklevel=2,
+        )
+    # Of the points up to a power of two, the first ones are the same for any count.
+    return qmc.Sobol(len(sample.ranges), seed=sample.seed).random(above)[: sample.count]
+
+
+def _ends(sample: Sample, end: str, data: Mapping[str, Any], first: Point) -> dict[str, float]:
+    """Return one end of each range in SI, as the case reads it."""
+    given = {path: getattr(each, end) for path, each in sample.ranges.items()}
+    try:
+        case = valid_case(data, {**first, **given})
+    except CaseError as error:
+        raise CaseError(f"the {end} ends cannot be used: {error}", "sample.ranges") from None
+    found = {}
+    for path in given:
+        values = [value for _, value, _ in leaves_at(case, path)]
+        if [type(value) for value in values] != [float]:
+            raise CaseError("is not a quantity to be sampled; list its values in [grid]", path)
+        found[path] = values[0]
     return found

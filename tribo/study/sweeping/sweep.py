@@ -2,26 +2,25 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
+
+import pandas
 
 from tribo.core.errors import CaseError, OutputError
 from tribo.core.locks import BusyError
 from tribo.result.checkpoint import fingerprint
-from tribo.result.provenance import origin
 from tribo.simulation.run import Simulation
-from tribo.study.completion import is_done
+from tribo.study.runs import is_done
 from tribo.study.sweeping.carrying import carry
-from tribo.study.sweeping.locks import locked
-from tribo.study.sweeping.points import count, points
-from tribo.study.sweeping.processes import Processes, cores
-from tribo.study.sweeping.runs_table import Row, Run, outcome, runs_table, saves_table, write_csv
-from tribo.study.sweeping.study_file import load_study
-from tribo.study.sweeping.worker import Task, failure_path
+from tribo.study.sweeping.executors import processes
+from tribo.study.sweeping.runs_table import Run, failed_before, tables, write_csv
+from tribo.study.sweeping.study_file import count, load_study, points
+from tribo.study.sweeping.worker import locked
 from tribo.study.variation import variants
 
 MANY = 1000
@@ -29,15 +28,6 @@ MANY = 1000
 PATIENCE = 30.0
 """How long runs on an executor of the user's may take to stop, in s."""
 RUNS, SAVES, STOP, LOCK = "runs.csv", "saves.csv", "sweep.stop", "sweep.lock"
-
-
-@dataclass(frozen=True)
-class Progress:
-    """How many runs of a sweep there are, are done and have failed."""
-
-    total: int
-    done: int
-    failed: int
 
 
 @dataclass(frozen=True)
@@ -50,21 +40,26 @@ class Sweep:
         Holds ``runs.csv``, ``saves.csv`` and the folder ``results``.
     runs : tuple of Run
         In the order of the study.
-    rows : tuple of dict
+    table : pandas.DataFrame
         What ``runs.csv`` has of them, a row a run.
     """
 
     folder: Path
     runs: tuple[Run, ...]
-    rows: tuple[Row, ...]
+    table: pandas.DataFrame
 
     def failures(self) -> dict[str, list[Run]]:
         """Return the runs that failed, by message."""
-        found: dict[str, list[Run]] = {}
-        for run, row in zip(self.runs, self.rows, strict=True):
-            if row["status"] == "failed":
-                found.setdefault(row["message"], []).append(run)
-        return found
+        failed = self.table[self.table["status"] == "failed"]
+        return {
+            str(message): [self.runs[i] for i in group.index]
+            for message, group in failed.groupby("message", sort=False)
+        }
+
+    def as_json(self) -> dict[str, Any]:
+        """Return the folder and the rows of the table as plain data."""
+        rows = self.table.astype(object).where(self.table.notna(), None)
+        return {"folder": str(self.folder), "runs": rows.to_dict("records")}
 
 
 def sweep(
@@ -75,7 +70,7 @@ def sweep(
     jobs: int | None = None,
     retry: bool = False,
     many: bool = False,
-    tell: Callable[[Progress], None] = lambda progress: None,
+    tell: Callable[[int, int, int], None] = lambda total, done, failed: None,
 ) -> Sweep:
     """Run all cases of a study, in parallel.
 
@@ -101,7 +96,8 @@ def sweep(
     many : bool, optional
         Whether more than 1000 runs are meant.
     tell : callable, optional
-        Gets a `Progress` at the beginning and as each run ends.
+        Gets the numbers of all runs, of those done and of those failed, at the
+        beginning and as each run ends.
 
     Returns
     -------
@@ -122,37 +118,50 @@ def sweep(
     folder = Path(output) if output is not None else study.with_name(f"{study.stem}-sweep")
     runs, paths = plan(study, folder, many=many)
     with _holding(folder):
+        names = {run.path.name for run in runs}
+        before = {} if retry else failed_before(folder / RUNS)
+        failures = {name: why for name, why in before.items() if name in names}
         for name in (RUNS, SAVES):
             # A table that is there agrees with the results; while they change, there is none.
             (folder / name).unlink(missing_ok=True)
+        left = [
+            run
+            for run in runs
+            if run.path.name not in failures and not is_done(run.path, Simulation(run.case))
+        ]
+        done = len(runs) - len(left) - len(failures)
+
+        def ended(run: Run, failure: str) -> None:
+            nonlocal done
+            if failure:
+                failures[run.path.name] = failure
+            else:
+                done += 1
+            tell(len(runs), done, len(failures))
+
+        tell(len(runs), done, len(failures))
         try:
-            _complete(runs, folder / STOP, executor, jobs, retry, tell)
+            with nullcontext(executor) if executor else processes(jobs) as workers:
+                carry(left, workers, folder / STOP, ended, PATIENCE if executor else None)
         finally:
-            rows = runs_table(runs, paths)
-            write_csv(folder / RUNS, rows)
-            write_csv(folder / SAVES, saves_table(runs, paths))
-    return Sweep(folder, tuple(runs), tuple(rows))
+            table, saves = tables(runs, paths, failures)
+            write_csv(folder / RUNS, table)
+            write_csv(folder / SAVES, saves)
+    return Sweep(folder, tuple(runs), table)
 
 
 def plan(study: Path, folder: Path, *, many: bool = False) -> tuple[list[Run], list[str]]:
-    """Return the runs of a study, all validated, and the paths of what varies.
-
-    Raises
-    ------
-    CaseError
-        If the study or any of its cases is not valid, or they are more than
-        1000 and `many` does not say that this is meant.
-    """
-    tables, data = load_study(study)
-    number = count(tables)
+    """Return the runs of a study, all validated, and the paths of what varies."""
+    asked, data = load_study(study)
+    number = count(asked)
     if number > MANY and not many:
         raise CaseError(f"{study} asks for {number} runs; if that is meant, give --yes")
-    settings = points(tables, data)
+    settings = points(asked, data)
     runs = []
-    for i, variant in enumerate(variants(data, settings), start=1):
+    for i, (label, case) in enumerate(variants(data, settings).items(), start=1):
         # The name stands for the case, so that a study may grow and nothing is done twice.
-        name = fingerprint(variant.case.model_dump(mode="json"))[:16]
-        runs.append(Run(i, variant.label, variant.case, folder / "results" / f"{name}.h5"))
+        name = fingerprint(case.model_dump(mode="json"))[:16]
+        runs.append(Run(i, label, case, folder / "results" / f"{name}.h5"))
     return runs, list({path: None for point in settings for path in point})
 
 
@@ -170,62 +179,3 @@ def _holding(folder: Path) -> Iterator[None]:
         ) from None
     except OSError as error:
         raise OutputError(f"cannot write to {folder}: {error.strerror or error}") from error
-
-
-def _complete(
-    runs: Sequence[Run],
-    stop: Path,
-    executor: Executor | None,
-    jobs: int | None,
-    retry: bool,
-    tell: Callable[[Progress], None],
-) -> None:
-    """Carry out what has not ended before."""
-    if retry:
-        for run in runs:
-            failure_path(run.path).unlink(missing_ok=True)
-    left, ended = [], Counter[str]()
-    for run in runs:
-        if _has_ended(run):
-            ended[outcome(run).status] += 1
-        else:
-            left.append(run)
-
-    def report(status: str) -> None:
-        ended[status] += 1
-        tell(Progress(len(runs), ended["done"], ended["failed"]))
-
-    tell(Progress(len(runs), ended["done"], ended["failed"]))
-    tasks = [_task(run, stop) for run in left]
-    if executor is not None:
-        carry(tasks, executor, stop=stop, patience=PATIENCE, tell=report)
-    elif tasks:
-        processes = Processes(min(jobs or cores(), len(tasks)))
-        try:
-            carry(tasks, processes, stop=stop, patience=None, tell=report)
-        except BaseException:
-            processes.kill()
-            raise
-        processes.shutdown()
-
-
-def _has_ended(run: Run) -> bool:
-    if failure_path(run.path).exists():
-        return True
-    return run.path.exists() and is_done(run.path, Simulation(run.case))
-
-
-def _task(run: Run, stop: Path) -> Task:
-    return Task(
-        case=run.case.model_dump(mode="json"),
-        path=str(run.path.resolve()),
-        stop=str(stop.resolve()),
-        validated_with=_makers(run),
-    )
-
-
-def _makers(run: Run) -> str:
-    """Return the distributions that the components of a run come from."""
-    made = [origin(component) for _, component in Simulation(run.case).model.case.components()]
-    origins = {f"{each['distribution']} {each['version']}" for each in made}
-    return ", ".join(sorted(origins))

@@ -2,120 +2,110 @@
 
 from __future__ import annotations
 
+import os
 import socket
 import time
+import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import asdict, dataclass
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from tribo.core.errors import CaseError, Interrupted, TriboError
-from tribo.core.locks import BusyError
+from tribo.core.errors import CaseError, Interrupted, TriboError, TriboWarning
+from tribo.core.locks import BusyError, lock
 from tribo.core.state import Snapshot
 from tribo.observers.observer import Observer
 from tribo.simulation.run import Simulation
-from tribo.study.completion import complete, is_done
-from tribo.study.sweeping.locks import locked
+from tribo.study.runs import complete, is_done
 
 GLANCE = 0.5
 """Time between two looks at whether to stop, in s."""
 
 
-@dataclass(frozen=True)
-class Task:
-    """What a worker is told of a run; plain data, so that it can go to any machine.
+def carry_out(case: dict[str, Any], path: str, stop: str) -> tuple[str, str]:
+    """Run a case into its file, or go on with what is there; never beside another worker.
 
-    Parameters
-    ----------
-    case : dict
-        The case, as plain data.
-    path : str
-        The result file to write, absolute.
-    stop : str
-        A file; when it is there, the run is to stop.
-    validated_with : str
-        The distributions that its components come from where it was validated.
+    The run stops when there is a file `stop`. Return ``"done"``,
+    ``"interrupted"``, or ``"failed"`` and why.
     """
-
-    case: dict[str, Any]
-    path: str
-    stop: str
-    validated_with: str
-
-    def as_data(self) -> dict[str, Any]:
-        """Return the task as a dictionary."""
-        return asdict(self)
-
-
-def carry_out(data: dict[str, Any]) -> str:
-    """Run a case into its file, or go on with what is there; never both of two workers at once.
-
-    Parameters
-    ----------
-    data : dict
-        A `Task`.
-
-    Returns
-    -------
-    str
-        ``"done"``, ``"interrupted"``, or ``"failed"``: the message is then in
-        the file at `failure_path`.
-    """
-    task = Task(**data)
-    path, stop = Path(task.path), Path(task.stop)
+    result = Path(path)
     try:
-        with _alone(path, stop):
-            _run(task, path, stop)
-        return "done"
+        with _alone(result, Path(stop)):
+            simulation = _composed(case)
+            if not is_done(result, simulation):
+                complete(simulation, result, [_StopFile(path=Path(stop))]).close()
     except Interrupted:
-        return "interrupted"
+        return "interrupted", ""
     except TriboError as error:
-        message = str(error)
+        return "failed", str(error)
     except Exception as error:
-        message = f"{type(error).__name__}: {error}"
-    write_failure(path, message)
-    return "failed"
+        return "failed", f"{type(error).__name__}: {error}"
+    return "done", ""
 
 
-def failure_path(result: Path) -> Path:
-    """Return the file that says why a run failed."""
-    return result.with_suffix(".failed.txt")
+@contextmanager
+def locked(path: Path) -> Iterator[None]:
+    """Hold the lock that the file `path` stands for; it is made, and removed at the end.
+
+    Raises
+    ------
+    BusyError
+        If another process, or thread, holds it.
+    OSError
+        If the file cannot be made.
+    """
+    while True:
+        handle = os.open(path, os.O_RDWR | os.O_CREAT, 0o644)
+        try:
+            if not lock(handle):
+                warnings.warn(
+                    f"{path}: its file system has no locks, so nothing stops another sweep from "
+                    "doing the same runs; see that none does",
+                    TriboWarning,
+                    stacklevel=3,
+                )
+            # Its last holder may have removed the file after it was opened here.
+            if not _is_still(handle, path):
+                continue
+            try:
+                yield
+            finally:
+                # Windows does not remove a file that is open.
+                with suppress(PermissionError):
+                    path.unlink(missing_ok=True)
+            return
+        finally:
+            os.close(handle)
 
 
-def write_failure(result: Path, message: str) -> None:
-    """Keep why a run failed."""
-    path = failure_path(result)
-    fresh = path.with_name(path.name + ".new")
-    fresh.write_text(message + "\n", encoding="utf-8")
-    fresh.replace(path)
-
-
-def _run(task: Task, path: Path, stop: Path) -> None:
+def _is_still(handle: int, path: Path) -> bool:
     try:
-        simulation = Simulation(task.case)
+        return os.path.samestat(os.fstat(handle), path.stat())
+    except FileNotFoundError:
+        return False
+
+
+def _composed(case: dict[str, Any]) -> Simulation:
+    try:
+        return Simulation(case)
     except CaseError as error:
         raise CaseError(
-            f"the worker on {socket.gethostname()} cannot compose this case: {error} (it was "
-            f"validated with {task.validated_with}; install the same there, then use --retry)"
+            f"the worker on {socket.gethostname()} cannot compose this case: {error}; install the "
+            "same packages there, then use --retry"
         ) from error
-    if is_done(path, simulation):
-        return
-    complete(simulation, path, [_StopFile(path=stop)]).close()
 
 
 @contextmanager
 def _alone(path: Path, stop: Path) -> Iterator[None]:
     """Wait for another worker that is at the same run, left over from a sweep that was killed."""
-    while True:
-        if stop.exists():
-            raise Interrupted("stopped before it began")
+    while not stop.exists():
         try:
             with locked(path.with_suffix(".lock")):
                 yield
-            return
+                return
         except BusyError:
             time.sleep(GLANCE)
+    raise Interrupted("stopped before it began")
 
 
 class _StopFile(Observer):

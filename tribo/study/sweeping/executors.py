@@ -1,0 +1,199 @@
+"""What carries the runs of a sweep: processes on this machine, or the workers of dask."""
+
+from __future__ import annotations
+
+import logging
+import os
+import signal
+import sys
+import threading
+import warnings
+from collections.abc import Callable, Iterator
+from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
+from functools import partial
+from multiprocessing import get_context
+from multiprocessing.connection import Connection, wait
+from typing import Any, ParamSpec, TypeVar
+
+from tribo.core.errors import CaseError, TriboWarning
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+THREADS = (
+    "OMP_NUM_THREADS",
+    "OPENBLAS_NUM_THREADS",
+    "MKL_NUM_THREADS",
+    "BLIS_NUM_THREADS",
+    "VECLIB_MAXIMUM_THREADS",
+    "NUMEXPR_NUM_THREADS",
+)
+PATIENCE = 15.0
+"""How long a scheduler may take to answer, in s."""
+
+
+@contextmanager
+def processes(count: int | None = None) -> Iterator[Executor]:
+    """Carry calls out in single-threaded processes, one a core if not told.
+
+    They end at once if this process is killed, or the block raises.
+    """
+    # A worker ends when the other end of this pipe is closed.
+    lifeline, ours = get_context("spawn").Pipe(duplex=False)
+    with lifeline, ours, _environment(), _Processes(count or _cores(), lifeline) as executor:
+        try:
+            yield executor
+        except BaseException:
+            ours.close()
+            executor.shutdown(cancel_futures=True)
+            raise
+
+
+@contextmanager
+def on_local_cluster(workers: int | None = None) -> Iterator[Executor]:
+    """Start a dask scheduler and single-threaded workers on this machine.
+
+    Raises
+    ------
+    CaseError
+        If dask is not installed.
+    """
+    distributed = _distributed()
+    with (
+        distributed.LocalCluster(
+            n_workers=workers or _cores(), threads_per_worker=1, dashboard_address=None
+        ) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        client.register_worker_callbacks(_be_quiet)
+        yield client.get_executor(pure=False)
+
+
+@contextmanager
+def on_scheduler(address: str, patience: float = PATIENCE) -> Iterator[Executor]:
+    """Connect to the dask scheduler at an address, as ``"tcp://host:8786"``.
+
+    Raises
+    ------
+    CaseError
+        If dask is not installed, or no scheduler answers within `patience`, in s.
+    """
+    with _connected(_distributed(), address, patience) as client:
+        if not client.scheduler_info(n_workers=-1)["workers"]:
+            warnings.warn(
+                f"the scheduler at {address} has no workers yet; the runs wait for some",
+                TriboWarning,
+                stacklevel=3,
+            )
+        yield client.get_executor(pure=False)
+
+
+class _Processes(ThreadPoolExecutor):
+    """Threads with a process each, so that the death of one costs only its own call."""
+
+    def __init__(self, count: int, lifeline: Connection) -> None:
+        super().__init__(count)
+        self._mine = threading.local()
+        self._pools: list[ProcessPoolExecutor] = []
+        self._options: dict[str, Any] = {
+            "mp_context": get_context("spawn"),
+            "initializer": _begin,
+            "initargs": (lifeline,),
+        }
+
+    def submit(self, fn: Callable[P, R], /, *args: P.args, **kwargs: P.kwargs) -> Future[R]:
+        return super().submit(self._in_process, partial(fn, *args, **kwargs))
+
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        super().shutdown(cancel_futures=cancel_futures)
+        for pool in self._pools:
+            pool.shutdown()
+
+    def _in_process(self, call: Callable[[], R]) -> R:
+        if getattr(self._mine, "pool", None) is None:
+            self._mine.pool = ProcessPoolExecutor(1, **self._options)
+            self._pools.append(self._mine.pool)
+        try:
+            return self._mine.pool.submit(call).result()  # type: ignore[no-any-return]
+        except BrokenProcessPool:
+            self._mine.pool = None
+            raise
+
+
+def _cores() -> int:
+    return len(os.sched_getaffinity(0)) if sys.platform == "linux" else os.cpu_count() or 1
+
+
+@contextmanager
+def _environment() -> Iterator[None]:
+    """Give processes that start now one thread each for linear algebra.
+
+    Python's helper that tidies up after this process, should it be killed, does so in silence.
+    """
+    quiet = os.environ.get("PYTHONWARNINGS"), "ignore:::multiprocessing.resource_tracker"
+    changed = dict.fromkeys(THREADS, "1") | {"PYTHONWARNINGS": ",".join(filter(None, quiet))}
+    before = {name: os.environ[name] for name in changed if name in os.environ}
+    os.environ.update(changed)
+    try:
+        yield
+    finally:
+        for name in changed:
+            del os.environ[name]
+        os.environ.update(before)
+
+
+def _begin(lifeline: Connection) -> None:
+    """Prepare a process: its parent hears Ctrl-C, and it does not outlive its parent."""
+
+    def end() -> None:
+        wait([lifeline])
+        os._exit(1)
+
+    _be_quiet()
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=end, daemon=True).start()
+
+
+def _be_quiet() -> None:
+    """Print no warnings of runs, which are in their results."""
+    warnings.simplefilter("ignore", TriboWarning)
+
+
+def _distributed() -> Any:
+    try:
+        import distributed
+    except ImportError:
+        raise CaseError(
+            "dask.distributed is not installed; install it with: pip install 'tribo[dask]'"
+        ) from None
+    # The errors that follow say what it logs, tracebacks among it.
+    for name in list(logging.root.manager.loggerDict):
+        if name.split(".")[0] == "distributed":
+            logging.getLogger(name).setLevel(logging.CRITICAL + 1)
+    return distributed
+
+
+def _connected(distributed: Any, address: str, patience: float) -> Any:
+    """Return a client, in time whatever answers at the address."""
+    answer: Future[Any] = Future()
+
+    def connect() -> None:
+        try:
+            answer.set_result(distributed.Client(address, timeout=patience))
+        except Exception as error:
+            # dask may raise anything of what is not a scheduler.
+            answer.set_exception(error)
+
+    # Dask's own time limit ends with the connection, not with the first answer.
+    threading.Thread(target=connect, daemon=True).start()
+    try:
+        return answer.result(patience + 1.0)
+    except Exception as error:
+        told = str(error) if isinstance(error, OSError | ValueError) else ""
+        reason = told.splitlines()[0] if told else "something else may be listening there"
+        raise CaseError(
+            f"no scheduler answers at {address} within {patience:g} s ({reason}); start one with "
+            "'dask scheduler', and give the address that it prints"
+        ) from None
