@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
 from contextlib import contextmanager, nullcontext
@@ -170,6 +171,8 @@ def _holding(folder: Path) -> Iterator[None]:
     """Make the folder, and keep other sweeps out of it."""
     try:
         (folder / "results").mkdir(parents=True, exist_ok=True)
+        # It raises where the folder cannot be entered.
+        os.listdir(folder / "results")
         with locked(folder / LOCK):
             (folder / STOP).unlink(missing_ok=True)
             yield
