@@ -23,7 +23,7 @@ from tribo.core.measures import centre, half_widths
 from tribo.lab.scar import crown
 from tribo.motion.averaging import groove_excess
 from tribo.simulation.march import march
-from tribo.simulation.step import first_contact
+from tribo.stepping.step import first_contact
 from tribo.verification.moving import to_and_fro
 from tribo.verification.problems import LOAD, RADIUS, WEAR_COEFFICIENT, ball, half_space, on_flat
 

@@ -1,7 +1,6 @@
 """Small models of the paper's test, made from objects."""
 
 from tribo.case import Body, Case, Output
-from tribo.config.stepping import Implicit
 from tribo.contact.dcfft import DcFft
 from tribo.contact.winkler import Winkler
 from tribo.core.grid import Grid
@@ -9,6 +8,7 @@ from tribo.core.material import Material
 from tribo.motion.reciprocating import Reciprocating
 from tribo.simulation.assembly import assemble
 from tribo.simulation.march import begin, march
+from tribo.stepping.implicit import Implicit
 from tribo.surfaces.flat import Flat
 from tribo.surfaces.paraboloid import Paraboloid
 from tribo.surfaces.sphere import Sphere

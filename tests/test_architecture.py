@@ -27,6 +27,7 @@ RANK = {
     "plugin": 4,
     "config": 5,
     "case": 5,
+    "stepping": 5,
     "simulation": 6,
     "plotting": 7,
     "study": 8,

@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from tribo.case import Load as Load
     from tribo.case import Output as Output
     from tribo.config.load import load_case as load_case
-    from tribo.config.stepping import Explicit as Explicit
-    from tribo.config.stepping import Implicit as Implicit
     from tribo.config.stop import Stop as Stop
     from tribo.contact.dcfft import DcFft as DcFft
     from tribo.contact.periodic import Periodic as Periodic
@@ -41,6 +39,8 @@ if TYPE_CHECKING:
     from tribo.registry.registry import Registry as Registry
     from tribo.result.read import Result as Result
     from tribo.simulation.run import Simulation as Simulation
+    from tribo.stepping.explicit import Explicit as Explicit
+    from tribo.stepping.implicit import Implicit as Implicit
     from tribo.study.comparison import Comparison as Comparison
     from tribo.study.comparison import compare as compare
     from tribo.study.sweeping.sweep import Sweep as Sweep
@@ -82,12 +82,12 @@ _HOME = {
     "Cylinder": "tribo.surfaces.cylinder",
     "DcFft": "tribo.contact.dcfft",
     "Effect": "tribo.effects.effect",
-    "Explicit": "tribo.config.stepping",
+    "Explicit": "tribo.stepping.explicit",
     "Field": "tribo.core.fields",
     "Flat": "tribo.surfaces.flat",
     "Friction": "tribo.case",
     "Grid": "tribo.core.grid",
-    "Implicit": "tribo.config.stepping",
+    "Implicit": "tribo.stepping.implicit",
     "Interrupted": "tribo.core.errors",
     "Kinematics": "tribo.motion.kinematics",
     "Load": "tribo.case",

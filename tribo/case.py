@@ -7,10 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 from packaging.requirements import InvalidRequirement, Requirement
-from pydantic import field_validator
+from pydantic import Field, field_validator
 
 from tribo.component import Component
-from tribo.config.stepping import Explicit, Implicit, Stepping
 from tribo.config.stop import Stop
 from tribo.contact.dcfft import DcFft
 from tribo.contact.solver import ContactSolver
@@ -21,6 +20,8 @@ from tribo.core.units import Quantity
 from tribo.effects.effect import Effect
 from tribo.motion.kinematics import Kinematics
 from tribo.observers.observer import Observer
+from tribo.stepping.explicit import Explicit
+from tribo.stepping.implicit import Implicit
 from tribo.surfaces.surface import Surface
 from tribo.wear.law import WearLaw
 
@@ -92,7 +93,7 @@ class Case(Table):
     """How the normal contact is solved."""
     kinematics: Kinematics
     """How the bodies move."""
-    stepping: Stepping = Implicit()
+    stepping: Annotated[Implicit | Explicit, Field(discriminator="type")] = Implicit()
     """How the run moves on in time."""
     friction: Friction | None = None
     effects: tuple[Effect, ...] = ()

@@ -22,7 +22,6 @@ from tribo.case import Body, Case
 from tribo.cli.main import COMMANDS
 from tribo.cli.main import tribo as command_line
 from tribo.component import Component
-from tribo.config.stepping import Explicit, Implicit
 from tribo.core.dimensions import _PREFIXES, _SYMBOLS, _UNPREFIXED
 from tribo.core.errors import TriboError
 from tribo.core.units import _KINDS, Quantity
@@ -30,6 +29,8 @@ from tribo.registry import hookspecs
 from tribo.registry.kinds import KINDS
 from tribo.registry.registry import Registry
 from tribo.result.columns import BODY_COLUMNS, COLUMNS
+from tribo.stepping.explicit import Explicit
+from tribo.stepping.implicit import Implicit
 
 
 def write(folder: Path) -> None:

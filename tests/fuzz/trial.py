@@ -16,7 +16,7 @@ from command_line import tribo
 from fuzz.generate import ROOT, Schema, damaged, mutated, plausible, small, toml, valid_cases
 
 from tribo import Result
-from tribo.simulation.invariants import CHATTERING, CONDITIONS, LOAD, VOLUME
+from tribo.stepping.invariants import CHATTERING, CONDITIONS, LOAD, VOLUME
 
 DOCUMENTED = {0, 2, 3, 130}
 LIMITS = {

@@ -11,7 +11,6 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from paper_models import flat, motion, named, small
 
-from tribo.config.stepping import Explicit, Implicit
 from tribo.contact.dcfft import DcFft
 from tribo.contact.periodic import Periodic
 from tribo.contact.winkler import Winkler
@@ -19,6 +18,8 @@ from tribo.core.contact import ContactProblem
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.simulation.march import begin, march
+from tribo.stepping.explicit import Explicit
+from tribo.stepping.implicit import Implicit
 from tribo.surfaces.surface import Surface
 from tribo.wear.archard import Archard
 

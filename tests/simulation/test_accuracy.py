@@ -6,8 +6,8 @@ from paper_models import K, flat, foundation, motion, named, small, sphere, stee
 from strangers.running_in import RunningIn
 
 from tribo import Grid, Simulation
-from tribo.config.stepping import Implicit
 from tribo.plugin import Field, WearLaw, WearRate
+from tribo.stepping.implicit import Implicit
 from tribo.wear.power import Power
 
 FINE = Implicit(depth_tolerance=2e-4, pressure_tolerance=0.02)

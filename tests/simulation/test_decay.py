@@ -8,16 +8,12 @@ from paper_models import K, archard, case, flat, motion, named, small, steel
 
 from tribo import Simulation
 from tribo.closed_forms.sinusoid import compliance, worn_amplitude
-from tribo.config.stepping import Implicit
 from tribo.contact.periodic import Periodic
 from tribo.core.grid import Grid
-from tribo.simulation.rates import Moment
-from tribo.simulation.step import (
-    explicit_step,
-    first_contact,
-    implicit_step,
-    largest_stable_increment,
-)
+from tribo.stepping.explicit import Explicit, largest_stable_increment
+from tribo.stepping.implicit import Implicit
+from tribo.stepping.rates import Moment
+from tribo.stepping.step import first_contact
 from tribo.surfaces.surface import Surface
 
 WAVELENGTH = 1e-4
@@ -53,11 +49,10 @@ def amplitude_after(step, steps, distance):
     return 1e-8 * np.ptp(surface) / np.ptp(wavy.bodies["wavy"].surface.height(GRID))
 
 
-def implicit(*args):
-    return implicit_step(*args, config=Implicit()).state
+SCHEMES = [Implicit(), Explicit(time_step=1.0)]
 
 
-@pytest.mark.parametrize("step", [implicit, explicit_step], ids=["implicit", "explicit"])
+@pytest.mark.parametrize("step", [scheme.step for scheme in SCHEMES], ids=["implicit", "explicit"])
 def test_a_sinusoid_decays_at_the_exact_rate_with_first_order(step):
     k_hat = compliance(2 * np.pi / WAVELENGTH, model().system.modulus)
     distance = k_hat / K  # one decay length
@@ -77,7 +72,7 @@ def test_explicit_steps_decay_just_below_the_stated_limit_and_grow_just_above(pa
     state = replace(
         state, bodies={**state.bodies, "wavy": replace(ball, wear=ball.wear + 1e-13 * chequer)}
     )
-    state = explicit_step(wavy, state, 1e-9, 1e-8)
+    state = SCHEMES[1].step(wavy, state, 1e-9, 1e-8)
     limit = largest_stable_increment(wavy, state, Moment(1.0, 1.0, 1.0))
 
     def content(state):
@@ -85,7 +80,7 @@ def test_explicit_steps_decay_just_below_the_stated_limit_and_grow_just_above(pa
 
     before = content(state)
     for i in range(20):
-        state = explicit_step(wavy, state, part * limit, i + 1.0)
+        state = SCHEMES[1].step(wavy, state, part * limit, i + 1.0)
     assert (content(state) > before) == grows
 
 

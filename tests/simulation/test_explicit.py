@@ -2,13 +2,13 @@ import numpy as np
 import pytest
 from paper_models import K, archard, flat, last, motion, named, small, sphere, steel
 
-from tribo.config.stepping import Explicit
 from tribo.contact.dcfft import DcFft
 from tribo.core.errors import CaseError
 from tribo.plugin import Effect, Field, WearLaw, WearRate
-from tribo.simulation.rates import Moment
 from tribo.simulation.run import Simulation
-from tribo.simulation.step import first_contact, largest_stable_increment
+from tribo.stepping.explicit import Explicit, largest_stable_increment
+from tribo.stepping.rates import Moment
+from tribo.stepping.step import first_contact
 
 
 def ball_only():

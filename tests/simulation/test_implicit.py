@@ -16,11 +16,11 @@ from paper_models import (
     steel,
 )
 
-from tribo.config.stepping import Implicit
 from tribo.core.contact import ContactProblem
 from tribo.core.fields import ContactConditions, Field, WearRate
 from tribo.effects.effect import Effect
-from tribo.simulation.step import first_contact, geometry, implicit_step
+from tribo.stepping.implicit import Implicit
+from tribo.stepping.step import first_contact, geometry
 from tribo.wear.law import WearLaw
 from tribo.wear.power import Power
 
@@ -35,7 +35,7 @@ def bodies(ball, disk):
 
 def one_step(model, increment=1.0):
     state = first_contact(model)
-    return implicit_step(model, state, increment, increment / 0.1, config=Implicit()).state
+    return Implicit().step(model, state, increment, increment / 0.1)
 
 
 LAWS = [(archard(), archard()), (power(1.5), power(1.5)), (power(2), archard()), (power(3), None)]

@@ -22,12 +22,13 @@ from paper_models import (
 
 from tribo import Result, Simulation
 from tribo.cli.show import show
-from tribo.config.stepping import Explicit, Implicit
 from tribo.contact.dcfft import DcFft
 from tribo.contact.periodic import Periodic
 from tribo.core.errors import NumericalError, TriboWarning
 from tribo.core.grid import Grid
-from tribo.simulation.invariants import CHATTERING, VOLUME, handed_back
+from tribo.stepping.explicit import Explicit
+from tribo.stepping.implicit import Implicit
+from tribo.stepping.invariants import CHATTERING, VOLUME, handed_back
 from tribo.surfaces.surface import Surface
 
 

@@ -43,7 +43,7 @@ MEASURE = """
     Simulation(model.case).run(sys.argv[3]).close()
     peak = most()
     plastic = model.system.cap is not None
-    needed = memory_needed(model.grid, model.laws, model.effects, plastic=plastic)
+    needed = memory_needed(model.case, plastic=plastic)
     print(json.dumps([1024 * (peak - first), needed]))
 """
 

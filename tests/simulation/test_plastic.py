@@ -8,7 +8,7 @@ from paper_models import archard, flat, motion, named, small, sphere, states, st
 
 from tribo import Grid
 from tribo.core.contact import ContactProblem
-from tribo.simulation.step import first_contact, geometry, start_sliding
+from tribo.stepping.step import first_contact, geometry, start_sliding
 
 HARDNESS = 4e9
 

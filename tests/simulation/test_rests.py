@@ -5,8 +5,9 @@ import pytest
 from paper_models import motion, small
 
 from tribo import Simulation
-from tribo.config.stepping import Explicit, Implicit
 from tribo.motion.unidirectional import Unidirectional
+from tribo.stepping.explicit import Explicit
+from tribo.stepping.implicit import Implicit
 
 
 class Pauses(Unidirectional):

@@ -13,12 +13,13 @@ from paper_models import K, archard, case, flat, motion, named, small, sphere, s
 
 from tribo import CaseError, Grid, Interrupted, NumericalError, Result, Simulation
 from tribo.component import Component
-from tribo.config.stepping import Explicit, Implicit
 from tribo.config.stop import Stop
 from tribo.contact.periodic import Periodic
 from tribo.core.errors import OutputError, TriboWarning
 from tribo.observers import recorder
 from tribo.observers.observer import Observer
+from tribo.stepping.explicit import Explicit
+from tribo.stepping.implicit import Implicit
 
 
 class Stopper(Observer):

@@ -7,10 +7,10 @@ import pytest
 from paper_models import K, flat, foundation, motion, named, small, sphere, steel
 
 from tribo import Grid, Simulation
-from tribo.config.stepping import Explicit
 from tribo.core.errors import PluginError
 from tribo.motion.reciprocating import Reciprocating
 from tribo.plugin import Effect, Field, WearLaw, WearRate
+from tribo.stepping.explicit import Explicit
 
 SINE = {"waveform": "sinusoidal"}
 MEAN = 2 * 2e-3 * 25

@@ -6,11 +6,11 @@ from paper_models import named, small
 from strangers.running_in import RunningIn
 
 from tribo import Grid
-from tribo.config.stepping import Implicit
 from tribo.contact.winkler import Winkler
 from tribo.core.material import Material
 from tribo.motion.unidirectional import Unidirectional
-from tribo.simulation.step import first_contact, implicit_step
+from tribo.stepping.implicit import Implicit
+from tribo.stepping.step import first_contact
 from tribo.surfaces.flat import Flat
 
 SIDE, LOAD, TRACK = 2e-3, 40.0, 8e-3
@@ -39,7 +39,7 @@ def slid(model, steps):
     state = first_contact(model)
     for i in range(1, steps + 1):
         increment, time = END / steps, END / 0.1 * i / steps
-        state = implicit_step(model, state, increment, time, config=Implicit()).state
+        state = Implicit().step(model, state, increment, time)
     return state
 
 

@@ -9,7 +9,9 @@ from tribo.core.fields import WearRate
 from tribo.core.material import contact_modulus
 from tribo.lab import ball, track
 from tribo.motion.exposure import Track
-from tribo.simulation import assembly, rates, solving, step
+from tribo.simulation import assembly
+from tribo.simulation.guarded_contact import GuardedSolver
+from tribo.stepping import implicit, rates, step
 from tribo.verification.check import run_check
 from tribo.verification.suite import CHECKS
 from tribo.wear.archard import Archard
@@ -60,11 +62,13 @@ def groove_never_settled(patch):
 
 
 def yields_twice_as_deep(patch):
-    def solve(*given):
-        solution = solving.solve(*given)
+    solve = GuardedSolver.solve
+
+    def mutant(*given):
+        solution = solve(*given)
         return replace(solution, overlap=2 * solution.overlap)
 
-    patch(step, "solve", solve)
+    patch(GuardedSolver, "solve", mutant)
 
 
 def each_body_yields_by_the_whole(patch):
@@ -115,7 +119,7 @@ def one_coefficient_for_both(patch):
         found = rates.wear_rates(*given)
         return dict.fromkeys(found, next(iter(found.values())))
 
-    patch(step, "wear_rates", mutant)
+    patch(implicit, "wear_rates", mutant)
 
 
 def scaled(module, name, factor):

@@ -17,7 +17,7 @@ from paper_models import (
 
 from tribo import Grid, Simulation
 from tribo.closed_forms import ball_wear, winkler
-from tribo.config.stepping import Implicit
+from tribo.stepping.implicit import Implicit
 
 
 def ball_only(**changes):

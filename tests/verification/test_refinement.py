@@ -5,9 +5,10 @@ from paper_models import archard, flat, foundation, motion, named, paraboloid, s
 
 from tribo import Grid, Simulation
 from tribo.config.load import load_case
-from tribo.config.stepping import Explicit, Implicit
 from tribo.config.stop import Stop
 from tribo.core.errors import CaseError, NumericalError
+from tribo.stepping.explicit import Explicit
+from tribo.stepping.implicit import Implicit
 from tribo.templates import template
 from tribo.verification import refinement
 from tribo.verification.refinement import refine

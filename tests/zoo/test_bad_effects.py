@@ -25,7 +25,7 @@ class Heat(Effect):
         return pressure * 0.1
 
 
-@bad("gave a NoneType, not its fields")
+@bad("gave a NoneType instead of its fields")
 class AnswersNothing(Heat):
     def fields(self, contact):
         return None
@@ -125,15 +125,11 @@ def test_one_that_does_not_say_what_it_provides_is_not_loaded():
         zoo.registry()
 
 
-def test_one_that_provides_a_field_with_a_slash_is_not_loaded():
-    zoo = Zoo()
-
-    @zoo.bad("", code=2)
-    class Slashed(Heat):
-        provides = (Field("power/area", "W/m^2", "Power per area."),)
-
+def test_one_that_provides_a_field_with_a_slash_is_not_made():
     with pytest.raises(TypeError, match=r"Slashed\.provides: 'power/area' cannot name a field"):
-        zoo.registry()
+
+        class Slashed(Heat):
+            provides = (Field("power/area", "W/m^2", "Power per area."),)
 
 
 def test_none_harms_a_case_that_names_another(run):

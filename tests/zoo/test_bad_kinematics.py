@@ -30,7 +30,7 @@ class StandsStill(Unidirectional):
         return 0.0
 
 
-@bad("a path at 0 s that is not a finite number: a NoneType")
+@bad("a distance at 0 s that is not a finite number: a NoneType")
 class NoPath(Unidirectional):
     def distance_at(self, time):
         return None

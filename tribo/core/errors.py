@@ -45,6 +45,14 @@ class PluginError(NumericalError):
     """A component raised something that nobody expected."""
 
 
+class BadValues(PluginError):
+    """A component answered with values that break its contract.
+
+    A state that a step only tries may be one that a model was not made for, and
+    a shorter step then does; the same answer at an accepted state is a fault.
+    """
+
+
 class OutputError(TriboError):
     """A file, or standard output, could not be written."""
 

@@ -22,11 +22,26 @@ class Field:
         Its SI unit; ``"1"`` for none.
     description : str
         What it means, in one sentence.
+    at_least, at_most : float, optional
+        Limits that its values keep.
+    typical : float, optional
+        A usual value, at which models that require it are tested.
     """
 
     name: str
     unit: str
     description: str
+    at_least: float | None = None
+    at_most: float | None = None
+    typical: float | None = None
+
+    def outside(self, low: float, high: float) -> str:
+        """Return which limit values from `low` to `high` pass, in words; empty if none."""
+        if self.at_least is not None and low < self.at_least:
+            return f"below {self.at_least:g} {self.unit} ({low:.6g})"
+        if self.at_most is not None and high > self.at_most:
+            return f"above {self.at_most:g} {self.unit} ({high:.6g})"
+        return ""
 
 
 def name_fault(fields: Iterable[Field]) -> str:
@@ -44,10 +59,39 @@ def name_fault(fields: Iterable[Field]) -> str:
     return ""
 
 
+def check_declared(owner: type, attribute: str) -> None:
+    """Check the fields that a class declares, and the names of those that it requires.
+
+    Raises
+    ------
+    TypeError
+        If `attribute`, where it is set, is not a tuple of `Field` with a name of its own each,
+        or `requires` not a tuple of names.
+    """
+    fields, names = getattr(owner, attribute, ()), getattr(owner, "requires", ())
+    where = f"{owner.__qualname__}.{attribute}"
+    if not (isinstance(fields, tuple | list) and all(isinstance(f, Field) for f in fields)):
+        raise TypeError(
+            f"{where} is {fields!r}; it must be a tuple of Field, as in "
+            '(Field("name", "m", "What it means."),)'
+        )
+    if fault := name_fault(fields):
+        raise TypeError(f"{where}: {fault}")
+    if not (isinstance(names, tuple | list) and all(isinstance(name, str) for name in names)):
+        raise TypeError(
+            f"{owner.__qualname__}.requires is {names!r}; it must be a tuple of names, as in "
+            '("temperature",)'
+        )
+
+
 PRESSURE = Field("pressure", "Pa", "Contact pressure, positive in compression.")
 SPEED = Field("speed", "m/s", "Sliding speed.")
 FRICTION_COEFFICIENT = Field(
-    "friction_coefficient", "1", "Coefficient of friction of the case, uniform."
+    "friction_coefficient",
+    "1",
+    "Coefficient of friction of the case, uniform.",
+    at_least=0.0,
+    typical=0.3,
 )
 
 
@@ -88,17 +132,19 @@ class WearRate:
     ----------
     depth_rate : ndarray
         Depth worn away per metre of sliding, in m/m; not negative.
-    depth_slope : ndarray
+    depth_slope : ndarray, optional
         Derivative of `depth_rate` in pressure, in 1/Pa, with the fields as they
         are; through a field only if the law requires the slope of that field
-        too. Implicit steps converge by it. How long an explicit step may be is
-        found by difference, through all fields.
+        too. Implicit steps converge by it. Where it is left out, the law is asked
+        once more at slightly higher pressures. How long an explicit step may be
+        is found by difference, through all fields.
     state_rates : Mapping[str, ndarray]
         Change of each state field per metre of sliding.
     """
 
     depth_rate: Array
-    depth_slope: Array
+    # None only in the answer of a law; a run has found it by then.
+    depth_slope: Array = None  # type: ignore[assignment]
     state_rates: Mapping[str, Array] = field(default_factory=dict)
 
 

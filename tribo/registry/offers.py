@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
 
 from tribo.component import Component
-from tribo.core.fields import Field, name_fault
 from tribo.registry.kinds import kind_of
 
 Classes = dict[str, type[Component]]
@@ -28,27 +26,14 @@ def offered(answers: Iterable[object]) -> Classes:
                 f"tribo_components returns {answer!r}; it must return a list of classes"
             )
         for cls in answer:
-            _check_declarations(cls, kind_of(cls).interface)
+            if "provides" in kind_of(cls).interface.__annotations__ and not hasattr(
+                cls, "provides"
+            ):
+                raise TypeError(
+                    f"{cls.__qualname__} does not define provides, a tuple of Field, as in "
+                    '(Field("name", "m", "What it means."),)'
+                )
             if cls.type in found:
                 raise ValueError(f"tribo_components returns {cls.type!r} twice")
             found[cls.type] = cls
     return found
-
-
-def _check_declarations(cls: Any, interface: type) -> None:
-    """Raise TypeError unless what a class declares of fields is declared as it must be."""
-    shown = cls.__qualname__
-    needed = 'a tuple of Field, as in (Field("name", "m", "What it means."),)'
-    for attribute in ("state_fields", "provides"):
-        if attribute in interface.__annotations__ and not hasattr(cls, attribute):
-            raise TypeError(f"{shown} does not define {attribute}, {needed}")
-        fields = getattr(cls, attribute, ())
-        if not (isinstance(fields, tuple | list) and all(isinstance(f, Field) for f in fields)):
-            raise TypeError(f"{shown}.{attribute} is {fields!r}; it must be {needed}")
-        if fault := name_fault(fields):
-            raise TypeError(f"{shown}.{attribute}: {fault}")
-    names = getattr(cls, "requires", ())
-    if not (isinstance(names, tuple | list) and all(isinstance(name, str) for name in names)):
-        raise TypeError(
-            f'{shown}.requires is {names!r}; it must be a tuple of names, as in ("temperature",)'
-        )

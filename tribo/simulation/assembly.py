@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from itertools import pairwise
 from typing import Any
 
@@ -10,22 +10,26 @@ import numpy as np
 
 from tribo.case import Body, Case
 from tribo.config.requirements import check_requirements
-from tribo.config.stepping import Implicit
 from tribo.contact.solver import ContactSolver
 from tribo.core.arrays import readonly
 from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError, located
 from tribo.core.material import contact_modulus
-from tribo.simulation import motion
-from tribo.simulation.bodies import check_law, check_sliding, curvature, surface_height
-from tribo.simulation.calling import calling
-from tribo.simulation.effects import check_effects, in_order
+from tribo.simulation.effects import in_order
+from tribo.simulation.guarded_bodies import (
+    GuardedEffect,
+    GuardedLaw,
+    GuardedSurface,
+    curvature_of_gap,
+)
+from tribo.simulation.guarded_contact import GuardedSolver
+from tribo.simulation.guarded_motion import GuardedExposure, GuardedMotion
 from tribo.simulation.memory import check_memory, memory_needed
 from tribo.simulation.model import Model
 
 
 def assemble(case: Case) -> Model:
-    """Check that the parts of a case fit together, and derive what a run needs.
+    """Check that the parts of a case fit together, guard them, and derive what a run needs.
 
     Raises
     ------
@@ -33,44 +37,51 @@ def assemble(case: Case) -> Model:
         If parts do not fit; the message names the place, and the remedy.
     """
     check_requirements(case.requires)
-    grid, contact, bodies = case.grid, case.contact, case.bodies
+    grid, bodies = case.grid, case.bodies
+    motion, solver = GuardedMotion(case.kinematics), GuardedSolver(case.contact)
     with located("kinematics"):
-        exposures = motion.exposures(case.kinematics, grid, list(bodies))
-    cap, share = _plastic(bodies, contact)
+        exposures = motion.exposures(grid, list(bodies))
+    cap, share = _plastic(bodies, case.contact)
     # Before the first array is made.
-    laws = [body.wear for body in bodies.values() if body.wear is not None]
-    check_memory(grid, memory_needed(grid, laws, case.effects, plastic=cap is not None))
+    check_memory(grid, memory_needed(case, plastic=cap is not None))
+    surfaces, laws = {}, {}
     gap = np.zeros(grid.cells)
     for name, body in bodies.items():
         with located(f"bodies.{name}.surface"):
-            height = surface_height(name, body.surface, grid)
-            check_sliding(name, body.surface, height, exposures[name])
-        gap -= height
+            surfaces[name] = GuardedSurface(body.surface, name, grid)
+            _check_sliding(surfaces[name], exposures[name])
+        gap -= surfaces[name].height
         if body.wear is not None:
             with located(f"bodies.{name}.wear"):
-                check_law(name, body.wear, body.material)
+                laws[name] = GuardedLaw(body.wear, name, body.material)
     gap -= float(np.min(gap))
     system = ContactSystem(
         grid=grid,
         modulus=contact_modulus([body.material for body in bodies.values()]),
         load=case.load.normal,
         cap=cap,
-        curvature=curvature({name: body.surface for name, body in bodies.items()}),
+        curvature=curvature_of_gap(list(surfaces.values())),
         materials={name: body.material for name, body in bodies.items()},
     )
-    with located("contact"), calling(contact):
-        contact.check(system)
-    if isinstance(case.stepping, Implicit) and not contact.accepts_wear_compliance:
+    with located("contact"):
+        solver.check(system)
+    if case.stepping.needs_wear_compliance and not case.contact.accepts_wear_compliance:
         raise CaseError(
             f"'implicit' stepping adds wear to the contact's compliance, which contact.type = "
-            f"{contact.type!r} does not take; use stepping.type = 'explicit' with a "
+            f"{case.contact.type!r} does not take; use stepping.type = 'explicit' with a "
             "time_step, or a contact type that does",
             "stepping.type",
         )
-    model = Model(case, in_order(case), exposures, share, system, readonly(gap))
-    motion.check_path(case.kinematics, model.end_time)
+    effects = tuple(GuardedEffect(effect) for effect in in_order(case))
+    end = motion.end_time(case.stop.distance)
+    motion.check_distance(end)
+    model = Model(
+        case, solver, motion, surfaces, laws, effects, exposures, share, system, readonly(gap), end
+    )
     _check_ends(model)
-    check_effects(model)
+    for effect in effects:
+        with located("effects"):
+            effect.check(dict(system.materials), model.swept)
     return model
 
 
@@ -82,6 +93,7 @@ def varied(case: Case, **changes: Any) -> Case:
 def _plastic(
     bodies: Mapping[str, Body], contact: ContactSolver
 ) -> tuple[float | None, dict[str, float]]:
+    """Return the largest pressure that is borne, in Pa, and each body's part of what yields."""
     hardness = {
         name: body.material.hardness
         for name, body in bodies.items()
@@ -100,24 +112,31 @@ def _plastic(
     return cap, {name: (1 / len(soft) if name in soft else 0.0) for name in bodies}
 
 
+def _check_sliding(surface: GuardedSurface, exposure: GuardedExposure) -> None:
+    """Raise `CaseError` if the motion moves a shape that would not stay as it is."""
+    if not exposure.shape_stays and np.any(surface.height != surface.height[:1]):
+        raise CaseError(
+            f"body {surface.body!r} is swept along x, so its surface must not vary along x, as "
+            f"{surface.component.type!r} does; let kinematics.swept name the other body, or use "
+            "a 'flat' or a 'cylinder' with axis = 'x'"
+        )
+
+
 def _check_ends(model: Model) -> None:
     end = model.end_time
     times = model.case.output.save_times
     if any(later <= earlier for earlier, later in pairwise(times)):
-        raise CaseError(f"must increase, but are {_listed(times)} s", "output.save_times")
+        listed = ", ".join(f"{time:g}" for time in times)
+        raise CaseError(f"must increase, but are {listed} s", "output.save_times")
     if times and times[-1] > end * (1 + 1e-12):
         raise CaseError(
             f"{times[-1]:g} s is beyond the end of the run at {end:g} s; lengthen the motion or "
             "leave it out",
             "output.save_times",
         )
-    stop = model.stop
+    stop = model.case.stop
     if stop.body is not None and stop.body not in model.bodies:
         raise CaseError(
             f"no body is called {stop.body!r}; the bodies are " + ", ".join(model.bodies),
             "stop.body",
         )
-
-
-def _listed(times: Sequence[float]) -> str:
-    return ", ".join(f"{time:g}" for time in times)

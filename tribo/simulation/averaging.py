@@ -4,24 +4,24 @@ from __future__ import annotations
 
 import numpy as np
 
+from tribo.core.errors import located
 from tribo.core.measures import half_widths
 from tribo.core.state import State
 from tribo.simulation.model import Model
-from tribo.simulation.motion import averaging_limit, check_first_contact
 
 
 def check_stroke(model: Model, state: State) -> None:
     """Raise `CaseError` if averaging makes no sense for the first contact, in `state`."""
     if _changing(model):
-        check_first_contact(model.kinematics, half_widths(state.contact, model.grid)[0])
+        with located("kinematics"):
+            model.motion.check_contact(half_widths(state.contact, model.grid)[0])
 
 
 def limitation(model: Model, state: State) -> str | None:
     """Return why the track average does not hold in `state`, if so."""
     changing = _changing(model)
     half_width = half_widths(state.contact, model.grid)[0]
-    words = averaging_limit(
-        model.kinematics,
+    words = model.motion.limitation(
         model.grid,
         half_width,
         max((float(np.max(state.bodies[name].wear)) for name in changing), default=0.0),
@@ -47,6 +47,6 @@ def _changing(model: Model) -> list[str]:
     """Return the names of the swept bodies that change their shape."""
     return [
         name
-        for name, body in model.bodies.items()
-        if model.is_swept(name) and (body.wear or model.plastic_share[name] > 0)
+        for name in model.bodies
+        if model.is_swept(name) and (name in model.laws or model.plastic_share[name] > 0)
     ]

@@ -5,11 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from tribo.case import Case
-from tribo.core.errors import CaseError, PluginError, located
-from tribo.core.fields import FRICTION_COEFFICIENT, name_fault
+from tribo.core.errors import CaseError
+from tribo.core.fields import FRICTION_COEFFICIENT
 from tribo.effects.effect import Effect
-from tribo.simulation.calling import calling, named
-from tribo.simulation.model import Model
 
 
 def in_order(case: Case) -> tuple[Effect, ...]:
@@ -73,14 +71,3 @@ def _missing(who: str, missing: Sequence[str], waiting: Sequence[Effect]) -> str
         f"{who} needs the field {', '.join(missing)}, which nothing in this case provides: add an "
         "effect that does ('tribo plugins list' names those installed)"
     )
-
-
-def check_effects(model: Model) -> None:
-    """Raise `CaseError` if an effect does not suit the bodies or how they move."""
-    materials = {name: body.material for name, body in model.bodies.items()}
-    swept = frozenset(name for name in materials if model.is_swept(name))
-    for effect in model.effects:
-        if fault := name_fault(effect.provides):
-            raise PluginError(f"{named(effect)}, provides: {fault}")
-        with located("effects"), calling(effect):
-            effect.check(materials, swept)

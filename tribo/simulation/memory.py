@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
 
 import psutil
 
+from tribo.case import Case
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
-from tribo.effects.effect import Effect
-from tribo.wear.law import WearLaw
-
-Law = WearLaw
-AnyEffect = Effect
 
 FIELDS = 60
 """Arrays of the window's size that a run holds at its peak; 56 were measured."""
@@ -21,31 +17,19 @@ FIELDS_IF_PLASTIC = 16
 """What yielding takes besides; 14 were measured."""
 FIELDS_PER_FIELD = 8
 """What each state field of a law, or each field of an effect, takes besides; 7 were measured."""
-BODIES = 2
 BESIDES = 16 * 2.0**20
 """What does not grow with the grid, in bytes; 10 MiB were measured."""
 
 
-def memory_needed(
-    grid: Grid, laws: Sequence[Law], effects: Sequence[AnyEffect], *, plastic: bool
-) -> float:
+def memory_needed(case: Case, *, plastic: bool) -> float:
     """Return the most memory that a run takes beyond what the process has, in bytes.
 
-    Parameters
-    ----------
-    grid : Grid
-        The window.
-    laws : sequence of WearLaw
-        Those of the bodies.
-    effects : sequence of Effect
-        Of the case.
-    plastic : bool
-        Whether a body may yield.
+    `plastic` is whether a body may yield.
     """
-    fields = sum(len(law.state_fields) for law in laws)
-    fields += BODIES * sum(len(effect.provides) for effect in effects)
+    fields = sum(len(body.wear.state_fields) for body in case.bodies.values() if body.wear)
+    fields += len(case.bodies) * sum(len(effect.provides) for effect in case.effects)
     arrays = FIELDS + FIELDS_IF_PLASTIC * plastic + FIELDS_PER_FIELD * fields
-    return BESIDES + 8.0 * grid.cells[0] * grid.cells[1] * arrays
+    return BESIDES + 8.0 * case.grid.cells[0] * case.grid.cells[1] * arrays
 
 
 def memory_left() -> tuple[float, str]:

@@ -8,32 +8,41 @@ from functools import cached_property
 from typing import Any
 
 from tribo.case import Body, Case
-from tribo.config.stepping import Explicit, Implicit
-from tribo.config.stop import Stop
 from tribo.contact.solver import ContactSolver
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSystem
 from tribo.core.grid import Grid
 from tribo.core.measures import between_cells
-from tribo.effects.effect import Effect
-from tribo.motion.exposure import Exposure
-from tribo.motion.kinematics import Kinematics
-from tribo.simulation import motion
-from tribo.simulation.calling import calling
-from tribo.wear.law import WearLaw
+from tribo.simulation.guard import calling
+from tribo.simulation.guarded_bodies import GuardedEffect, GuardedLaw, GuardedSurface
+from tribo.simulation.guarded_contact import GuardedSolver
+from tribo.simulation.guarded_motion import GuardedExposure, GuardedMotion
+from tribo.stepping.explicit import Explicit
+from tribo.stepping.implicit import Implicit
 
 
 @dataclass(frozen=True)
 class Model:
     """A case, and what a run derives from it once; made by `assemble`.
 
+    The parts of the case are guarded: what goes wrong in one names it, and what
+    it answers is checked.
+
     Parameters
     ----------
     case : Case
         The case.
-    effects : tuple of Effect
-        Its effects, each after those that provide what it requires.
-    exposures : Mapping[str, Exposure]
+    solver : GuardedSolver
+        How the contact is solved.
+    motion : GuardedMotion
+        How the bodies move.
+    surfaces : Mapping[str, GuardedSurface]
+        Shape of each body, by name, before it wears.
+    laws : Mapping[str, GuardedLaw]
+        Wear law of each body, by name, that wears.
+    effects : tuple of GuardedEffect
+        The effects, each after those that provide what it requires.
+    exposures : Mapping[str, GuardedExposure]
         How each body, by name, meets the contact.
     plastic_share : Mapping[str, float]
         Part of the plastic overlap that each body, by name, takes.
@@ -41,14 +50,21 @@ class Model:
         The constants of the contact.
     gap : ndarray, shape (nx, ny)
         Initial gap, in m, with minimum 0.
+    end_time : float
+        When the run ends if no depth stops it earlier, in s.
     """
 
     case: Case
-    effects: tuple[Effect, ...]
-    exposures: Mapping[str, Exposure]
+    solver: GuardedSolver
+    motion: GuardedMotion
+    surfaces: Mapping[str, GuardedSurface]
+    laws: Mapping[str, GuardedLaw]
+    effects: tuple[GuardedEffect, ...]
+    exposures: Mapping[str, GuardedExposure]
     plastic_share: Mapping[str, float]
     system: ContactSystem
     gap: Array
+    end_time: float
 
     @cached_property
     def closest(self) -> float:
@@ -63,35 +79,25 @@ class Model:
         """The window."""
         return self.case.grid
 
-    @cached_property
+    @property
     def load(self) -> float:
         """Normal load, in N."""
-        return self.case.load.normal
+        return self.system.load
 
-    @cached_property
+    @property
     def bodies(self) -> Mapping[str, Body]:
         """The bodies, by name."""
         return self.case.bodies
 
-    @cached_property
+    @property
     def contact(self) -> ContactSolver:
-        """How the contact is solved."""
+        """How the contact is solved, unguarded."""
         return self.case.contact
-
-    @cached_property
-    def kinematics(self) -> Kinematics:
-        """How the bodies move."""
-        return self.case.kinematics
 
     @cached_property
     def stepping(self) -> Implicit | Explicit:
         """How the run moves on."""
         return self.case.stepping
-
-    @cached_property
-    def stop(self) -> Stop:
-        """What ends the run early."""
-        return self.case.stop
 
     @cached_property
     def friction_coefficient(self) -> float | None:
@@ -104,23 +110,24 @@ class Model:
         return self.grid.ends_at_window or self.contact.periodic
 
     @cached_property
-    def end_time(self) -> float:
-        """When the run ends if no depth stops it earlier, in s."""
-        return motion.end_time(self.kinematics, self.stop.distance)
+    def swept(self) -> frozenset[str]:
+        """Names of the bodies whose points pass through the contact."""
+        return frozenset(name for name, exposure in self.exposures.items() if exposure.swept)
+
+    @cached_property
+    def end_distance(self) -> float:
+        """Sliding distance at the end of the run, in m."""
+        return self.motion.distance_at(self.end_time)
 
     @property
     def data(self) -> dict[str, Any]:
         """The case as plain data, in SI units, ready for JSON."""
         for _, component in self.case.components():
+            # Of the whole case an error would not tell which component it is from.
             with calling(component):
                 component.model_dump(mode="json")
         return self.case.model_dump(mode="json")
 
-    @cached_property
-    def laws(self) -> list[WearLaw]:
-        """The wear laws of the bodies that wear."""
-        return [body.wear for body in self.bodies.values() if body.wear is not None]
-
     def is_swept(self, name: str) -> bool:
         """Whether the body's points pass through the contact."""
-        return self.exposures[name].swept
+        return name in self.swept

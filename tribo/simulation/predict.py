@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from tribo.case import Output
-from tribo.config.stepping import Explicit, Implicit
 from tribo.config.usual import unusual
 from tribo.core.errors import CaseError, NumericalError, PluginError
 from tribo.core.grid import Grid
@@ -16,16 +15,15 @@ from tribo.lab.first_contact import HertzContact, hertz_contact
 from tribo.result.provenance import stated_facts
 from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.averaging import check_stroke, limitation
-from tribo.simulation.calling import calling
 from tribo.simulation.doubt import doubting, too_deep
-from tribo.simulation.march import FEW_CELLS, MOST_STEPS, begin, march
+from tribo.simulation.guard import calling
+from tribo.simulation.march import FEW_CELLS, begin, march
 from tribo.simulation.measure import measure
 from tribo.simulation.memory import memory_needed
 from tribo.simulation.model import Model
-from tribo.simulation.motion import path_at
-from tribo.simulation.rates import Moment
-from tribo.simulation.step import first_contact, largest_stable_increment, start_sliding
 from tribo.simulation.validity import short_of_a_lap, too_wide
+from tribo.stepping.implicit import Implicit
+from tribo.stepping.step import first_contact, start_sliding
 
 COARSE = 72
 MARGINS = (1.5, 1.0)
@@ -107,35 +105,27 @@ def predict(model: Model) -> Prediction:
     dx, dy = model.grid.spacing
     coarse = _coarse_run(model)
     last = coarse.last
-    holds = None
-    if last is not None:
-        holds = _inside(model, last) or model.may_reach_edge
-    across = None
-    if hertz is not None:
-        across = (2 * hertz.half_width_x / dx, 2 * hertz.half_width_y / dy)
-    unstable = _unstable(model, state)
+    holds = None if last is None else _inside(model, last) or model.may_reach_edge
+    across = None if hertz is None else (2 * hertz.half_width_x / dx, 2 * hertz.half_width_y / dy)
+    unstable, warned = _first_step(model, state)
     # In the order in which a run would come upon them.
     stopping = [
-        (CaseError.exit_code, unstable if _stops_at_once(model) else None),
+        (CaseError.exit_code, unstable),
         (NumericalError.exit_code, _unsettled(model, state)),
         (NumericalError.exit_code, _outgrown(model, coarse) if holds is False else None),
         # What a coarse grid alone cannot carry through, a finer one may.
         (coarse.error.exit_code if isinstance(coarse.error, PluginError) else 0, _failed(coarse)),
     ]
-    problems = [
-        problem
-        for problem in (
-            *unusual(model.case),
-            _few_cells(across or (2 * first.half_width_x / dx, 2 * first.half_width_y / dy)),
-            *(text for _, text in stopping),
-            None if _stops_at_once(model) else unstable,
-            *(too_wide(model, first) or too_wide(model, last or first)),
-            *_deep(model, last),
-            coarse.limitation,
-            short_of_a_lap(model),
-        )
-        if problem is not None
-    ]
+    problems = (
+        *unusual(model.case),
+        _few_cells(across or (2 * first.half_width_x / dx, 2 * first.half_width_y / dy)),
+        *(text for _, text in stopping),
+        warned,
+        *(too_wide(model, first) or too_wide(model, last or first)),
+        *_deep(model, last),
+        coarse.limitation,
+        short_of_a_lap(model),
+    )
     facts = {}
     for place, component in model.case.components():
         with calling(component):
@@ -147,12 +137,10 @@ def predict(model: Model) -> Prediction:
         last=last,
         window_holds=holds,
         limitation=coarse.limitation,
-        memory=memory_needed(
-            model.grid, model.laws, model.effects, plastic=model.system.cap is not None
-        ),
+        memory=memory_needed(model.case, plastic=model.system.cap is not None),
         file_size=_file_size(model),
         facts={place: stated for place, stated in facts.items() if stated},
-        problems=tuple(problems),
+        problems=tuple(problem for problem in problems if problem is not None),
         exit_code=next((code for code, text in stopping if text is not None and code), 0),
     )
 
@@ -165,9 +153,9 @@ def _file_size(model: Model) -> float:
     # wear and its state.
     field = 8.0 * nx * ny
     each = field * (1 + len(model.bodies) * sum(len(effect.provides) for effect in model.effects))
-    for name, body in model.bodies.items():
+    for name in model.bodies:
         own = field / nx if model.is_swept(name) else field
-        states = len(body.wear.state_fields) if body.wear is not None else 0
+        states = len(model.laws[name].state_fields) if name in model.laws else 0
         each += field + (1 + states) * own
     heights = field * len(model.bodies)
     return BARE_FILE + heights + saves * each
@@ -194,45 +182,12 @@ def _unsettled(model: Model, state: State) -> str | None:
     return None
 
 
-def _unstable(model: Model, state: State) -> str | None:
-    config = model.stepping
-    if not isinstance(config, Explicit):
-        return None
-    time = config.time_step
-    steps = model.end_time / time
-    if steps > MOST_STEPS:
-        return (
-            f"stepping.time_step = {time:g} s would take {steps:.2g} steps, and the run "
-            f"stops at once beyond {MOST_STEPS:.0e}: make it longer, or use stepping.type = "
-            "'implicit'"
-        )
-    increment = path_at(model.kinematics, time)
-    limit = largest_stable_increment(model, state, Moment(time, increment, increment / time))
-    if limit is None:
-        return None if config.allow_unstable else _unknown_stability(model)
-    if increment < limit:
-        return None
-    ends = "its pressure would oscillate" if config.allow_unstable else "the run would stop at once"
-    return (
-        f"stepping.time_step = {time:g} s is beyond the stability limit, so {ends}: "
-        f"the largest stable step is {time * limit / increment:.4g} s at first, and less as the "
-        "contact grows; or use stepping.type = 'implicit'"
-    )
-
-
-def _stops_at_once(model: Model) -> bool:
-    """Whether a step that is not stable, or too short, stops a run as it begins."""
-    config = model.stepping
-    if not isinstance(config, Explicit):
-        return False
-    return not config.allow_unstable or model.end_time / config.time_step > MOST_STEPS
-
-
-def _unknown_stability(model: Model) -> str:
-    return (
-        f"contact.type = {model.contact.type!r} does not state its smallest compliance, so "
-        "explicit steps stop at once: set stepping.allow_unstable = true to go on without"
-    )
+def _first_step(model: Model, state: State) -> tuple[str | None, str | None]:
+    """Return why the run would stop at its first step, and what it would warn of."""
+    try:
+        return None, model.stepping.check(model, state)
+    except CaseError as error:
+        return f"the run would stop at once: {error}", None
 
 
 def _outgrown(model: Model, coarse: CoarseRun) -> str:
@@ -260,14 +215,8 @@ def _coarsened(model: Model, margin: float) -> Model:
     largest = max(model.grid.size)
     nx, ny = (max(8, 2 * round(0.5 * COARSE * size / largest)) for size in model.grid.size)
     lx, ly = (margin * size for size in model.grid.size)
-    return assemble(
-        varied(
-            model.case,
-            grid=Grid((lx, ly), (nx, ny), ends_at_window=True),
-            stepping=LOOSE if model.contact.accepts_wear_compliance else model.stepping,
-            output=Output(),
-        )
-    )
+    grid = Grid((lx, ly), (nx, ny), ends_at_window=True)
+    return assemble(varied(model.case, grid=grid, stepping=LOOSE, output=Output()))
 
 
 def _coarse_run(model: Model) -> CoarseRun:

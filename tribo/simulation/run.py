@@ -23,17 +23,15 @@ from tribo.result.checkpoint import read_checkpoint, tidied
 from tribo.result.provenance import changed_components, origin, provenance
 from tribo.result.read import Result
 from tribo.simulation.assembly import assemble
-from tribo.simulation.bodies import surface_height
-from tribo.simulation.calling import calling
 from tribo.simulation.doubt import doubting
 from tribo.simulation.effects import MissingFieldError
+from tribo.simulation.guard import calling
 from tribo.simulation.interrupt import InterruptGuard
 from tribo.simulation.march import begin, march
 from tribo.simulation.measure import measure
 from tribo.simulation.model import Model
-from tribo.simulation.motion import path_at
-from tribo.simulation.rates import effect_fields
 from tribo.simulation.watching import Audience
+from tribo.stepping.rates import effect_fields
 
 FAILED = "failed"
 OTHERS = (".csv", ".json", ".pdf", ".png", ".svg", ".toml", ".txt", ".xls", ".xlsx")
@@ -265,13 +263,13 @@ class Simulation:
                     name=name,
                     swept=model.is_swept(name),
                     density=body.material.density,
-                    height=surface_height(name, body.surface, model.grid),
+                    height=model.surfaces[name].height,
                     state_fields=() if body.wear is None else tuple(body.wear.state_fields),
                 )
                 for name, body in model.bodies.items()
             ),
             end_time=model.end_time,
-            end_distance=path_at(model.kinematics, model.end_time),
+            end_distance=model.end_distance,
             case=model.data,
             provenance=self._provenance(),
             effect_fields=tuple(f for effect in model.effects for f in effect.provides),

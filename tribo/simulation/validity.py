@@ -5,9 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from tribo.core.measures import Measures
-from tribo.simulation.bodies import curvature_of
 from tribo.simulation.model import Model
-from tribo.simulation.motion import path_at
 
 STEEP = 0.3
 """Half-width of a contact over the radius of a body, from which on it is spoken of."""
@@ -18,8 +16,8 @@ def too_wide(model: Model, measures: Measures) -> list[str]:
     """Say of which bodies the contact is too wide for their radius to be a half-space."""
     widths = (measures.half_width_x, measures.half_width_y)
     told = []
-    for name, body in model.bodies.items():
-        curvatures = curvature_of(name, body.surface) or (0.0, 0.0)
+    for name, surface in model.surfaces.items():
+        curvatures = surface.curvature or (0.0, 0.0)
         ratio, curvature = max(
             (abs(c) * a, abs(c)) for c, a in zip(curvatures, widths, strict=True)
         )
@@ -34,16 +32,14 @@ def too_wide(model: Model, measures: Measures) -> list[str]:
 
 def short_of_a_lap(model: Model) -> str | None:
     """Say so if the whole run slides over a part of a body's track only."""
-    path = path_at(model.kinematics, model.end_time)
-    for name, body in model.bodies.items():
-        if not (model.is_swept(name) and body.wear):
-            continue
+    distance = model.end_distance
+    for name in [name for name in model.laws if model.is_swept(name)]:
         # What one metre of depth all along the track takes, over the breadth of the window.
         depth = np.ones((1, model.grid.cells[1]))
         length = model.exposures[name].volume(depth) / model.grid.size[1]
-        if path < WHOLE * length:
+        if distance < WHOLE * length:
             return (
-                f"the run slides {path:.3g} m, {path / length:.2g} of the track of {name}, "
+                f"the run slides {distance:.3g} m, {distance / length:.2g} of the track of {name}, "
                 f"which is {length:.3g} m long: its wear is averaged over the whole track, also "
                 "where the contact never comes to; slide once over it at least, and for the "
                 "average to hold many times"

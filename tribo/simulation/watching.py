@@ -16,7 +16,7 @@ from tribo.core.arrays import Array, readonly
 from tribo.core.errors import TriboError, TriboWarning
 from tribo.core.state import RunInfo, Snapshot
 from tribo.observers.observer import Observer
-from tribo.simulation.calling import calling
+from tribo.simulation.guard import calling
 
 Watcher = Observer
 

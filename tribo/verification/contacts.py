@@ -10,7 +10,7 @@ from tribo.closed_forms import cone, hertz, punch
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.core.measures import contact_area
-from tribo.simulation.step import first_contact
+from tribo.stepping.step import first_contact
 from tribo.verification.check import Check, Found, Quantity
 from tribo.verification.problems import (
     LOAD,

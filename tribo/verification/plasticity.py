@@ -11,7 +11,7 @@ from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.core.measures import contact_area
 from tribo.simulation.model import Model
-from tribo.simulation.step import first_contact, start_sliding
+from tribo.stepping.step import first_contact, start_sliding
 from tribo.verification.check import Check, Found, Quantity
 from tribo.verification.problems import (
     HARDNESS,

@@ -7,7 +7,6 @@ from collections.abc import Callable
 import numpy as np
 
 from tribo.case import Body, Case
-from tribo.config.stepping import Explicit, Implicit
 from tribo.contact.dcfft import DcFft
 from tribo.contact.periodic import Periodic
 from tribo.contact.solver import ContactSolver
@@ -19,7 +18,9 @@ from tribo.core.state import State
 from tribo.motion.unidirectional import Unidirectional
 from tribo.simulation.assembly import assemble
 from tribo.simulation.model import Model
-from tribo.simulation.step import explicit_step, first_contact, implicit_step
+from tribo.stepping.explicit import Explicit
+from tribo.stepping.implicit import Implicit
+from tribo.stepping.step import first_contact
 from tribo.surfaces.flat import Flat
 from tribo.surfaces.paraboloid import Paraboloid
 from tribo.surfaces.surface import Surface
@@ -115,14 +116,10 @@ def slide(
 ) -> tuple[State, State]:
     """Slide in equal steps; return the last two states."""
     before = state = first_contact(model)
-    config = Implicit()
+    scheme = Explicit(time_step=distance / steps / SPEED) if explicit else Implicit()
     for i in range(steps):
-        time = distance * (i + 1) / steps / SPEED
         before = state
-        if explicit:
-            state = explicit_step(model, state, distance / steps, time)
-        else:
-            state = implicit_step(model, state, distance / steps, time, config=config).state
+        state = scheme.step(model, state, distance / steps, distance * (i + 1) / steps / SPEED)
     return before, state
 
 

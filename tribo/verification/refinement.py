@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from tribo.case import Output
-from tribo.config.stepping import Explicit, Implicit
 from tribo.core.errors import CaseError, NumericalError
 from tribo.core.grid import Grid
 from tribo.core.measures import Measures
@@ -14,6 +13,8 @@ from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.march import begin, march
 from tribo.simulation.measure import measure
 from tribo.simulation.model import Model
+from tribo.stepping.explicit import Explicit
+from tribo.stepping.implicit import Implicit
 from tribo.verification.convergence import Convergence, convergence
 
 # Above the 1.3 that Celik et al. (2008) ask for, and mild on cases that are coarse already.
@@ -217,7 +218,7 @@ def _quantities(model: Model, end: Measures) -> dict[str, tuple[str, float]]:
         "half-width along": ("m", end.half_width_x),
         "half-width across": ("m", end.half_width_y),
     }
-    if model.stop.depth is not None:
+    if model.case.stop.depth is not None:
         found["path slid"] = ("m", end.distance)
     for name, body in end.bodies.items():
         found |= {

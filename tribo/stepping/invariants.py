@@ -1,7 +1,7 @@
-"""What must hold at every step, whoever wrote the parts: held at every step, always.
+"""Invariants checked after each step.
 
-The load balance, the sign and the cap of a pressure are held at every solve,
-in `tribo.simulation.solving`.
+The load balance, the sign and the cap of a pressure are checked at every solve,
+in `tribo.simulation.guarded_contact`.
 """
 
 from __future__ import annotations
@@ -9,16 +9,18 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from math import isfinite
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tribo.config.stepping import Explicit
 from tribo.core.arrays import Array, union
 from tribo.core.errors import NumericalError
 from tribo.core.fields import WearRate
 from tribo.core.measures import Invariants
 from tribo.core.state import State
-from tribo.simulation.model import Model
+
+if TYPE_CHECKING:
+    from tribo.simulation.model import Model
 
 LOAD = 1e-6
 CONDITIONS = 1e-2
@@ -96,7 +98,7 @@ def hold(model: Model, before: State | None, after: State) -> State:
             share = handed_back(*(pressure[near] for pressure in pressures))
             after = replace(after, invariants=replace(after.invariants, chattering=share))
     broken = broken_by(after)
-    if broken is None and chatters(after) and not _may_chatter(model):
+    if broken is None and chatters(after) and not model.stepping.may_oscillate:
         broken = chattering_words(after)
     if broken is not None:
         raise NumericalError(
@@ -156,10 +158,6 @@ def chattering_words(state: State) -> str:
         f"and forth between cells from step to step, and {100 * CHATTERING:.0f} % are allowed; "
         "shorten the steps (stepping.time_step), or use stepping.type = 'implicit'"
     )
-
-
-def _may_chatter(model: Model) -> bool:
-    return isinstance(model.stepping, Explicit) and model.stepping.allow_unstable
 
 
 def _not_finite(state: State) -> str | None:

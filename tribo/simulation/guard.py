@@ -1,0 +1,160 @@
+"""Calls into a component: what goes wrong in one names it, and its answers are checked."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from numbers import Number
+from typing import Any, Generic, NoReturn, ParamSpec, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tribo.component import Component
+from tribo.core.arrays import Array
+from tribo.core.errors import BadValues, Interrupted, NumericalError, PluginError, TriboError
+from tribo.core.words import said
+from tribo.registry.kinds import kind_of
+
+C = TypeVar("C", bound=Component)
+P = ParamSpec("P")
+T = TypeVar("T")
+
+
+class Guard(Generic[C]):
+    """A component that is named in its errors; a subclass a kind checks the answers.
+
+    Parameters
+    ----------
+    component : Component
+        What is called.
+    body : str, optional
+        The body it belongs to, if it belongs to one.
+    """
+
+    def __init__(self, component: C, body: str | None = None) -> None:
+        self.component = component
+        self.body = body
+
+    def __str__(self) -> str:
+        """Return what messages call it, as ``wear law 'archard' of body 'ball'``."""
+        words = f"{kind_of(type(self.component)).words} {self.component.type!r}"
+        return f"{words} of body {self.body!r}" if self.body else words
+
+    def ask(self, method: Callable[P, T], *given: P.args, **named: P.kwargs) -> T:
+        """Call a method of the component.
+
+        Raises
+        ------
+        PluginError
+            If it raises what nobody expects, or an error without a message.
+        NumericalError
+            If it raises one, or there is no more memory.
+        """
+        try:
+            return method(*given, **named)
+        except BaseException as error:
+            _blame(self, error)
+
+    def number(self, what: str, value: object) -> float:
+        """Return `value`, which is meant to be `what` ("an approach"), as a finite float.
+
+        Raises
+        ------
+        BadValues
+            If it is anything else.
+        """
+        if type(value) is float and math.isfinite(value):
+            return value
+        plain = _plain(value)
+        if plain is None or plain.shape != () or not np.isfinite(plain):
+            raise BadValues(f"{self} gave {what} that is not a finite number: {_shown(value)}")
+        return float(plain)
+
+    def field(
+        self, what: str, values: object, shape: tuple[int, ...], *, spread: bool = False
+    ) -> tuple[Array, float, float]:
+        """Return `values` as finite floats of this shape, the smallest and the largest of them.
+
+        The array cannot be written to any more.
+
+        Parameters
+        ----------
+        what : str
+            What they are meant to be.
+        values : object
+            What was given.
+        shape : tuple of int
+            What they must have.
+        spread : bool, optional
+            Whether they need only broadcast to it.
+
+        Raises
+        ------
+        BadValues
+            If they are anything else.
+        """
+        plain = _plain(values)
+        if spread and plain is not None and plain.shape != shape:
+            with suppress(ValueError):
+                plain = np.broadcast_to(plain, shape)
+        if plain is None or plain.shape != shape:
+            raise BadValues(
+                f"{self} gave {what} that is not an array of shape {shape}: {_shown(values)}"
+            )
+        # Sums depend on the order in memory, and a checkpoint keeps but one.
+        array = np.asarray(plain, dtype=np.float64, order="C")
+        low = float(np.minimum.reduce(array, axis=None))
+        high = float(np.maximum.reduce(array, axis=None))
+        # Both are NaN if any value is.
+        if not -np.inf < low <= high < np.inf:
+            bad = np.count_nonzero(~np.isfinite(array))
+            raise BadValues(f"{self} gave {what} that is not finite in {bad} cells")
+        if array.base is not None:
+            # What it is a view of could still be written to.
+            array = array.copy()
+        array.setflags(write=False)
+        return array, low, high
+
+    def wrong(self, answer: object, instead: str) -> PluginError:
+        """Return the error of an answer of the wrong type."""
+        return PluginError(f"{self} gave a {type(answer).__name__} {instead}")
+
+
+@contextmanager
+def calling(component: Component) -> Iterator[None]:
+    """Name `component` in an error that is raised inside, as `Guard.ask` does."""
+    try:
+        yield
+    except BaseException as error:
+        _blame(Guard(component), error)
+
+
+def _blame(who: object, error: BaseException) -> NoReturn:
+    if isinstance(error, KeyboardInterrupt | Interrupted | PluginError):
+        raise error
+    if isinstance(error, TriboError) and str(error).strip():
+        if isinstance(error, NumericalError):
+            raise NumericalError(f"{who}: {error}") from error
+        raise error
+    if isinstance(error, MemoryError):
+        raise NumericalError(f"{who} ran out of memory; lower grid.cells") from error
+    raise PluginError(
+        f"{who} raised {said(error)}; this is a fault of that component (TRIBO_DEBUG=1 shows where)"
+    ) from error
+
+
+def _plain(value: object) -> NDArray[Any] | None:
+    """Return `value` as an array, or None where it is not one of real numbers."""
+    try:
+        array = np.asarray(value)
+    except (TypeError, ValueError):
+        return None
+    return array if array.dtype.kind in "fiub" else None
+
+
+def _shown(value: object) -> str:
+    if isinstance(value, np.ndarray):
+        return f"{value.dtype} of shape {value.shape}"
+    return repr(value) if isinstance(value, Number) else f"a {type(value).__name__}"

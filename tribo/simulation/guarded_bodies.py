@@ -1,0 +1,174 @@
+"""Surfaces, wear laws and effects, held to their contracts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from tribo.core.arrays import Array
+from tribo.core.errors import BadValues, PluginError
+from tribo.core.fields import ContactConditions, LocalConditions, WearRate
+from tribo.core.grid import Grid
+from tribo.core.material import Material
+from tribo.effects.effect import Effect
+from tribo.simulation.guard import Guard
+from tribo.surfaces.surface import Surface
+from tribo.wear.law import WearLaw
+
+NUDGE = 1e-6
+"""Part of the largest pressure by which it is raised to find a slope that a law leaves out."""
+
+
+class GuardedSurface(Guard[Surface]):
+    """A surface and what it answered: its height (nx, ny) in m, and its curvature in 1/m.
+
+    Raises
+    ------
+    PluginError
+        If these are not what they must be.
+    """
+
+    def __init__(self, surface: Surface, body: str, grid: Grid) -> None:
+        super().__init__(surface, body)
+        height = self.ask(surface.height, grid)
+        self.height = self.field("a height map", height, grid.cells)[0]
+        self.curvature = self._curvature()
+
+    def _curvature(self) -> tuple[float, float] | None:
+        answer: object = self.ask(getattr, self.component, "curvature")
+        if answer is None:
+            return None
+        along, across = self.field("a curvature", answer, (2,))[0]
+        return float(along), float(across)
+
+
+class GuardedLaw(Guard[WearLaw]):
+    """A wear law that suits its body, and the initial values of its state fields.
+
+    Raises
+    ------
+    CaseError
+        If the law refuses the material.
+    PluginError
+        If its state is not as it declares it.
+    """
+
+    def __init__(self, law: WearLaw, body: str, material: Material) -> None:
+        super().__init__(law, body)
+        self.material = material
+        self.requires = law.requires
+        self.state_fields = law.state_fields
+        self.ask(law.check, material)
+        given = self.ask(law.initial_state)
+        declared = {field.name for field in law.state_fields}
+        if not isinstance(given, Mapping) or set(given) != declared:
+            raise PluginError(
+                f"{self} declares the state fields {sorted(declared)}, but starts with "
+                f"{given!r:.80}"
+            )
+        self.initial_state = {
+            name: self.number(f"an initial {name!r}", value) for name, value in given.items()
+        }
+
+    def rate(self, local: LocalConditions) -> WearRate:
+        """Return the law's rate at the shape of the pressure, its slope not negative.
+
+        Raises
+        ------
+        BadValues
+            If an array is not finite or of another shape, or the depth is
+            negative, or not 0 where the pressure is.
+        PluginError
+            If the answer is anything else but such arrays.
+        """
+        answer, depth = self._depth(local)
+        shape = local.pressure.shape
+        slope = answer.depth_slope
+        if slope is None:
+            slope = self._slope(local, depth)
+        slope, flattest, _ = self.field("a derivative", slope, shape, spread=True)
+        rates = answer.state_rates
+        if not isinstance(rates, Mapping):
+            raise self.wrong(rates, "as rates of its state")
+        state = {}
+        for name in self.initial_state:
+            if name not in rates:
+                raise PluginError(f"{self} gave no rate for its state field {name!r}")
+            state[name] = self.field(f"a rate of {name!r}", rates[name], shape, spread=True)[0]
+        return WearRate(depth, np.maximum(slope, 0.0) if flattest < 0 else slope, state)
+
+    def _depth(self, local: LocalConditions) -> tuple[WearRate, Array]:
+        answer = self.ask(self.component.rate, local)
+        if not isinstance(answer, WearRate):
+            raise self.wrong(answer, "instead of a WearRate")
+        what, pressure = "a depth per metre", local.pressure
+        depth, least, _ = self.field(what, answer.depth_rate, pressure.shape, spread=True)
+        if least < 0:
+            raise BadValues(f"{self} gave a negative {what[2:]} ({least:.3g}); wear only removes")
+        bare = np.count_nonzero((depth != 0) & (pressure == 0))
+        if bare:
+            raise BadValues(
+                f"{self} gave {what} that is not 0 in {bare} cells where the pressure is 0; what "
+                "is not touched does not wear"
+            )
+        return answer, depth
+
+    def _slope(self, local: LocalConditions, depth: Array) -> Array:
+        """Return the derivative of the depth in pressure, by a finite step up."""
+        step = NUDGE * float(np.max(local.pressure))
+        higher = local.pressure + step
+        higher.setflags(write=False)
+        slope: Array = (self._depth(replace(local, pressure=higher))[1] - depth) / step
+        return slope
+
+
+class GuardedEffect(Guard[Effect]):
+    """An effect whose fields are finite, within their limits and there for each body."""
+
+    def __init__(self, effect: Effect) -> None:
+        super().__init__(effect)
+        self.requires = effect.requires
+        self.provides = effect.provides
+
+    def check(self, materials: Mapping[str, Material], swept: frozenset[str]) -> None:
+        """Raise `CaseError` if the effect does not suit the bodies or how they move."""
+        self.ask(self.component.check, materials, swept)
+
+    def fields(self, contact: ContactConditions) -> dict[str, dict[str, Array]]:
+        """Return each provided field for each body, shape (nx, ny).
+
+        Raises
+        ------
+        BadValues
+            If one is not finite, of another shape or beyond its limits.
+        PluginError
+            If one is missing.
+        """
+        answer = self.ask(self.component.fields, contact)
+        if not isinstance(answer, Mapping):
+            raise self.wrong(answer, "instead of its fields")
+        found: dict[str, dict[str, Array]] = {}
+        for field in self.provides:
+            of_bodies = answer.get(field.name, {})
+            found[field.name] = {}
+            for body in contact.materials:
+                values = of_bodies.get(body) if isinstance(of_bodies, Mapping) else None
+                what = f"{field.name!r} for body {body!r}"
+                if values is None:
+                    raise PluginError(f"{self} gave no {what}")
+                shape = contact.pressure.shape
+                array, low, high = self.field(what, values, shape, spread=True)
+                if outside := field.outside(low, high):
+                    raise BadValues(f"{self} gave {what} that is {outside}")
+                found[field.name][body] = array
+        return found
+
+
+def curvature_of_gap(surfaces: Sequence[GuardedSurface]) -> tuple[float, float] | None:
+    """Return the curvature along x and y, in 1/m; None if a surface states none."""
+    known = [surface.curvature for surface in surfaces]
+    if any(c is None for c in known):
+        return None
+    return sum(c[0] for c in known if c), sum(c[1] for c in known if c)

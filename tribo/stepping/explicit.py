@@ -1,0 +1,207 @@
+"""Forward Euler with a fixed time step, and the limit of its stability."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING, Annotated, Literal
+
+import numpy as np
+
+from tribo.core.contact import ContactSolution
+from tribo.core.errors import CaseError
+from tribo.core.fields import WearRate
+from tribo.core.state import State
+from tribo.core.units import Quantity
+from tribo.stepping.invariants import wear_balance
+from tribo.stepping.notices import STABILITY, is_told, told
+from tribo.stepping.rates import Moment, law_states, wear_rates
+from tribo.stepping.scheme import Scheme
+from tribo.stepping.step import (
+    accepted,
+    distance_until,
+    geometry,
+    law_states_after,
+    moment_after,
+    rested,
+    rests,
+    solve,
+    start_sliding,
+    wear_compliance,
+    worn_bodies,
+    worn_depths,
+)
+
+if TYPE_CHECKING:
+    from tribo.simulation.model import Model
+
+MOST_STEPS = 1e8
+NUDGE = 1e-4
+"""Part of the pressure by which it is varied to find what a wear rate makes of it."""
+PLACE = "stepping.time_step"
+
+
+class Explicit(Scheme):
+    """Forward Euler with a fixed time step, as in the paper; limited by stability."""
+
+    type: Literal["explicit"] = "explicit"
+    time_step: Annotated[float, Quantity("s", above=0)]
+    """Length of a step."""
+    allow_unstable: bool = False
+    """Go on beyond the stability limit, at your own risk."""
+
+    @property
+    def may_oscillate(self) -> bool:
+        """Whether the case allows steps beyond the stability limit."""
+        return self.allow_unstable
+
+    def check(self, model: Model, state: State) -> str | None:
+        """Check the first step; see `Scheme.check`.
+
+        Raises
+        ------
+        CaseError
+            If steps are too short to come to an end, or the first is not stable.
+        """
+        steps = model.end_time / self.time_step
+        if steps > MOST_STEPS:
+            raise CaseError(
+                f"{self.time_step:g} s would take {steps:.2g} steps; {MOST_STEPS:.0e} are allowed: "
+                "make it longer, or use stepping.type = 'implicit'",
+                PLACE,
+            )
+        if rests(model, state, self.time_step):
+            return None
+        increment = distance_until(model, state, self.time_step)
+        return self._instability(model, state, moment_after(state, increment, self.time_step))
+
+    def advance(self, model: Model, state: State, until: float) -> State:
+        """Return the state a time step on, or at `until` (s) if that is sooner.
+
+        Raises
+        ------
+        CaseError
+            If the step is beyond the stability limit, and the case does not allow it.
+        """
+        time = state.time + self.time_step
+        if until - time < 1e-6 * self.time_step:
+            time = until
+        if rests(model, state, time):
+            return rested(state, time)
+        state = start_sliding(model, state)
+        increment = distance_until(model, state, time) - state.distance
+        moment = moment_after(state, increment, time)
+        state = rated(model, state, moment)
+        if not (self.allow_unstable and is_told(state, STABILITY)):
+            words = self._instability(model, state, moment)
+            if words is not None:
+                state = told(state, STABILITY, words)
+        return self.step(model, state, increment, time)
+
+    def step(self, model: Model, state: State, increment: float, time: float) -> State:
+        """Return the state after one forward Euler step; see `Scheme.step`."""
+        moment = moment_after(state, increment, time)
+        rates = rated(model, state, moment).rates
+        worn = worn_depths(model, rates, increment)
+        law = law_states_after(model, law_states(state), rates, increment)
+        bodies = worn_bodies(state, worn, law)
+        solution = solve(model, geometry(model, bodies), None, _extrapolated(state))
+        kept = replace(
+            state, rates={}, invariants=wear_balance(model, worn, rates, increment, state)
+        )
+        return accepted(model, kept, bodies, solution, moment, 1, solution.iterations)
+
+    def _instability(self, model: Model, state: State, moment: Moment) -> str | None:
+        """Return a warning of a step that is beyond the limit where the case allows it.
+
+        Raises
+        ------
+        CaseError
+            If it does not, or the limit is not known.
+        """
+        limit = largest_stable_increment(model, state, moment)
+        if limit is None:
+            if self.allow_unstable:
+                return None
+            raise CaseError(
+                f"contact.type = {model.contact.type!r} does not state its smallest "
+                "compliance, so the stability of explicit steps cannot be checked; set "
+                "stepping.allow_unstable = true to go on without",
+                PLACE,
+            )
+        increment, dt = moment.distance - state.distance, moment.time - state.time
+        if increment < limit:
+            return None
+        words = (
+            f"{dt:.4g} s slides {increment:.4g} m, beyond the stability limit of {limit:.4g} m; "
+            f"the largest stable step is {dt * limit / increment:.4g} s"
+        )
+        if self.allow_unstable:
+            return f"{words}. Sooner or later the pressure may chatter"
+        raise CaseError(
+            f"{words} (or use stepping.type = 'implicit', or set stepping.allow_unstable = true)",
+            PLACE,
+        )
+
+
+def rated(model: Model, state: State, moment: Moment) -> State:
+    """Return `state` with the rates of its contact, asked for unless it has them."""
+    if state.rates:
+        return state
+    return replace(state, rates=wear_rates(model, state.contact, law_states(state), moment))
+
+
+def largest_stable_increment(model: Model, state: State, moment: Moment) -> float | None:
+    """Return the increment below which forward Euler is stable, in m.
+
+    Δs λ < 2, with λ bounded from above by the largest derivative of the wear
+    rate (local, plus that of a swept body times the part of the track that is
+    in contact) over the smallest compliance. The derivative is that of the
+    law, or what is found by difference, if more: only so does it hold what
+    comes through fields that follow the pressure. None where the contact solver
+    does not state its smallest compliance; infinity where nothing wears.
+    """
+    smallest = model.solver.smallest_compliance(model.system)
+    if smallest is None:
+        return None
+    pressure, near = state.contact.pressure, state.contact.extent
+    rates = _steepened(model, state, rated(model, state, moment).rates, moment)
+    compliance = wear_compliance(model, rates, pressure, 1.0)
+    touching = pressure[near] > 0
+    length = np.count_nonzero(touching, axis=0) * model.grid.spacing[0]
+    local = float(np.max(compliance.local[near], where=touching, initial=0.0))
+    slope = local + float((compliance.swept[near[1]] * length).max())
+    return 2 * smallest / slope if slope > 0 else np.inf
+
+
+def _steepened(
+    model: Model, state: State, rates: Mapping[str, WearRate], moment: Moment
+) -> Mapping[str, WearRate]:
+    """Return `rates` with the derivative in all, where laws follow the fields of effects.
+
+    The pressure is varied in stripes, up and down from row to row: the mode
+    that grows first, under the same load.
+    """
+    following = [name for name, law in model.laws.items() if law.requires]
+    if not model.effects or not following:
+        return rates
+    pressure = state.contact.pressure
+    stripes = NUDGE * pressure
+    stripes[:, ::2] *= -1
+    nudged = replace(state.contact, pressure=pressure + stripes)
+    others = wear_rates(model, nudged, law_states(state), moment)
+    steeper = dict(rates)
+    for name in following:
+        change = others[name].depth_rate - rates[name].depth_rate
+        slope = np.divide(change, stripes, out=np.zeros_like(change), where=stripes != 0)
+        derivative = np.maximum(rates[name].depth_slope, slope)
+        steeper[name] = replace(rates[name], depth_slope=derivative)
+    return steeper
+
+
+def _extrapolated(state: State) -> ContactSolution:
+    """Return the contact as it would be if it went on to change by as much as in the last step."""
+    if state.previous is None:
+        return state.contact
+    pressure = np.maximum(2 * state.contact.pressure - state.previous, 0.0)
+    return replace(state.contact, pressure=pressure)

@@ -1,0 +1,314 @@
+"""Backward Euler, with increments chosen by error."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+
+import numpy as np
+from pydantic import Field
+
+from tribo.core.arrays import Array
+from tribo.core.errors import BadValues, NumericalError, PluginError
+from tribo.core.fields import WearRate
+from tribo.core.state import State
+from tribo.core.units import Quantity
+from tribo.stepping.invariants import wear_balance
+from tribo.stepping.rates import LawStates, Moment, law_states, wear_rates
+from tribo.stepping.repeated import check_repeatable
+from tribo.stepping.scheme import Scheme
+from tribo.stepping.step import (
+    SMALLEST,
+    accepted,
+    distance_until,
+    geometry,
+    law_states_after,
+    moment_after,
+    rested,
+    rests,
+    solve,
+    start_sliding,
+    wear_compliance,
+    worn_bodies,
+    worn_depths,
+)
+
+if TYPE_CHECKING:
+    from tribo.simulation.model import Model
+
+FIRST = 0.05
+VOLUME = 5.0
+"""Error of the volume that a step wears, in depth tolerances: a body ends with 0.1 to 0.4 % too
+little at the default."""
+LATE = 0.003
+"""Depth of a step, of the depth worn so far, below which its volume need not be as exact."""
+SAFETY = 0.9
+SHRINK, GROW = 0.2, 2.5
+MAX_REJECTIONS = 40
+
+
+class StepRejected(NumericalError):
+    """A step was too long to be carried out; a shorter one may do."""
+
+
+@dataclass(frozen=True)
+class Trial:
+    """The state after a backward Euler step, and what forward Euler would have worn.
+
+    `forward` has the depth by body, on the body's surface, in m.
+    """
+
+    state: State
+    forward: Mapping[str, Array]
+
+
+@dataclass(frozen=True)
+class Errors:
+    """Errors of a step as multiples of what is allowed."""
+
+    depth: float
+    pressure: float
+    volume: float
+
+    @property
+    def factor(self) -> float:
+        """By how much the next increment may differ."""
+        # The depth error of a step grows as its square, the two others in proportion.
+        wanted = SAFETY * min(
+            1 / math.sqrt(self.depth) if self.depth > 0 else GROW,
+            1 / self.pressure if self.pressure > 0 else GROW,
+            1 / self.volume if self.volume > 0 else GROW,
+        )
+        return min(GROW, max(SHRINK, wanted))
+
+
+class Implicit(Scheme):
+    """Backward Euler, with increments chosen by error; stable at any length."""
+
+    type: Literal["implicit"] = "implicit"
+    depth_tolerance: Annotated[float, Quantity("1", above=0, at_most=0.1)] = 1e-3
+    """Largest local error of the wear depth in one step, relative to the depth worn so far; five
+    times as much is allowed of the volume, relative to what the step wears."""
+    pressure_tolerance: Annotated[float, Quantity("1", above=0, at_most=1)] = 0.05
+    """Largest load-weighted relative change of pressure in one step."""
+    settle: Annotated[float, Quantity("1", above=0, at_most=1)] = 0.01
+    """Length of the last step before a save, relative to the distance slid by then."""
+    nonlinear_tolerance: Annotated[float, Quantity("1", above=0, at_most=1e-3)] = 1e-8
+    """How exactly a step fulfils backward Euler for a law that is not linear in pressure."""
+    max_passes: Annotated[int, Field(ge=1, le=1000)] = 60
+    """Solves a step may take to do so; more rejects it."""
+
+    needs_wear_compliance: ClassVar[bool] = True
+
+    def advance(self, model: Model, state: State, until: float) -> State:
+        """Return the state after the longest step that meets the tolerances.
+
+        Raises
+        ------
+        NumericalError
+            If steps are rejected down to a length that drowns in rounding.
+        """
+        if rests(model, state, until):
+            return rested(state, until)
+        state = start_sliding(model, state)
+        target = distance_until(model, state, until)
+        remaining = target - state.distance
+        natural = state.increment or _first_increment(model, state, remaining)
+        rejected = 0
+        while True:
+            increment = self._fitted(natural, remaining, target)
+            last = increment == remaining
+            time = until if last else _time_at(model, state, state.distance + increment, until)
+            try:
+                trial = self.attempt(model, state, increment, time)
+                errors = self.errors(state, trial)
+                if max(errors.depth, errors.pressure, errors.volume) <= 1:
+                    break
+                factor = errors.factor
+                failure: NumericalError | None = None
+            except (StepRejected, BadValues) as error:
+                check_repeatable(model, state)
+                factor, failure = SHRINK, error
+            rejected += 1
+            if rejected > MAX_REJECTIONS or factor * increment < SMALLEST * target:
+                if failure is not None:
+                    raise failure
+                check_repeatable(model, state)
+                raise NumericalError(
+                    f"steps down to {increment:.3g} m at {state.distance:.6g} m still miss their "
+                    f"tolerances (depth error {errors.depth:.3g}, pressure change "
+                    f"{errors.pressure:.3g}, volume error {errors.volume:.3g} times what is "
+                    "allowed); raise stepping.depth_tolerance or pressure_tolerance"
+                )
+            natural = factor * increment
+        # A step cut short to meet a save says little about the next: keep the longer of the two.
+        proposal = max(errors.factor * increment, natural if increment < natural else 0.0)
+        return replace(
+            trial.state, increment=proposal, rejected_steps=state.rejected_steps + rejected
+        )
+
+    def step(self, model: Model, state: State, increment: float, time: float) -> State:
+        """Return the state after one backward Euler step; see `Scheme.step`."""
+        return self.attempt(model, state, increment, time).state
+
+    def attempt(self, model: Model, state: State, increment: float, time: float) -> Trial:
+        """Try one backward Euler step.
+
+        The step's wear enters the contact problem as compliance; where that is
+        not the law's exact wear (a law not linear in pressure, a field that
+        depends on it), the remainder is put into the gap and the solve repeated
+        until it is.
+
+        Parameters
+        ----------
+        model, state, increment, time
+            As in `Scheme.step`.
+
+        Raises
+        ------
+        StepRejected
+            If the passes or a solve do not converge.
+        """
+        moment = moment_after(state, increment, time)
+        base = geometry(model, state.bodies)
+        dx = model.grid.spacing[0]
+        before = law_states(state)
+        law, solution = before, state.contact
+        solves = iterations = 0
+        implied: Array | None = None
+        forward: dict[str, Array] = {}
+        asked_again = False
+        mismatch = drift = np.inf
+        rates: Mapping[str, WearRate] = state.rates
+        while True:
+            if implied is not None or not rates:
+                rates = wear_rates(model, solution, law, moment)
+            worn = worn_depths(model, rates, increment)
+            settled = law_states_after(model, before, rates, increment)
+            depth = np.zeros(model.grid.cells)
+            for lost in worn.values():
+                depth += lost
+            if implied is not None:
+                mismatch = float(np.max(np.abs(depth - implied)))
+                drift = _largest_change(law, settled)
+                if mismatch <= self.nonlinear_tolerance * float(np.max(depth)):
+                    if drift <= self.nonlinear_tolerance:
+                        break
+                    if not asked_again:
+                        # The law may wear the same at the state it has now come to: no solve then.
+                        law, asked_again = settled, True
+                        continue
+            else:
+                forward = worn
+            if solves == self.max_passes:
+                raise StepRejected(
+                    f"the implicit step of {increment:.3g} m at {state.distance:.6g} m did not "
+                    f"converge in {solves} passes: wear depth still off by {mismatch:.2g} m, the "
+                    f"state of a law by {drift:.2g} of its largest; raise stepping.max_passes or "
+                    "lower stepping.pressure_tolerance"
+                )
+            asked_again = False
+            compliance = wear_compliance(model, rates, solution.pressure, increment)
+            remainder = depth - compliance.depth(solution.pressure, dx)
+            try:
+                solution = solve(model, base + remainder, compliance, solution)
+            except PluginError:
+                raise
+            except NumericalError as error:
+                raise StepRejected(str(error)) from error
+            implied = remainder + compliance.depth(solution.pressure, dx)
+            law = settled
+            solves += 1
+            iterations += solution.iterations
+        bodies = worn_bodies(state, worn, settled)
+        # Set first: settling a groove leaves the pressure that these rates belong to.
+        kept = replace(
+            state,
+            rates=rates,
+            invariants=wear_balance(model, worn, rates, increment, state),
+        )
+        after = accepted(model, kept, bodies, solution, moment, solves, iterations)
+        return Trial(after, forward)
+
+    def errors(self, before: State, trial: Trial) -> Errors:
+        """Return the step's depth, pressure and volume errors as multiples of their tolerances.
+
+        The local error of backward Euler in depth is half of what its wear
+        differs from forward Euler's. It is weighted with the load, since the
+        largest difference is always at newly touched edge cells, and compared
+        with the depth worn so far (and a part of the first approach, below which
+        wear does not alter the contact). The pressure lags by about a quarter of
+        the relative increment of distance, so its load-weighted relative change
+        Σ|Δp|/Σp is limited too.
+
+        Where a body wore too little in depth, the load goes elsewhere and mends
+        it: errors of depth do not add up. Those of volume do, for a law that is
+        not linear in pressure or that remembers, and all have one sign. So the
+        volume's is compared with what the step itself wears.
+        """
+        after = trial.state
+        p0, p1 = before.contact.pressure, after.contact.pressure
+        load = float(np.sum(p1))
+        pressure_error = float(np.sum(np.abs(p1 - p0))) / load
+        depth_error = volume_error = 0.0
+        for name, forward in trial.forward.items():
+            worn = after.bodies[name].wear - before.bodies[name].wear
+            lag = np.abs(worn - forward)
+            scale = float(np.max(after.bodies[name].wear)) + FIRST * after.reference_depth
+            depth_error = max(depth_error, 0.5 * float(np.sum(p1 * lag)) / (load * scale))
+            own = 0.5 * (worn + forward)
+            if np.any(own > 0):
+                share = min(1.0, float(np.max(own)) / (LATE * scale))
+                missed = 0.5 * abs(float(np.sum(worn)) - float(np.sum(forward)))
+                volume_error = max(volume_error, share * missed / float(np.sum(own)))
+        return Errors(
+            depth_error / self.depth_tolerance,
+            pressure_error / self.pressure_tolerance,
+            volume_error / (VOLUME * self.depth_tolerance),
+        )
+
+    def _fitted(self, natural: float, remaining: float, target: float) -> float:
+        """Return the increment to take with `remaining` metres to a save at `target`.
+
+        Before a save the increments are halved down to ``settle * target``, which
+        lets the pressure catch up with the wear.
+        """
+        increment = min(natural, max(0.5 * remaining, self.settle * target))
+        if remaining <= increment * (1 + 1e-9):
+            return remaining
+        # Two equal steps rather than a full one and a sliver.
+        return 0.5 * remaining if remaining < 2 * increment else increment
+
+
+def _first_increment(model: Model, state: State, remaining: float) -> float:
+    """Return a first increment that wears a small part of the elastic approach, in m."""
+    moment = Moment(state.time, state.distance, remaining / (model.end_time - state.time))
+    rates = wear_rates(model, state.contact, law_states(state), moment)
+    fastest = max((float(np.max(rate.depth_rate)) for rate in rates.values()), default=0.0)
+    part = FIRST * state.reference_depth
+    # Two flats that repeat have no approach, and wear evenly.
+    return min(remaining, part / fastest) if fastest > 0 and part > 0 else remaining
+
+
+def _time_at(model: Model, state: State, distance: float, until: float) -> float:
+    """Return the time at which it has slid `distance` (m), between now and `until` (s)."""
+    time = model.motion.time_at(distance)
+    if not state.time < time <= until * (1 + 1e-9):
+        raise PluginError(
+            f"{model.motion} puts {distance:g} m at {time:g} s, which "
+            f"does not lie between {state.time:g} s and {until:g} s"
+        )
+    return time
+
+
+def _largest_change(old: LawStates, new: LawStates) -> float:
+    """Return by how much state fields differ, relative to the largest of each."""
+    changes = [0.0]
+    for name, fields in new.items():
+        for field, values in fields.items():
+            size = float(np.max(np.abs(values)))
+            if size > 0:
+                changes.append(float(np.max(np.abs(values - old[name][field]))) / size)
+    return max(changes)

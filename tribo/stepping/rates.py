@@ -1,0 +1,140 @@
+"""From a solved contact to the wear rate of each body."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from tribo.core.arrays import Array, readonly
+from tribo.core.box import around_region, whole
+from tribo.core.contact import ContactSolution
+from tribo.core.fields import FRICTION_COEFFICIENT, ContactConditions, LocalConditions, WearRate
+from tribo.core.state import State
+
+if TYPE_CHECKING:
+    from tribo.simulation.model import Model
+
+# Cells around the contact where laws are asked too: what a step may newly touch.
+MARGIN = 8
+
+LawStates = Mapping[str, Mapping[str, Array]]
+
+
+@dataclass(frozen=True)
+class Moment:
+    """When rates are asked for: end of the step (s, m) and its mean speed (m/s).
+
+    The speed is told where the motion does not state those of its cycle.
+    """
+
+    time: float
+    distance: float
+    speed: float
+
+
+def law_states(state: State) -> LawStates:
+    """Return the state fields of each body's law."""
+    return {name: body.law for name, body in state.bodies.items()}
+
+
+def wear_rates(
+    model: Model, contact: ContactSolution, law_states: LawStates, moment: Moment
+) -> dict[str, WearRate]:
+    """Return the rate of every body that wears, in the contact frame: the mean over a cycle.
+
+    Parameters
+    ----------
+    model : Model
+        The composed case.
+    contact : ContactSolution
+        The pressure.
+    law_states : Mapping[str, Mapping[str, ndarray]]
+        State fields of each body's law, on the body's surface.
+    moment : Moment
+        When.
+    """
+    speeds = model.motion.speeds
+    if speeds is None:
+        return _rates_at(model, contact, law_states, moment)
+    rates: dict[str, WearRate] = {}
+    for speed, share in speeds:
+        at_speed = _rates_at(model, contact, law_states, replace(moment, speed=speed))
+        for name, rate in at_speed.items():
+            part = _times(share, rate)
+            rates[name] = _sum(rates[name], part) if name in rates else part
+    return rates
+
+
+def _times(share: float, rate: WearRate) -> WearRate:
+    state = {name: share * values for name, values in rate.state_rates.items()}
+    return WearRate(share * rate.depth_rate, share * rate.depth_slope, state)
+
+
+def _sum(one: WearRate, other: WearRate) -> WearRate:
+    state = {name: values + other.state_rates[name] for name, values in one.state_rates.items()}
+    return WearRate(one.depth_rate + other.depth_rate, one.depth_slope + other.depth_slope, state)
+
+
+def _rates_at(
+    model: Model, contact: ContactSolution, law_states: LawStates, moment: Moment
+) -> dict[str, WearRate]:
+    """Return what `wear_rates` does, at the speed of `moment`."""
+    pressure = readonly(contact.pressure)
+    fields = local_fields(model, pressure, moment)
+    everywhere = whole(model.grid.cells)
+    near = around_region(contact.extent, model.grid.cells, MARGIN)
+    rates = {}
+    for name, law in model.laws.items():
+        # A law is pointwise, so it need not be asked where nothing touches; its state
+        # fields, though, may change there.
+        box = everywhere if law.state_fields else near
+        part = box.slices
+        rate = law.rate(
+            LocalConditions(
+                pressure=pressure[part],
+                speed=moment.speed,
+                material=law.material,
+                fields={field: fields[field][name][part] for field in law.requires},
+                state={
+                    field: np.broadcast_to(values, pressure.shape)[part]
+                    for field, values in law_states[name].items()
+                },
+            )
+        )
+        if not box.is_window:
+            rate = WearRate(box.embed(rate.depth_rate), box.embed(rate.depth_slope))
+        rates[name] = rate
+    return rates
+
+
+def effect_fields(model: Model, state: State) -> dict[str, dict[str, Array]]:
+    """Return what the effects make of `state`, by field and body, shape (nx, ny)."""
+    moment = Moment(state.time, state.distance, state.speed)
+    fields = local_fields(model, state.contact.pressure, moment)
+    return {field.name: fields[field.name] for e in model.effects for field in e.provides}
+
+
+def local_fields(model: Model, pressure: Array, moment: Moment) -> dict[str, dict[str, Array]]:
+    """Return what the effects and the case provide, by field and body, shape (nx, ny)."""
+    fields: dict[str, dict[str, Array]] = {}
+    friction = model.friction_coefficient
+    if friction is not None:
+        uniform = readonly(np.full(pressure.shape, friction))
+        fields[FRICTION_COEFFICIENT.name] = dict.fromkeys(model.bodies, uniform)
+    for effect in model.effects:
+        conditions = ContactConditions(
+            grid=model.grid,
+            pressure=readonly(pressure),
+            speed=moment.speed,
+            time=moment.time,
+            distance=moment.distance,
+            friction_coefficient=friction,
+            materials=dict(model.system.materials),
+            swept=model.swept,
+            fields={name: dict(of_bodies) for name, of_bodies in fields.items()},
+        )
+        fields |= effect.fields(conditions)
+    return fields

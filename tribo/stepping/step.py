@@ -1,0 +1,235 @@
+"""The parts of a step, as pure functions of model and state."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from tribo.core.arrays import Array
+from tribo.core.contact import ContactProblem, ContactSolution, WearCompliance
+from tribo.core.errors import CaseError, NumericalError, PluginError
+from tribo.core.fields import WearRate
+from tribo.core.measures import Invariants, reaches_border
+from tribo.core.state import BodyState, State
+from tribo.stepping.rates import LawStates, Moment
+
+if TYPE_CHECKING:
+    from tribo.simulation.model import Model
+
+# Each pass is one warm solve; a groove in a much softer body takes over a thousand.
+SETTLE_PASSES = 5000
+SETTLED = 1e-6
+SMALLEST = 1e-12
+"""Of the distance until the next stop: a shorter step would drown in rounding."""
+
+
+def first_contact(model: Model) -> State:
+    """Solve the contact before any sliding, plastic flow included.
+
+    Raises
+    ------
+    CaseError
+        If the contact does not fit the window.
+    NumericalError
+        If the solver fails.
+    """
+    solution = solve(model, model.gap)
+    if reaches_border(solution.pressure) and not model.may_reach_edge:
+        raise CaseError(
+            "the first contact reaches the edge of the window of "
+            f"{1e3 * model.grid.size[0]:.4g} × {1e3 * model.grid.size[1]:.4g} mm; make it larger "
+            "(or, for a body that ends there, set grid.ends_at_window = true)",
+            "grid.size",
+        )
+    bodies = {}
+    for name in model.bodies:
+        unworn = np.zeros_like(model.exposures[name].average(model.gap))
+        initial = model.laws[name].initial_state if name in model.laws else {}
+        bodies[name] = BodyState(
+            wear=unworn,
+            plastic=model.plastic_share[name] * solution.overlap,
+            law={field: np.full_like(unworn, value) for field, value in initial.items()},
+        )
+    return State(
+        time=0.0,
+        distance=0.0,
+        bodies=bodies,
+        contact=solution,
+        increment=0.0,
+        reference_depth=solution.approach,
+        solver_iterations=solution.iterations,
+    )
+
+
+def geometry(model: Model, bodies: Mapping[str, BodyState]) -> Array:
+    """Return the undeformed gap, worn and plastically deformed, shape (nx, ny), in m."""
+    gap = model.gap.copy()
+    for body in bodies.values():
+        gap += body.wear
+        gap += body.plastic
+    return gap
+
+
+def solve(
+    model: Model,
+    gap: Array,
+    wear: WearCompliance | None = None,
+    start: ContactSolution | None = None,
+) -> ContactSolution:
+    """Solve the contact of the case at a gap, shape (nx, ny), in m."""
+    return model.solver.solve(ContactProblem(model.system, gap, model.system.load, wear), start)
+
+
+def moment_after(state: State, increment: float, time: float) -> Moment:
+    """Return the end of a step from `state`."""
+    return Moment(time, state.distance + increment, increment / (time - state.time))
+
+
+def distance_until(model: Model, state: State, time: float) -> float:
+    """Return the sliding distance at a later time, which must have grown, in m."""
+    distance = model.motion.distance_at(time)
+    if not state.distance < distance < np.inf:
+        raise PluginError(
+            f"{model.motion} does not slide on: {state.distance:g} m "
+            f"at {state.time:g} s, {distance:g} m at {time:g} s"
+        )
+    return distance
+
+
+def rests(model: Model, state: State, time: float) -> bool:
+    """Whether the motion rests until a later time (s), but for rounding."""
+    # A distance that has turned back by then has grown before.
+    return all(
+        abs(model.motion.distance_at(t) - state.distance) <= SMALLEST * state.distance
+        for t in (time, 0.5 * (state.time + time))
+    )
+
+
+def rested(state: State, time: float) -> State:
+    """Return `state` at a later time (s), as it is."""
+    return replace(state, time=time, steps=state.steps + 1, invariants=Invariants())
+
+
+def worn_depths(model: Model, rates: Mapping[str, WearRate], increment: float) -> dict[str, Array]:
+    """Return the depth that each body loses over `increment` (m), on its own surface, in m."""
+    return {
+        name: increment * model.exposures[name].average(rate.depth_rate)
+        for name, rate in rates.items()
+    }
+
+
+def law_states_after(
+    model: Model, before: LawStates, rates: Mapping[str, WearRate], increment: float
+) -> dict[str, dict[str, Array]]:
+    """Return the state fields of the laws after `increment` (m)."""
+    after = {name: dict(fields) for name, fields in before.items()}
+    for name, rate in rates.items():
+        for field, values in rate.state_rates.items():
+            change = increment * model.exposures[name].average(values)
+            after[name][field] = before[name][field] + change
+    return after
+
+
+def wear_compliance(
+    model: Model, rates: Mapping[str, WearRate], pressure: Array, increment: float
+) -> WearCompliance:
+    """Return the wear over `increment` (m), linear in pressure, as a compliance."""
+    local = np.zeros(model.grid.cells)
+    swept = np.zeros(model.grid.cells[1])
+    for name, rate in rates.items():
+        part = model.exposures[name].compliance(rate.depth_slope, pressure)
+        if part is not None:
+            local += increment * part.local
+            swept += increment * part.swept
+    return WearCompliance(local, swept)
+
+
+def worn_bodies(state: State, worn: Mapping[str, Array], law: LawStates) -> dict[str, BodyState]:
+    """Return the bodies of `state` after they have lost the depths `worn`, in m."""
+    return {
+        name: replace(body, wear=body.wear + worn[name], law=law[name]) if name in worn else body
+        for name, body in state.bodies.items()
+    }
+
+
+def accepted(
+    model: Model,
+    before: State,
+    bodies: Mapping[str, BodyState],
+    solution: ContactSolution,
+    moment: Moment,
+    solves: int,
+    iterations: int,
+) -> State:
+    """Return the state of the worn bodies in contact, after what yields has come to rest."""
+    state = replace(
+        before,
+        time=moment.time,
+        distance=moment.distance,
+        speed=moment.speed,
+        bodies=_yielded(model, bodies, solution.overlap),
+        contact=solution,
+        steps=before.steps + 1,
+        contact_solves=before.contact_solves + solves,
+        solver_iterations=before.solver_iterations + iterations,
+    )
+    return _settle(model, state) if np.any(solution.overlap > 0) else state
+
+
+def start_sliding(model: Model, state: State) -> State:
+    """Return `state` with the first indentation drawn out along the track.
+
+    At s = 0 plastic displacement is local; once a body slides, its groove is
+    the envelope along the track, and the contact in it is solved anew.
+    """
+    return _settle(model, state) if state.distance == 0 else state
+
+
+def _yielded(model: Model, bodies: Mapping[str, BodyState], overlap: Array) -> dict[str, BodyState]:
+    if not np.any(overlap > 0):
+        return dict(bodies)
+    return {
+        name: replace(body, plastic=body.plastic + model.plastic_share[name] * overlap)
+        for name, body in bodies.items()
+    }
+
+
+def _settle(model: Model, state: State) -> State:
+    """Draw grooves out along the track and re-solve until nothing yields any more."""
+    if not any(
+        model.is_swept(name) and np.any(body.plastic > 0) for name, body in state.bodies.items()
+    ):
+        return state
+    for _ in range(SETTLE_PASSES):
+        drawn = {
+            name: replace(
+                body,
+                plastic=np.broadcast_to(
+                    model.exposures[name].envelope(body.plastic), model.grid.cells
+                ).copy(),
+            )
+            for name, body in state.bodies.items()
+        }
+        solution = solve(model, geometry(model, drawn), None, state.contact)
+        deepest = max(float(np.max(body.plastic)) for body in drawn.values())
+        settled = float(np.max(solution.overlap)) <= SETTLED * deepest
+        state = replace(
+            state,
+            bodies=drawn if settled else _yielded(model, drawn, solution.overlap),
+            contact=solution,
+            rates={},
+            contact_solves=state.contact_solves + 1,
+            solver_iterations=state.solver_iterations + solution.iterations,
+        )
+        if settled:
+            return state
+    raise NumericalError(
+        f"at {state.distance:.6g} m the groove still yields after {SETTLE_PASSES} passes of the "
+        f"contact, by {float(np.max(state.contact.overlap)):.2g} m a pass: sliding under "
+        f"{model.system.load:g} N does not come to rest at a hardness of "
+        f"{1e-9 * (model.system.cap or 0):g} GPa; lower load.normal, or set contact.plasticity = "
+        "false"
+    )
