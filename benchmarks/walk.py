@@ -16,6 +16,7 @@ import sys
 from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from inspect import CO_OPTIMIZED
 from pathlib import Path
 from types import CodeType, FrameType
 from typing import Any
@@ -35,7 +36,9 @@ def called(*, until_solve: bool = False) -> Iterator[Counter[CodeType]]:
     def profile(frame: FrameType, event: str, _: Any) -> None:
         nonlocal depth
         code = frame.f_code
-        if not code.co_filename.startswith(ROOT) or code.co_name.startswith("<"):
+        # The bodies of classes and modules are no functions.
+        function = code.co_flags & CO_OPTIMIZED and not code.co_name.startswith("<")
+        if not (function and code.co_filename.startswith(ROOT)):
             return
         if event == "call":
             depth += code.co_name == SOLVE

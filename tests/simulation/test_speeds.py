@@ -99,7 +99,7 @@ def test_a_motion_that_states_no_speeds_has_the_mean_over_the_step():
         ([(0.1, 0.5)], "add up to 0.5, not to 1"),
         ([(-0.1, 1.0)], "speeds of a cycle"),
         ([], "speeds of a cycle"),
-        ([("fast", 1.0)], "not a finite number"),
+        ([("fast", 1.0)], "speeds of a cycle"),
         (7, "TypeError"),
     ],
 )

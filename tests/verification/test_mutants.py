@@ -10,7 +10,7 @@ from tribo.core.material import contact_modulus
 from tribo.lab import ball, track
 from tribo.motion.exposure import Track
 from tribo.simulation import assembly
-from tribo.simulation.guarded_contact import GuardedSolver
+from tribo.simulation.guards import GuardedSolver
 from tribo.stepping import implicit, rates, step
 from tribo.verification.check import run_check
 from tribo.verification.suite import CHECKS

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -29,13 +30,13 @@ class Box:
     shape: tuple[int, int]
     window: tuple[int, int]
 
-    @property
+    @cached_property
     def slices(self) -> tuple[slice, slice]:
         """Where the box lies in an array on the window."""
         (i, j), (nx, ny) = self.first, self.shape
         return slice(i, i + nx), slice(j, j + ny)
 
-    @property
+    @cached_property
     def is_window(self) -> bool:
         """Whether the box leaves no cell of the window out."""
         return self.shape == self.window

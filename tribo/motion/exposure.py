@@ -86,7 +86,7 @@ class Stationary(Exposure):
     """
 
     def __init__(self, grid: Grid) -> None:
-        self._grid = grid
+        self._cell_area = grid.cell_area
 
     def average(self, rate: Array) -> Array:
         """Return `rate` itself: every point sees its own."""
@@ -98,7 +98,7 @@ class Stationary(Exposure):
 
     def volume(self, depth: Array) -> float:
         """Return the integral of `depth` over the window, in m³."""
-        return float(np.sum(depth)) * self._grid.cell_area
+        return float(np.sum(depth)) * self._cell_area
 
     def compliance(self, derivative: Array, pressure: Array) -> WearCompliance:
         """Return the derivative as a local compliance."""
@@ -130,7 +130,8 @@ class Track(Exposure):
     swept = True
 
     def __init__(self, grid: Grid, length: float, *, shape_stays: bool = False) -> None:
-        self._grid = grid
+        self._rows = grid.cells[1]
+        self._dx, self._dy = grid.spacing
         self._length = length
         self.shape_stays = shape_stays
 
@@ -142,7 +143,7 @@ class Track(Exposure):
     def average(self, rate: Array) -> Array:
         """Return the track average, shape (1, ny)."""
         line = np.sum(rate, axis=0, keepdims=True)
-        return np.asarray(line * (self._grid.spacing[0] / self._length))
+        return np.asarray(line * (self._dx / self._length))
 
     def envelope(self, field: Array) -> Array:
         """Return the maximum along the track, shape (1, ny)."""
@@ -150,8 +151,8 @@ class Track(Exposure):
 
     def volume(self, depth: Array) -> float:
         """Return the track length times the area of its cross-section, in m³."""
-        section = np.max(np.broadcast_to(depth, (depth.shape[0], self._grid.cells[1])), axis=0)
-        return float(np.sum(section)) * self._grid.spacing[1] * self._length
+        section = np.max(np.broadcast_to(depth, (depth.shape[0], self._rows)), axis=0)
+        return float(np.sum(section)) * self._dy * self._length
 
     def compliance(self, derivative: Array, pressure: Array) -> WearCompliance:
         """Return the load-weighted mean derivative of each row as a swept compliance."""

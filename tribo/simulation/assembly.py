@@ -16,14 +16,14 @@ from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError, located
 from tribo.core.material import contact_modulus
 from tribo.simulation.effects import in_order
-from tribo.simulation.guarded_bodies import (
+from tribo.simulation.guards import (
     GuardedEffect,
+    GuardedExposure,
     GuardedLaw,
+    GuardedMotion,
+    GuardedSolver,
     GuardedSurface,
-    curvature_of_gap,
 )
-from tribo.simulation.guarded_contact import GuardedSolver
-from tribo.simulation.guarded_motion import GuardedExposure, GuardedMotion
 from tribo.simulation.memory import check_memory, memory_needed
 from tribo.simulation.model import Model
 
@@ -60,11 +60,11 @@ def assemble(case: Case) -> Model:
         modulus=contact_modulus([body.material for body in bodies.values()]),
         load=case.load.normal,
         cap=cap,
-        curvature=curvature_of_gap(list(surfaces.values())),
+        curvature=_curvature(surfaces),
         materials={name: body.material for name, body in bodies.items()},
     )
     with located("contact"):
-        solver.check(system)
+        solver.ask(case.contact.check, system)
     if case.stepping.needs_wear_compliance and not case.contact.accepts_wear_compliance:
         raise CaseError(
             f"'implicit' stepping adds wear to the contact's compliance, which contact.type = "
@@ -81,7 +81,7 @@ def assemble(case: Case) -> Model:
     _check_ends(model)
     for effect in effects:
         with located("effects"):
-            effect.check(dict(system.materials), model.swept)
+            effect.ask(effect.component.check, dict(system.materials), model.swept)
     return model
 
 
@@ -110,6 +110,14 @@ def _plastic(
     cap = min(hardness.values())
     soft = [name for name, value in hardness.items() if value == cap]
     return cap, {name: (1 / len(soft) if name in soft else 0.0) for name in bodies}
+
+
+def _curvature(surfaces: Mapping[str, GuardedSurface]) -> tuple[float, float] | None:
+    """Return the curvature of the gap along x and y, in 1/m; None if a surface states none."""
+    known = [surface.curvature for surface in surfaces.values()]
+    if any(c is None for c in known):
+        return None
+    return sum(c[0] for c in known if c), sum(c[1] for c in known if c)
 
 
 def _check_sliding(surface: GuardedSurface, exposure: GuardedExposure) -> None:

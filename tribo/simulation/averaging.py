@@ -37,7 +37,7 @@ def _volume_ratio(model: Model, state: State) -> float:
     """Return the volume worn off the bodies that stay over that off those that are swept."""
     lost = {True: 0.0, False: 0.0}
     for name, body in state.bodies.items():
-        lost[model.is_swept(name)] += model.exposures[name].volume(body.wear)
+        lost[name in model.swept] += model.exposures[name].volume(body.wear)
     if lost[True] == 0:
         return 1.0 if lost[False] == 0 else np.inf
     return lost[False] / lost[True]
@@ -48,5 +48,5 @@ def _changing(model: Model) -> list[str]:
     return [
         name
         for name in model.bodies
-        if model.is_swept(name) and (name in model.laws or model.plastic_share[name] > 0)
+        if name in model.swept and (name in model.laws or model.plastic_share[name] > 0)
     ]

@@ -17,6 +17,10 @@ from tribo.core.errors import BadValues, Interrupted, NumericalError, PluginErro
 from tribo.core.words import said
 from tribo.registry.kinds import kind_of
 
+REAL = "fiub"
+"""Kinds of a dtype that are real numbers."""
+NONE = np.empty((0, 0, 0))
+
 C = TypeVar("C", bound=Component)
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -68,7 +72,7 @@ class Guard(Generic[C]):
         if type(value) is float and math.isfinite(value):
             return value
         plain = _plain(value)
-        if plain is None or plain.shape != () or not np.isfinite(plain):
+        if plain.shape != () or not np.isfinite(plain):
             raise BadValues(f"{self} gave {what} that is not a finite number: {_shown(value)}")
         return float(plain)
 
@@ -95,11 +99,11 @@ class Guard(Generic[C]):
         BadValues
             If they are anything else.
         """
-        plain = _plain(values)
-        if spread and plain is not None and plain.shape != shape:
+        plain = values if isinstance(values, np.ndarray) else _plain(values)
+        if spread and plain.shape != shape:
             with suppress(ValueError):
                 plain = np.broadcast_to(plain, shape)
-        if plain is None or plain.shape != shape:
+        if plain.shape != shape or plain.dtype.kind not in REAL:
             raise BadValues(
                 f"{self} gave {what} that is not an array of shape {shape}: {_shown(values)}"
             )
@@ -145,13 +149,13 @@ def _blame(who: object, error: BaseException) -> NoReturn:
     ) from error
 
 
-def _plain(value: object) -> NDArray[Any] | None:
-    """Return `value` as an array, or None where it is not one of real numbers."""
+def _plain(value: object) -> NDArray[Any]:
+    """Return `value` as an array; one of no shape that is asked for where it cannot be one."""
     try:
         array = np.asarray(value)
     except (TypeError, ValueError):
-        return None
-    return array if array.dtype.kind in "fiub" else None
+        return NONE
+    return array if array.dtype.kind in REAL else NONE
 
 
 def _shown(value: object) -> str:

@@ -65,11 +65,16 @@ def march(model: Model, state: State) -> Iterator[Accepted]:
     limit = np.inf if stop is None else stop
     if _depth(model, state) >= limit:
         return
+    with doubting(model.case):
+        yield from _march(model, state, limit)
+
+
+def _march(model: Model, state: State, limit: float) -> Iterator[Accepted]:
     # Which saves are left follows from the time alone, so a resumed run sees the same.
     saves = [t for t in model.case.output.save_times if 0 < t < model.end_time]
     for until in [*saves, model.end_time]:
         while state.time < until:
-            state = _noticed(model, _advanced(model, state, until, limit))
+            state = _advanced(model, state, until, limit)
             worn_out = _depth(model, state) >= limit
             last = worn_out or state.time >= model.end_time
             if last:
@@ -90,17 +95,16 @@ def march(model: Model, state: State) -> Iterator[Accepted]:
 
 def _advanced(model: Model, state: State, until: float, limit: float) -> State:
     """Return the next state that holds, the wear depth up to its limit."""
-    with doubting(model.case):
-        try:
-            after = model.stepping.advance(model, state, until)
-            if _depth(model, after) > limit:
-                after = _up_to_depth(model, state, after, limit)
-        except PluginError as error:
-            error.args = (f"{error}, at {state.distance:.6g} m ({state.time:.6g} s)",)
-            raise
-        after = hold(model, state, after)
-        _check_window(model, after)
-    return after
+    try:
+        after = model.stepping.advance(model, state, until)
+        if _depth(model, after) > limit:
+            after = _up_to_depth(model, state, after, limit)
+    except PluginError as error:
+        error.args = (f"{error}, at {state.distance:.6g} m ({state.time:.6g} s)",)
+        raise
+    after = hold(model, state, after)
+    _check_window(model, after)
+    return _noticed(model, after)
 
 
 def _up_to_depth(model: Model, state: State, after: State, limit: float) -> State:

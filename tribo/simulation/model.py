@@ -14,9 +14,14 @@ from tribo.core.contact import ContactSystem
 from tribo.core.grid import Grid
 from tribo.core.measures import between_cells
 from tribo.simulation.guard import calling
-from tribo.simulation.guarded_bodies import GuardedEffect, GuardedLaw, GuardedSurface
-from tribo.simulation.guarded_contact import GuardedSolver
-from tribo.simulation.guarded_motion import GuardedExposure, GuardedMotion
+from tribo.simulation.guards import (
+    GuardedEffect,
+    GuardedExposure,
+    GuardedLaw,
+    GuardedMotion,
+    GuardedSolver,
+    GuardedSurface,
+)
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
 

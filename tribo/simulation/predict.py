@@ -154,7 +154,7 @@ def _file_size(model: Model) -> float:
     field = 8.0 * nx * ny
     each = field * (1 + len(model.bodies) * sum(len(effect.provides) for effect in model.effects))
     for name in model.bodies:
-        own = field / nx if model.is_swept(name) else field
+        own = field / nx if name in model.swept else field
         states = len(model.laws[name].state_fields) if name in model.laws else 0
         each += field + (1 + states) * own
     heights = field * len(model.bodies)

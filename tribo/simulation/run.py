@@ -261,7 +261,7 @@ class Simulation:
             bodies=tuple(
                 BodyInfo(
                     name=name,
-                    swept=model.is_swept(name),
+                    swept=name in model.swept,
                     density=body.material.density,
                     height=model.surfaces[name].height,
                     state_fields=() if body.wear is None else tuple(body.wear.state_fields),

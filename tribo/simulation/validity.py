@@ -33,7 +33,7 @@ def too_wide(model: Model, measures: Measures) -> list[str]:
 def short_of_a_lap(model: Model) -> str | None:
     """Say so if the whole run slides over a part of a body's track only."""
     distance = model.end_distance
-    for name in [name for name in model.laws if model.is_swept(name)]:
+    for name in [name for name in model.laws if name in model.swept]:
         # What one metre of depth all along the track takes, over the breadth of the window.
         depth = np.ones((1, model.grid.cells[1]))
         length = model.exposures[name].volume(depth) / model.grid.size[1]

@@ -1,7 +1,7 @@
 """Invariants checked after each step.
 
 The load balance, the sign and the cap of a pressure are checked at every solve,
-in `tribo.simulation.guarded_contact`.
+in `tribo.simulation.guards`.
 """
 
 from __future__ import annotations
@@ -61,16 +61,18 @@ def wear_balance(
     before : State
         Where the step begins.
     """
-    volume = regrowth = 0.0
+    volumes, regrowths = [0.0], [0.0]
+    cell_area = model.grid.cell_area
     for name, depth in worn.items():
         exposure = model.exposures[name]
-        asked = increment * float(np.sum(rates[name].depth_rate)) * model.grid.cell_area
+        asked = increment * float(np.sum(rates[name].depth_rate)) * cell_area
         error = abs(exposure.volume(depth) - asked)
         if not error <= VOLUME * asked:
             asked = max(asked, SMALL * exposure.volume(before.bodies[name].wear))
-        volume = _worst(volume, error / asked if asked != 0 else error)
-        regrowth = _worst(regrowth, -float(np.min(depth)))
-    return Invariants(volume=volume, regrowth=regrowth)
+        volumes.append(error / asked if asked != 0 else error)
+        regrowths.append(-float(np.min(depth)))
+    # Unlike that of Python, the maximum of numpy is NaN if a value is.
+    return Invariants(volume=float(np.max(volumes)), regrowth=float(np.max(regrowths)))
 
 
 def hold(model: Model, before: State | None, after: State) -> State:
@@ -168,8 +170,3 @@ def _not_finite(state: State) -> str | None:
             if not isfinite(np.sum(values)):
                 return f"{what} of {name}"
     return None
-
-
-def _worst(first: float, second: float) -> float:
-    """Return the larger of two, or NaN if the second is."""
-    return first if first != first or second <= first else second

@@ -84,13 +84,12 @@ def _rates_at(
     """Return what `wear_rates` does, at the speed of `moment`."""
     pressure = readonly(contact.pressure)
     fields = local_fields(model, pressure, moment)
-    everywhere = whole(model.grid.cells)
     near = around_region(contact.extent, model.grid.cells, MARGIN)
     rates = {}
     for name, law in model.laws.items():
         # A law is pointwise, so it need not be asked where nothing touches; its state
         # fields, though, may change there.
-        box = everywhere if law.state_fields else near
+        box = whole(model.grid.cells) if law.state_fields else near
         part = box.slices
         rate = law.rate(
             LocalConditions(

@@ -200,7 +200,7 @@ def _yielded(model: Model, bodies: Mapping[str, BodyState], overlap: Array) -> d
 def _settle(model: Model, state: State) -> State:
     """Draw grooves out along the track and re-solve until nothing yields any more."""
     if not any(
-        model.is_swept(name) and np.any(body.plastic > 0) for name, body in state.bodies.items()
+        name in model.swept and np.any(body.plastic > 0) for name, body in state.bodies.items()
     ):
         return state
     for _ in range(SETTLE_PASSES):
