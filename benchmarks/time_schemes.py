@@ -54,9 +54,9 @@ class Hour:
         assert ball.wear is not None
         assert disk.wear is not None
         self.ball_rate = float(ball.wear.k)
-        self.track_rate = float(disk.wear.k) / float(self.model.kinematics.stroke)
+        self.track_rate = float(disk.wear.k) / float(self.model.case.kinematics.stroke)
         self.ends = [
-            self.model.kinematics.distance_at(time)
+            self.model.case.kinematics.distance_at(time)
             for time in sorted({*self.model.case.output.save_times, self.model.end_time})
             if time > 0
         ]

@@ -23,6 +23,7 @@ from tribo.result.checkpoint import read_checkpoint, tidied
 from tribo.result.provenance import changed_components, origin, provenance
 from tribo.result.read import Result
 from tribo.simulation.assembly import assemble
+from tribo.simulation.audience import Audience
 from tribo.simulation.doubt import doubting
 from tribo.simulation.effects import MissingFieldError
 from tribo.simulation.guard import calling
@@ -30,7 +31,6 @@ from tribo.simulation.interrupt import InterruptGuard
 from tribo.simulation.march import begin, march
 from tribo.simulation.measure import measure
 from tribo.simulation.model import Model
-from tribo.simulation.watching import Audience
 from tribo.stepping.rates import effect_fields
 
 FAILED = "failed"

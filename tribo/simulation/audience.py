@@ -1,7 +1,7 @@
-"""Tell the observers of a run what happens, in views that no slip of theirs changes it by.
+"""Tell the observers of a run what happens, in read-only views.
 
-The arrays are read-only. That does not stop one that means to: numpy gives access to the
-array behind a view, as its `base`, and a plugin runs in this very process.
+That does not stop an observer that means to change the run: numpy gives access to
+the array behind a view, as its `base`, and a plugin runs in this very process.
 """
 
 from __future__ import annotations
@@ -10,15 +10,16 @@ import warnings
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 from copy import deepcopy
-from dataclasses import replace
+from dataclasses import fields, is_dataclass, replace
+from typing import Any
 
-from tribo.core.arrays import Array, readonly
+import numpy as np
+
+from tribo.core.arrays import readonly
 from tribo.core.errors import TriboError, TriboWarning
 from tribo.core.state import RunInfo, Snapshot
 from tribo.observers.observer import Observer
 from tribo.simulation.guard import calling
-
-Watcher = Observer
 
 
 class Audience:
@@ -30,9 +31,9 @@ class Audience:
         In the order in which they are told.
     """
 
-    def __init__(self, observers: Sequence[Watcher]) -> None:
+    def __init__(self, observers: Sequence[Observer]) -> None:
         self._observers = tuple(observers)
-        self._started: list[Watcher] = []
+        self._started: list[Observer] = []
 
     def start(self, run: RunInfo) -> None:
         """Tell that the run begins or goes on; each gets a copy of its own."""
@@ -62,7 +63,7 @@ class Audience:
                 finishing.callback(_finish, observer, _view(snapshot), reason)
 
 
-def _finish(observer: Watcher, snapshot: Snapshot, reason: str) -> None:
+def _finish(observer: Observer, snapshot: Snapshot, reason: str) -> None:
     try:
         with calling(observer):
             observer.on_finish(snapshot, reason)
@@ -72,39 +73,12 @@ def _finish(observer: Watcher, snapshot: Snapshot, reason: str) -> None:
         warnings.warn(str(error), TriboWarning, stacklevel=2)
 
 
-def _view(snapshot: Snapshot) -> Snapshot:
-    """Return `snapshot` with containers of its own and arrays that are read-only."""
-    state, measures = snapshot.state, snapshot.measures
-    bodies = {
-        name: replace(
-            body,
-            wear=readonly(body.wear),
-            plastic=readonly(body.plastic),
-            law=_views(body.law),
-        )
-        for name, body in state.bodies.items()
-    }
-    rates = {
-        name: replace(
-            rate,
-            depth_rate=readonly(rate.depth_rate),
-            depth_slope=readonly(rate.depth_slope),
-            state_rates=_views(rate.state_rates),
-        )
-        for name, rate in state.rates.items()
-    }
-    contact = replace(
-        state.contact,
-        pressure=readonly(state.contact.pressure),
-        overlap=readonly(state.contact.overlap),
-    )
-    previous = None if state.previous is None else readonly(state.previous)
-    return Snapshot(
-        replace(state, bodies=bodies, rates=rates, contact=contact, previous=previous),
-        replace(measures, bodies=dict(measures.bodies)),
-        {name: _views(of_bodies) for name, of_bodies in snapshot.effects.items()},
-    )
-
-
-def _views(fields: Mapping[str, Array]) -> dict[str, Array]:
-    return {name: readonly(values) for name, values in fields.items()}
+def _view(value: Any) -> Any:
+    """Return `value` with read-only arrays, and containers of its own, however deep."""
+    if isinstance(value, np.ndarray):
+        return readonly(value)
+    if isinstance(value, Mapping):
+        return {name: _view(each) for name, each in value.items()}
+    if is_dataclass(value) and not isinstance(value, type):
+        return replace(value, **{f.name: _view(getattr(value, f.name)) for f in fields(value)})
+    return value
