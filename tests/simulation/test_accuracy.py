@@ -6,7 +6,9 @@ from paper_models import K, flat, foundation, motion, named, small, sphere, stee
 from strangers.running_in import RunningIn
 
 from tribo import Grid, Simulation
+from tribo.core.fields import LocalConditions
 from tribo.plugin import Field, WearLaw, WearRate
+from tribo.simulation.guards import GuardedLaw
 from tribo.stepping.implicit import Implicit
 from tribo.wear.power import Power
 
@@ -83,3 +85,23 @@ def test_a_law_that_runs_in_under_even_pressure_follows_its_integral(law, length
     with Simulation(case).run() as result:
         found = result.saves()[-1]["bodies"]["pin"]["max_wear_depth_m"]
     assert found == pytest.approx(needed, rel=5e-3, abs=0)
+
+
+class Steepless(Power):
+    """A law that leaves its slope out."""
+
+    type = "test.steepless"
+
+    def rate(self, local):
+        return WearRate(super().rate(local).depth_rate)
+
+
+@pytest.mark.parametrize("exponent", [1, 1.5, 3])
+def test_a_slope_that_a_law_leaves_out_is_found(exponent):
+    ours = Steepless(k=K, p_exponent=exponent, reference_pressure="1 GPa")
+    pressure = np.array([[0.0, 1e6, 1e8, 2e9]])
+    guarded = GuardedLaw(ours, "ball", steel())
+    found = guarded.rate(LocalConditions(pressure, 0.1, steel())).depth_slope
+    needed = power(exponent).rate(LocalConditions(pressure, 0.1, steel())).depth_slope
+    np.testing.assert_allclose(found, needed, rtol=2e-3, atol=2e-3 * needed.max())
+    assert volume(ours, FINE) == pytest.approx(volume(power(exponent), FINE), rel=1e-6, abs=0)
