@@ -108,7 +108,8 @@ class Ended:
 
 def expect_one_message(ended: Ended, cls: Any) -> None:
     """One line, no traceback, names component and fault; what was saved is there to be read."""
-    (line,) = ended.said
+    line, *kept = ended.said
+    assert len(kept) == cls.saved
     assert line.startswith("error: ")
     assert repr(cls.type) in line
     assert cls.words in line

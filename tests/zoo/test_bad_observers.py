@@ -150,7 +150,7 @@ def test_of_a_run_that_failed_already_the_first_cause_is_the_error(run):
 
     ended = run(zoo, bad, Fails)
     assert ended.code == 3
-    later, first = ended.said
+    later, first, _ = ended.said
     assert later.startswith(f"warning: {LAST_WORDS}")
     assert first.startswith("error: contact solver 'zoo.fails' gave a NoneType")
     with Result.open(ended.path) as result:
