@@ -5,14 +5,14 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from copy import deepcopy
-from typing import Any, get_args
+from typing import Any
 
 from pydantic import BaseModel
 
 from tribo.component import Component
 from tribo.core.depth import LEVELS, check_depth, too_deep
 from tribo.core.errors import CaseError
-from tribo.core.units import Quantity
+from tribo.core.units import Quantity, quantities
 from tribo.core.words import shown
 
 
@@ -114,14 +114,6 @@ def leaves_at(case: BaseModel, path: str) -> list[tuple[str, Any, str]]:
         for place, value, mark in leaves(case)
         if [str(key) for key in place[: len(keys)]] == keys
     ]
-
-
-def quantities(annotation: Any) -> Iterator[Quantity]:
-    """Yield the quantities in an annotation, however it is wrapped."""
-    if isinstance(annotation, Quantity):
-        yield annotation
-    for part in annotation if isinstance(annotation, tuple) else get_args(annotation):
-        yield from quantities(part)
 
 
 def _pair(text: str) -> tuple[str, Any]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
+from html import escape
 from typing import Any, Self
 
 from pydantic import (
@@ -14,6 +16,7 @@ from pydantic import (
 )
 
 from tribo.core.explain import explained
+from tribo.core.units import quantities
 
 
 class Table(BaseModel):
@@ -30,3 +33,27 @@ class Table(BaseModel):
             return handler(data)
         except ValidationError as error:
             raise explained(error, cls, data, info) from None
+
+    def __repr_args__(self) -> Iterator[tuple[str | None, Any]]:
+        """Yield the fields that are not at their defaults."""
+        fields = type(self).model_fields
+        return ((name, value) for name, value in self if value != fields[name].default)
+
+    def _repr_html_(self) -> str:
+        """Show the table, its keys and their units in a notebook."""
+        rows = []
+        for name, field in type(self).model_fields.items():
+            value = getattr(self, name)
+            units = [mark.unit for mark in quantities((field.annotation, *field.metadata))]
+            shown = _html(value) + (f" {units[0]}" if units and units[0] != "1" else "")
+            if value != field.default:
+                rows.append(f"<tr><td>{escape(name)}</td><td>{shown}</td></tr>")
+        return f"<table><caption>{escape(type(self).__name__)}</caption>{''.join(rows)}</table>"
+
+
+def _html(value: object) -> str:
+    if isinstance(value, Table):
+        return value._repr_html_()
+    if isinstance(value, Mapping):
+        return "".join(f"{escape(str(key))}: {_html(inside)}" for key, inside in value.items())
+    return " × ".join(map(_html, value)) if isinstance(value, tuple) else escape(str(value))

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from numbers import Real
-from typing import Any
+from typing import Any, get_args
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
@@ -203,6 +204,14 @@ class Quantity:
             return self.read(value)
         except CaseError as error:
             raise PydanticCustomError("quantity", "{message}", {"message": str(error)}) from None
+
+
+def quantities(annotation: Any) -> Iterator[Quantity]:
+    """Yield the quantities in an annotation, however it is wrapped."""
+    if isinstance(annotation, Quantity):
+        yield annotation
+    for part in annotation if isinstance(annotation, tuple) else get_args(annotation):
+        yield from quantities(part)
 
 
 def _called(dimension: Dimension) -> str:
