@@ -9,9 +9,9 @@ from unittest.mock import patch
 import numpy as np
 import scipy.fft
 
+from tribo import Array
 from tribo.contact.dcfft import DcFft
 from tribo.contact.operator import HalfSpace
-from tribo.plugin import Array
 
 Shape = tuple[int, int]
 

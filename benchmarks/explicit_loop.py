@@ -7,8 +7,7 @@ from dataclasses import dataclass, replace
 from peers import Answer, Package, meet
 from problems import Contact, Verdict, hertz, judge
 
-from tribo import Result
-from tribo.plugin import Array
+from tribo import Array, Result
 
 WEAR, STROKE, SPEED = 3.11e-16, 2e-3, 0.1
 

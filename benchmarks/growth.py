@@ -23,8 +23,7 @@ from memory import peak_of_run, peak_of_solve
 from peers import Tribo, meet
 from problems import HARDNESS, Contact, ball
 
-from tribo import Simulation, load_case
-from tribo.plugin import HalfSpace, solve_bounded
+from tribo import HalfSpace, Simulation, load_case, solve_bounded
 
 DUTY = 1e-8
 SPEED = 0.1

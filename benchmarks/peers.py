@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 import numpy as np
 from problems import MODULUS, Contact, Verdict, judge
 
-from tribo.plugin import Array, ContactProblem, ContactSolution, ContactSystem, Grid
+from tribo import Array, ContactProblem, ContactSolution, ContactSystem, Grid
 from tribo.registry.registry import default_registry
 
 MOST_ITERATIONS = 20000

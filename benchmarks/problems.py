@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 import scipy.fft
 
-from tribo.plugin import Array
+from tribo import Array
 
 MODULUS = 207e9 / (2 * (1 - 0.3**2))
 RADIUS = 5e-3

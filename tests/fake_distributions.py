@@ -8,7 +8,7 @@ from pathlib import Path
 from tribo.registry.plugins import Plugin, installed
 
 OBSERVER = """
-from tribo.plugin import Observer, hookimpl
+from tribo import Observer, hookimpl
 
 class {title}(Observer):
     type = "{name}"

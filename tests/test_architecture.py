@@ -24,7 +24,6 @@ RANK = {
     "observers": 3,
     "lab": 4,
     "registry": 4,
-    "plugin": 4,
     "config": 5,
     "case": 5,
     "stepping": 5,
@@ -85,4 +84,4 @@ def test_models_use_only_what_a_stranger_may(path):
 
 def test_every_package_has_a_rank():
     packages = {p.name for p in ROOT.iterdir() if p.is_dir() and p.name != "__pycache__"}
-    assert packages | {"component", "plugin", "case"} == set(RANK)
+    assert packages | {"component", "case"} == set(RANK)

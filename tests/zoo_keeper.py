@@ -11,8 +11,7 @@ from typing import Any
 import numpy as np
 from pydantic import create_model
 
-from tribo import Registry, Result
-from tribo.plugin import hookimpl
+from tribo import Registry, Result, hookimpl
 from tribo.registry.kinds import KINDS
 
 CASE = """

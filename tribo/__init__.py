@@ -1,6 +1,8 @@
 """tribo: simulate wear, with every model a plugin.
 
-Names are imported when first used, so that ``import tribo`` stays fast.
+Everything that a user types and a plugin needs is a name of this package; what
+lies in its modules is not part of the contract. Names are imported when first
+used, so that ``import tribo`` stays fast.
 """
 
 from __future__ import annotations
@@ -14,27 +16,55 @@ if TYPE_CHECKING:
     from tribo.case import Friction as Friction
     from tribo.case import Load as Load
     from tribo.case import Output as Output
+    from tribo.component import Component as Component
     from tribo.config.load import load_case as load_case
     from tribo.config.stop import Stop as Stop
+    from tribo.contact.bounded import solve_bounded as solve_bounded
+    from tribo.contact.conditions import residuals as residuals
     from tribo.contact.dcfft import DcFft as DcFft
+    from tribo.contact.love import nyquist_compliance as nyquist_compliance
+    from tribo.contact.operator import HalfSpace as HalfSpace
+    from tribo.contact.operator import Operator as Operator
     from tribo.contact.periodic import Periodic as Periodic
     from tribo.contact.solver import ContactSolver as ContactSolver
     from tribo.contact.winkler import Winkler as Winkler
+    from tribo.core.arrays import Array as Array
+    from tribo.core.contact import ContactProblem as ContactProblem
+    from tribo.core.contact import ContactSolution as ContactSolution
+    from tribo.core.contact import ContactSystem as ContactSystem
+    from tribo.core.contact import Residuals as Residuals
+    from tribo.core.contact import WearCompliance as WearCompliance
     from tribo.core.errors import CaseError as CaseError
     from tribo.core.errors import Interrupted as Interrupted
     from tribo.core.errors import NumericalError as NumericalError
     from tribo.core.errors import TriboError as TriboError
     from tribo.core.errors import TriboWarning as TriboWarning
+    from tribo.core.fields import ContactConditions as ContactConditions
     from tribo.core.fields import Field as Field
+    from tribo.core.fields import LocalConditions as LocalConditions
     from tribo.core.fields import WearRate as WearRate
     from tribo.core.grid import Grid as Grid
     from tribo.core.material import Material as Material
+    from tribo.core.measures import BodyMeasures as BodyMeasures
+    from tribo.core.measures import Measures as Measures
+    from tribo.core.state import BodyInfo as BodyInfo
+    from tribo.core.state import BodyState as BodyState
+    from tribo.core.state import RunInfo as RunInfo
+    from tribo.core.state import Snapshot as Snapshot
+    from tribo.core.state import State as State
+    from tribo.core.table import Table as Table
     from tribo.core.units import Quantity as Quantity
     from tribo.effects.effect import Effect as Effect
+    from tribo.motion.exposure import Exposure as Exposure
+    from tribo.motion.exposure import Stationary as Stationary
+    from tribo.motion.exposure import Track as Track
     from tribo.motion.kinematics import Kinematics as Kinematics
     from tribo.motion.reciprocating import Reciprocating as Reciprocating
     from tribo.motion.unidirectional import Unidirectional as Unidirectional
     from tribo.observers.observer import Observer as Observer
+    from tribo.registry.contributions import CaseTemplate as CaseTemplate
+    from tribo.registry.contributions import ExportFormat as ExportFormat
+    from tribo.registry.contributions import LabRow as LabRow
     from tribo.registry.hookspecs import hookimpl as hookimpl
     from tribo.registry.registry import Registry as Registry
     from tribo.result.read import Result as Result
@@ -72,73 +102,55 @@ if TYPE_CHECKING:
     from tribo.wear.law import WearLaw as WearLaw
     from tribo.wear.power import Power as Power
 
-_HOME = {
-    "Archard": "tribo.wear.archard",
-    "Body": "tribo.case",
-    "Case": "tribo.case",
-    "CaseError": "tribo.core.errors",
-    "Comparison": "tribo.study.comparison",
-    "ContactSolver": "tribo.contact.solver",
-    "Cylinder": "tribo.surfaces.cylinder",
-    "DcFft": "tribo.contact.dcfft",
-    "Effect": "tribo.effects.effect",
-    "Explicit": "tribo.stepping.explicit",
-    "Field": "tribo.core.fields",
-    "Flat": "tribo.surfaces.flat",
-    "Friction": "tribo.case",
-    "Grid": "tribo.core.grid",
-    "Implicit": "tribo.stepping.implicit",
-    "Interrupted": "tribo.core.errors",
-    "Kinematics": "tribo.motion.kinematics",
-    "Load": "tribo.case",
-    "Material": "tribo.core.material",
-    "NumericalError": "tribo.core.errors",
-    "Observer": "tribo.observers.observer",
-    "Output": "tribo.case",
-    "Paraboloid": "tribo.surfaces.paraboloid",
-    "Periodic": "tribo.contact.periodic",
-    "Power": "tribo.wear.power",
-    "Quantity": "tribo.core.units",
-    "Reciprocating": "tribo.motion.reciprocating",
-    "Registry": "tribo.registry.registry",
-    "Result": "tribo.result.read",
-    "Simulation": "tribo.simulation.run",
-    "Sphere": "tribo.surfaces.sphere",
-    "Stop": "tribo.config.stop",
-    "Surface": "tribo.surfaces.surface",
-    "Sweep": "tribo.study.sweeping.sweep",
-    "TriboError": "tribo.core.errors",
-    "TriboWarning": "tribo.core.errors",
-    "Unidirectional": "tribo.motion.unidirectional",
-    "WearLaw": "tribo.wear.law",
-    "WearRate": "tribo.core.fields",
-    "Winkler": "tribo.contact.winkler",
-    "compare": "tribo.study.comparison",
-    "hookimpl": "tribo.registry.hookspecs",
-    "load_case": "tribo.config.load",
-    "sweep": "tribo.study.sweeping.sweep",
+_NAMES = {
+    "tribo.case": "Body Case Friction Load Output",
+    "tribo.component": "Component",
+    "tribo.config.load": "load_case",
+    "tribo.config.stop": "Stop",
+    "tribo.contact.bounded": "solve_bounded",
+    "tribo.contact.conditions": "residuals",
+    "tribo.contact.dcfft": "DcFft",
+    "tribo.contact.love": "nyquist_compliance",
+    "tribo.contact.operator": "HalfSpace Operator",
+    "tribo.contact.periodic": "Periodic",
+    "tribo.contact.solver": "ContactSolver",
+    "tribo.contact.winkler": "Winkler",
+    "tribo.core.arrays": "Array",
+    "tribo.core.contact": "ContactProblem ContactSolution ContactSystem Residuals WearCompliance",
+    "tribo.core.errors": "CaseError Interrupted NumericalError TriboError TriboWarning",
+    "tribo.core.fields": "ContactConditions Field LocalConditions WearRate",
+    "tribo.core.grid": "Grid",
+    "tribo.core.material": "Material",
+    "tribo.core.measures": "BodyMeasures Measures",
+    "tribo.core.state": "BodyInfo BodyState RunInfo Snapshot State",
+    "tribo.core.table": "Table",
+    "tribo.core.units": "Quantity",
+    "tribo.effects.effect": "Effect",
+    "tribo.motion.exposure": "Exposure Stationary Track",
+    "tribo.motion.kinematics": "Kinematics",
+    "tribo.motion.reciprocating": "Reciprocating",
+    "tribo.motion.unidirectional": "Unidirectional",
+    "tribo.observers.observer": "Observer",
+    "tribo.registry.contributions": "CaseTemplate ExportFormat LabRow",
+    "tribo.registry.hookspecs": "hookimpl",
+    "tribo.registry.registry": "Registry",
+    "tribo.result.read": "Result",
+    "tribo.simulation.run": "Simulation",
+    "tribo.stepping.explicit": "Explicit",
+    "tribo.stepping.implicit": "Implicit",
+    "tribo.study.comparison": "Comparison compare",
+    "tribo.study.sweeping.sweep": "Sweep sweep",
+    "tribo.surfaces.cylinder": "Cylinder",
+    "tribo.surfaces.flat": "Flat",
+    "tribo.surfaces.paraboloid": "Paraboloid",
+    "tribo.surfaces.sphere": "Sphere",
+    "tribo.surfaces.surface": "Surface",
+    "tribo.units": "GPa Hz MPa N Pa hour kHz kN kPa kg km mN mg minute mm ms nm um",
+    "tribo.wear.archard": "Archard",
+    "tribo.wear.law": "WearLaw",
+    "tribo.wear.power": "Power",
 }
-_UNITS = (
-    "GPa",
-    "Hz",
-    "MPa",
-    "N",
-    "Pa",
-    "hour",
-    "kHz",
-    "kN",
-    "kPa",
-    "kg",
-    "km",
-    "mN",
-    "mg",
-    "minute",
-    "mm",
-    "ms",
-    "nm",
-    "um",
-)
-_HOME.update(dict.fromkeys(_UNITS, "tribo.units"))
+_HOME = {name: module for module, names in _NAMES.items() for name in names.split()}
 
 __all__ = [*_HOME]
 

@@ -17,7 +17,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
 import tribo
-import tribo.plugin
+import tribo.units
 from tribo.case import Body, Case
 from tribo.cli.main import COMMANDS
 from tribo.cli.main import tribo as command_line
@@ -149,25 +149,22 @@ def kinds_table() -> Iterator[str]:
 
 
 def plugin_page() -> Iterator[str]:
-    """Yield the documentation of every name in `tribo.plugin`, in the order it lists them."""
+    """Yield the documentation of what a plugin uses: names that the page on Python lacks."""
+    listed = (Path(__file__).parents[1] / "api.md").read_text(encoding="utf-8")
     yield "```{eval-rst}"
-    for name in tribo.plugin.__all__:
-        # What the page on Python documents too keeps its index entry there.
-        twice = ["   :no-index:"] if name in tribo.__all__ else []
-        thing = getattr(tribo.plugin, name)
+    for name in sorted(tribo.__all__):
+        if f":: tribo.{name}\n" in listed or hasattr(tribo.units, name):
+            continue
+        thing = getattr(tribo, name)
         if name == "Array":
             yield "``Array`` stands for ``numpy.ndarray`` of 64-bit floats.\n"
             continue
         if inspect.isclass(thing):
-            exception = issubclass(thing, Exception)
-            directive = "autoexception" if exception else "autoclass"
-            options = [] if exception else ["   :members:", "   :exclude-members: shape, spacing"]
-            options += twice
-        elif inspect.isfunction(thing):
-            directive, options = "autofunction", twice
+            directive = "autoclass"
+            options = ["   :members:", "   :exclude-members: shape, spacing"]
         else:
-            directive, options = "autodata", ["   :no-value:", *twice]
-        yield f".. {directive}:: tribo.plugin.{name}"
+            directive, options = "autofunction", []
+        yield f".. {directive}:: tribo.{name}"
         yield from options
         yield ""
     yield "```"

@@ -17,7 +17,7 @@ from tribo.templates import template
 
 HOOKS = """
 from matplotlib.figure import Figure
-from tribo.plugin import CaseTemplate, ExportFormat, LabRow
+from tribo import CaseTemplate, ExportFormat, LabRow
 
 def write(result, folder):
     folder.mkdir()

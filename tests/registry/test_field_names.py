@@ -3,7 +3,7 @@
 import pytest
 from strangers.running_in import RunningIn
 
-from tribo.plugin import Field
+from tribo import Field
 
 BAD = ["a/b", "", ".", "a b", "1st", "µ/m", "\x1b[31m", "a.b"]
 

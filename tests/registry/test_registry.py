@@ -278,7 +278,7 @@ def test_an_import_leaves_folder_warnings_and_numpy_as_they_were(folder: Path) -
 
 
 EFFECT = """
-from tribo.plugin import Effect, Field, hookimpl
+from tribo import Effect, Field, hookimpl
 
 class Warm(Effect):
     type = "{name}"

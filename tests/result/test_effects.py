@@ -10,10 +10,9 @@ from click.testing import CliRunner
 from paper_models import small
 from strangers.oxidation import OXIDE, OxideFilm
 
-from tribo import CaseError, Interrupted, Result, Simulation, TriboError
+from tribo import CaseError, Field, Interrupted, Result, Simulation, TriboError
 from tribo.cli.show import show
 from tribo.observers.observer import Observer
-from tribo.plugin import Field
 from tribo.result.export import export_csv
 
 POWER, FRICTION, SPEED = 1e7, 0.1, 0.1

@@ -144,7 +144,7 @@ import numpy as np
 from paper_models import flat, named, small, sphere, steel
 
 from tribo import Simulation
-from tribo.plugin import WearLaw, WearRate
+from tribo import WearLaw, WearRate
 
 
 class Linear(WearLaw):

@@ -5,9 +5,8 @@ import pytest
 from paper_models import K, flat, foundation, motion, named, small, sphere, steel
 from strangers.running_in import RunningIn
 
-from tribo import Grid, Simulation
+from tribo import Field, Grid, Simulation, WearLaw, WearRate
 from tribo.core.fields import LocalConditions
-from tribo.plugin import Field, WearLaw, WearRate
 from tribo.simulation.guards import GuardedLaw
 from tribo.stepping.implicit import Implicit
 from tribo.wear.power import Power

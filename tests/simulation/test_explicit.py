@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 from paper_models import K, archard, flat, last, motion, named, small, sphere, steel
 
+from tribo import Effect, Field, WearLaw, WearRate
 from tribo.contact.dcfft import DcFft
 from tribo.core.errors import CaseError
-from tribo.plugin import Effect, Field, WearLaw, WearRate
 from tribo.simulation.run import Simulation
 from tribo.stepping.explicit import Explicit, largest_stable_increment
 from tribo.stepping.rates import Moment

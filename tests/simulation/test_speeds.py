@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 from paper_models import K, flat, foundation, motion, named, small, sphere, steel
 
-from tribo import Grid, Simulation
+from tribo import Effect, Field, Grid, Simulation, WearLaw, WearRate
 from tribo.core.errors import PluginError
 from tribo.motion.reciprocating import Reciprocating
-from tribo.plugin import Effect, Field, WearLaw, WearRate
 from tribo.stepping.explicit import Explicit
 
 SINE = {"waveform": "sinusoidal"}

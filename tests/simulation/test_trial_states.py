@@ -5,9 +5,8 @@ import pytest
 from paper_models import K, archard, flat, foundation, motion, named, small, sphere, steel
 from pydantic import PrivateAttr
 
-from tribo import Grid, Simulation
+from tribo import Effect, Field, Grid, Simulation, WearLaw, WearRate
 from tribo.core.errors import PluginError
-from tribo.plugin import Effect, Field, WearLaw, WearRate
 
 SPOILT = {"negative": np.negative, "nan": lambda h: h * np.nan, "wrong shape": lambda h: h[1:]}
 

@@ -5,7 +5,7 @@ from strangers.protected import Protected
 from strangers.running_in import RunningIn
 from strangers.transition import Transition
 
-from tribo.plugin import hookimpl
+from tribo import hookimpl
 
 __version__ = "1.0"
 

@@ -14,7 +14,7 @@ import scipy.fft
 from scipy.interpolate import CubicSpline
 from scipy.special import j0
 
-from tribo.plugin import (
+from tribo import (
     Array,
     CaseError,
     ContactProblem,

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Annotated
 
-from tribo.plugin import Array, ContactConditions, Effect, Field, Quantity
+from tribo import Array, ContactConditions, Effect, Field, Quantity
 
 OXIDE = "stranger_oxide"
 

@@ -4,7 +4,7 @@ from typing import Annotated
 
 import numpy as np
 
-from tribo.plugin import Field, LocalConditions, Quantity, WearLaw, WearRate
+from tribo import Field, LocalConditions, Quantity, WearLaw, WearRate
 
 SpecificRate = Annotated[float, Quantity("1/Pa", at_least=0)]
 

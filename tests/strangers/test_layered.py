@@ -5,8 +5,7 @@ import pytest
 from strangers import layered
 from strangers.layered import Layered, LayeredHalfSpace
 
-from tribo import CaseError, Registry, Simulation
-from tribo.plugin import HalfSpace, solve_bounded
+from tribo import CaseError, HalfSpace, Registry, Simulation, solve_bounded
 
 H = 20e-6
 SOFT = {"young": 100e9, "poisson": 0.3}

@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from tribo.plugin import LocalConditions, Quantity, WearLaw, WearRate
+from tribo import LocalConditions, Quantity, WearLaw, WearRate
 
 
 class Transition(WearLaw):

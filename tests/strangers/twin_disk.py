@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import Annotated
 
-from tribo.plugin import CaseError, Exposure, Grid, Kinematics, Quantity, Track, hookimpl
+from tribo import CaseError, Exposure, Grid, Kinematics, Quantity, Track, hookimpl
 
 Length = Annotated[float, Quantity("m", above=0)]
 

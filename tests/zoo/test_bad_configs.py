@@ -6,7 +6,7 @@ import pytest
 from pydantic import AfterValidator, ConfigDict, PrivateAttr, field_serializer, model_validator
 from zoo_keeper import Zoo, case_of, expect_harmless, expect_one_message
 
-from tribo.plugin import CaseError, Observer
+from tribo import CaseError, Observer
 
 ZOO = Zoo()
 bad = ZOO.bad

@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 from zoo_keeper import Zoo, case_of, expect_harmless, expect_one_message
 
-from tribo import Simulation
+from tribo import NumericalError, Simulation
 from tribo.contact.dcfft import DcFft
 from tribo.core.errors import PluginError
-from tribo.plugin import NumericalError
 
 ZOO = Zoo()
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from zoo_keeper import Zoo, expect_harmless, expect_one_message
 
+from tribo import NumericalError, Stationary, Track, WearCompliance
 from tribo.motion.unidirectional import Unidirectional
-from tribo.plugin import NumericalError, Stationary, Track, WearCompliance
 
 PATH = {"speed": (float, 0.1), "track_length": (float, 0.02), "distance": (float, 2.0)}
 ZOO, GROOVES = Zoo(**PATH), Zoo(**PATH)

@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 from zoo_keeper import Zoo, case_of, expect_harmless, expect_one_message
 
-from tribo import Result, Simulation
+from tribo import Observer, Result, Simulation
 from tribo.contact.dcfft import DcFft
-from tribo.plugin import Observer
 
 ZOO, MEDDLERS = Zoo(), Zoo()
 

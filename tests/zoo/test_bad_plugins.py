@@ -14,7 +14,7 @@ from tribo import Result
 
 LAW = """
 import numpy as np
-from tribo.plugin import Field, LocalConditions, WearLaw, WearRate, hookimpl
+from tribo import Field, LocalConditions, WearLaw, WearRate, hookimpl
 
 class Bad(WearLaw):
     type = "zoo.bad"

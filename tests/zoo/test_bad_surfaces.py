@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from zoo_keeper import Zoo, expect_harmless, expect_one_message
 
-from tribo.plugin import CaseError
+from tribo import CaseError
 from tribo.surfaces.sphere import Sphere
 
 ZOO = Zoo(radius=(float, 5e-3))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from zoo_keeper import Zoo, expect_harmless, expect_one_message
 
-from tribo.plugin import Field, WearLaw, WearRate
+from tribo import Field, WearLaw, WearRate
 
 ZOO = Zoo()
 bad = ZOO.bad

@@ -6,7 +6,7 @@ import keyword
 import re
 from dataclasses import dataclass
 
-import tribo.plugin
+import tribo
 from tribo.core.errors import CaseError
 
 _FORM = re.compile(r"[a-z][a-z0-9]*-[a-z][a-z0-9]*(-[a-z0-9]+)*")
@@ -45,7 +45,7 @@ class PluginName:
             raise CaseError(
                 f"{given!r} is too long for a plugin's name; {_LONGEST} characters are allowed"
             )
-        if keyword.iskeyword(self.module) or self.title in tribo.plugin.__all__:
+        if keyword.iskeyword(self.module) or self.title in tribo.__all__:
             what = "a keyword of Python" if keyword.iskeyword(self.module) else "tribo's own"
             name = self.module if keyword.iskeyword(self.module) else self.title
             raise CaseError(

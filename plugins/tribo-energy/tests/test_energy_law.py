@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from tribo.plugin import ContactConditions, Grid, LocalConditions, Material
+from tribo import ContactConditions, Grid, LocalConditions, Material
 
 from tribo_energy.dissipation import Dissipation
 from tribo_energy.traction import FrictionTraction

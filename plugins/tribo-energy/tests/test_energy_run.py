@@ -7,8 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tribo import CaseError, Simulation
-from tribo.plugin import Observer
+from tribo import CaseError, Observer, Simulation
 
 from tribo_energy.plugin import EXAMPLE
 from tribo_energy.report import figures, lab_rows

@@ -3,8 +3,7 @@
 from time import perf_counter
 
 import numpy as np
-from tribo import Simulation
-from tribo.plugin import ContactProblem, ContactSolution
+from tribo import ContactProblem, ContactSolution, Simulation
 
 
 def solve(contact: str, load: float, width: float, cells: int) -> tuple[ContactSolution, float]:

@@ -4,14 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tribo import Simulation
-from tribo.plugin import (
+from tribo import (
     CaseError,
     ContactProblem,
     ContactSystem,
     Grid,
     HalfSpace,
     NumericalError,
+    Simulation,
     WearCompliance,
 )
 

@@ -6,8 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tribo import Simulation
-from tribo.plugin import CaseError, ContactSystem, Grid
+from tribo import CaseError, ContactSystem, Grid, Simulation
 
 import tribo_tamaas.solver
 from tribo_tamaas import Tamaas

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from pydantic import ValidationError
-from tribo.plugin import CaseError, ContactConditions, Grid, Material
+from tribo import CaseError, ContactConditions, Grid, Material
 
 from tribo_thermal.flash import Flash
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from pydantic import ValidationError
-from tribo.plugin import CaseError, LocalConditions, Material
+from tribo import CaseError, LocalConditions, Material
 
 from tribo_thermal.arrhenius import Arrhenius
 from tribo_thermal.softening import Softening

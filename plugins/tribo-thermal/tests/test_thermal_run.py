@@ -7,8 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tribo import CaseError, Simulation
-from tribo.plugin import ContactConditions
+from tribo import CaseError, ContactConditions, Simulation
 
 from tribo_thermal.flash import Flash
 from tribo_thermal.plugin import EXAMPLE

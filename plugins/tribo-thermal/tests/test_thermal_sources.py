@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from tribo.plugin import Grid, HalfSpace
+from tribo import Grid, HalfSpace
 
 from tribo_thermal.sources import LIMITS, rise_per_power, source_radius
 

@@ -4,7 +4,7 @@ import zipfile
 
 import numpy as np
 import pytest
-from tribo.plugin import CaseError, Grid
+from tribo import CaseError, Grid
 
 import tribo_topography.read
 from tribo_topography import Measured, describe

@@ -8,8 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tribo import Simulation
-from tribo.plugin import CaseError, ContactProblem, TriboWarning
+from tribo import CaseError, ContactProblem, Simulation, TriboWarning
 from tribo.simulation.predict import predict
 
 from tribo_topography.export import export_xyz

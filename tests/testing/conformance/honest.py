@@ -4,7 +4,7 @@ from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
-from tribo.plugin import (
+from tribo import (
     ContactSolver,
     Effect,
     Field,

@@ -16,8 +16,8 @@ from pydantic import (
 )
 from testing.conformance.honest import Counts, Hill, Law, Motion, Solver, Traction
 
+from tribo import Field, Grid, NumericalError, Quantity, Residuals, Stationary, Track
 from tribo.core.errors import PluginError
-from tribo.plugin import Field, Grid, NumericalError, Quantity, Residuals, Stationary, Track
 from tribo.testing.compare import CheckFailed
 
 MUTANTS = []

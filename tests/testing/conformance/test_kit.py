@@ -11,8 +11,7 @@ from pydantic import ConfigDict
 from testing.conformance.honest import Counts, Hill, Law
 from testing.conformance.mutants import InwardHeight
 
-from tribo import Grid
-from tribo.plugin import Quantity, Surface, WearRate
+from tribo import Grid, Quantity, Surface, WearRate
 from tribo.testing import check, example_configs, parametrize_checks
 from tribo.testing.compare import CheckFailed
 from tribo.testing.kit import suites

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import numpy as np
 from pydantic import ConfigDict
-from tribo.plugin import Field, LocalConditions, Quantity, WearLaw, WearRate
+from tribo import Field, LocalConditions, Quantity, WearLaw, WearRate
 
 ENERGY = Field("dissipated_energy", "J/m^2", "Friction energy dissipated per area so far.")
 

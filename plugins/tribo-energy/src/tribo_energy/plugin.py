@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from matplotlib.figure import Figure
-from tribo.plugin import CaseTemplate, Component, LabRow, Result, hookimpl
+from tribo import CaseTemplate, Component, LabRow, Result, hookimpl
 
 from tribo_energy import report
 from tribo_energy.dissipation import Dissipation

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from matplotlib.figure import Figure
-from tribo.plugin import Array, LabRow, Result
+from tribo import Array, LabRow, Result
 
 
 def dissipated(result: Result) -> Array | None:

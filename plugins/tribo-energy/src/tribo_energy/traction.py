@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from tribo.plugin import Array, ContactConditions, Effect, Field
+from tribo import Array, ContactConditions, Effect, Field
 
 TRACTION = Field("friction_traction", "Pa", "Magnitude of the friction traction, for both bodies.")
 SLOPE = Field("friction_traction_slope", "1", "Derivative of the friction traction in pressure.")

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
-from tribo.plugin import Array, NumericalError
+from tribo import Array, NumericalError
 
 # Window's longer side where E* is 1. The capped solver takes steps of one length
 # in these units: shorter sides make it slow (1 takes eight times as long), and it

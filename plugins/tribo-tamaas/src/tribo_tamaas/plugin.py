@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tribo.plugin import Component, hookimpl
+from tribo import Component, hookimpl
 
 from tribo_tamaas.solver import Tamaas
 

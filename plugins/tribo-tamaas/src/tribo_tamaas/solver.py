@@ -9,7 +9,7 @@ from typing import Annotated, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
-from tribo.plugin import (
+from tribo import (
     Array,
     CaseError,
     ContactProblem,

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import numpy as np
 from pydantic import ConfigDict
-from tribo.plugin import LocalConditions, Quantity, WearLaw, WearRate
+from tribo import LocalConditions, Quantity, WearLaw, WearRate
 
 GAS_CONSTANT = 8.314462618
 """In J/(mol K)."""

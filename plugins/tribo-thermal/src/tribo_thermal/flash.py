@@ -7,7 +7,7 @@ from typing import Annotated, Self
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, model_validator
-from tribo.plugin import Array, CaseError, ContactConditions, Effect, Field, Material, Quantity
+from tribo import Array, CaseError, ContactConditions, Effect, Field, Material, Quantity
 
 from tribo_thermal.sources import Profile, Rise, rise_per_power, source_radius
 

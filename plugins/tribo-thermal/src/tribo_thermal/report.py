@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 from matplotlib.figure import Figure
-from tribo.plugin import Array, ContactConditions, LabRow, Material, Result
+from tribo import Array, ContactConditions, LabRow, Material, Result
 
 from tribo_thermal.flash import TEMPERATURE, Flash
 

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import numpy as np
 from pydantic import ConfigDict
-from tribo.plugin import CaseError, LocalConditions, Material, Quantity, WearLaw, WearRate
+from tribo import CaseError, LocalConditions, Material, Quantity, WearLaw, WearRate
 
 
 class Softening(WearLaw):

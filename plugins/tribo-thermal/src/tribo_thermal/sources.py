@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from tribo.plugin import Array
+from tribo import Array
 
 Profile = Literal["uniform", "parabolic"]
 Rise = Literal["mean", "maximum"]

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
-from tribo.plugin import Quantity, Table
+from tribo import Quantity, Table
 
 Length = Annotated[float, Quantity("m")]
 PositiveLength = Annotated[float, Quantity("m", above=0)]

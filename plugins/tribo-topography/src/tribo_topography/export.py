@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from tribo.plugin import Result
+from tribo import Result
 
 
 def export_xyz(result: Result, folder: Path) -> list[Path]:

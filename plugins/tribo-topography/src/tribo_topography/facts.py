@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from tribo.plugin import CaseError
+from tribo import CaseError
 
 from tribo_topography.config import MeasuredFile
 from tribo_topography.form import detrended

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.interpolate import griddata
 from scipy.ndimage import binary_dilation
-from tribo.plugin import Array, CaseError
+from tribo import Array, CaseError
 
 from tribo_topography.config import MeasuredFile
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tribo.plugin import Component, ExportFormat, hookimpl
+from tribo import Component, ExportFormat, hookimpl
 
 from tribo_topography.export import export_xyz
 from tribo_topography.surface import Measured

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 import numpy as np
-from tribo.plugin import Array, CaseError
+from tribo import Array, CaseError
 
 from tribo_topography.config import MeasuredFile
 

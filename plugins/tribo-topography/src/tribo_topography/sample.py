@@ -6,7 +6,7 @@ from math import ceil
 
 import numpy as np
 from scipy.interpolate import RectBivariateSpline
-from tribo.plugin import Array, CaseError, Grid
+from tribo import Array, CaseError, Grid
 
 # A cubic spline forgets a pixel by a factor of 0.27 per pixel of distance.
 _MARGIN = 16

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 
-from tribo.plugin import Array, Grid, Surface, TriboWarning
+from tribo import Array, Grid, Surface, TriboWarning
 
 from tribo_topography.config import MeasuredFile
 from tribo_topography.facts import Facts, check, facts
