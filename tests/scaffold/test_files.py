@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 import importlib
-import os
 import re
 import subprocess
 import sys
@@ -20,19 +19,18 @@ from tribo.registry.registry import Registry
 from tribo.scaffold import PluginName, write_plugin
 from tribo.simulation.run import Simulation
 
-KINDS_OF_NAMES = list(NAMES.items())
+EACH = pytest.mark.parametrize(("kind", "name"), NAMES.items())
 
 
 def test_there_is_a_start_for_every_kind() -> None:
     assert [kind.replace("-", "_") for kind in sorted(NAMES)] == sorted(KINDS)
 
 
-@pytest.mark.parametrize(("kind", "name"), KINDS_OF_NAMES)
+@EACH
 def test_it_is_a_complete_distribution(kind: str, name: str, tmp_path: Path) -> None:
-    folder = tmp_path / name
+    folder, plugin = tmp_path / name, PluginName(name)
     written = write_plugin(name, kind, folder)
     assert written == sorted(p for p in folder.rglob("*") if p.is_file())
-    package = name.replace("-", "_")
     assert {str(p.relative_to(folder)) for p in written} == {
         ".github/workflows/ci.yml",
         ".gitignore",
@@ -40,40 +38,40 @@ def test_it_is_a_complete_distribution(kind: str, name: str, tmp_path: Path) -> 
         "README.md",
         "example.toml",
         "pyproject.toml",
-        f"src/{package}/__init__.py",
-        f"src/{package}/py.typed",
-        f"src/{package}/{PluginName(name).module}.py",
-        "tests/test_conformance.py",
-        "tests/test_example.py",
+        f"src/{plugin.package}/__init__.py",
+        f"src/{plugin.package}/py.typed",
+        f"src/{plugin.package}/{plugin.module}.py",
+        f"tests/test_{plugin.module}.py",
     }
     project = tomllib.loads((folder / "pyproject.toml").read_text())["project"]
     assert project["name"] == name
     assert not re.match("A [aeiou]", project["description"])
     assert "tribo>=0.1,<0.2" in project["dependencies"]
-    points = {"tribo": {PluginName(name).component: package}}
-    assert project["entry-points"] == points
+    assert project["entry-points"] == {"tribo": {plugin.component: plugin.package}}
     assert (folder / "example.toml").read_text().strip() in (folder / "README.md").read_text()
     assert "${{ matrix.python }}" in (folder / ".github/workflows/ci.yml").read_text()
 
 
-@pytest.mark.parametrize(("kind", "name"), KINDS_OF_NAMES)
-def test_its_code_uses_nothing_of_tribo_but_what_a_plugin_may(
-    kind: str, name: str, tmp_path: Path
-) -> None:
-    public = {"tribo", "tribo.testing"}
+@EACH
+def test_its_code_uses_the_names_of_the_package_only(kind: str, name: str, tmp_path: Path) -> None:
     for file in write_plugin(name, kind, tmp_path / name):
-        if file.suffix != ".py":
-            continue
-        allowed = public if file.parent.name == "tests" else {"tribo"}
-        imported = {
-            node.module
-            for node in ast.walk(ast.parse(file.read_text()))
-            if isinstance(node, ast.ImportFrom)
-        }
-        assert {m for m in imported if m and m.startswith("tribo")} <= allowed
+        if file.suffix == ".py":
+            imports = (n for n in ast.walk(ast.parse(file.read_text())) if hasattr(n, "module"))
+            used = {node.module for node in imports if node.module.startswith("tribo")}
+            assert used <= {"tribo", *(["tribo.testing"] if file.parent.name == "tests" else [])}
 
 
-@pytest.mark.parametrize(("kind", "name"), KINDS_OF_NAMES)
+def test_a_law_is_25_lines_and_with_its_tests_50(tmp_path: Path) -> None:
+    write_plugin("acme-fretting", "wear-law", tmp_path / "new")
+    law, tests = (
+        len((tmp_path / "new" / path).read_text().splitlines())
+        for path in ("src/acme_fretting/fretting.py", "tests/test_fretting.py")
+    )
+    assert law <= 25
+    assert law + tests <= 50
+
+
+@EACH
 def test_its_example_runs_with_it(
     kind: str, name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -85,38 +83,10 @@ def test_its_example_runs_with_it(
         monkeypatch.setitem(sys.modules, module, None)
         del sys.modules[module]
     registry = Registry.with_plugins(importlib.import_module(plugin.package))
-    assert [p.reason for p in registry.plugins] == ["", ""]
     assert plugin.component in registry.names(kind.replace("-", "_"))
     with Simulation(tmp_path / name / "example.toml", registry=registry).run() as result:
         used = {c["type"]: c["class"] for c in result.provenance["components"].values()}
     assert used[plugin.component] == f"{plugin.package}.{plugin.module}.{plugin.title}"
-
-
-def test_its_conformance_test_covers_every_class_of_the_hook(tmp_path: Path) -> None:
-    folder = tmp_path / "acme-fretting"
-    write_plugin(folder.name, "wear-law", folder)
-    module = folder / "src/acme_fretting/fretting.py"
-    text = module.read_text()
-    second = text[text.index("class Fretting") :]
-    second = second.replace("Fretting", "Second").replace("acme.fretting", "acme.second")
-    module.write_text(text + "\n\n" + second.replace("depth_rate=k", "depth_rate=2 * k"))
-    package = folder / "src/acme_fretting/__init__.py"
-    package.write_text(
-        package.read_text()
-        .replace("import Fretting", "import Fretting, Second")
-        .replace("(Fretting,)", "(Fretting, Second)")
-    )
-    done = subprocess.run(
-        [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "tests"],
-        cwd=folder,
-        env={"PYTHONPATH": os.pathsep.join([str(folder / "src"), *sys.path])},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    # The depth of the second is twice what its derivative says.
-    assert "test_Second_conforms[derivative_is_that_of_the_depth" in done.stdout
-    assert "FAILED tests/test_conformance.py::test_Fretting" not in done.stdout
 
 
 @pytest.mark.parametrize("kind", NAMES)
@@ -135,25 +105,17 @@ def test_the_kind_may_be_spelt_as_in_the_registry(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("kind", "begins"),
-    [("wear-lwa", "'wear-lwa'; did you mean 'wear-law'?"), ("xyz", "'xyz'.")],
+    ("kind", "folder", "says"),
+    [
+        ("wear-lwa", "new", "did you mean 'wear-law'"),
+        ("xyz", "new", "Known: contact-solver, wear-law, kinematics, surface, effect, observer"),
+        ("wear-law", ".", "exists; give another folder"),
+        ("wear-law", "nowhere/new", "there is no folder .*nowhere; make it first"),
+    ],
 )
-def test_an_unknown_kind_is_refused(kind: str, begins: str, tmp_path: Path) -> None:
-    with pytest.raises(CaseError) as caught:
-        write_plugin("acme-fretting", kind, tmp_path / "new")
-    assert str(caught.value) == (
-        f"unknown kind {begins} Known: contact-solver, wear-law, kinematics, surface, effect, "
-        "observer"
-    )
-    assert not (tmp_path / "new").exists()
-
-
-def test_nothing_is_written_over(tmp_path: Path) -> None:
-    with pytest.raises(CaseError, match="exists; give another folder"):
-        write_plugin("acme-fretting", "wear-law", tmp_path)
+def test_what_cannot_be_written_is_refused(
+    kind: str, folder: str, says: str, tmp_path: Path
+) -> None:
+    with pytest.raises(CaseError, match=says):
+        write_plugin("acme-fretting", kind, tmp_path / folder)
     assert not list(tmp_path.iterdir())
-
-
-def test_the_folder_s_parent_must_exist(tmp_path: Path) -> None:
-    with pytest.raises(CaseError, match=r"there is no folder .*nowhere; make it first"):
-        write_plugin("acme-fretting", "wear-law", tmp_path / "nowhere" / "new")

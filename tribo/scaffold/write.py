@@ -55,8 +55,7 @@ def write_plugin(name: str, kind: str, folder: Path) -> list[Path]:
         f"src/{plugin.package}/__init__.py": "common/init.py",
         f"src/{plugin.package}/{plugin.module}.py": f"{words['kind']}/model.py",
         f"src/{plugin.package}/py.typed": "common/py.typed",
-        "tests/test_conformance.py": "common/test_conformance.py",
-        "tests/test_example.py": f"{words['kind']}/test_example.py",
+        f"tests/test_{plugin.module}.py": f"{words['kind']}/test_model.py",
     }
     texts = {path: _filled(template, words) for path, template in layout.items()}
     with writing(folder):

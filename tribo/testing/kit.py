@@ -115,7 +115,7 @@ class Report:
 
 def check(
     cls: type[Component],
-    configs: Sequence[Config],
+    configs: Sequence[Config] | None = None,
     *,
     fields: Mapping[str, FieldValue] = _NOTHING,
 ) -> Report:
@@ -128,9 +128,9 @@ def check(
     cls : type
         The class; which checks it gets follows from the interface it
         subclasses.
-    configs : sequence of Component or Mapping
+    configs : sequence of Component or Mapping, optional
         Valid configurations, as objects or as in a case; ``type`` may be left
-        out.
+        out. Those of `example_configs` unless given.
     fields : Mapping[str, float or callable], optional
         Typical values, in SI, of the local fields that the class requires. One
         that follows the pressure is given as a function of it, and belongs to
@@ -161,7 +161,7 @@ def check(
 
 def parametrize_checks(
     cls: type[Component],
-    configs: Sequence[Config],
+    configs: Sequence[Config] | None = None,
     *,
     expected_failures: Mapping[str, str] = _NOTHING,
     fields: Mapping[str, FieldValue] = _NOTHING,
@@ -257,9 +257,10 @@ def example_configs(cls: type[Component]) -> list[dict[str, Any]]:
 
 
 def suites(
-    cls: type[Component], configs: Sequence[Config], fields: Mapping[str, FieldValue]
+    cls: type[Component], configs: Sequence[Config] | None, fields: Mapping[str, FieldValue]
 ) -> Iterator[Checks]:
     """Yield the checks of a class with each of its configurations."""
+    configs = example_configs(cls) if configs is None else configs
     if not configs:
         raise ValueError(
             f"nothing would be checked of {cls.__qualname__}: it is not valid without "
