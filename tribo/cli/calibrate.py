@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import shlex
 from collections.abc import Iterator
@@ -11,11 +10,11 @@ from typing import Any
 
 import click
 import pandas as pd
-from rich import box
 from rich.markup import escape
 from rich.table import Table
 
-from tribo.cli.console import Console
+from tribo.cli.console import Console, titled
+from tribo.cli.options import CASE, JSON, PATH, SET, echo_json
 from tribo.study.calibration.outcome import Calibration
 from tribo.study.calibration.quantities import in_si, in_words, percent
 
@@ -24,18 +23,18 @@ LONGEST_NAME = 30
 
 
 @click.command()
-@click.argument("case", type=click.Path(path_type=Path))
+@CASE
 @click.option(
     "--measured",
     required=True,
-    type=click.Path(path_type=Path),
+    type=PATH,
     help="What was measured, and what to fit: a TOML file.",
 )
-@click.option("--set", "overrides", multiple=True, metavar="PATH=VALUE", help="Change a value.")
+@SET
 @click.option(
     "--level", type=float, default=0.95, show_default=True, help="Probability of the intervals."
 )
-@click.option("--json", "as_json", is_flag=True, help="One JSON object, in SI units.")
+@JSON
 def calibrate(
     case: Path, measured: Path, overrides: tuple[str, ...], level: float, as_json: bool
 ) -> None:
@@ -56,9 +55,9 @@ def calibrate(
         apply_settings(read_toml(case), overrides), measured, level=level, on_run=_tell
     )
     if as_json:
-        click.echo(json.dumps(found.as_json(), indent=2, allow_nan=False))
+        echo_json(found.as_json())
         return
-    console = Console(highlight=False)
+    console = Console()
     console.print(_estimates(found))
     console.print(_data(found))
     if len(found.predictions):
@@ -79,7 +78,7 @@ def _table(title: str, names: list[str], *columns: str) -> Table:
 
     Names are broken between words, and only very long words within.
     """
-    table = Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD)
+    table = titled(title)
     table.pad_edge, table.collapse_padding = False, True
     longest = max((len(word) for name in names for word in name.split()), default=0)
     one_word = not any(" " in name for name in names)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
+from tribo.cli.options import JSON, PATH, SET, echo_json
 from tribo.core.errors import CaseError, located
 
 if TYPE_CHECKING:
@@ -15,14 +15,14 @@ if TYPE_CHECKING:
 
 
 @click.command()
-@click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path))
+@click.argument("files", nargs=-1, required=True, type=PATH)
 @click.option("--vary", multiple=True, metavar="PATH=A,B", help="Values that take turns.")
-@click.option("--set", "overrides", multiple=True, metavar="PATH=VALUE", help="Change a value.")
-@click.option("-o", "--output", type=click.Path(path_type=Path), help="Folder; CASE-compare.")
+@SET
+@click.option("-o", "--output", type=PATH, help="Folder; CASE-compare.")
 @click.option("--at", "at", multiple=True, metavar="TIME", help="Save to show, as '1 h'.")
 @click.option("--match", multiple=True, metavar="NAME=NAME", help="First's body=another's.")
 @click.option("--force", is_flag=True, help="Run all anew.")
-@click.option("--json", "as_json", is_flag=True, help="One JSON object, in SI units.")
+@JSON
 @click.option("--no-plots", is_flag=True, help="Write no pictures.")
 def compare(
     files: tuple[Path, ...],
@@ -66,7 +66,7 @@ def compare(
             pictures = save_overlays(comparison.results, chosen, folder)
         if as_json:
             data = comparison.as_json(times) | {"pictures": [str(path) for path in pictures]}
-            click.echo(json.dumps(data, indent=2, allow_nan=False))
+            echo_json(data)
             return
     for path in pictures:
         click.echo(f"Wrote {path}")

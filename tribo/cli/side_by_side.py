@@ -37,7 +37,7 @@ def print_comparison(
     comparison: Comparison, times: Sequence[float], console: Console | None = None
 ) -> None:
     """Print what differs at `times`, as many results side by side as the width allows."""
-    console = console or Console(highlight=False)
+    console = console or Console()
     labels = list(comparison.results)
     paths = list(dict.fromkeys(path for s in comparison.settings.values() for path in s))
     if paths:

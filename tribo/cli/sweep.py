@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from tribo.cli.options import JSON, PATH
 from tribo.core.errors import CaseError, NumericalError
 
 if TYPE_CHECKING:
@@ -24,14 +25,14 @@ EVERY = 10.0
 
 
 @click.command()
-@click.argument("study", type=click.Path(path_type=Path))
-@click.option("-o", "--output", type=click.Path(path_type=Path), help="Folder; STUDY-sweep.")
+@click.argument("study", type=PATH)
+@click.option("-o", "--output", type=PATH, help="Folder; STUDY-sweep.")
 @click.option("-j", "--jobs", type=click.IntRange(1), help="Runs at once; a core each.")
 @click.option("--scheduler", metavar="ADDRESS", help="Run on this dask scheduler's workers.")
 @click.option("--dask", is_flag=True, help="Run on a dask cluster on this machine.")
 @click.option("--retry", is_flag=True, help="Run again what failed before.")
 @click.option("--yes", is_flag=True, help="More than 1000 runs are meant.")
-@click.option("--json", "as_json", is_flag=True, help="One JSON object, in SI units.")
+@JSON
 def sweep(
     study: Path,
     output: Path | None,

@@ -28,9 +28,5 @@ def write_whole(path: Path, text: str) -> None:
     """
     fresh = path.with_name(path.name + ".new")
     with writing(path):
-        try:
-            fresh.write_text(text, encoding="utf-8", newline="")
-            fresh.replace(path)
-        except BaseException:
-            fresh.unlink(missing_ok=True)
-            raise
+        fresh.write_text(text, encoding="utf-8", newline="")
+        fresh.replace(path)

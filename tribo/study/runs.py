@@ -9,7 +9,8 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from tribo.case import Case
-from tribo.core.errors import CaseError, OutputError, TriboError, TriboWarning
+from tribo.core.errors import CaseError, TriboError, TriboWarning
+from tribo.core.files import writing
 from tribo.observers.observer import Observer
 from tribo.registry.registry import Registry
 from tribo.result.read import Result
@@ -83,10 +84,8 @@ def run_variants(
     if folder is not None:
         if not overwrite:
             _check_own(folder, {paths[label]: each for label, each in simulations.items()})
-        try:
+        with writing(folder):
             folder.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise OutputError(f"cannot make the folder {folder}: {error.strerror}") from error
     results = []
     for number, (label, simulation) in enumerate(simulations.items(), start=1):
         path = None if folder is None else folder / paths[label]

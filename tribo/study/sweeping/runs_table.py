@@ -11,7 +11,8 @@ import pandas
 
 from tribo.case import Case
 from tribo.config.overrides import leaves_at
-from tribo.core.errors import CaseError, OutputError
+from tribo.core.errors import CaseError
+from tribo.core.files import write_whole
 from tribo.lab.report import lab_report
 from tribo.result.columns import labelled
 from tribo.result.read import Result
@@ -82,12 +83,7 @@ def write_csv(path: Path, table: pandas.DataFrame) -> None:
     OutputError
         If it cannot be written.
     """
-    fresh = path.with_name(path.name + ".new")
-    try:
-        table.dropna(axis=1, how="all").to_csv(fresh, index=False)
-        fresh.replace(path)
-    except OSError as error:
-        raise OutputError(f"cannot write {path}: {error.strerror}") from error
+    write_whole(path, table.dropna(axis=1, how="all").to_csv(index=False))
 
 
 def _measured(result: Result) -> dict[str, Any]:
