@@ -10,7 +10,7 @@ from tribo.cli.verify import _percent
 from tribo.core.errors import CaseError, NumericalError
 from tribo.templates import template
 from tribo.verification import suite
-from tribo.verification.check import Check, Quantity
+from tribo.verification.reference import Reference, Row
 
 SMALL = ["--set", "grid.cells=24", "--set", "grid.size=0.7 mm", "--set", "kinematics.duration=20"]
 SMALL += ["--set", "output.save_times=[]"]
@@ -29,9 +29,9 @@ def case(tmp_path):
 
 @pytest.fixture
 def failing(monkeypatch):
-    wrong = Quantity("depth", "m", 1e-3, note="none")
-    checks = (Check("made up", "nowhere", lambda n, _: {"depth": (1.0, 1.1)}, (wrong,), (8,)),)
-    monkeypatch.setattr(suite, "CHECKS", checks)
+    wrong = Row("depth", "m", 1.0, 1.1, 1e-3, note="none")
+    made_up = Reference("made up", "nowhere", lambda n, _: [wrong], (8,))
+    monkeypatch.setattr(suite, "REFERENCES", (made_up,))
 
 
 def test_the_table_has_every_column_and_a_verdict():

@@ -1,4 +1,7 @@
-"""A ball that alone wears: exact on a foundation, a known limit on a half-space."""
+"""A ball that alone wears, with steps of the error control: exact on a foundation, Argatov's law.
+
+With equal steps both are rows of `tribo verify`.
+"""
 
 import numpy as np
 import pytest
@@ -19,75 +22,64 @@ from tribo import Grid, Simulation
 from tribo.closed_forms import ball_wear, winkler
 from tribo.stepping.implicit import Implicit
 
+pytestmark = pytest.mark.slow
+
+WORN = {"load": 100, "radius": 5e-3, "stiffness": FOUNDATION, "wear_coefficient": K}
+
 
 def ball_only(**changes):
-    parts = {
-        "grid": Grid((1.3e-3, 1.3e-3), (128, 128)),
-        "bodies": [named("ball", paraboloid(), steel(), archard()), named("disk", flat(), steel())],
-        "kinematics": motion(duration=3600),
-    }
-    return Simulation(case(**{**parts, **changes})).run()
+    bodies = [named("ball", paraboloid(), steel(), archard()), named("disk", flat(), steel())]
+    return Simulation(case(bodies=bodies, **changes)).run().saves()[1:]
 
 
-@pytest.fixture(scope="module")
-def on_foundation():
-    return ball_only(
+def test_the_foundation_follows_its_exact_worn_solution():
+    saves = ball_only(
+        grid=Grid((1.3e-3, 1.3e-3), (128, 128)),
         contact=foundation(),
+        kinematics=motion(duration=3600),
         save_times=(10, 200),
         stepping=Implicit(pressure_tolerance=0.01, depth_tolerance=1e-4),
     )
+    for row in saves:
+        half_width = winkler.worn_sphere_half_width(row["distance_m"], **WORN)
+        # The area is counted in cells; its edge is good to a part of one.
+        assert np.sqrt(row["contact_area_m2"] / np.pi) == pytest.approx(half_width, rel=5e-3)
+        # Backward Euler at these tolerances lags by less than 1 %.
+        exact = winkler.worn_sphere_pressure(0.0, row["distance_m"], **WORN)
+        assert row["centre_pressure_Pa"] == pytest.approx(exact, rel=0.01)
+        # a = √(2Rδ): the approach is that of the unworn ball's cap.
+        assert row["approach_m"] == pytest.approx(half_width**2 / (2 * 5e-3), rel=1e-3, abs=0)
 
 
-@pytest.mark.parametrize("save", [1, 2, 3])
-def test_the_foundation_follows_its_exact_worn_solution(on_foundation, save):
-    row = on_foundation.saves()[save]
-    s = row["distance_m"]
-    values = {
-        "load": 100,
-        "radius": 5e-3,
-        "stiffness": FOUNDATION,
-        "wear_coefficient": K,
-    }
-    half_width = winkler.worn_sphere_half_width(s, **values)
-    # The area is counted in cells; its edge is good to a part of one.
-    assert np.sqrt(row["contact_area_m2"] / np.pi) == pytest.approx(half_width, rel=5e-3)
-    # Backward Euler at these tolerances lags by less than 1 %.
-    exact = winkler.worn_sphere_pressure(0.0, s, **values)
-    assert row["centre_pressure_Pa"] == pytest.approx(exact, rel=0.01)
-    # a = √(2Rδ): the approach is that of the unworn ball's cap.
-    assert row["approach_m"] == pytest.approx(half_width**2 / (2 * 5e-3), rel=1e-3, abs=0)
-
-
-def test_the_error_of_a_step_is_of_first_order():
-    exact = winkler.worn_sphere_pressure(
-        0.0, 20.0, load=100, radius=5e-3, stiffness=FOUNDATION, wear_coefficient=K
-    )
+def test_halved_tolerances_halve_the_error_of_the_steps():
+    exact = winkler.worn_sphere_pressure(0.0, 20.0, **WORN)
     errors = []
     for tolerance in (0.08, 0.04, 0.02):
-        run = ball_only(
+        saves = ball_only(
             contact=foundation(),
             grid=Grid((0.7e-3, 0.7e-3), (200, 200)),
-            kinematics=motion(duration=200),
             stepping=Implicit(pressure_tolerance=tolerance, depth_tolerance=0.1, settle=1.0),
         )
-        errors.append(run.saves()[-1]["centre_pressure_Pa"] / exact - 1)
+        errors.append(saves[-1]["centre_pressure_Pa"] / exact - 1)
     orders = np.log2(np.array(errors[:-1]) / np.array(errors[1:]))
-    # Halved tolerances halve the increments, and backward Euler's error with them.
+    # Backward Euler's error is positive, and in proportion to the increments.
     assert np.all(np.array(errors) > 0)
     assert np.all((orders > 0.8) & (orders < 1.25))
 
 
-def test_the_half_space_tends_to_the_rigid_limit_and_to_argatovs():
-    result = ball_only(grid=Grid((1.2e-3, 1.2e-3), (96, 96)), save_times=(500,))
-    hertz = 148.837e-6
-    for save in result.saves()[1:]:
-        s = save["distance_m"]
+def test_the_half_space_follows_argatovs_law_to_the_depth_of_an_independent_run():
+    saves = ball_only(
+        grid=Grid((1.2e-3, 1.2e-3), (96, 96)), kinematics=motion(duration=3600), save_times=(500,)
+    )
+    for save in saves:
         argatov = ball_wear.elastic_ball_half_width(
-            s, load=100, radius=5e-3, wear_coefficient=K, initial_half_width=hertz
+            save["distance_m"],
+            load=100,
+            radius=5e-3,
+            wear_coefficient=K,
+            initial_half_width=148.837e-6,
         )
-        counted = np.sqrt(save["contact_area_m2"] / np.pi)
-        assert counted == pytest.approx(argatov, rel=0.015)
-    rigid = ball_wear.ball(360.0, load=100, radius=5e-3, wear_coefficient=K)
-    # 26.698 µm rigid; an independent elastic run gave 26.509 µm.
-    assert save["bodies"]["ball"]["centre_wear_depth_m"] == pytest.approx(26.509e-6, rel=3e-3)
-    assert save["bodies"]["ball"]["centre_wear_depth_m"] == pytest.approx(rigid.depth, rel=0.01)
+        assert np.sqrt(save["contact_area_m2"] / np.pi) == pytest.approx(argatov, rel=0.015)
+    depth = saves[-1]["bodies"]["ball"]["centre_wear_depth_m"]
+    # 26.698 µm in the rigid limit.
+    assert depth == pytest.approx(26.509e-6, rel=3e-3)

@@ -1,4 +1,4 @@
-"""The checks on the track average wear as deep as the cases that people run."""
+"""The references of the track average wear as deep as the cases that people run."""
 
 import numpy as np
 import pytest
@@ -10,11 +10,13 @@ from tribo.verification.problems import WEAR_COEFFICIENT, ball, half_space, on_f
 K = WEAR_COEFFICIENT
 
 
+@pytest.mark.slow
 def test_the_groove_on_the_ring_is_several_times_as_deep_as_the_elastic_approach():
     _, state = strokes._ring_average()
     assert state.bodies["flat"].wear.max() > 3 * state.reference_depth
 
 
+@pytest.mark.slow
 def test_the_papers_hour_is_worn_to_its_end_and_18_percent_too_deep():
     excess, told = strokes._hour(2e-3, 32)
     assert strokes.PATH == 360.0

@@ -15,8 +15,8 @@ import click
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from tribo.verification.check import Row
     from tribo.verification.convergence import Convergence
+    from tribo.verification.reference import Row
     from tribo.verification.refinement import Refinement
 
 NOTHING = "–"
@@ -55,15 +55,15 @@ def verify(case: Path | None, overrides: tuple[str, ...], only: str | None, as_j
 def _verify_installation(only: str | None, as_json: bool) -> None:
     from tribo.core.errors import CaseError, NumericalError
     from tribo.result.provenance import environment
-    from tribo.verification.suite import CHECKS, run_suite
+    from tribo.verification.suite import REFERENCES, run_suite
 
     wanted = (only or "").casefold()
-    checks = [c for c in CHECKS if wanted in f"{c.case} {c.source}".casefold()]
-    if not checks:
-        names = "; ".join(check.case for check in CHECKS)
+    chosen = [known for known in REFERENCES if wanted in f"{known.case} {known.source}".casefold()]
+    if not chosen:
+        names = "; ".join(known.case for known in REFERENCES)
         raise CaseError(f"no check has {only!r} in its name or source; there are: {names}")
-    with _progress(sum(check.cost for check in checks)) as tell:
-        rows = run_suite(checks, lambda check: tell(check.case, check.cost))
+    with _progress(sum(known.cost for known in chosen)) as tell:
+        rows = run_suite(chosen, lambda known: tell(known.case, known.cost))
     failed = [row for row in rows if row.verdict == "fails"]
     if as_json:
         found = {**environment(), "holds": not failed, "rows": [asdict(row) for row in rows]}

@@ -3,34 +3,36 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 
 import numpy as np
 
 from tribo.contact.solver import ContactSolver
 from tribo.core.arrays import Array
-from tribo.core.contact import ContactProblem, ContactSolution, ContactSystem, Residuals
+from tribo.core.contact import ContactProblem, ContactSolution, Residuals
 from tribo.core.grid import Grid
 from tribo.registry.registry import default_registry
-from tribo.verification.check import Check, Found, Quantity
-from tribo.verification.plasticity import ONSET
 from tribo.verification.problems import (
     HARDNESS,
     LOAD,
     MODULUS,
-    RADIUS,
+    ONSET,
     WEAR_COEFFICIENT,
     ball,
     half_space,
-    norm,
     on_flat,
+    paraboloid,
     periodic,
     press,
     slide,
+    square,
 )
+from tribo.verification.reference import Reference, Row, norm
 
-CELLS = 48
+CELLS, WIDTH = 48, 0.7e-3
+DEPTHS = ("depth of the ball", "depth of the flat")
+NOTE = "difference of the two codes, both at their tolerance"
 Solve = Callable[[Array, Grid, float], Array]
 
 
@@ -56,8 +58,7 @@ def tamaas_free(gap: Array, grid: Grid, load: float, cap: float | None = None) -
     cls = default_registry().lookup("contact_solver", "tamaas.half_space")
     solver = cls.model_validate({"tolerance": 1e-9})
     assert isinstance(solver, ContactSolver)
-    system = ContactSystem(grid, MODULUS, load, cap)
-    return solver.solve(ContactProblem(system, gap, load)).pressure
+    return press(solver, gap, grid, load, cap).pressure
 
 
 def tamaas_periodic(gap: Array, grid: Grid, load: float) -> Array:
@@ -96,84 +97,64 @@ def contact_mechanics(gap: Array, grid: Grid, load: float, *, repeats: bool = Fa
     return np.asarray(found.jac)[:nx, :ny] / grid.cell_area
 
 
-def _ball_problem() -> tuple[Array, Grid]:
-    grid = Grid((0.7e-3, 0.7e-3), (CELLS, CELLS))
-    x, y = grid.mesh
-    return (x**2 + y**2) / (2 * RADIUS), grid
+def _row(name: str, ours: Array, theirs: Array) -> Row:
+    return norm(name, ours, theirs, 1e-5, note=NOTE)
 
 
-def _free(solve: Solve, level: int, placement: float) -> Found:
-    gap, grid = _ball_problem()
-    return {"pressure": norm(press(half_space(), gap, grid, LOAD).pressure, solve(gap, grid, LOAD))}
+def _free(solve: Solve, level: int, placement: float) -> list[Row]:
+    grid = square(WIDTH, CELLS)
+    gap = paraboloid(grid)
+    ours = press(half_space(), gap, grid, LOAD).pressure
+    return [_row("pressure", ours, solve(gap, grid, LOAD))]
 
 
-def _capped(level: int, placement: float) -> Found:
-    grid = Grid((1.4e-3, 1.4e-3), (CELLS, CELLS))
-    x, y = grid.mesh
-    gap, load = (x**2 + y**2) / (2 * RADIUS), 1.5 * ONSET
-    theirs = tamaas_free(gap, grid, load, HARDNESS)
-    return {"pressure": norm(press(half_space(), gap, grid, load, HARDNESS).pressure, theirs)}
+def _capped(level: int, placement: float) -> list[Row]:
+    grid, load = square(2 * WIDTH, CELLS), 1.5 * ONSET
+    gap = paraboloid(grid)
+    ours = press(half_space(), gap, grid, load, HARDNESS).pressure
+    return [_row("pressure", ours, tamaas_free(gap, grid, load, HARDNESS))]
 
 
-def _rough(solve: Solve, level: int, placement: float) -> Found:
-    grid = Grid((0.7e-3, 0.7e-3), (CELLS, CELLS))
-    x, y = (2 * np.pi * v / 0.7e-3 for v in grid.mesh)
+def _rough(solve: Solve, level: int, placement: float) -> list[Row]:
+    grid = square(WIDTH, CELLS)
+    x, y = (2 * np.pi * v / WIDTH for v in grid.mesh)
     gap = 1e-6 * (np.cos(3 * x + 1) * np.cos(2 * y) + 0.4 * np.cos(7 * x - 5 * y))
-    return {"pressure": norm(press(periodic(), gap, grid, LOAD).pressure, solve(gap, grid, LOAD))}
+    ours = press(periodic(), gap, grid, LOAD).pressure
+    return [_row("pressure", ours, solve(gap, grid, LOAD))]
 
 
-def _history(solve: Solve, level: int, placement: float) -> Found:
-    distance, steps = 4.0, 20
-    depths = []
-    for contact in (half_space(), Other(pressure=solve)):
-        model = on_flat(
-            ball(),
-            Grid((0.7e-3, 0.7e-3), (CELLS, CELLS)),
-            contact,
-            flat_k=WEAR_COEFFICIENT,
-            distance=distance,
-        )
-        _, state = slide(model, distance, steps, explicit=True)
-        depths.append((state.bodies["ball"].wear, state.bodies["flat"].wear))
-    (ball_ours, flat_ours), (ball_theirs, flat_theirs) = depths
-    return {
-        "depth of the ball": norm(ball_ours, ball_theirs),
-        "depth of the flat": norm(flat_ours, flat_theirs),
-    }
-
-
-def _check(
-    case: str, code: str, measure: Callable[[int, float], Found], names: tuple[str, ...]
-) -> Check:
-    needs = {
-        "tamaas": ("tamaas", "tribo_tamaas"),
-        "ContactMechanics": ("ContactMechanics", "SurfaceTopography"),
-    }[code]
-    note = "difference of the two codes, both at their tolerance"
-    return Check(
-        f"{case}, {code}",
-        code,
-        measure,
-        tuple(Quantity(name, "1", 1e-5, note=note) for name in names),
-        levels=(CELLS,),
-        needs=needs,
+def _history(solve: Solve, level: int, placement: float) -> list[Row]:
+    distance, k, grid = 4.0, WEAR_COEFFICIENT, square(WIDTH, CELLS)
+    ours, theirs = (
+        slide(
+            on_flat(ball(), grid, contact, flat_k=k, distance=distance), distance, 20, explicit=True
+        )[1].bodies
+        for contact in (half_space(), Other(pressure=solve))
     )
+    names = zip(DEPTHS, ("ball", "flat"), strict=True)
+    return [_row(depth, ours[body].wear, theirs[body].wear) for depth, body in names]
 
 
-DEPTHS = ("depth of the ball", "depth of the flat")
-CODES: tuple[tuple[str, Solve, Solve], ...] = (
-    ("tamaas", tamaas_free, tamaas_periodic),
-    ("ContactMechanics", contact_mechanics, partial(contact_mechanics, repeats=True)),
-)
-CHECKS = (
-    *(
-        check
-        for code, free, repeating in CODES
-        for check in (
-            _check("ball in free space", code, partial(_free, free), ("pressure",)),
-            _check("waves, periodic", code, partial(_rough, repeating), ("pressure",)),
-            _check("ball and flat wear, 20 explicit steps", code, partial(_history, free), DEPTHS),
-        )
+def _against(
+    code: str, needs: tuple[str, ...], free: Solve, repeating: Solve
+) -> Iterator[Reference]:
+    def made(case: str, rows: Callable[[int, float], Sequence[Row]], *names: str) -> Reference:
+        unknown = tuple(Row(name, "1", None, None, 1e-5, note=NOTE) for name in names)
+        return Reference(f"{case}, {code}", code, rows, (CELLS,), needs=needs, unknown=unknown)
+
+    yield made("ball in free space", partial(_free, free), "pressure")
+    yield made("waves, periodic", partial(_rough, repeating), "pressure")
+    yield made("ball and flat wear, 20 explicit steps", partial(_history, free), *DEPTHS)
+    if code == "tamaas":
+        yield made("ball beyond yield", _capped, "pressure")
+
+
+REFERENCES = (
+    *_against("tamaas", ("tamaas", "tribo_tamaas"), tamaas_free, tamaas_periodic),
+    *_against(
+        "ContactMechanics",
+        ("ContactMechanics", "SurfaceTopography"),
+        contact_mechanics,
+        partial(contact_mechanics, repeats=True),
     ),
-    _check("ball beyond yield", "tamaas", _capped, ("pressure",)),
 )

@@ -7,11 +7,12 @@ import math
 import numpy as np
 
 from tribo.closed_forms import cone, hertz, punch
+from tribo.core.arrays import Array
+from tribo.core.contact import ContactSolution
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.core.measures import contact_area
 from tribo.stepping.step import first_contact
-from tribo.verification.check import Check, Found, Quantity
 from tribo.verification.problems import (
     LOAD,
     MODULUS,
@@ -19,69 +20,91 @@ from tribo.verification.problems import (
     RADIUS,
     YOUNG,
     ball,
+    drawn_radius,
     half_space,
-    norm,
     on_flat,
+    paraboloid,
     periodic,
     press,
+    square,
 )
+from tribo.verification.reference import Row, norm, reference
 
 PLACEMENTS = 5
-SHAPE = "sum |p - p_exact| / sum p"
-# Σ|Δp| misses √(distance) in a rim of a cell; counted cells, the rim itself.
-PEAK = Quantity("peak pressure", "Pa", 1e-4, 2.0)
-APPROACH = Quantity("approach", "m", 1e-4, 2.0)
-AREA = Quantity("contact area, counted", "m^2", 1e-2, 1.0)
-PRESSURE = Quantity(SHAPE, "1", 2e-3, 1.5, "the root at the edge bounds the order")
+HERTZ = "Johnson (1985), section 4.2"
+SNEDDON = "Sneddon (1965); Johnson (1985), section"
 
 
-def square(width: float, cells: int, placement: float) -> Grid:
-    """Return a grid on which the edge of a contact moves by about a cell with the placement."""
-    return oblong(width, width, cells, placement)
+def peak(expected: float, pressure: Array) -> Row:
+    """Return the row of the peak pressure."""
+    return Row("peak pressure", "Pa", expected, float(np.max(pressure)), 1e-4, 2.0)
 
 
-def oblong(width: float, breadth: float, cells: int, placement: float) -> Grid:
-    """Return a grid as `square`, of as many cells along as across."""
-    larger = 1 + 3 * placement / cells
-    return Grid((larger * width, larger * breadth), (cells, cells))
+def approach(expected: float, found: ContactSolution) -> Row:
+    """Return the row of the approach."""
+    return Row("approach", "m", expected, found.approach, 1e-4, 2.0)
 
 
-def _ellipse(radius_x: float, grid: Grid) -> Found:
+def area(expected: float, found: ContactSolution, grid: Grid) -> Row:
+    """Return the row of the area; counted cells are wrong in a rim of one cell."""
+    counted = contact_area(found.pressure, grid)
+    return Row("contact area, counted", "m^2", expected, counted, 1e-2, 1.0)
+
+
+def pressure(got: Array, expected: Array) -> Row:
+    """Return the row of Σ|Δp|, which misses √(distance) in a rim of one cell."""
+    name, note = "sum |p - p_exact| / sum p", "the root at the edge bounds the order"
+    return norm(name, got, expected, 2e-3, 1.5, note)
+
+
+def _ellipse(radius_x: float, grid: Grid) -> list[Row]:
     x, y = grid.mesh
     exact = hertz.point(MODULUS, LOAD, 1 / radius_x, 1 / RADIUS)
     a, b = exact.semi_axes
-    found = press(half_space(), x**2 / (2 * radius_x) + y**2 / (2 * RADIUS), grid, LOAD)
+    found = press(half_space(), paraboloid(grid, radius_x), grid, LOAD)
     field = exact.peak_pressure * np.sqrt(np.maximum(1 - (x / a) ** 2 - (y / b) ** 2, 0.0))
-    return {
-        PEAK.name: (exact.peak_pressure, float(np.max(found.pressure))),
-        APPROACH.name: (exact.approach, found.approach),
-        AREA.name: (math.pi * a * b, contact_area(found.pressure, grid)),
-        SHAPE: norm(found.pressure, field),
-    }
+    return [
+        peak(exact.peak_pressure, found.pressure),
+        approach(exact.approach, found),
+        area(math.pi * a * b, found, grid),
+        pressure(found.pressure, field),
+    ]
 
 
-def _circular(cells: int, placement: float) -> Found:
+@reference("Hertz, circular", HERTZ, 31, 93, 279, placements=PLACEMENTS)
+def _circular(cells: int, placement: float) -> list[Row]:
     return _ellipse(RADIUS, square(0.5e-3, cells, placement))
 
 
-def _elliptical(cells: int, placement: float) -> Found:
-    # Cells as oblong as this show which of their sides is which.
-    return _ellipse(2 * RADIUS, oblong(0.5e-3, 0.3e-3, cells, placement))
+# Cells as oblong as this show which of their sides is which.
+@reference(
+    "Hertz, elliptical (radii 2 : 1), on oblong cells (5 : 3)",
+    HERTZ,
+    *(31, 93, 279),
+    placements=PLACEMENTS,
+)
+def _elliptical(cells: int, placement: float) -> list[Row]:
+    return _ellipse(2 * RADIUS, square(0.5e-3, cells, placement, breadth=0.3e-3))
 
 
-def _unlike(cells: int, placement: float) -> Found:
+@reference("Hertz, ball and flat of two materials", HERTZ, 31, 93, 279, placements=PLACEMENTS)
+def _two_materials(cells: int, placement: float) -> list[Row]:
     other = Material(young=70e9, poisson=0.2)
     modulus = 1 / ((1 - POISSON**2) / YOUNG + (1 - 0.2**2) / 70e9)
     exact = hertz.point(modulus, LOAD, 1 / RADIUS, 1 / RADIUS)
     model = on_flat(ball(), square(0.6e-3, cells, placement), half_space(), flat_material=other)
     found = first_contact(model).contact
-    return {
-        PEAK.name: (exact.peak_pressure, float(np.max(found.pressure))),
-        APPROACH.name: (exact.approach, found.approach),
-    }
+    return [peak(exact.peak_pressure, found.pressure), approach(exact.approach, found)]
 
 
-def _line(cells: int, placement: float) -> Found:
+@reference(
+    "Hertz, line (periodic in x and y, 32 half-widths apart)",
+    f"{HERTZ}; images to (b/L)^2",
+    *(255, 1023, 4095),
+    placements=8,
+    cost=0.3,
+)
+def _line(cells: int, placement: float) -> list[Row]:
     line_load = 1e5
     alone = hertz.line(MODULUS, line_load, 1 / RADIUS)
     period = 32 * alone.half_width * (1 + 48 * placement / cells)
@@ -92,33 +115,32 @@ def _line(cells: int, placement: float) -> Found:
     x, y = grid.mesh
     found = press(periodic(), x**2 / (2 * RADIUS) + 0 * y, grid, line_load * grid.size[1])
     field = exact.peak_pressure * np.sqrt(np.maximum(1 - (x / exact.half_width) ** 2, 0.0))
-    touching = int(np.count_nonzero(found.pressure[:, 0]))
-    return {
-        PEAK.name: (exact.peak_pressure, float(np.max(found.pressure))),
-        "half-width, counted": (exact.half_width, 0.5 * touching * grid.spacing[0]),
-        SHAPE: norm(found.pressure, np.broadcast_to(field, grid.cells)),
-    }
+    counted = 0.5 * int(np.count_nonzero(found.pressure[:, 0])) * grid.spacing[0]
+    return [
+        peak(exact.peak_pressure, found.pressure),
+        Row("half-width, counted", "m", exact.half_width, counted, 1e-2, 1.0),
+        pressure(found.pressure, np.broadcast_to(field, grid.cells)),
+    ]
 
 
-def _punch(cells: int, placement: float) -> Found:
-    radius = 0.3e-3
+@reference("flat punch", f"{SNEDDON} 3.4", 41, 123, 369, placements=3, cost=2.0)
+def _punch(cells: int, placement: float) -> list[Row]:
     grid = square(0.8e-3, cells, placement)
     x, y = grid.mesh
-    inside = x**2 + y**2 < radius**2
+    inside = x**2 + y**2 < 0.3e-3**2
     # The staircase stands for a disc of its own area.
-    drawn = math.sqrt(np.count_nonzero(inside) * grid.cell_area / math.pi)
+    radius = drawn_radius(inside, grid)
     found = press(half_space(), np.where(inside, 0.0, 1e-3), grid, LOAD)
-    middle = cells // 2
-    return {
-        APPROACH.name: (punch.approach(LOAD, drawn, MODULUS), found.approach),
-        "pressure at the centre": (
-            float(punch.pressure(0.0, LOAD, drawn)),
-            float(found.pressure[middle, middle]),
-        ),
-    }
+    centre = float(found.pressure[cells // 2, cells // 2])
+    exact = float(punch.pressure(0.0, LOAD, radius))
+    return [
+        Row("approach", "m", punch.approach(LOAD, radius, MODULUS), found.approach, 2e-3, 1.0),
+        Row("pressure at the centre", "Pa", exact, centre, 2e-3, 1.0),
+    ]
 
 
-def _cone(cells: int, placement: float) -> Found:
+@reference("cone", f"{SNEDDON} 5.2", 31, 93, 279, placements=PLACEMENTS)
+def _cone(cells: int, placement: float) -> list[Row]:
     slope, radius = 0.02, 0.2e-3
     angle = math.atan(1 / slope)
     load = 0.5 * math.pi * MODULUS * radius**2 * slope
@@ -126,68 +148,13 @@ def _cone(cells: int, placement: float) -> Found:
     x, y = grid.mesh
     r = np.hypot(x, y)
     found = press(half_space(), slope * r, grid, load)
-    exact = cone.cone(load, angle, MODULUS)
     # Not at the apex, where the pressure is infinite.
     away = r > 0
-    return {
-        APPROACH.name: (exact.approach, found.approach),
-        AREA.name: (math.pi * radius**2, contact_area(found.pressure, grid)),
-        SHAPE: norm(found.pressure[away], cone.pressure(r[away], load, angle, MODULUS)),
-    }
+    return [
+        approach(cone.cone(load, angle, MODULUS).approach, found),
+        area(math.pi * radius**2, found, grid),
+        pressure(found.pressure[away], cone.pressure(r[away], load, angle, MODULUS)),
+    ]
 
 
-CHECKS = (
-    Check(
-        "Hertz, circular",
-        "Johnson (1985), section 4.2",
-        _circular,
-        (PEAK, APPROACH, AREA, PRESSURE),
-        levels=(31, 93, 279),
-        placements=PLACEMENTS,
-    ),
-    Check(
-        "Hertz, elliptical (radii 2 : 1), on oblong cells (5 : 3)",
-        "Johnson (1985), section 4.2",
-        _elliptical,
-        (PEAK, APPROACH, AREA, PRESSURE),
-        levels=(31, 93, 279),
-        placements=PLACEMENTS,
-    ),
-    Check(
-        "Hertz, ball and flat of two materials",
-        "Johnson (1985), section 4.2",
-        _unlike,
-        (PEAK, APPROACH),
-        levels=(31, 93, 279),
-        placements=PLACEMENTS,
-    ),
-    Check(
-        "Hertz, line (periodic in x and y, 32 half-widths apart)",
-        "Johnson (1985), section 4.2; images to (b/L)^2",
-        _line,
-        (PEAK, Quantity("half-width, counted", "m", 1e-2, 1.0), PRESSURE),
-        levels=(255, 1023, 4095),
-        placements=8,
-        cost=0.3,
-    ),
-    Check(
-        "flat punch",
-        "Sneddon (1965); Johnson (1985), section 3.4",
-        _punch,
-        (
-            Quantity(APPROACH.name, "m", 2e-3, 1.0),
-            Quantity("pressure at the centre", "Pa", 2e-3, 1.0),
-        ),
-        levels=(41, 123, 369),
-        placements=3,
-        cost=2.0,
-    ),
-    Check(
-        "cone",
-        "Sneddon (1965); Johnson (1985), section 5.2",
-        _cone,
-        (APPROACH, AREA, PRESSURE),
-        levels=(31, 93, 279),
-        placements=PLACEMENTS,
-    ),
-)
+REFERENCES = (_circular, _elliptical, _two_materials, _line, _punch, _cone)

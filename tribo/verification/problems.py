@@ -1,22 +1,25 @@
-"""The bodies and contacts that the checks share: those of the paper's test."""
+"""Bodies, contacts and runs that the references share: those of the paper's test."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import numpy as np
 
 from tribo.case import Body, Case
+from tribo.closed_forms import hertz
 from tribo.contact.dcfft import DcFft
 from tribo.contact.periodic import Periodic
 from tribo.contact.solver import ContactSolver
-from tribo.core.arrays import Array
+from tribo.core.arrays import Array, Mask
 from tribo.core.contact import ContactProblem, ContactSolution, ContactSystem
 from tribo.core.grid import Grid
 from tribo.core.material import Material, contact_modulus
 from tribo.core.state import State
 from tribo.motion.unidirectional import Unidirectional
 from tribo.simulation.assembly import assemble
+from tribo.simulation.march import begin, march
 from tribo.simulation.model import Model
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
@@ -34,6 +37,8 @@ LOAD = 100.0
 WEAR_COEFFICIENT = 3.11e-16
 STEEL = Material(young=YOUNG, poisson=POISSON)
 MODULUS = contact_modulus([STEEL, STEEL])
+ONSET = hertz.load_at_peak(MODULUS, HARDNESS, 1 / RADIUS)
+"""Load at which the ball's peak pressure is the hardness, in N."""
 
 SPEED = 0.1
 
@@ -61,10 +66,30 @@ def periodic(tolerance: float = 1e-10) -> Periodic:
     return Periodic(tolerance=tolerance)
 
 
+def square(width: float, cells: int, placement: float = 0.0, breadth: float | None = None) -> Grid:
+    """Return a grid of as many cells along as across, square unless `breadth` is given.
+
+    The edge of a contact on it moves by about a cell with the placement.
+    """
+    larger = 1 + 3 * placement / cells
+    return Grid((larger * width, larger * (breadth or width)), (cells, cells))
+
+
+def paraboloid(grid: Grid, radius_x: float = RADIUS) -> Array:
+    """Return the gap of a paraboloid of radius 5 mm across, and `radius_x` along, in m."""
+    x, y = grid.mesh
+    return np.asarray(x**2 / (2 * radius_x) + y**2 / (2 * RADIUS))
+
+
+def drawn_radius(inside: Mask, grid: Grid) -> float:
+    """Return the radius of the disc of the same area as the cells `inside`, in m."""
+    return math.sqrt(np.count_nonzero(inside) * grid.cell_area / math.pi)
+
+
 def press(
     contact: ContactSolver, gap: Array, grid: Grid, load: float, cap: float | None = None
 ) -> ContactSolution:
-    """Solve one contact of the checks' materials."""
+    """Solve one contact between bodies of steel."""
     system = ContactSystem(grid, MODULUS, load, cap)
     return contact.solve(ContactProblem(system, gap, load))
 
@@ -105,7 +130,7 @@ def on_flat(
             },
             contact=contact,
             kinematics=Unidirectional(speed=SPEED, track_length=track_length, distance=distance),
-            # Unused by `slide`, but what does not go with the contact is refused.
+            # `slide` makes its own steps, but a stepping that does not fit the contact is refused.
             stepping=Implicit() if contact.accepts_wear_compliance else Explicit(time_step=1.0),
         )
     )
@@ -123,6 +148,9 @@ def slide(
     return before, state
 
 
-def norm(got: Array, expected: Array) -> tuple[float, float]:
-    """Return (0, Σ|got − expected| / Σ|expected|)."""
-    return 0.0, float(np.sum(np.abs(got - expected)) / np.sum(np.abs(expected)))
+def run_to_end(model: Model) -> State:
+    """Return the state at the end of the model's case."""
+    state = begin(model)
+    for accepted in march(model, state):
+        state = accepted.state
+    return state

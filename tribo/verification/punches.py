@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from tribo.closed_forms.punch_wear import disc_rates, strip_rates
@@ -12,22 +10,23 @@ from tribo.contact.periodic import Periodic
 from tribo.core.arrays import Array, Mask
 from tribo.core.grid import Grid
 from tribo.core.state import State
-from tribo.verification.check import Check, Found, Quantity
-from tribo.verification.contacts import square
 from tribo.verification.problems import (
     MODULUS,
     WEAR_COEFFICIENT,
     Shape,
+    drawn_radius,
     half_space,
     on_flat,
     periodic,
     slide,
+    square,
 )
+from tribo.verification.reference import Row, reference
 
 RADIUS = 0.3e-3
-RATE = "slowest rate, in kE*/a"
 # Short enough a step to tell the modes apart, and enough steps to be rid of the second.
 STEP, STEPS = 0.5, 16
+SOURCE = "Galin (1976); tribo.closed_forms.punch_wear"
 
 
 def _rate(
@@ -52,54 +51,37 @@ def _beside_mean(state: State, inside: Mask) -> Array:
     return np.where(inside, pressure - np.mean(pressure[inside]), 0.0)
 
 
-def _disc(cells: int, placement: float) -> Found:
+def _row(prefix: str, exact: float, got: float) -> Row:
+    # 2 - 1/ln(a/h), with 16 to 100 cells a radius.
+    order, note = 1.75, "h^2 ln(1/h), for the mode's slope is infinite at the edge"
+    return Row(f"{prefix}slowest rate, in kE*/a", "1", exact, got, 1e-3, order, note)
+
+
+@reference("flat round punch wears", SOURCE, 61, 121, 241, cost=1.5)
+def _disc(cells: int, placement: float) -> list[Row]:
     grid = square(2.4 * RADIUS, cells, placement)
     x, y = grid.mesh
     inside = np.hypot(x, y) < RADIUS
-    drawn = math.sqrt(np.count_nonzero(inside) * grid.cell_area / math.pi)
-    level = np.zeros(grid.cells)
-    return {RATE: (disc_rates()[0], _rate(inside, grid, drawn, half_space(1e-11), 100.0, level))}
+    drawn, level = drawn_radius(inside, grid), np.zeros(grid.cells)
+    return [_row("", disc_rates()[0], _rate(inside, grid, drawn, half_space(1e-11), 100.0, level))]
 
 
-def _strip(cells: int, odd: bool) -> float:
+@reference("flat strip wears (periodic, 400 half-widths apart)", SOURCE, 32, 64, 128, cost=2.0)
+def _strip(cells: int, placement: float) -> list[Row]:
     # Images 400 half-widths away change the rate by less than a hundred-thousandth.
     size = (400 * RADIUS, 4 * RADIUS / cells)
     grid = Grid(size, (200 * cells, 2))
     x, y = grid.mesh
     inside = (np.abs(x) < RADIUS) & (np.abs(y) < size[1])
-    tilt = (1e-8 if odd else 0.0) * np.broadcast_to(x / RADIUS, grid.cells)
-    return _rate(inside, grid, RADIUS, periodic(1e-11), 1e6 * size[1], tilt)
+    tilt = 1e-8 * np.broadcast_to(x / RADIUS, grid.cells)
+    even, odd = (
+        _rate(inside, grid, RADIUS, periodic(1e-11), 1e6 * size[1], tilted)
+        for tilted in (0 * tilt, tilt)
+    )
+    return [
+        _row("even, ", strip_rates()[0], even),
+        _row("odd, ", strip_rates(odd=True)[0], odd),
+    ]
 
 
-def _strips(cells: int, placement: float) -> Found:
-    return {
-        "even, " + RATE: (strip_rates()[0], _strip(cells, odd=False)),
-        "odd, " + RATE: (strip_rates(odd=True)[0], _strip(cells, odd=True)),
-    }
-
-
-# 2 - 1/ln(a/h), with 16 to 100 cells a radius.
-ORDER = 1.75
-NOTE = "h^2 ln(1/h), for the mode's slope is infinite at the edge"
-SOURCE = "Galin (1976); tribo.closed_forms.punch_wear"
-CHECKS = (
-    Check(
-        "flat round punch wears",
-        SOURCE,
-        _disc,
-        (Quantity(RATE, "1", 1e-3, ORDER, NOTE),),
-        levels=(61, 121, 241),
-        cost=1.5,
-    ),
-    Check(
-        "flat strip wears (periodic, 400 half-widths apart)",
-        SOURCE,
-        _strips,
-        (
-            Quantity("even, " + RATE, "1", 1e-3, ORDER, NOTE),
-            Quantity("odd, " + RATE, "1", 1e-3, ORDER, NOTE),
-        ),
-        levels=(32, 64, 128),
-        cost=2.0,
-    ),
-)
+REFERENCES = (_disc, _strip)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from tribo.case import Output
@@ -10,12 +10,12 @@ from tribo.core.errors import CaseError, NumericalError
 from tribo.core.grid import Grid
 from tribo.core.measures import Measures
 from tribo.simulation.assembly import assemble, varied
-from tribo.simulation.march import begin, march
 from tribo.simulation.measure import measure
 from tribo.simulation.model import Model
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
 from tribo.verification.convergence import Convergence, convergence
+from tribo.verification.problems import run_to_end
 
 # Above the 1.3 that Celik et al. (2008) ask for, and mild on cases that are coarse already.
 RATIO = 1.5
@@ -33,8 +33,8 @@ class Level:
 
 
 @dataclass(frozen=True)
-class Estimate:
-    """A quantity at the end of the run, and how far it can be trusted.
+class UncertainValue:
+    """A quantity at the end of the run, with its numerical uncertainty.
 
     Parameters
     ----------
@@ -47,12 +47,11 @@ class Estimate:
     grid, steps : Convergence
         Over three grids, and over three lengths of step.
     floor : float
-        What no refinement takes away at these cells: a counted width is good
-        to half a cell.
+        Least uncertainty on these cells: a counted width is good to half a cell.
     uncertainty : float or None
-        To quote with `value`: the sum of the two, at least `floor`. Errors of
-        discretisation are no chance that a sum of squares would do justice.
-        None, and nothing to quote, where one of the two diverges.
+        To quote with `value`: those of grid and steps added, at least `floor`.
+        They are not added as squares, for they are no random errors. None
+        where one of the two diverges.
     """
 
     name: str
@@ -66,11 +65,11 @@ class Estimate:
 
 @dataclass(frozen=True)
 class Refinement:
-    """The study of a case: its runs, coarse to fine, and its estimates."""
+    """The study of a case: its runs, coarse to fine, and its results with their uncertainties."""
 
-    grids: tuple[Level, Level, Level]
-    steps: tuple[Level, Level, Level]
-    estimates: tuple[Estimate, ...]
+    grids: tuple[Level, ...]
+    steps: tuple[Level, ...]
+    estimates: tuple[UncertainValue, ...]
 
 
 def refine(model: Model, started: Callable[[str], None] = lambda _: None) -> Refinement:
@@ -80,7 +79,7 @@ def refine(model: Model, started: Callable[[str], None] = lambda _: None) -> Ref
     ones. Of implicit steps the case's own are the finest too, and tolerances
     are loosened to make them 1.5 and 2.25 times as long; explicit ones are
     shortened instead, which stays within their stability limit. Nothing is
-    saved on the way: saves cut steps short, and those would not be refined.
+    saved on the way, since a save cuts a step short on all levels alike.
 
     Parameters
     ----------
@@ -96,35 +95,32 @@ def refine(model: Model, started: Callable[[str], None] = lambda _: None) -> Ref
     NumericalError
         If one of the runs fails.
     """
-    _check(model)
-    cells = [_coarser(model.grid.cells, RATIO**power) for power in (2, 1, 0)]
-    stepping = _steppings(model.stepping)
-    own = next(i for i, config in enumerate(stepping) if config == model.stepping)
+    cells, stepping = model.grid.cells, model.stepping
+    if min(cells) < FEWEST_CELLS:
+        raise CaseError(
+            f"{cells[0]} × {cells[1]} leave no coarser grid to compare with; "
+            f"{FEWEST_CELLS} or more are needed along x and y",
+            "grid.cells",
+        )
 
     def run(cells: tuple[int, int], config: Implicit | Explicit) -> Level:
-        what = f"{cells[0]} × {cells[1]} cells, " + _step_words(config)
+        what = f"{cells[0]} × {cells[1]} cells, {_step_words(config)}"
         started(what)
         try:
             return _run(model, cells, config)
         except (CaseError, NumericalError) as error:
-            if (cells, config) == (model.grid.cells, model.stepping):
+            if (cells, config) == (model.grid.cells, stepping):
                 raise
             raise NumericalError(f"a run of the study, with {what}: {error}") from error
 
-    base = run(model.grid.cells, model.stepping)
-    grids = (run(cells[0], model.stepping), run(cells[1], model.stepping), base)
-    levels = [base if i == own else run(model.grid.cells, stepping[i]) for i in range(3)]
-    steps = (levels[0], levels[1], levels[2])
-    return Refinement(grids, steps, tuple(_estimates(model, grids, steps, own)))
-
-
-def _check(model: Model) -> None:
-    if min(model.grid.cells) < FEWEST_CELLS:
-        raise CaseError(
-            f"{model.grid.cells[0]} × {model.grid.cells[1]} leave no coarser grid to compare "
-            f"with; {FEWEST_CELLS} or more are needed along x and y",
-            "grid.cells",
-        )
+    base = run(cells, stepping)
+    coarsest, coarser = (run(_coarser(cells, factor), stepping) for factor in (RATIO**2, RATIO))
+    grids = coarsest, coarser, base
+    if isinstance(stepping, Explicit):
+        steps = base, *(run(cells, _finer(stepping, f)) for f in (RATIO, RATIO**2))
+    else:
+        steps = *(run(cells, _looser(stepping, f)) for f in (RATIO**2, RATIO)), base
+    return Refinement(grids, steps, tuple(_estimates(model, grids, steps)))
 
 
 def _coarser(cells: tuple[int, int], factor: float) -> tuple[int, int]:
@@ -133,16 +129,8 @@ def _coarser(cells: tuple[int, int], factor: float) -> tuple[int, int]:
     return nx, ny
 
 
-def _steppings(
-    config: Implicit | Explicit,
-) -> tuple[Implicit | Explicit, ...]:
-    """Return three steppings from long steps to short, the case's own among them."""
-    if isinstance(config, Explicit):
-        return tuple(
-            config.model_copy(update={"time_step": config.time_step / RATIO**power})
-            for power in range(3)
-        )
-    return (_looser(config, RATIO**2), _looser(config, RATIO), config)
+def _finer(config: Explicit, factor: float) -> Explicit:
+    return config.model_copy(update={"time_step": config.time_step / factor})
 
 
 def _looser(config: Implicit, factor: float) -> Implicit:
@@ -162,25 +150,18 @@ def _step_words(config: Implicit | Explicit) -> str:
 
 
 def _run(model: Model, cells: tuple[int, int], config: Implicit | Explicit) -> Level:
-    level = assemble(
-        varied(
-            model.case,
-            grid=Grid(model.grid.size, cells, model.grid.ends_at_window),
-            stepping=config,
-            output=Output(),
-        )
-    )
-    state = begin(level)
-    for accepted in march(level, state):
-        state = accepted.state
+    grid = Grid(model.grid.size, cells, model.grid.ends_at_window)
+    level = assemble(varied(model.case, grid=grid, stepping=config, output=Output()))
+    state = run_to_end(level)
     return Level(cells, state.steps, measure(level, state))
 
 
 def _estimates(
-    model: Model, grids: tuple[Level, ...], steps: tuple[Level, ...], own: int
-) -> Iterator[Estimate]:
+    model: Model, grids: Sequence[Level], steps: Sequence[Level]
+) -> Iterator[UncertainValue]:
     dx, dy = model.grid.spacing
     floors = {"half-width along": 0.5 * dx, "half-width across": 0.5 * dy}
+    own = next(i for i, level in enumerate(steps) if level is grids[-1])
     by_grid, by_step = (
         [_quantities(model, level.end) for level in levels] for levels in (grids, steps)
     )
@@ -189,26 +170,14 @@ def _estimates(
         of_grids, of_steps = ([found[name][1] for found in by] for by in (by_grid, by_step))
         if not any(of_grids + of_steps):
             continue
-        grid = convergence(
-            of_grids,
-            [1 / level.cells[0] for level in grids],
-            formal_order=GRID_ORDER,
-            scatter=2 * RATIO**2 * floor,
-        )
-        step = convergence(
-            of_steps,
-            [1 / level.steps for level in steps],
-            formal_order=STEP_ORDER,
-            own=own,
-            scatter=2 * floor,
-        )
-        yield Estimate(name, unit, value, grid, step, floor, _total(grid, step, floor))
-
-
-def _total(grid: Convergence, steps: Convergence, floor: float) -> float | None:
-    if grid.uncertainty is None or steps.uncertainty is None:
-        return None
-    return max(grid.uncertainty + steps.uncertainty, floor)
+        sizes = [1 / level.cells[0] for level in grids], [1 / level.steps for level in steps]
+        rough = 2 * RATIO**2 * floor
+        grid = convergence(of_grids, sizes[0], formal_order=GRID_ORDER, scatter=rough)
+        step = convergence(of_steps, sizes[1], formal_order=STEP_ORDER, own=own, scatter=2 * floor)
+        uncertainty = None
+        if grid.uncertainty is not None and step.uncertainty is not None:
+            uncertainty = max(grid.uncertainty + step.uncertainty, floor)
+        yield UncertainValue(name, unit, value, grid, step, floor, uncertainty)
 
 
 def _quantities(model: Model, end: Measures) -> dict[str, tuple[str, float]]:

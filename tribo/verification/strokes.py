@@ -10,11 +10,10 @@ from tribo.core.grid import Grid
 from tribo.core.measures import half_widths
 from tribo.core.state import State
 from tribo.motion.averaging import groove_excess
-from tribo.simulation.march import begin, march
 from tribo.simulation.model import Model
-from tribo.verification.check import Check, Found, Quantity
 from tribo.verification.moving import round_a_ring, to_and_fro
-from tribo.verification.problems import WEAR_COEFFICIENT, ball, half_space, norm, on_flat
+from tribo.verification.problems import WEAR_COEFFICIENT, ball, half_space, on_flat, run_to_end
+from tribo.verification.reference import Row, norm, reference
 
 K = WEAR_COEFFICIENT
 PATH = 360.0
@@ -25,7 +24,6 @@ RING = 30
 RING_LOAD, RING_PATH = 5.0, 320.0
 
 STROKE_GRID = Grid((1.3e-3, 1.3e-3), (28, 28))
-PASSES = 32
 
 
 def _model(grid: Grid, rows: int, load: float, path: float) -> Model:
@@ -34,33 +32,34 @@ def _model(grid: Grid, rows: int, load: float, path: float) -> Model:
     return on_flat(ball(), grid, contact, load=load, flat_k=K, track_length=length, distance=path)
 
 
-def _averaged(model: Model) -> State:
-    state = begin(model)
-    for accepted in march(model, state):
-        state = accepted.state
-    return state
-
-
 @lru_cache
 def _ring_average() -> tuple[Model, State]:
     model = _model(RING_GRID, RING, RING_LOAD, RING_PATH)
-    return model, _averaged(model)
+    return model, run_to_end(model)
 
 
-def _ring(passes: int, placement: float) -> Found:
+@reference(
+    "track average against 8, 16, 32 passes of a ring, groove of 3.6 approaches",
+    "every cell of every pass is solved",
+    *(8, 16, 32),
+    cost=6.0,
+)
+def _ring(passes: int, placement: float) -> list[Row]:
     model, averaged = _ring_average()
     worn = round_a_ring(model, K, K, rows=RING, distance=RING_PATH, passes=passes)
-    return {
-        "depth of the ball": norm(worn.ball, averaged.bodies["ball"].wear),
-        "depth of the flat": norm(np.mean(worn.flat, axis=0), averaged.bodies["flat"].wear[0]),
-    }
+    ball, flat = (averaged.bodies[name].wear for name in ("ball", "flat"))
+    by_pass, by_steps = "order in the wear of a pass", "error of both steppings, 1e-4"
+    return [
+        norm("depth of the ball", worn.ball, ball, 1e-2, 1.0, by_pass),
+        norm("depth of the flat", np.mean(worn.flat, axis=0), flat[0], 1e-3, note=by_steps),
+    ]
 
 
 def _hour(stroke: float, passes: int) -> tuple[float, float]:
     """Return by how much the average's groove is too deep, and what a run says of that."""
     rows = round(stroke / STROKE_GRID.spacing[0])
     model = _model(STROKE_GRID, rows, 100.0, PATH)
-    averaged = _averaged(model)
+    averaged = run_to_end(model)
     moved = to_and_fro(model, K, K, stroke=rows, distance=PATH, passes=passes)
     middle = (len(moved.flat) - 1) // 2, len(moved.flat) // 2
     groove = float(np.max(averaged.bodies["flat"].wear))
@@ -72,38 +71,28 @@ def _hour(stroke: float, passes: int) -> tuple[float, float]:
     return groove / resolved - 1, told
 
 
-def _strokes(passes: int, placement: float) -> Found:
-    two, _ = _hour(2e-3, passes)
-    return {TWO: (0.177, two), THREE: _hour(3e-3, passes), FIVE: _hour(5e-3, passes)}
-
-
-TWO = "excess depth of the groove, stroke of 2 mm"
-THREE = "excess depth, 3 mm, as a run states it"
-FIVE = "excess depth, 5 mm, as a run states it"
-CODES = "two other codes: 17.4 and 18 %"
-FITTED = "the statement is a fit to many runs"
-CHECKS = (
-    Check(
-        "track average against 8, 16, 32 passes of a ring, groove of 3.6 approaches",
-        "every cell of every pass is solved",
-        _ring,
-        (
-            Quantity("depth of the ball", "1", 1e-2, 1.0, "order in the wear of a pass"),
-            Quantity("depth of the flat", "1", 1e-3, note="error of both steppings, 1e-4"),
-        ),
-        levels=(8, 16, 32),
-        cost=6.0,
-    ),
-    Check(
-        "stroke average, the paper's hour, against a contact moved to and fro",
-        "every cell of a pass is solved; two other codes",
-        _strokes,
-        (
-            Quantity(TWO, "1", 6e-2, note=CODES),
-            Quantity(THREE, "1", 0.2, note=FITTED),
-            Quantity(FIVE, "1", 0.2, note=FITTED),
-        ),
-        levels=(PASSES,),
-        cost=6.0,
-    ),
+@reference(
+    "stroke average, the paper's hour, against a contact moved to and fro",
+    "every cell of a pass is solved; two other codes",
+    32,
+    cost=6.0,
 )
+def _strokes(passes: int, placement: float) -> list[Row]:
+    two, _ = _hour(2e-3, passes)
+    codes, fitted = "two other codes: 17.4 and 18 %", "the statement is a fit to many runs"
+    return [
+        Row("excess depth of the groove, stroke of 2 mm", "1", 0.177, two, 6e-2, note=codes),
+        *(
+            Row(
+                f"excess depth, {stroke} mm, as a run states it",
+                "1",
+                *_hour(1e-3 * stroke, passes),
+                0.2,
+                note=fitted,
+            )
+            for stroke in (3, 5)
+        ),
+    ]
+
+
+REFERENCES = (_ring, _strokes)

@@ -1,57 +1,40 @@
-"""All checks, and a run through them."""
+"""All problems with a known answer, and a run through them."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from itertools import chain
 
 from tribo.verification import (
     codes,
     contacts,
-    coupling,
     formulas,
-    laws,
     plasticity,
     punches,
     strokes,
     waves,
     wear,
 )
-from tribo.verification.check import Check, Row, run_check
+from tribo.verification.reference import Reference, Row
 
-CHECKS: tuple[Check, ...] = (
-    *contacts.CHECKS,
-    *waves.CHECKS,
-    *plasticity.CHECKS,
-    *wear.CHECKS,
-    *laws.CHECKS,
-    *punches.CHECKS,
-    *strokes.CHECKS,
-    *coupling.CHECKS,
-    *formulas.CHECKS,
-    *codes.CHECKS,
+REFERENCES: tuple[Reference, ...] = (
+    *contacts.REFERENCES,
+    *waves.REFERENCES,
+    *plasticity.REFERENCES,
+    *wear.REFERENCES,
+    *punches.REFERENCES,
+    *strokes.REFERENCES,
+    *formulas.REFERENCES,
+    *codes.REFERENCES,
 )
 
 
 def run_suite(
-    checks: Sequence[Check] = CHECKS, started: Callable[[Check], None] = lambda _: None
+    references: Sequence[Reference] = REFERENCES,
+    started: Callable[[Reference], None] = lambda _: None,
 ) -> list[Row]:
-    """Run checks in their order.
-
-    Parameters
-    ----------
-    checks : sequence of Check, optional
-        All of them if left out.
-    started : callable, optional
-        Told of each check before it runs.
-
-    Returns
-    -------
-    list of Row
-    """
-
-    def rows(check: Check) -> list[Row]:
-        started(check)
-        return run_check(check)
-
-    return list(chain.from_iterable(rows(check) for check in checks))
+    """Compute the rows of `references`; `started` is told of each before it runs."""
+    rows = []
+    for known in references:
+        started(known)
+        rows += known.run()
+    return rows

@@ -9,30 +9,37 @@ import numpy as np
 from tribo.closed_forms import hertz, sinusoid
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
-from tribo.verification.check import Check, Found, Quantity
-from tribo.verification.contacts import PRESSURE, SHAPE
-from tribo.verification.problems import MODULUS, norm, periodic, press
+from tribo.verification.contacts import peak, pressure
+from tribo.verification.problems import MODULUS, periodic, press
+from tribo.verification.reference import Row, reference
 
 WAVELENGTH, AMPLITUDE = 1e-4, 1e-6
+JOHNSON = "Johnson, Greenwood & Higginson (1985)"
 
 
-def _westergaard(cells: int, placement: float) -> Found:
-    contact = sinusoid.westergaard(
+@reference(
+    "Westergaard's wave, p/p* = 0.4",
+    "Westergaard (1939); Johnson (1985), section 13.2",
+    *(63, 255, 1023),
+    placements=8,
+    cost=0.3,
+)
+def _westergaard(cells: int, placement: float) -> list[Row]:
+    exact = sinusoid.westergaard(
         0.4 * math.pi * MODULUS * AMPLITUDE / WAVELENGTH, AMPLITUDE, WAVELENGTH, MODULUS
     )
     grid = Grid((WAVELENGTH, 2 * WAVELENGTH / cells), (cells, 2))
     x, y = grid.mesh
     x = x + placement * grid.spacing[0]
     gap = -AMPLITUDE * np.cos(2 * np.pi * x / WAVELENGTH) + 0 * y
-    found = press(periodic(), gap, grid, contact.mean_pressure * grid.size[0] * grid.size[1])
+    found = press(periodic(), gap, grid, exact.mean_pressure * grid.size[0] * grid.size[1])
     line = found.pressure[:, 0]
-    exact = sinusoid.westergaard_pressure(x[:, 0], contact, WAVELENGTH)
-    touching = np.count_nonzero(line) / cells
-    return {
-        "peak pressure": (contact.peak_pressure, float(np.max(line))),
-        "share in contact, counted": (contact.contact_fraction, touching),
-        SHAPE: norm(line, exact),
-    }
+    share = np.count_nonzero(line) / cells
+    return [
+        peak(exact.peak_pressure, line),
+        Row("share in contact, counted", "1", exact.contact_fraction, share, 5e-3, 1.0),
+        pressure(line, sinusoid.westergaard_pressure(x[:, 0], exact, WAVELENGTH)),
+    ]
 
 
 def _egg_box(ratio: float, cells: tuple[int, int]) -> tuple[Array, sinusoid.WavyLimits]:
@@ -45,68 +52,32 @@ def _egg_box(ratio: float, cells: tuple[int, int]) -> tuple[Array, sinusoid.Wavy
     return press(periodic(), gap, grid, mean * WAVELENGTH**2).pressure, limits
 
 
-def _light(cells: int, placement: float) -> Found:
-    ratio = 1e-3
-    pressure, limits = _egg_box(ratio, (cells, cells))
-    crest = 0.5 * ratio * limits.complete * WAVELENGTH**2
+@reference("wavy both ways, p/p* = 0.001: Hertz on each crest", JOHNSON, 512, cost=0.5)
+def _light(cells: int, placement: float) -> list[Row]:
+    found, limits = _egg_box(1e-3, (cells, cells))
+    crest = 0.5 * 1e-3 * limits.complete * WAVELENGTH**2
     curvature = AMPLITUDE * (2 * math.pi / WAVELENGTH) ** 2
-    exact = hertz.point(MODULUS, crest, curvature, curvature)
-    return {
-        "peak pressure": (exact.peak_pressure, float(np.max(pressure))),
-        "share in contact, counted": (limits.light_area, float(np.mean(pressure > 0))),
-    }
+    exact = hertz.point(MODULUS, crest, curvature, curvature).peak_pressure
+    highest, share = float(np.max(found)), float(np.mean(found > 0))
+    neighbours, coarse = "limit; error is also the neighbours'", "limit; 18 cells a radius"
+    return [
+        Row("peak pressure", "Pa", exact, highest, 1e-2, note=neighbours),
+        Row("share in contact, counted", "1", limits.light_area, share, 5e-2, note=coarse),
+    ]
 
 
-def _heavy(cells: int, placement: float) -> Found:
-    pressure, limits = _egg_box(0.99, (cells, cells))
-    return {"share left open, counted": (1 - limits.heavy_area, float(np.mean(pressure == 0)))}
+@reference("wavy both ways, p/p* = 0.99: pockets at the troughs", JOHNSON, 512, cost=0.3)
+def _heavy(cells: int, placement: float) -> list[Row]:
+    found, limits = _egg_box(0.99, (cells, cells))
+    exact, left = 1 - limits.heavy_area, float(np.mean(found == 0))
+    return [Row("share left open, counted", "1", exact, left, 5e-2, note="limit of p/p* -> 1")]
 
 
-def _closed(cells: int, placement: float) -> Found:
-    pressure, limits = _egg_box(1.2, (cells, cells // 2))
-    return {"pressure that closes the gap": (limits.complete, 0.5 * float(np.ptp(pressure)))}
+@reference("wavy both ways, p/p* = 1.2: full contact", JOHNSON, 64, cost=0.1)
+def _closed(cells: int, placement: float) -> list[Row]:
+    found, limits = _egg_box(1.2, (cells, cells // 2))
+    name, closing = "pressure that closes the gap", 0.5 * float(np.ptp(found))
+    return [Row(name, "Pa", limits.complete, closing, 1e-8, note="exact on any grid")]
 
 
-JOHNSON = "Johnson, Greenwood & Higginson (1985)"
-CHECKS = (
-    Check(
-        "Westergaard's wave, p/p* = 0.4",
-        "Westergaard (1939); Johnson (1985), section 13.2",
-        _westergaard,
-        (
-            Quantity("peak pressure", "Pa", 1e-4, 2.0),
-            Quantity("share in contact, counted", "1", 5e-3, 1.0),
-            PRESSURE,
-        ),
-        levels=(63, 255, 1023),
-        placements=8,
-        cost=0.3,
-    ),
-    Check(
-        "wavy both ways, p/p* = 0.001: Hertz on each crest",
-        JOHNSON,
-        _light,
-        (
-            Quantity("peak pressure", "Pa", 1e-2, note="limit; error is also the neighbours'"),
-            Quantity("share in contact, counted", "1", 5e-2, note="limit; 18 cells a radius"),
-        ),
-        levels=(512,),
-        cost=0.5,
-    ),
-    Check(
-        "wavy both ways, p/p* = 0.99: pockets at the troughs",
-        JOHNSON,
-        _heavy,
-        (Quantity("share left open, counted", "1", 5e-2, note="limit of p/p* -> 1"),),
-        levels=(512,),
-        cost=0.3,
-    ),
-    Check(
-        "wavy both ways, p/p* = 1.2: full contact",
-        JOHNSON,
-        _closed,
-        (Quantity("pressure that closes the gap", "Pa", 1e-8, note="exact on any grid"),),
-        levels=(64,),
-        cost=0.1,
-    ),
-)
+REFERENCES = (_westergaard, _light, _heavy, _closed)

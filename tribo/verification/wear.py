@@ -1,23 +1,26 @@
-"""Bodies that alone wear: exact on springs, exact in full contact, limits on a half-space."""
+"""Bodies that wear: laws under known pressure, springs, full contact, rigid limits, the paper."""
 
 from __future__ import annotations
 
 import math
+import tomllib
 from functools import partial
+from typing import Any
 
 import numpy as np
 
-from tribo.closed_forms import ball_wear, sinusoid, winkler
+from tribo.closed_forms import ball_wear, hertz, sinusoid, winkler
+from tribo.closed_forms.ball_on_track import ball_on_track
 from tribo.contact.winkler import Winkler
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.core.measures import Measures, contact_area
-from tribo.simulation.march import begin, march
 from tribo.simulation.measure import measure
-from tribo.simulation.model import Model
-from tribo.verification.check import Check, Found, Quantity
+from tribo.simulation.run import Simulation
+from tribo.templates import template
 from tribo.verification.problems import (
+    HARDNESS,
     LOAD,
     MODULUS,
     POISSON,
@@ -29,78 +32,96 @@ from tribo.verification.problems import (
     half_space,
     on_flat,
     periodic,
+    run_to_end,
     slide,
+    square,
 )
+from tribo.verification.reference import Row, reference
+from tribo.wear.archard import Archard
+from tribo.wear.law import WearLaw
+from tribo.wear.power import Power
 
 K = WEAR_COEFFICIENT
+HOUR = 360.0
+"""Sliding distance of the paper's hour, in m."""
 WAVELENGTH, AMPLITUDE = 1e-4, 1e-8
 
 
-def _foundation(steps: int, placement: float) -> Found:
+def _volume(name: str, k: float, distance: float, got: float) -> Row:
+    return Row(name, "m^3", k * LOAD * distance, got, 1e-10, note="V = kFs, exact")
+
+
+@reference(
+    "ball on springs wears for 20 m, equal steps",
+    "tribo.closed_forms.winkler; Johnson (1985), section 4.3",
+    40,
+    80,
+    160,
+)
+def _foundation(steps: int, placement: float) -> list[Row]:
     distance = 20.0
-    hertz_radius = 148.837e-6
-    stiffness = winkler.stiffness_for_half_width(MODULUS, hertz_radius)
+    # A foundation with this stiffness has Hertz's contact radius.
+    stiffness = 16 * MODULUS / (3 * math.pi * 148.837e-6)
     springs = Winkler(modulus=stiffness)
-    model = on_flat(ball(), Grid((0.7e-3, 0.7e-3), (129, 129)), springs)
-    _, state = slide(model, distance, steps)
-    pressure = state.contact.pressure
+    model = on_flat(ball(), square(0.7e-3, 129), springs)
+    contact = slide(model, distance, steps)[1].contact
     given = {"load": LOAD, "radius": RADIUS, "stiffness": stiffness, "wear_coefficient": K}
     exact = float(winkler.worn_sphere_pressure(0.0, distance, **given))
     radius = float(winkler.worn_sphere_half_width(distance, **given))
-    return {
-        "pressure at the centre": (exact, float(pressure[64, 64])),
-        "approach": (radius**2 / (2 * RADIUS), state.contact.approach),
-        "contact radius, counted": (
-            radius,
-            math.sqrt(contact_area(pressure, model.grid) / math.pi),
-        ),
-    }
+    counted = math.sqrt(contact_area(contact.pressure, model.grid) / math.pi)
+    by_volume = "follows from the volume, exact in the steps"
+    cells = "exact in the steps; cells at its edge"
+    return [
+        Row("pressure at the centre", "Pa", exact, float(contact.pressure[64, 64]), 5e-3, 1.0),
+        Row("approach", "m", radius**2 / (2 * RADIUS), contact.approach, 1e-4, note=by_volume),
+        Row("contact radius, counted", "m", radius, counted, 2e-3, note=cells),
+    ]
 
 
-def _end(model: Model) -> Measures:
-    state = begin(model)
-    for accepted in march(model, state):
-        state = accepted.state
-    return measure(model, state)
-
-
-def _worn_ball(stiffer: int) -> tuple[Measures, float]:
-    distance = 360.0
+def _worn_ball(stiffer: int) -> Measures:
     hard = Material(young=YOUNG * stiffer, poisson=POISSON)
-    model = on_flat(
-        ball(), Grid((1.2e-3, 1.2e-3), (65, 65)), half_space(1e-8), distance=distance, material=hard
+    grid = square(1.2e-3, 65)
+    model = on_flat(ball(), grid, half_space(1e-8), distance=HOUR, material=hard)
+    return measure(model, run_to_end(model))
+
+
+@reference("elastic ball wears for 360 m", "Argatov (2011)", 65)
+def _elastic_ball(cells: int, placement: float) -> list[Row]:
+    end = _worn_ball(1)
+    first = hertz.point(MODULUS, LOAD, 1 / RADIUS, 1 / RADIUS).semi_axes[0]
+    exact = float(
+        ball_wear.elastic_ball_half_width(
+            HOUR, load=LOAD, radius=RADIUS, wear_coefficient=K, initial_half_width=first
+        )
     )
-    return _end(model), distance
+    counted, note = math.sqrt(end.area / math.pi), "Argatov's law is good to 1 %"
+    return [
+        Row("contact radius, counted", "m", exact, counted, 1.5e-2, note=note),
+        _volume("worn volume", K, HOUR, end.bodies["ball"].wear_volume),
+    ]
 
 
-def _elastic_ball(cells: int, placement: float) -> Found:
-    end, distance = _worn_ball(1)
-    radius = ball_wear.elastic_ball_half_width(
-        distance,
-        load=LOAD,
-        radius=RADIUS,
-        wear_coefficient=K,
-        initial_half_width=(0.75 * LOAD * RADIUS / MODULUS) ** (1 / 3),
-    )
-    return {
-        "contact radius, counted": (float(radius), math.sqrt(end.area / math.pi)),
-        "worn volume": (K * LOAD * distance, end.bodies["ball"].wear_volume),
-    }
-
-
-def _rigid_ball(stiffer: int, placement: float) -> Found:
-    end, distance = _worn_ball(stiffer)
-    exact = ball_wear.ball(distance, load=LOAD, radius=RADIUS, wear_coefficient=K)
-    return {"worn depth": (float(exact.depth), end.bodies["ball"].centre_wear_depth)}
+@reference(
+    "ball wears for 360 m, 4, 16, 64 times as stiff: rigid limit",
+    "Archard (1953); h = sqrt(kFs/(pi R))",
+    4,
+    16,
+    64,
+    cost=4.0,
+)
+def _rigid_ball(stiffer: int, placement: float) -> list[Row]:
+    depth = _worn_ball(stiffer).bodies["ball"].centre_wear_depth
+    exact = ball_wear.ball(HOUR, load=LOAD, radius=RADIUS, wear_coefficient=K).depth
+    note = "order in the modulus, not the grid"
+    return [Row("worn depth", "m", float(exact), depth, 1e-3, 1.0, note)]
 
 
 def _wave(grid: Grid) -> Array:
-    return np.broadcast_to(
-        AMPLITUDE * np.cos(2 * np.pi * grid.mesh[0] / WAVELENGTH), grid.cells
-    ).copy()
+    heights = AMPLITUDE * np.cos(2 * np.pi * grid.mesh[0] / WAVELENGTH)
+    return np.broadcast_to(heights, grid.cells).copy()
 
 
-def _full_contact(steps: int, placement: float, *, explicit: bool) -> Found:
+def _full_contact(steps: int, placement: float, *, explicit: bool) -> list[Row]:
     compliance = float(sinusoid.compliance(2 * np.pi / WAVELENGTH, MODULUS))
     distance = compliance / K
     grid = Grid((WAVELENGTH, WAVELENGTH / 8), (16, 2))
@@ -109,57 +130,113 @@ def _full_contact(steps: int, placement: float, *, explicit: bool) -> Found:
     left = float(np.ptp(_wave(grid) - state.bodies["ball"].wear)) / float(np.ptp(_wave(grid)))
     factor = sinusoid.explicit_euler_factor if explicit else sinusoid.implicit_euler_factor
     stepwise = float(factor(distance / steps, K, compliance)) ** steps
-    return {
-        "amplitude left": (float(sinusoid.worn_amplitude(distance, K, compliance)), left),
-        "amplitude left, by Euler's factor": (stepwise, left),
+    exact, by_factor = float(sinusoid.worn_amplitude(distance, K, compliance)), "by Euler's factor"
+    return [
+        Row("amplitude left", "1", exact, left, 1e-2, 1.0),
+        Row(f"amplitude left, {by_factor}", "1", stepwise, left, 1e-8, note="exact at any step"),
+    ]
+
+
+WAVES = tuple(
+    reference(
+        f"wave in full contact, one decay length, {name} steps",
+        "tribo.closed_forms.sinusoid",
+        *(20, 40, 80),
+        cost=0.5,
+    )(partial(_full_contact, explicit=name == "explicit"))
+    for name in ("implicit", "explicit")
+)
+
+
+def _pin(law: WearLaw, pressure: float, distance: float, hardness: float | None = None) -> float:
+    """Return the depth worn off a flat pin that presses evenly, in m."""
+    pin, grid = Shape(heights=lambda grid: np.zeros(grid.cells)), square(1e-4, 4)
+    soft = Material(young=YOUNG, poisson=POISSON, hardness=hardness)
+    load = pressure * grid.size[0] ** 2
+    model = on_flat(pin, grid, periodic(), load=load, ball_law=law, material=soft)
+    _, state = slide(model, distance, 2)
+    return float(np.mean(state.bodies["ball"].wear))
+
+
+@reference(
+    "flat pin under even pressure wears",
+    "h = k p s; k = K/H (Archard 1953); h = k p0 (p/p0)^m s (Rhee 1970)",
+    4,
+    cost=0.1,
+)
+def _flat_pin(level: int, placement: float) -> list[Row]:
+    p, s, at, ratio = 0.4e9, 5.0, 1e9, K * HARDNESS
+    archard = K * p * s
+    depths = {
+        "archard by k": (archard, _pin(Archard(k=K), p, s)),
+        "archard by K and its hardness": (
+            archard,
+            _pin(Archard(K=ratio, hardness=HARDNESS), p, s),
+        ),
+        "archard by K and the body's hardness": (archard, _pin(Archard(K=ratio), p, s, HARDNESS)),
     }
+    for exponent in (1.5, 3.0):
+        power = Power(k=K, p_exponent=exponent, reference_pressure=at)
+        depths[f"power {exponent:g}"] = K * at * (p / at) ** exponent * s, _pin(power, p, s)
+    return [
+        Row(f"depth, {law}", "m", *depth, 1e-8, note="exact at any step")
+        for law, depth in depths.items()
+    ]
 
 
-FULL_CONTACT = (
-    Quantity("amplitude left", "1", 1e-2, 1.0),
-    Quantity("amplitude left, by Euler's factor", "1", 1e-8, note="exact at any step"),
+@reference(
+    "ball and flat wear, the flat by three times the coefficient",
+    "V = kFs (Archard 1953)",
+    32,
+    cost=0.2,
 )
-CHECKS = (
-    Check(
-        "ball on springs wears for 20 m, equal steps",
-        "tribo.closed_forms.winkler; Johnson (1985), section 4.3",
-        _foundation,
-        (
-            Quantity("pressure at the centre", "Pa", 5e-3, 1.0),
-            Quantity("approach", "m", 1e-4, note="follows from the volume, exact in the steps"),
-            Quantity(
-                "contact radius, counted", "m", 2e-3, note="exact in the steps; cells at its edge"
-            ),
-        ),
-        levels=(40, 80, 160),
-    ),
-    Check(
-        "elastic ball wears for 360 m",
-        "Argatov (2011)",
-        _elastic_ball,
-        (
-            Quantity("contact radius, counted", "m", 1.5e-2, note="Argatov's law is good to 1 %"),
-            Quantity("worn volume", "m^3", 1e-10, note="V = kFs, exact"),
-        ),
-        levels=(65,),
-    ),
-    Check(
-        "ball wears for 360 m, 4, 16, 64 times as stiff: rigid limit",
-        "Archard (1953); h = sqrt(kFs/(pi R))",
-        _rigid_ball,
-        (Quantity("worn depth", "m", 1e-3, 1.0, "order in the modulus, not the grid"),),
-        levels=(4, 16, 64),
-        cost=4.0,
-    ),
-    *(
-        Check(
-            f"wave in full contact, one decay length, {name} steps",
-            "tribo.closed_forms.sinusoid",
-            partial(_full_contact, explicit=name == "explicit"),
-            FULL_CONTACT,
-            levels=(20, 40, 80),
-            cost=0.5,
-        )
-        for name in ("implicit", "explicit")
-    ),
+def _both(cells: int, placement: float) -> list[Row]:
+    distance = 5.0
+    grid = square(0.7e-3, cells)
+    model = on_flat(ball(), grid, half_space(1e-8), flat_k=3 * K, distance=distance)
+    bodies = measure(model, slide(model, distance, 5)[1]).bodies
+    return [
+        _volume("volume of the ball", K, distance, bodies["ball"].wear_volume),
+        _volume("volume of the flat", 3 * K, distance, bodies["flat"].wear_volume),
+    ]
+
+
+@reference(
+    "the paper's hour, ball and disk", "rigid limit: tribo.closed_forms.ball_on_track", 96, cost=4.0
 )
+def _paper(cells: int, placement: float) -> list[Row]:
+    case: dict[str, Any] = tomllib.loads(template("ball_on_disk"))
+    case["grid"] |= {"size": "1.4 mm", "cells": cells}
+    case["output"] = {}
+    model = Simulation(case).model
+    end = measure(model, run_to_end(model))
+    worn = ball_on_track(
+        end.distance,
+        load=LOAD,
+        radius=RADIUS,
+        track_length=2e-3,
+        ball_wear_coefficient=K,
+        flat_wear_coefficient=K,
+    )
+    ball, disk = end.bodies["ball"], end.bodies["disk"]
+    elastic = "the bodies are elastic; 0.6 % by an independent elastic run"
+    counted = "counted: half a cell is 1.5 %"
+
+    def row(name: str, unit: str, exact: Array, got: float, tolerance: float, note: str) -> Row:
+        return Row(name, unit, float(exact[0]), got, tolerance, note=note)
+
+    along, across = worn.half_width_along, worn.half_width_across
+    return [
+        row("depth of the ball", "m", worn.ball_depth, ball.centre_wear_depth, 1e-2, elastic),
+        row("depth of the disk", "m", worn.flat_depth, disk.max_wear_depth, 1e-2, elastic),
+        row("half-width along", "m", along, end.half_width_x, 3e-2, counted),
+        row("half-width across", "m", across, end.half_width_y, 3e-2, counted),
+        row(
+            "pressure at the centre", "Pa", worn.centre_pressure, end.centre_pressure, 2e-2, elastic
+        ),
+        _volume("volume of the ball", K, end.distance, ball.wear_volume),
+        _volume("volume of the disk", K, end.distance, disk.wear_volume),
+    ]
+
+
+REFERENCES = (_foundation, _elastic_ball, _rigid_ball, *WAVES, _flat_pin, _both, _paper)
