@@ -52,13 +52,10 @@ def test_disc_displacement_agrees_with_a_sum_of_point_forces():
         assert disc.displacement(far, p, a, MODULUS) == pytest.approx(total, rel=2e-4)
 
 
-def test_disc_displacement_meets_its_centre_edge_and_mean():
+def test_disc_displacement_has_its_known_mean_and_is_continuous():
     p, a = 1e9, 1e-4
-    u = disc.displacement([0.0, a, a * (1 + 1e-12)], p, a, MODULUS)
-    centre = disc.displacement_at_centre(p, a, MODULUS)
-    edge = disc.displacement_at_edge(p, a, MODULUS)
-    assert u == pytest.approx([centre, edge, edge], rel=1e-9, abs=0)
-    assert edge / centre == pytest.approx(2 / np.pi, rel=1e-12, abs=0)
+    edge = disc.displacement([a, a * (1 + 1e-12)], p, a, MODULUS)
+    assert edge[1] == pytest.approx(edge[0], rel=1e-9, abs=0)
     mean, _ = quad(
         lambda r: 2 * r / a**2 * float(disc.displacement(r, p, a, MODULUS)), 0, a, epsabs=0
     )
@@ -77,13 +74,6 @@ def test_sinusoid_wears_as_its_equation_says():
         # First order: the relative error is (ks/K̂)²/2n.
         bound = 0.6 * (k * s / float(compliance)) ** 2 / steps
         assert float(factor(s / steps, k, compliance)) ** steps == pytest.approx(left, rel=bound)
-
-
-def test_euler_factors_at_the_stability_limit():
-    compliance = 1e-15
-    limit = 2 * compliance / 3e-16
-    assert sinusoid.explicit_euler_factor(limit, 3e-16, compliance) == pytest.approx(-1.0)
-    assert sinusoid.implicit_euler_factor(limit, 3e-16, compliance) == pytest.approx(1 / 3)
 
 
 def test_westergaard_at_0_4_of_complete_contact():

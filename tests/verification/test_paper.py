@@ -90,12 +90,12 @@ def test_the_pressure_is_a_plateau_along_and_rises_to_the_edges_across(result):
     assert rigid[1] / rigid[0] > 1.08
 
 
-def test_the_papers_explicit_steps_agree():
+def test_explicit_steps_agree():
     implicit, explicit = (
         paper("1.3 mm", 32, stepping=stepping)
-        for stepping in ({"type": "implicit"}, {"type": "explicit", "time_step": "0.25 s"})
+        for stepping in ({"type": "implicit"}, {"type": "explicit", "time_step": "2 s"})
     )
-    assert explicit.totals()["steps"] == 14400
+    assert explicit.totals()["steps"] == 1800
     for a, b in zip(implicit.saves()[1:], explicit.saves()[1:], strict=True):
         for name in ("ball", "disk"):
             assert a["bodies"][name]["max_wear_depth_m"] == pytest.approx(

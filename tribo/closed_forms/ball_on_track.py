@@ -53,30 +53,22 @@ from tribo.core.arrays import Array
 class BallOnTrack:
     """The worn ball and flat at a sequence of sliding distances.
 
-    All arrays have the shape (n,) of `distance`.
-
     Parameters
     ----------
-    distance : ndarray
-        Sliding distance s, in m.
-    half_width_along : ndarray
-        Half-width a of the contact along the sliding direction, in m.
-    half_width_across : ndarray
-        Half-width c of the contact across it, in m.
+    distance : ndarray, shape (n,)
+        Sliding distance s, in m; all others have its shape.
+    half_width_along, half_width_across : ndarray
+        Half-widths of the contact, a along the sliding direction and c across it, in m.
     ball_depth : ndarray
         Worn depth at the centre of the ball, in m.
     flat_depth : ndarray
         Depth of the groove in the flat, which is also the crown left on the
         ball, in m.
-    centre_pressure : ndarray
-        Pressure at the centre, in Pa; infinite at s = 0.
-    peak_pressure : ndarray
-        Largest pressure, at the contact's edges across the track, in Pa;
-        infinite at s = 0.
-    ball_volume : ndarray
-        Volume worn off the ball, in m³.
-    flat_volume : ndarray
-        Volume worn off the flat, over the length of the track, in m³.
+    centre_pressure, peak_pressure : ndarray
+        Pressure at the centre, and the largest, at the contact's edges across the
+        track, in Pa; infinite at s = 0.
+    ball_volume, flat_volume : ndarray
+        Volumes worn off the ball and off the flat's whole track, in m³.
     """
 
     distance: Array
@@ -94,18 +86,14 @@ class BallOnTrack:
 class TrackProfile:
     """The contact as a function of the position across the track.
 
-    All arrays have the shape of `y`.
-
     Parameters
     ----------
     y : ndarray
-        Position across the track, in m.
+        Position across the track, in m; all others have its shape.
     half_length : ndarray
         Half-length b of the contact along the sliding direction, in m.
-    ball_depth : ndarray
-        Worn depth of the ball at x = 0, in m.
-    flat_depth : ndarray
-        Worn depth of the flat, in m.
+    ball_depth, flat_depth : ndarray
+        Worn depth of the ball at x = 0, and of the flat, in m.
     pressure : ndarray
         Pressure, uniform along x, in Pa; 0 outside the contact.
     """
@@ -132,16 +120,12 @@ def ball_on_track(
     ----------
     distance : array_like, shape (n,)
         Sliding distances s, in m; not negative, in any order.
-    load : float
-        Normal load F, in N.
-    radius : float
-        Radius R of the ball, in m.
+    load, radius : float
+        Normal load F, in N, and radius R of the ball, in m.
     track_length : float
         ℓ, in m: the stroke, or the circumference of the track.
-    ball_wear_coefficient : float
-        Archard's k of the ball, in 1/Pa; positive.
-    flat_wear_coefficient : float
-        Archard's k of the flat, in 1/Pa; 0 leaves the flat unworn.
+    ball_wear_coefficient, flat_wear_coefficient : float
+        Archard's k_b and k_f, in 1/Pa; k_b is positive, and 0 leaves the flat unworn.
 
     Returns
     -------

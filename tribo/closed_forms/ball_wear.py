@@ -1,4 +1,4 @@
-"""Bodies that alone wear against a hard flat, by Archard's law.
+"""A ball, a cylinder or a cone that alone wears against a hard flat, by Archard's law.
 
 In the rigid limit elastic displacement is small beside the worn depth, the
 worn face is flat, and its shape follows from the worn volume V = kFs. Profiles
@@ -22,7 +22,7 @@ from tribo.core.arrays import Array
 
 @dataclass(frozen=True)
 class WornFace:
-    """The flat face worn on a body.
+    """The flat face worn on a body; arrays are shaped like the sliding distance.
 
     Parameters
     ----------
@@ -48,25 +48,15 @@ def ball(distance: ArrayLike, *, load: float, radius: float, wear_coefficient: f
     ----------
     distance : array_like
         Sliding distance s, in m.
-    load : float
-        Normal load F, in N.
-    radius : float
-        Radius R of the ball, in m.
-    wear_coefficient : float
-        Archard's k, in 1/Pa.
+    load, radius, wear_coefficient : float
+        Normal load F, in N; radius R of the ball, in m; Archard's k, in 1/Pa.
 
     Returns
     -------
     WornFace
-        Arrays shaped like `distance`.
     """
-    a = elastic_ball_half_width(
-        distance,
-        load=load,
-        radius=radius,
-        wear_coefficient=wear_coefficient,
-        initial_half_width=0.0,
-    )
+    given = {"load": load, "radius": radius, "wear_coefficient": wear_coefficient}
+    a = elastic_ball_half_width(distance, **given, initial_half_width=0.0)
     return WornFace(a, a**2 / (2.0 * radius), _over(load, np.pi * a**2))
 
 
@@ -85,9 +75,7 @@ def elastic_ball_half_width(
 
     Parameters
     ----------
-    distance : array_like
-        Sliding distance s, in m.
-    load, radius, wear_coefficient : float
+    distance, load, radius, wear_coefficient
         As for `ball`.
     initial_half_width : float
         Contact radius a0 at s = 0, in m.
@@ -97,7 +85,7 @@ def elastic_ball_half_width(
     ndarray
         Contact radius, in m, shaped like `distance`.
     """
-    volume = worn_volume(distance, load=load, wear_coefficient=wear_coefficient)
+    volume = wear_coefficient * load * np.asarray(distance, dtype=float)
     return np.asarray((initial_half_width**4 + 4.0 * radius * volume / np.pi) ** 0.25)
 
 
@@ -106,25 +94,10 @@ def cylinder(
 ) -> WornFace:
     """Wear a cylinder along a generator, rigid limit.
 
-    a = (3RkF's/2)^⅓, h = a²/2R, p = F'/2a.
-
-    Parameters
-    ----------
-    distance : array_like
-        Sliding distance s, in m.
-    line_load : float
-        Load per length F', in N/m.
-    radius : float
-        Radius R of the cylinder, in m.
-    wear_coefficient : float
-        Archard's k, in 1/Pa.
-
-    Returns
-    -------
-    WornFace
-        Arrays shaped like `distance`.
+    a = (3RkF's/2)^⅓, h = a²/2R, p = F'/2a, with the load per length F', in N/m; other
+    parameters as for `ball`.
     """
-    area = worn_volume(distance, load=line_load, wear_coefficient=wear_coefficient)
+    area = wear_coefficient * line_load * np.asarray(distance, dtype=float)
     a = np.asarray((1.5 * radius * area) ** (1.0 / 3.0))
     return WornFace(a, a**2 / (2.0 * radius), _over(line_load, 2.0 * a))
 
@@ -134,72 +107,13 @@ def cone(
 ) -> WornFace:
     """Wear the tip of a cone, rigid limit.
 
-    a = (3kFs tan α/π)^⅓, h = a cot α, p = F/πa².
-
-    Parameters
-    ----------
-    distance : array_like
-        Sliding distance s, in m.
-    load : float
-        Normal load F, in N.
-    semi_angle : float
-        Angle α between axis and flank, in rad.
-    wear_coefficient : float
-        Archard's k, in 1/Pa.
-
-    Returns
-    -------
-    WornFace
-        Arrays shaped like `distance`.
+    a = (3kFs tan α/π)^⅓, h = a cot α, p = F/πa², with the angle α between axis and flank,
+    in rad; other parameters as for `ball`.
     """
-    volume = worn_volume(distance, load=load, wear_coefficient=wear_coefficient)
+    volume = wear_coefficient * load * np.asarray(distance, dtype=float)
     tan = np.tan(semi_angle)
     a = np.asarray((3.0 * volume * tan / np.pi) ** (1.0 / 3.0))
     return WornFace(a, a / tan, _over(load, np.pi * a**2))
-
-
-def flat_pin_depth(
-    distance: ArrayLike, *, load: float, area: float, wear_coefficient: float
-) -> Array:
-    """Depth worn off a flat-ended pin, h = kFs/A, whatever its section.
-
-    Parameters
-    ----------
-    distance : array_like
-        Sliding distance s, in m.
-    load : float
-        Normal load F, in N.
-    area : float
-        Section A of the pin, in m².
-    wear_coefficient : float
-        Archard's k, in 1/Pa.
-
-    Returns
-    -------
-    ndarray
-        Depth, in m, shaped like `distance`.
-    """
-    return worn_volume(distance, load=load, wear_coefficient=wear_coefficient) / area
-
-
-def worn_volume(distance: ArrayLike, *, load: float, wear_coefficient: float) -> Array:
-    """Volume worn off one body, V = kFs.
-
-    Parameters
-    ----------
-    distance : array_like
-        Sliding distance s, in m.
-    load : float
-        Normal load F, in N; with a load per length, the result is an area.
-    wear_coefficient : float
-        Archard's k, in 1/Pa.
-
-    Returns
-    -------
-    ndarray
-        Volume, in m³, shaped like `distance`.
-    """
-    return np.asarray(wear_coefficient * load * np.asarray(distance, dtype=float))
 
 
 def _over(load: float, area: Array) -> Array:

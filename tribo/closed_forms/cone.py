@@ -46,12 +46,8 @@ def cone(load: float, semi_angle: float, modulus: float) -> ConeContact:
 
     Parameters
     ----------
-    load : float
-        Normal load F, in N.
-    semi_angle : float
-        Angle α between axis and flank, in rad.
-    modulus : float
-        Contact modulus E*, in Pa.
+    load, semi_angle, modulus : float
+        Normal load F, in N; angle α between axis and flank, in rad; contact modulus E*, in Pa.
 
     Returns
     -------
@@ -76,7 +72,7 @@ def pressure(r: ArrayLike, load: float, semi_angle: float, modulus: float) -> Ar
     Returns
     -------
     ndarray
-        Pressure, in Pa; infinite on the axis, 0 outside the contact.
+        Pressure, in Pa, shaped like `r`; infinite on the axis, 0 outside the contact.
     """
     contact = cone(load, semi_angle, modulus)
     with np.errstate(divide="ignore"):

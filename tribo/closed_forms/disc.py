@@ -15,40 +15,6 @@ from scipy.special import ellipe, ellipk
 from tribo.core.arrays import Array
 
 
-def displacement_at_centre(pressure: float, radius: float, modulus: float) -> float:
-    """Displacement of the disc's centre, u = 2pa/E*, in m.
-
-    Parameters
-    ----------
-    pressure : float
-        Uniform pressure p, in Pa.
-    radius : float
-        Radius a of the disc, in m.
-    modulus : float
-        Contact modulus E*, in Pa.
-
-    Returns
-    -------
-    float
-    """
-    return 2.0 * pressure * radius / modulus
-
-
-def displacement_at_edge(pressure: float, radius: float, modulus: float) -> float:
-    """Displacement of the disc's edge, u = 4pa/πE*, in m.
-
-    Parameters
-    ----------
-    pressure, radius, modulus : float
-        As for `displacement_at_centre`.
-
-    Returns
-    -------
-    float
-    """
-    return 4.0 * pressure * radius / (np.pi * modulus)
-
-
 def displacement(r: ArrayLike, pressure: float, radius: float, modulus: float) -> Array:
     """Displacement of the surface inside and outside the disc.
 
@@ -57,17 +23,19 @@ def displacement(r: ArrayLike, pressure: float, radius: float, modulus: float) -
         u = (4pa/πE*) E(r²/a²)                              r ≤ a
         u = (4pr/πE*) [E(a²/r²) − (1 − a²/r²) K(a²/r²)]     r > a
 
+    that is 2pa/E* at the centre and 4pa/πE* at the edge.
+
     Parameters
     ----------
     r : array_like
         Distance from the axis, in m.
     pressure, radius, modulus : float
-        As for `displacement_at_centre`.
+        Uniform pressure p, in Pa; radius a of the disc, in m; contact modulus E*, in Pa.
 
     Returns
     -------
     ndarray
-        Normal displacement, in m.
+        Normal displacement, in m, shaped like `r`.
     """
     t = np.abs(np.asarray(r, dtype=float)) / radius
     far = np.maximum(t, 1.0)
@@ -75,4 +43,4 @@ def displacement(r: ArrayLike, pressure: float, radius: float, modulus: float) -
     # K diverges at the edge, where its factor vanishes faster.
     tail = np.where(m < 1.0, (1.0 - m) * ellipk(np.where(m < 1.0, m, 0.0)), 0.0)
     shape = np.where(t <= 1.0, ellipe(np.minimum(t, 1.0) ** 2), far * (ellipe(m) - tail))
-    return np.asarray(displacement_at_edge(pressure, radius, modulus) * shape)
+    return np.asarray(4.0 * pressure * radius / (np.pi * modulus) * shape)

@@ -1,4 +1,7 @@
-"""Hertz's closed forms for smooth elastic contact."""
+"""Hertz's contact of smooth elastic bodies: point, line and the onset of yield.
+
+Valid while the contact is small beside the radii of curvature, and without friction.
+"""
 
 from __future__ import annotations
 
@@ -51,10 +54,8 @@ def point(modulus: float, load: float, curvature_x: float, curvature_y: float) -
 
     Parameters
     ----------
-    modulus : float
-        Contact modulus E*, in Pa.
-    load : float
-        In N.
+    modulus, load : float
+        Contact modulus E*, in Pa, and normal load, in N.
     curvature_x, curvature_y : float
         Curvatures of the gap along x and y, in 1/m; positive. A ball of
         radius R on a flat has 1/R for both.
@@ -99,10 +100,8 @@ def line(modulus: float, load_per_length: float, curvature: float) -> LineContac
 
     Parameters
     ----------
-    modulus : float
-        Contact modulus E*, in Pa.
-    load_per_length : float
-        In N/m.
+    modulus, load_per_length : float
+        Contact modulus E*, in Pa, and load per length, in N/m.
     curvature : float
         In 1/m; positive. A cylinder of radius R on a flat has 1/R.
 
@@ -131,12 +130,12 @@ def load_at_peak(modulus: float, peak_pressure: float, curvature: float) -> floa
 
     Parameters
     ----------
-    modulus : float
-        Contact modulus E*, in Pa.
-    peak_pressure : float
-        In Pa.
-    curvature : float
-        1/R of the gap along both axes, in 1/m.
+    modulus, peak_pressure, curvature : float
+        Contact modulus E* and p0, in Pa; 1/R of the gap along both axes, in 1/m.
+
+    Notes
+    -----
+    F = π³ p0³ R²/6E*² (Johnson 1985, equation 4.24).
     """
     _require_positive(modulus=modulus, peak_pressure=peak_pressure, curvature=curvature)
     return pi**3 * peak_pressure**3 / (6 * modulus**2 * curvature**2)

@@ -15,21 +15,12 @@ from tribo.core.arrays import Array
 
 
 def approach(load: float, radius: float, modulus: float) -> float:
-    """Approach of the punch, δ = F/2E*a.
+    """Approach of the punch, δ = F/2E*a, in m.
 
     Parameters
     ----------
-    load : float
-        Normal load F, in N.
-    radius : float
-        Radius a of the punch, in m.
-    modulus : float
-        Contact modulus E*, in Pa.
-
-    Returns
-    -------
-    float
-        Approach, in m.
+    load, radius, modulus : float
+        Normal load F, in N; radius a of the punch, in m; contact modulus E*, in Pa.
     """
     return load / (2.0 * modulus * radius)
 
@@ -41,15 +32,13 @@ def pressure(r: ArrayLike, load: float, radius: float) -> Array:
     ----------
     r : array_like
         Distance from the axis, in m.
-    load : float
-        Normal load F, in N.
-    radius : float
-        Radius a of the punch, in m.
+    load, radius : float
+        As for `approach`.
 
     Returns
     -------
     ndarray
-        Pressure, in Pa; infinite at r = a, 0 beyond.
+        Pressure, in Pa, shaped like `r`; infinite at r = a, 0 beyond.
     """
     inside = 1.0 - (np.asarray(r, dtype=float) / radius) ** 2
     mean = load / (np.pi * radius**2)

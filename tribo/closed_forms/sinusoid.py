@@ -72,14 +72,8 @@ def explicit_euler_factor(step: float, wear_coefficient: float, compliance: Arra
     ----------
     step : float
         Sliding distance Δs of the step, in m.
-    wear_coefficient : float
-        Archard's k, in 1/Pa.
-    compliance : array_like
-        Displacement per pressure K̂ of the mode, in m/Pa.
-
-    Returns
-    -------
-    ndarray
+    wear_coefficient, compliance
+        As for `worn_amplitude`.
     """
     return np.asarray(1.0 - wear_coefficient * step / np.asarray(compliance, dtype=float))
 
@@ -87,14 +81,7 @@ def explicit_euler_factor(step: float, wear_coefficient: float, compliance: Arra
 def implicit_euler_factor(step: float, wear_coefficient: float, compliance: ArrayLike) -> Array:
     """Factor of a pressure mode in one implicit Euler step, 1/(1 + kΔs/K̂).
 
-    Parameters
-    ----------
-    step, wear_coefficient, compliance
-        As for `explicit_euler_factor`.
-
-    Returns
-    -------
-    ndarray
+    Parameters are those of `explicit_euler_factor`.
     """
     return np.asarray(1.0 / (1.0 + wear_coefficient * step / np.asarray(compliance, dtype=float)))
 
@@ -131,14 +118,9 @@ def westergaard(
 
     Parameters
     ----------
-    mean_pressure : float
-        Load per nominal area p̄, in Pa.
-    amplitude : float
-        Δ of the height Δ cos(2πx/λ), in m.
-    wavelength : float
-        λ, in m.
-    modulus : float
-        Contact modulus E*, in Pa.
+    mean_pressure, amplitude, wavelength, modulus : float
+        Load per nominal area p̄, in Pa; amplitude Δ and wavelength λ of the height
+        Δ cos(2πx/λ), in m; contact modulus E*, in Pa.
 
     Returns
     -------
@@ -146,13 +128,11 @@ def westergaard(
     """
     complete = np.pi * modulus * amplitude / wavelength
     ratio = min(mean_pressure / complete, 1.0)
-    peak = (
-        2.0 * np.sqrt(mean_pressure * complete)
-        if mean_pressure < complete
-        else mean_pressure + complete
-    )
+    peak = mean_pressure + complete
+    if mean_pressure < complete:
+        peak = 2.0 * float(np.sqrt(mean_pressure * complete))
     fraction = float(2.0 / np.pi * np.arcsin(np.sqrt(ratio)))
-    return Westergaard(mean_pressure, complete, fraction, float(peak))
+    return Westergaard(mean_pressure, complete, fraction, peak)
 
 
 def westergaard_pressure(x: ArrayLike, contact: Westergaard, wavelength: float) -> Array:
@@ -174,7 +154,7 @@ def westergaard_pressure(x: ArrayLike, contact: Westergaard, wavelength: float) 
     Returns
     -------
     ndarray
-        Pressure, in Pa.
+        Pressure, in Pa, shaped like `x`.
     """
     psi = np.pi * np.asarray(x, dtype=float) / wavelength
     if contact.contact_fraction >= 1.0:
@@ -213,14 +193,8 @@ def johnson_greenwood_higginson(
 
     Parameters
     ----------
-    mean_pressure : float
-        Load per nominal area p̄, in Pa.
-    amplitude : float
-        Δ, in m.
-    wavelength : float
-        λ, in m.
-    modulus : float
-        Contact modulus E*, in Pa.
+    mean_pressure, amplitude, wavelength, modulus : float
+        As for `westergaard`.
 
     Returns
     -------

@@ -2,7 +2,8 @@
 
 The foundation answers an overlap u with the pressure p = K_w u, point by
 point. Profiles are parabolic, h = r²/2R, so half-widths must stay small
-beside the radius.
+beside the radius. A sphere on K_w = 16E*/3πa has the contact radius a of Hertz,
+4/3 of his peak pressure and half of his approach.
 
 References
 ----------
@@ -48,12 +49,8 @@ def sphere(load: float, radius: float, stiffness: float) -> WinklerContact:
 
     Parameters
     ----------
-    load : float
-        Normal load F, in N.
-    radius : float
-        Radius R of the sphere, in m.
-    stiffness : float
-        Foundation stiffness K_w, in Pa/m.
+    load, radius, stiffness : float
+        Normal load F, in N; radius R, in m; foundation stiffness K_w, in Pa/m.
 
     Returns
     -------
@@ -71,12 +68,8 @@ def line(line_load: float, radius: float, stiffness: float) -> WinklerContact:
 
     Parameters
     ----------
-    line_load : float
-        Load per length F', in N/m.
-    radius : float
-        Radius R of the cylinder, in m.
-    stiffness : float
-        Foundation stiffness K_w, in Pa/m.
+    line_load, radius, stiffness : float
+        Load per length F', in N/m; radius R, in m; foundation stiffness K_w, in Pa/m.
 
     Returns
     -------
@@ -113,8 +106,7 @@ def worn_sphere_half_width(
     In contact δ − h = w + p/K_w. Over the contact, whose border is unworn and
     free of pressure, that integrates to πa⁴/4R = kFs + F/K_w, exactly.
     """
-    s = np.asarray(distance, dtype=float)
-    compliance = wear_coefficient * s + 1.0 / stiffness
+    compliance = wear_coefficient * np.asarray(distance, dtype=float) + 1.0 / stiffness
     return np.asarray((4.0 * radius * load * compliance / np.pi) ** 0.25)
 
 
@@ -128,24 +120,10 @@ def worn_line_half_width(
 ) -> Array:
     """Half-width of a line contact whose cylinder alone wears, by Archard's law.
 
-    a = [3RF'(ks + 1/K_w)/2]^⅓, by the argument of `worn_sphere_half_width`.
-
-    Parameters
-    ----------
-    distance : array_like
-        Sliding distance s, in m.
-    line_load, radius, stiffness : float
-        As for `line`.
-    wear_coefficient : float
-        Archard's k, in 1/Pa.
-
-    Returns
-    -------
-    ndarray
-        Half-width, in m, shaped like `distance`.
+    a = [3RF'(ks + 1/K_w)/2]^⅓, by the argument of `worn_sphere_half_width`, whose
+    other parameters it has; `line_load` is F', in N/m.
     """
-    s = np.asarray(distance, dtype=float)
-    compliance = wear_coefficient * s + 1.0 / stiffness
+    compliance = wear_coefficient * np.asarray(distance, dtype=float) + 1.0 / stiffness
     return np.asarray((1.5 * radius * line_load * compliance) ** (1.0 / 3.0))
 
 
@@ -169,14 +147,10 @@ def worn_sphere_pressure(
 
     Parameters
     ----------
-    r : array_like
-        Distance from the axis, in m.
-    distance : array_like
-        Sliding distance s, in m; broadcast against `r`.
-    load, radius, stiffness : float
-        As for `sphere`.
-    wear_coefficient : float
-        Archard's k, in 1/Pa.
+    r, distance : array_like
+        Distance from the axis, and sliding distance s, in m; broadcast against each other.
+    load, radius, stiffness, wear_coefficient : float
+        As for `worn_sphere_half_width`.
 
     Returns
     -------
@@ -197,65 +171,3 @@ def worn_sphere_pressure(
     fading = np.exp(np.minimum(touched_at - z, 0.0)) * (start - dawsn(np.sqrt(touched_at)))
     ratio = dawsn(np.sqrt(z)) + fading
     return np.asarray(contact.pressure * np.where(touched_at <= z, np.maximum(ratio, 0.0), 0.0))
-
-
-def stiffness_for_half_width(modulus: float, half_width: float) -> float:
-    """Foundation stiffness that gives a sphere its Hertzian contact radius.
-
-    K_w = 16E*/3πa; then p0 is 4/3 and δ is 1/2 of Hertz's.
-
-    Parameters
-    ----------
-    modulus : float
-        Contact modulus E*, in Pa.
-    half_width : float
-        Hertzian contact radius a, in m.
-
-    Returns
-    -------
-    float
-        K_w, in Pa/m.
-    """
-    return 16.0 * modulus / (3.0 * np.pi * half_width)
-
-
-def stiffness_for_pressure(modulus: float, half_width: float) -> float:
-    """Foundation stiffness that gives a sphere its Hertzian peak pressure.
-
-    K_w = 3E*/πa, with the Hertzian radius a; the contact is then 2/√3 as wide
-    and the approach 2/3 of Hertz's.
-
-    Parameters
-    ----------
-    modulus : float
-        Contact modulus E*, in Pa.
-    half_width : float
-        Hertzian contact radius a, in m.
-
-    Returns
-    -------
-    float
-        K_w, in Pa/m.
-    """
-    return 3.0 * modulus / (np.pi * half_width)
-
-
-def stiffness_for_approach(modulus: float, half_width: float) -> float:
-    """Foundation stiffness that gives a sphere its Hertzian approach.
-
-    K_w = 4E*/3πa, with the Hertzian radius a; the contact is then √2 as wide
-    and the peak pressure 2/3 of Hertz's.
-
-    Parameters
-    ----------
-    modulus : float
-        Contact modulus E*, in Pa.
-    half_width : float
-        Hertzian contact radius a, in m.
-
-    Returns
-    -------
-    float
-        K_w, in Pa/m.
-    """
-    return 4.0 * modulus / (3.0 * np.pi * half_width)
