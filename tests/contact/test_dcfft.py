@@ -7,11 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from contact_problems import HARDNESS, MODULUS, ONSET, RADIUS, ball, problem, solver
-from pydantic import ValidationError
 
 from tribo.contact import dcfft
 from tribo.contact.bounded import solve_bounded
-from tribo.contact.dcfft import DcFft
 from tribo.contact.operator import HalfSpace
 from tribo.core.box import around
 from tribo.core.contact import ContactProblem, ContactSolution, WearCompliance
@@ -123,12 +121,6 @@ def test_smallest_compliance_scales_with_the_cell() -> None:
     assert solver().smallest_compliance(system) == pytest.approx(
         0.58069 * 1e-5 / MODULUS, rel=1e-5, abs=0
     )
-
-
-@pytest.mark.parametrize("tolerance", [0.0, 1e-15, 0.1])
-def test_tolerance_is_within_reason(tolerance: float) -> None:
-    with pytest.raises(ValidationError):
-        DcFft(tolerance=tolerance)
 
 
 def test_box_encloses_its_cells_with_the_margin_and_few_sizes() -> None:

@@ -1,4 +1,4 @@
-"""The periodic half-space against Westergaard, Johnson and the stability of explicit steps."""
+"""The periodic half-space: its modes, waves pressed flat, and contact between the limits."""
 
 from __future__ import annotations
 
@@ -59,19 +59,14 @@ def test_each_mode_is_displaced_by_two_over_modulus_and_wavenumber(shape: tuple[
     assert (operator.symbol() > 0).all()
 
 
-@pytest.mark.parametrize("ratio", [0.05, 0.4, 0.8])
-def test_a_wave_has_westergaards_pressure(ratio: float) -> None:
-    errors = []
-    for cells in (64, 256, 1024):
-        solution, exact, x = wave(ratio, cells)
-        pressure = sinusoid.westergaard_pressure(x, exact, WAVELENGTH)
-        errors.append(np.abs(solution.pressure[:, 0] - pressure).sum() / pressure.sum())
+@pytest.mark.parametrize("ratio", [0.05, 0.8])
+def test_a_wave_has_westergaards_contact(ratio: float) -> None:
+    # 0.4 of the closing pressure, with the order of convergence, is a row of `tribo verify`.
+    solution, exact, _ = wave(ratio, 1024)
     touching = np.count_nonzero(solution.pressure[:, 0]) / 1024
     # Symmetric about the crest, the contact grows by two cells at a time.
     assert touching == pytest.approx(exact.contact_fraction, abs=1 / 1024)
     assert solution.pressure.max() == pytest.approx(exact.peak_pressure, rel=5e-5)
-    # Between first order in the cell at the edge, of width h and pressure √h, and second.
-    assert 1.0 < np.log(errors[0] / errors[-1]) / np.log(16) < 2.2
 
 
 def test_a_wave_pressed_flat_has_the_pressure_of_its_mode() -> None:
@@ -89,30 +84,6 @@ def test_what_is_worn_to_almost_flat_is_solved_down_to_rounding(amplitude: float
     expected = 1e8 - np.fft.ifft2(stiffness * np.fft.fft2(gap)).real
     found = solve(gap, (width, width), 1e8 * width**2)
     assert found.pressure == pytest.approx(expected, rel=1e-14)
-
-
-def test_light_crests_are_hertz_contacts() -> None:
-    solution, limits = egg_box(0.01, 256)
-    exact = hertz.point(
-        MODULUS,
-        0.5 * 0.01 * limits.complete * WAVELENGTH**2,
-        *[AMPLITUDE * (2 * np.pi / WAVELENGTH) ** 2] * 2,
-    )
-    assert 2 * np.pi * exact.semi_axes[0] ** 2 / WAVELENGTH**2 == pytest.approx(limits.light_area)
-    # At 1 % of the closing pressure the neighbours matter little.
-    assert solution.pressure.max() == pytest.approx(exact.peak_pressure, rel=0.01)
-    assert np.mean(solution.pressure > 0) == pytest.approx(limits.light_area, rel=0.04)
-
-
-def test_heavy_crests_leave_johnsons_gaps_open_until_none_is_left() -> None:
-    for ratio in (0.98, 0.99):
-        solution, limits = egg_box(ratio, 256)
-        left = 1 - np.mean(solution.pressure > 0)
-        assert left == pytest.approx(1 - limits.heavy_area, rel=0.06)
-    solution, limits = egg_box(1.001, 32)
-    assert (solution.pressure > 0).all()
-    solution, limits = egg_box(0.99, 32)
-    assert (solution.pressure == 0).any()
 
 
 @pytest.mark.parametrize(
