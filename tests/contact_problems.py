@@ -41,8 +41,8 @@ def ball(
     return problem(gap, (width, width), load, cap)
 
 
-def solver(tolerance: float = 1e-8, *, plasticity: bool = True) -> DcFft:
-    return DcFft(tolerance=tolerance, plasticity=plasticity)
+def solver(tolerance: float = 1e-8) -> DcFft:
+    return DcFft(tolerance=tolerance)
 
 
 def dense(shape: tuple[int, int], spacing: tuple[float, float]) -> Array:

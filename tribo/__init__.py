@@ -19,13 +19,13 @@ if TYPE_CHECKING:
     from tribo.component import Component as Component
     from tribo.config.load import load_case as load_case
     from tribo.config.stop import Stop as Stop
-    from tribo.contact.bounded import solve_bounded as solve_bounded
-    from tribo.contact.conditions import residuals as residuals
+    from tribo.contact.bounded_cg import solve_bounded as solve_bounded
     from tribo.contact.dcfft import DcFft as DcFft
     from tribo.contact.love import nyquist_compliance as nyquist_compliance
     from tribo.contact.operator import HalfSpace as HalfSpace
     from tribo.contact.operator import Operator as Operator
     from tribo.contact.periodic import Periodic as Periodic
+    from tribo.contact.residuals import residuals as residuals
     from tribo.contact.solver import ContactSolver as ContactSolver
     from tribo.contact.winkler import Winkler as Winkler
     from tribo.core.arrays import Array as Array
@@ -107,12 +107,12 @@ _NAMES = {
     "tribo.component": "Component",
     "tribo.config.load": "load_case",
     "tribo.config.stop": "Stop",
-    "tribo.contact.bounded": "solve_bounded",
-    "tribo.contact.conditions": "residuals",
+    "tribo.contact.bounded_cg": "solve_bounded",
     "tribo.contact.dcfft": "DcFft",
     "tribo.contact.love": "nyquist_compliance",
     "tribo.contact.operator": "HalfSpace Operator",
     "tribo.contact.periodic": "Periodic",
+    "tribo.contact.residuals": "residuals",
     "tribo.contact.solver": "ContactSolver",
     "tribo.contact.winkler": "Winkler",
     "tribo.core.arrays": "Array",

@@ -9,7 +9,7 @@ import pytest
 from contact_problems import HARDNESS, MODULUS, ONSET, RADIUS, ball, problem, solver
 
 from tribo.contact import dcfft
-from tribo.contact.bounded import solve_bounded
+from tribo.contact.bounded_cg import solve_bounded
 from tribo.contact.operator import HalfSpace
 from tribo.core.box import around
 from tribo.core.contact import ContactProblem, ContactSolution, WearCompliance

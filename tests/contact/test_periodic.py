@@ -51,11 +51,6 @@ def test_each_mode_is_displaced_by_two_over_modulus_and_wavenumber(shape: tuple[
         expected = sinusoid.compliance(np.hypot(*q), MODULUS) * pressure
         assert operator.apply(pressure) == pytest.approx(expected, abs=1e-12 * expected.max())
     assert operator.apply(np.full(shape, 1e9)) == pytest.approx(0, abs=1e-20)
-    impulse = np.zeros(shape)
-    impulse[3, 0] = 1e9
-    assert operator.diag()[3, 0] == pytest.approx(
-        operator.apply(impulse)[3, 0] / 1e9, rel=1e-6, abs=0
-    )
     assert (operator.symbol() > 0).all()
 
 

@@ -37,12 +37,6 @@ def test_capped_ball_has_the_area_approach_and_depth_of_an_independent_solver(
     assert solution.pressure.max() == HARDNESS
 
 
-def test_plasticity_can_be_switched_off() -> None:
-    solution = solver(plasticity=False).solve(ball(96, 2 * ONSET, HARDNESS))
-    assert solution.pressure.max() == pytest.approx(2 ** (1 / 3) * HARDNESS, rel=2e-3)
-    assert not solution.overlap.any()
-
-
 @pytest.mark.parametrize("room", [1.0, 1.0001, 1.02])
 def test_window_that_just_bears_the_load_is_nearly_all_at_the_cap(room: float) -> None:
     width = np.sqrt(room * ONSET / HARDNESS)

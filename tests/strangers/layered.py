@@ -58,7 +58,6 @@ class LayeredHalfSpace:
         kernel = self._base_kernel(config)[
             np.ix_(*(np.minimum(o, n - 1) for o, n in zip(offsets, shape, strict=True)))
         ]
-        self._own = float(kernel[0, 0])
         self._spectrum = scipy.fft.rfft2(kernel)
         qx = 2 * np.pi * np.fft.fftfreq(shape[0], spacing[0])
         qy = 2 * np.pi * np.fft.rfftfreq(shape[1], spacing[1])
@@ -89,10 +88,6 @@ class LayeredHalfSpace:
     def symbol(self) -> Array:
         """Return the compliance of the waves on the box."""
         return np.array(self._symbol)
-
-    def diag(self) -> Array:
-        """Return displacement of each cell per pressure on itself."""
-        return self._layer.diag() + self._own
 
 
 class Layered(ContactSolver):
@@ -158,7 +153,7 @@ class Layered(ContactSolver):
             _operator(system.grid.cells, system.grid.spacing, self, counter),
             problem.gap,
             problem.load,
-            system.cap if self.plasticity else None,
+            system.cap,
             problem.wear,
             start=None if start is None else start.pressure,
         )

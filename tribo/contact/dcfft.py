@@ -1,4 +1,4 @@
-"""Two elastic half-spaces, or elastic-perfectly-plastic ones: the `dcfft` contact solver."""
+"""The `dcfft` contact solver: two half-spaces in free space, elastic up to the hardness."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from typing import Annotated, ClassVar
 import numpy as np
 from pydantic import Field
 
-from tribo.contact.bounded import solve_bounded
-from tribo.contact.conditions import check_window
+from tribo.contact.bounded_cg import solve_bounded
 from tribo.contact.love import nyquist_compliance
-from tribo.contact.nested import coarsen, prolong
+from tribo.contact.nested_start import coarsen, prolong
 from tribo.contact.operator import HalfSpace, Operator, WornOperator
+from tribo.contact.residuals import check_window
 from tribo.contact.solver import ContactSolver
 from tribo.core.arrays import Array, Mask
 from tribo.core.box import Box, around, whole
@@ -52,7 +52,7 @@ class DcFft(ContactSolver):
 
     def check(self, system: ContactSystem) -> None:
         """Raise `CaseError` if the window cannot bear the load at the pressure cap."""
-        check_window(system.grid, system.load, self._cap(system))
+        check_window(system.grid, system.load, system.cap)
 
     def solve(
         self, problem: ContactProblem, start: ContactSolution | None = None
@@ -62,23 +62,20 @@ class DcFft(ContactSolver):
         Without `start`, grids of half the cells are solved first.
         """
         guess = None if start is None else start.pressure
-        # Before the window is cut down to a box, about which no message should speak.
-        check_window(problem.system.grid, problem.load, self._cap(problem.system))
+        # Here, so that the message speaks of the window and not of a box in it.
+        check_window(problem.system.grid, problem.load, problem.system.cap)
         return self._solve(problem, guess, self.tolerance)
 
     def smallest_compliance(self, system: ContactSystem) -> float:
         """Return the compliance of the chequerboard mode, in m/Pa."""
         return nyquist_compliance(system.grid.spacing) / system.modulus
 
-    def _cap(self, system: ContactSystem) -> float | None:
-        return system.cap if self.plasticity else None
-
     def _solve(
         self, problem: ContactProblem, guess: Array | None, tolerance: float
     ) -> ContactSolution:
         if guess is None:
             guess = self._nested_guess(problem)
-        cap = self._cap(problem.system)
+        cap = problem.system.cap
         window = problem.system.grid.cells
         box = whole(window)
         if guess is not None:
@@ -116,7 +113,7 @@ class DcFft(ContactSolver):
         try:
             coarse = self._solve(coarsen(problem), None, max(_COARSE_TOLERANCE, self.tolerance))
         except NumericalError:
-            # A start is worth having, not worth failing for.
+            # Without a start the solve takes longer, but may succeed.
             return None
         return prolong(coarse.pressure, cells)
 
@@ -133,7 +130,7 @@ def _wear_on(box: Box, wear: WearCompliance | None) -> WearCompliance | None:
 
 
 def _wide_enough(box: Box, cells: float) -> Box:
-    # Not only to bear the load at the cap, but with room to distribute it.
+    # A box that bears the load at the cap, with a quarter to spare to distribute it.
     while not box.is_window and box.shape[0] * box.shape[1] < 1.25 * cells:
         box = _grown(box, box)
     return box
@@ -173,9 +170,9 @@ def _overlapping_outside(problem: ContactProblem, box: Box, solution: ContactSol
 
 def _displacement_bound(pressure: Array, spacing: tuple[float, float], strength: float) -> Array:
     """Return a lower bound of the displacement, of which `strength` is load over modulus."""
-    # A load spread over a cell displaces more than one at the root mean square of its
-    # distances, for 1/√ is convex; and the farthest point of the contact's bounding box
-    # is farther than any cell's centre.
+    # As if all of the load stood at the farthest corner of the contact's bounding box. A load
+    # spread over a cell displaces more than a point force at the root mean square of its
+    # distances, since 1/√ is convex.
     touching = pressure > 0
     reach = []
     for axis in (0, 1):

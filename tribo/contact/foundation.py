@@ -1,11 +1,11 @@
-"""The pressure on independent springs, with wear and a cap, in closed form per active set."""
+"""Solver for a foundation of independent springs, with the wear of a step and a pressure cap."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from tribo.contact.conditions import check_bearable, check_finite, residuals
 from tribo.contact.projection import balance
+from tribo.contact.residuals import check_bearable, check_finite, residuals
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactProblem, ContactSolution
 from tribo.core.errors import NumericalError

@@ -1,4 +1,4 @@
-"""From pressure to displacement: the operator protocol and its free-space form."""
+"""Operators from pressure to displacement: the protocol, the half-space by DC-FFT, added wear."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from tribo.core.contact import WearCompliance
 class Operator(Protocol):
     """A symmetric positive definite map from pressure to displacement on a box of cells.
 
-    Anything with these members can be given to `tribo.contact.bounded.solve_bounded`.
+    Anything with these members can be given to `tribo.contact.bounded_cg.solve_bounded`.
     """
 
     @property
@@ -55,16 +55,6 @@ class Operator(Protocol):
         """
         ...
 
-    def diag(self) -> Array:
-        """Return displacement of each cell per pressure on itself.
-
-        Returns
-        -------
-        ndarray, shape (nx, ny)
-            In m/Pa.
-        """
-        ...
-
 
 class HalfSpace:
     """Elastic half-space under pressure that is constant in each cell.
@@ -95,14 +85,13 @@ class HalfSpace:
         self.modulus = modulus
         self._padded = tuple(scipy.fft.next_fast_len(2 * n - 1, real=True) for n in shape)
         kernel = wrapped_kernel((self._padded[0], self._padded[1]), spacing)
-        self._self_compliance = float(kernel[0, 0]) / modulus
         # An even kernel has a real spectrum.
         self._spectrum = scipy.fft.rfft2(kernel).real / modulus
         periodic = scipy.fft.rfft2(_folded(kernel, shape, spacing)).real
-        # A kernel that is cut off has a spectrum that oscillates, least of all near its
-        # minimum; the bound keeps the preconditioner definite on any box.
+        # The spectrum of a kernel that is cut off oscillates, and could become negative; the
+        # bound keeps the preconditioner definite on any box.
         self._symbol = np.maximum(periodic, 0.5 * nyquist_compliance(spacing)) / modulus
-        # Fresh memory costs as much as the transforms; whoever applies takes one of these.
+        # Kept, since new memory costs as much as the transforms; a thread takes one and returns it.
         self._buffers: list[NDArray[np.complex128]] = []
 
     def apply(self, pressure: Array) -> Array:
@@ -130,10 +119,6 @@ class HalfSpace:
         """Return the eigenvalues of the periodic operator with the same near field."""
         symbol: Array = self._symbol.copy()
         return symbol
-
-    def diag(self) -> Array:
-        """Return displacement of each cell per pressure on itself; see `Operator.diag`."""
-        return np.full(self.shape, self._self_compliance)
 
 
 def _folded(kernel: Array, shape: tuple[int, int], spacing: tuple[float, float]) -> Array:
@@ -182,13 +167,8 @@ class WornOperator:
         symbol[0] += _mean_where_positive(self.wear.swept) * self.spacing[0] * self.shape[0]
         return symbol
 
-    def diag(self) -> Array:
-        """Return displacement of each cell per pressure on itself; see `Operator.diag`."""
-        return self.base.diag() + self.wear.local + self.wear.swept * self.spacing[0]
-
 
 def _mean_where_positive(values: Array) -> float:
-    # Laws that do not wear without pressure have no compliance outside the
-    # contact, where no pressure will need preconditioning either.
+    # Outside the contact most laws have no compliance, and nothing to precondition.
     count = int(np.count_nonzero(values > 0))
     return float(np.sum(values)) / count if count else 0.0

@@ -1,4 +1,4 @@
-"""Two half-spaces that repeat along x and y: the `periodic` contact solver."""
+"""The `periodic` contact solver: two half-spaces whose contact repeats along x and y."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ import numpy as np
 import scipy.fft
 from pydantic import Field
 
-from tribo.contact.bounded import solve_bounded
-from tribo.contact.conditions import check_window
+from tribo.contact.bounded_cg import solve_bounded
+from tribo.contact.residuals import check_window
 from tribo.contact.solver import ContactSolver
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactProblem, ContactSolution, ContactSystem
@@ -51,7 +51,6 @@ class PeriodicHalfSpace:
         wavenumber = 2 * np.pi * np.hypot(along, across)
         wavenumber[0, 0] = np.inf
         self._spectrum = 2.0 / (modulus * wavenumber)
-        self._self_compliance = float(scipy.fft.irfft2(self._spectrum, s=shape)[0, 0])
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement under `pressure`; see `Operator.apply`."""
@@ -65,10 +64,6 @@ class PeriodicHalfSpace:
         symbol: Array = self._spectrum.copy()
         symbol[0, 0] = np.max(symbol)
         return symbol
-
-    def diag(self) -> Array:
-        """Return displacement of each cell per pressure on itself; see `Operator.diag`."""
-        return np.full(self.shape, self._self_compliance)
 
 
 class Periodic(ContactSolver):
@@ -95,20 +90,20 @@ class Periodic(ContactSolver):
 
     def check(self, system: ContactSystem) -> None:
         """Raise `CaseError` if the window cannot bear the load at the pressure cap."""
-        check_window(system.grid, system.load, self._cap(system))
+        check_window(system.grid, system.load, system.cap)
 
     def solve(
         self, problem: ContactProblem, start: ContactSolution | None = None
     ) -> ContactSolution:
         """Solve one contact problem; see `ContactSolver.solve`."""
         grid = problem.system.grid
-        # Of a deep uniform wear, rounding would be left in a contact that hardly displaces.
+        # The digits of a deep uniform wear would be lost to a contact that hardly displaces.
         lowest = float(np.min(problem.gap))
         solution = solve_bounded(
             _half_space(grid.cells, grid.spacing, problem.system.modulus),
             problem.gap - lowest,
             problem.load,
-            self._cap(problem.system),
+            problem.system.cap,
             problem.wear,
             start=None if start is None else start.pressure,
             tolerance=self.tolerance,
@@ -120,9 +115,6 @@ class Periodic(ContactSolver):
         """Return the compliance of the chequerboard mode, in m/Pa."""
         dx, dy = system.grid.spacing
         return 2.0 / (system.modulus * np.pi * float(np.hypot(1 / dx, 1 / dy)))
-
-    def _cap(self, system: ContactSystem) -> float | None:
-        return system.cap if self.plasticity else None
 
 
 @lru_cache(maxsize=8)

@@ -1,4 +1,4 @@
-"""The nearest pressure that carries a load within bounds."""
+"""Projection onto the pressures that carry a load within [0, cap]."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import numpy as np
 from tribo.core.arrays import Array, Mask
 
 _ROUND_OFF = 1e-15
-# `balance` does the rest.
+# Good enough for `balance` to correct.
 _NEAR = 1e-12
 
 

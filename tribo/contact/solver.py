@@ -1,4 +1,4 @@
-"""Which pressure carries this load across this gap?"""
+"""The interface of contact solvers."""
 
 from __future__ import annotations
 
@@ -16,13 +16,14 @@ class ContactSolver(Component):
     """Whether `solve` honours ``problem.wear``; without it only `explicit` stepping works."""
 
     honours_cap: ClassVar[bool] = False
-    """Whether `solve` honours ``problem.system.cap``."""
+    """Whether `solve` limits the pressure to ``problem.system.cap``."""
 
     periodic: ClassVar[bool] = False
     """Whether the contact repeats with the window, so that it may reach the window's edge."""
 
     plasticity: bool = True
-    """Whether the pressure is limited to the hardness of the softer body."""
+    """Whether the pressure is limited to the hardness of the softer body; `system.cap` is None
+    where it is not."""
 
     def check(self, system: ContactSystem) -> None:
         """Raise `CaseError` if this configuration cannot serve `system`."""

@@ -1,4 +1,4 @@
-"""An elastic foundation of independent springs: the `winkler` contact solver."""
+"""The `winkler` contact solver: a foundation of independent springs."""
 
 from __future__ import annotations
 
@@ -95,7 +95,7 @@ class Winkler(ContactSolver):
         return solve_foundation(
             problem,
             self.foundation_modulus(problem.system),
-            problem.system.cap if self.plasticity else None,
+            problem.system.cap,
             None if start is None else start.approach,
         )
 

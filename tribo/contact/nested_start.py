@@ -1,4 +1,4 @@
-"""Contact problems on half the grid, to start from."""
+"""The nested start: a contact problem on half the cells, and its pressure on the fine grid."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def coarsen(problem: ContactProblem) -> ContactProblem:
 
 def prolong(pressure: Array, cells: tuple[int, int]) -> Array:
     """Return `pressure` of a coarsened problem on the finer grid of `cells`."""
-    # Most of a window is not in contact, and zeros that nobody touches cost nothing.
+    # Only the contact is refined, which is a small part of most windows.
     box = around(pressure > 0, 1)
     part = pressure[box.slices]
     for axis in (0, 1):

@@ -1,21 +1,21 @@
-"""The pressure within bounds that carries a load: a public solver for any operator."""
+"""Conjugate gradients with bounds: the pressure in [0, cap] that carries a load, any operator."""
 
 from __future__ import annotations
 
 import numpy as np
 import scipy.fft
 
-from tribo.contact.conditions import check_bearable, check_finite, dot, residuals
 from tribo.contact.operator import Operator, WornOperator
 from tribo.contact.projection import balance, project
+from tribo.contact.residuals import check_bearable, check_finite, dot, residuals
 from tribo.core.arrays import Array, Mask
 from tribo.core.contact import ContactSolution, Residuals, WearCompliance
 from tribo.core.errors import NumericalError
 
-# Part of the step onto a bound, at the minimum along it, from which on all of it is taken: all
-# of it lowers the energy from 1/2 on.
+# Where the minimum along a step onto a bound lies beyond this part of the step, all of it is
+# taken; that lowers the energy if the part is more than 1/2.
 _NEAR_ENOUGH = 0.75
-# A method that does not halve the residual within so many iterations hands over.
+# Iterations within which a method must halve the residual, or the other takes over.
 _PATIENCE = 12
 
 
@@ -169,7 +169,7 @@ class _Iterate:
                 direction += kept
         if dot(residual, direction) >= 0:
             direction = -z
-        # Not as a difference of pressures, of which little but rounding may be left.
+        # Not `ahead` less the pressure, of which little but rounding may be left.
         change = self.length * direction
         ahead = self.pressure + change
         meets_bound = self._leaves(ahead)
@@ -188,8 +188,7 @@ class _Iterate:
         self.length *= min(max(best, 0.5), 2.0)
         part, moved = best, self.pressure + best * change
         if (meets_bound and best >= _NEAR_ENOUGH) or self._leaves(moved):
-            # Onto the bound, so that the cells that meet it leave the face; or no farther than
-            # what is known to lie within the bounds.
+            # `ahead` lies within the bounds, and cells that meet one leave the face there.
             part, moved = 1.0, ahead
         self.pressure = balance(moved, self.total, self.limit)
         response *= part
@@ -204,7 +203,8 @@ class _Iterate:
         before, displaced = self.pressure, self.displacement
         everywhere = np.ones(before.shape, dtype=bool)
         moved = before - self.rate * self.deformed
-        self._move(project(moved, self.total, self.limit, everywhere))
+        self.pressure = project(moved, self.total, self.limit, everywhere)
+        self.displacement = self.operator.apply(self.pressure)
         change, response = self.pressure - before, self.displacement - displaced
         curvature = dot(change, response)
         if curvature > 0:
@@ -219,10 +219,6 @@ class _Iterate:
         self.conjugate = not self.conjugate
         self.direction = None
         self.rate = 1.0 / float(self.symbol.max())
-
-    def _move(self, pressure: Array) -> None:
-        self.pressure = pressure
-        self.displacement = self.operator.apply(pressure)
 
     def solution(self, iterations: int, reached: Residuals) -> ContactSolution:
         return ContactSolution(

@@ -1,4 +1,4 @@
-"""The conditions of contact: whether they can be met, and how well they are."""
+"""Residuals of the contact conditions, and the checks of load and gap before a solve."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from tribo.core.errors import CaseError, NumericalError
 from tribo.core.grid import Grid
 
 LEAST_LOAD = 1e-100
-"""In N; of much less, products with pressures and lengths underflow."""
+"""In N; with much less, products with pressures and lengths underflow."""
 
 
 def check_bearable(load: float, area: float, limit: float) -> None:
@@ -80,7 +80,7 @@ def residuals(
     deformed -= approach
     touching = pressure > 0
     undeformed = gap[touching]
-    # Two flats that repeat do not displace.
+    # 1 for two periodic flats, which do not displace.
     scale = (
         max(float(displacement[touching].max()), float(undeformed.max() - undeformed.min())) or 1.0
     )
