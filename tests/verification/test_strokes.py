@@ -16,14 +16,6 @@ def test_the_groove_on_the_ring_is_several_times_as_deep_as_the_elastic_approach
     assert state.bodies["flat"].wear.max() > 3 * state.reference_depth
 
 
-@pytest.mark.slow
-def test_the_papers_hour_is_worn_to_its_end_and_18_percent_too_deep():
-    excess, told = strokes._hour(2e-3, 32)
-    assert strokes.PATH == 360.0
-    assert excess == pytest.approx(0.177, abs=0.008)
-    assert told == pytest.approx(excess, rel=0.1)
-
-
 def test_a_moved_contact_wears_what_archard_says_and_both_bodies_symmetrically():
     grid = strokes.STROKE_GRID
     model = on_flat(ball(), grid, half_space(1e-6))
