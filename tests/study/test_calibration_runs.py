@@ -227,7 +227,7 @@ def test_a_balance_that_is_too_coarse_is_told(resolution, is_too_coarse):
 def test_what_a_coarse_grid_cannot_tell_is_left_uncertain(fine_run, cells):
     """Estimates and predictions cover what made the data, though those are far more exact."""
     scars = [("ball", "scar_along"), ("ball", "scar_across"), ("disk", "depth")]
-    data = [measured(*each, computed(fine_run, *each), 0.003) for each in scars]
+    data = [measured(*each, computed(fine_run, *each), 1e-5) for each in scars]
     coarse = apply_settings(CASE, {"grid.cells": cells})
     found = calibrate(coarse, {"measured": data, "fit": fitting(*TRUE, start=2e-16)})
     for each in found.parameters.itertuples():

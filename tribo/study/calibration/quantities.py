@@ -15,8 +15,8 @@ from tribo.result.export import profile
 from tribo.result.read import Result
 from tribo.simulation.model import Model
 
-EDGES = 0.15
-"""Standard deviation of a computed diameter, in cells."""
+EDGES, DEPTHS = 0.15, 1e-3
+"""Standard deviations of a computed diameter, in cells, and of a depth, in parts of the largest."""
 
 
 class WornQuantity(NamedTuple):
@@ -96,7 +96,8 @@ def read(result: Result, asked: Reading) -> tuple[float, float]:
         axis = AXES[name]
         return diameter(depth, axis, spacing[axis]), EDGES * spacing[axis]
     if name == "depth":
-        return float(np.max(depth)) + between_cells(depth), 0.0
+        value = float(np.max(depth)) + between_cells(depth)
+        return value, DEPTHS * value
     if name == "crown":
         return _crown(result, body, save)
     if name == "section":
@@ -104,7 +105,8 @@ def read(result: Result, asked: Reading) -> tuple[float, float]:
     if name in PROFILES:
         axis = AXES[name]
         known = (result.grid.x, result.grid.y)[axis]
-        return float(np.interp(asked.position or 0.0, known, profile(depth, axis))), 0.0
+        value = float(np.interp(asked.position or 0.0, known, profile(depth, axis)))
+        return value, DEPTHS * float(np.max(depth))
     volume = float(result.table("saves")[f"bodies.{body.name}.wear_volume_m3"][save])
     return mass_from_volume(volume, body.density or 0.0) if name == "mass" else volume, 0.0
 
