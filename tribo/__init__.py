@@ -71,6 +71,8 @@ if TYPE_CHECKING:
     from tribo.simulation.run import Simulation as Simulation
     from tribo.stepping.explicit import Explicit as Explicit
     from tribo.stepping.implicit import Implicit as Implicit
+    from tribo.study.calibration.calibrate import calibrate as calibrate
+    from tribo.study.calibration.outcome import Calibration as Calibration
     from tribo.study.comparison import Comparison as Comparison
     from tribo.study.comparison import compare as compare
     from tribo.study.sweeping.sweep import Sweep as Sweep
@@ -138,6 +140,8 @@ _NAMES = {
     "tribo.simulation.run": "Simulation",
     "tribo.stepping.explicit": "Explicit",
     "tribo.stepping.implicit": "Implicit",
+    "tribo.study.calibration.calibrate": "calibrate",
+    "tribo.study.calibration.outcome": "Calibration",
     "tribo.study.comparison": "Comparison compare",
     "tribo.study.sweeping.sweep": "Sweep sweep",
     "tribo.surfaces.cylinder": "Cylinder",

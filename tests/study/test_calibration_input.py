@@ -7,7 +7,7 @@ import pytest
 
 from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError
-from tribo.study import calibrate
+from tribo.study.calibration.calibrate import calibrate
 from tribo.study.calibration.measured import Measured, read_measurements
 from tribo.study.calibration.quantities import QUANTITIES
 from tribo.templates import template

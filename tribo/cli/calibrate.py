@@ -49,7 +49,7 @@ def calibrate(
     """
     from tribo.config.load import read_toml
     from tribo.config.overrides import apply_settings
-    from tribo.study import calibrate
+    from tribo.study.calibration.calibrate import calibrate
 
     found = calibrate(
         apply_settings(read_toml(case), overrides), measured, level=level, on_run=_tell

@@ -108,6 +108,13 @@ def _quotes(content: bytes, error: ValueError) -> str:
     return f"; a value with a unit is quoted: {bare[1]}'{bare[2]}'" if bare else ""
 
 
+def case_tables(case: Case | Mapping[str, Any] | str | Path) -> Mapping[str, Any]:
+    """Return the tables of a case, given as itself, its tables or its TOML file."""
+    if isinstance(case, Case):
+        return case.model_dump(mode="json")
+    return case if isinstance(case, Mapping) else read_toml(case)
+
+
 def read_toml(path: str | Path) -> dict[str, Any]:
     """Read a TOML file.
 

@@ -11,7 +11,7 @@ from types import MappingProxyType, TracebackType
 from typing import Any, Self
 
 from tribo.case import Case
-from tribo.config.load import read_toml
+from tribo.config.load import case_tables
 from tribo.core.errors import CaseError
 from tribo.registry.registry import Registry
 from tribo.result.read import SAME_TIME, Result
@@ -249,14 +249,16 @@ def compare(
     >>> tribo.compare("examples/ball_on_disk.toml", contacts)  # doctest: +SKIP
     >>> tribo.compare(["winkler.h5", "dcfft.h5"])  # doctest: +SKIP
     """
-    if not vary and isinstance(what, Sequence) and not isinstance(what, str):
+    if isinstance(what, Sequence) and not isinstance(what, str):
+        if vary:
+            raise CaseError("a list of result files has nothing to vary; give one case")
         return _of_files([Path(path) for path in what], match)
     points = grid(vary) if isinstance(vary, Mapping) else [dict(point) for point in vary]
     if not 2 <= len(points) <= MOST:
         raise CaseError(
             f"{len(points)} variant{'' if len(points) == 1 else 's'}; give 2 to {MOST} to compare"
         )
-    cases = variants(_tables(what), points, registry)
+    cases = variants(case_tables(what), points, registry)
     for label, case in cases.items():
         _check_saved(label, case, times, registry)
     names = list(labels or short_labels(points))
@@ -274,12 +276,6 @@ def compare(
         matched(dict(zip(names, results, strict=True)), match),
         dict(zip(names, points, strict=True)),
     )
-
-
-def _tables(case: Any) -> Mapping[str, Any]:
-    if isinstance(case, Case):
-        return case.model_dump(mode="json")
-    return case if isinstance(case, Mapping) else read_toml(case)
 
 
 def _check_saved(label: str, case: Case, times: Sequence[float], registry: Registry | None) -> None:

@@ -10,7 +10,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribo.config.load import read_toml, validate_case
+from tribo.case import Case
+from tribo.config.load import case_tables, validate_case
 from tribo.config.overrides import apply_settings
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, NumericalError, TriboWarning
@@ -40,7 +41,7 @@ A prefix is a factor of 1000; a start may be off by a few on top of it.
 
 
 def calibrate(
-    case: Mapping[str, Any] | str | Path,
+    case: Case | Mapping[str, Any] | str | Path,
     measured: Measurements | Mapping[str, Any] | str | Path,
     *,
     level: float = 0.95,
@@ -55,8 +56,8 @@ def calibrate(
 
     Parameters
     ----------
-    case : Mapping, str or Path
-        The tables of a case, or its TOML file.
+    case : Case, Mapping, str or Path
+        A case, its tables, or its TOML file.
     measured : Measurements, Mapping, str or Path
         What was measured and what is to be fitted, or its TOML file.
     level : float, optional
@@ -81,7 +82,7 @@ def calibrate(
     """
     if not 0 < level < 1:
         raise CaseError(f"the level, {level:g}, must lie between 0 and 1, as 0.95 does")
-    tables = read_toml(case) if isinstance(case, str | Path) else case
+    tables = case_tables(case)
     asked = read_measurements(measured)
     base = validate_case(tables, registry=registry)
     model = Simulation(base, registry).model

@@ -89,13 +89,13 @@ class Calibration:
         return float(chdtrc(self.degrees_of_freedom, self.chi_square))
 
     def as_json(self) -> dict[str, Any]:
-        """Return it as plain data in SI units; an upper end that is open is None, a lower one 0."""
+        """Return it as plain data in SI units; what is not given is NaN."""
         return {
             "level": self.level,
             "runs": self.runs,
-            "parameters": _records(self.parameters),
-            "data": _records(self.data),
-            "predictions": _records(self.predictions),
+            "parameters": self.parameters.to_dict("records"),
+            "data": self.data.to_dict("records"),
+            "predictions": self.predictions.to_dict("records"),
             "chi_square": self.chi_square,
             "degrees_of_freedom": self.degrees_of_freedom,
             "p_value": self.p_value,
@@ -103,17 +103,6 @@ class Calibration:
             "singular_values": self.singular_values.tolist(),
             "notes": list(self.notes),
         }
-
-
-def _records(table: pd.DataFrame) -> list[dict[str, Any]]:
-    """Return a dictionary a row, with None for what JSON cannot say."""
-    return [
-        {
-            key: None if isinstance(value, float) and not math.isfinite(value) else value
-            for key, value in row.items()
-        }
-        for row in table.to_dict("records")
-    ]
 
 
 def outcome(
