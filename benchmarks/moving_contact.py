@@ -73,7 +73,9 @@ def compared(
         "groove_average_um": 1e6 * deep,
         "groove_resolved_um": 1e6 * float(np.max(middle)),
         "too_deep_percent": 100 * (deep / float(np.max(middle)) - 1),
-        "estimate_percent": 100 * groove_excess(length, half_width, deep, state.reference_depth),
+        # Each body loses k F s.
+        "estimate_percent": 100
+        * groove_excess(length, half_width, deep, state.reference_depth, ball_k / flat_k),
         "groove_over_approach": deep / state.reference_depth,
         **_contact("average", state.contact, state.bodies["ball"].wear, model.gap, grid),
         **_contact("resolved", moved.contact, moved.ball, model.gap, grid),
@@ -138,6 +140,24 @@ def grooves(cells: int, passes: int) -> Iterator[Row]:
                 }
 
 
+def unworn_ball(cells: int, passes: int) -> Iterator[Row]:
+    """Yield strokes and depths of groove of a ball that does not wear, under the paper's load.
+
+    `cells` is that of Hertz's half-width.
+    """
+    dx = HERTZ / cells
+    for widths in WIDTHS:
+        stroke = widths * cells
+        for over in (1, 2, 5):
+            groove = over * APPROACH
+            half_chord = np.sqrt(2 * RADIUS * groove)
+            many = 2 * int(np.ceil(1.2 * max(half_chord, HERTZ) / dx))
+            grid = Grid((many * dx, many * dx), (many, many))
+            path = 4 / 3 * half_chord * groove * stroke * dx / (K * LOAD)
+            row = compared(grid, stroke, 0.0, K, LOAD, path, passes)
+            yield {"deep": over, "asked_half_widths": widths, **row}
+
+
 def short_strokes(cells: int, passes: int) -> Iterator[Row]:
     """Yield strokes shorter than 4 half-widths, worn little; `cells` is that of a half-width."""
     dx = HERTZ / cells
@@ -160,6 +180,7 @@ def _measure(options: argparse.Namespace) -> Tables:
     return {
         "paper": list(papers(options.cells, 4 * options.passes)),
         "grooves": list(grooves(options.half_width, options.passes)),
+        "ball that does not wear": list(unworn_ball(options.half_width, options.passes)),
         "short strokes, worn little": list(short_strokes(options.half_width, options.passes)),
     }
 

@@ -32,21 +32,19 @@ def hours() -> Markdown:
 
 
 def grooves() -> Markdown:
-    """Return by how much the average is too deep, by stroke, groove and coefficients."""
-    rows = _rows("grooves")
-    kinds = sorted({(row["flat_over_ball"], row["deep"]) for row in rows})
-    heads = [
-        f"{'equal k' if ratio == 1 else f'disk {ratio:g} times k'}, groove {deep} δ"
-        for ratio, deep in kinds
-    ]
-    lines = [["stroke, half-widths", *heads]]
-    for stroke in sorted({row["asked_half_widths"] for row in rows}):
-        found = {
-            (row["flat_over_ball"], row["deep"]): row["too_deep_percent"]
-            for row in rows
-            if row["asked_half_widths"] == stroke
-        }
-        lines.append([str(stroke), *(f"+{found[kind]:.1f} %" for kind in kinds)])
+    """Return by how much the average is too deep, by wear coefficients, stroke and groove."""
+    lines = [["k of ball : disk", "stroke, mm", "shallow groove", "deeper", "deepest"]]
+    for ratio, name in ((1.0, "1 : 1"), (10.0, "1 : 10"), (None, "0 : 1")):
+        rows = _rows("grooves" if ratio else "ball that does not wear")
+        rows = [row for row in rows if row.get("flat_over_ball") == ratio]
+        for stroke in sorted({row["stroke_mm"] for row in rows}):
+            cells = [
+                f"{row['too_deep_percent']:+.1f} % ({row['half_widths']:.2g} b, "
+                f"{row['groove_over_approach']:.2g} δ)"
+                for row in rows
+                if row["stroke_mm"] == stroke
+            ]
+            lines.append([name, f"{stroke:.3g}", *cells])
     return _table(lines)
 
 
@@ -55,7 +53,7 @@ def short_strokes() -> Markdown:
     rows = _rows("short strokes, worn little")
     return _table(
         [
-            ["stroke, half-widths", *(f"{row['asked_half_widths']:g}" for row in rows)],
+            ["stroke, half-widths", *(f"{row['half_widths']:.2g}" for row in rows)],
             ["too deep by", *(f"{row['too_deep_percent']:+.0f} %" for row in rows)],
         ]
     )

@@ -3,9 +3,12 @@
 import numpy as np
 import pytest
 from made_results import half_width, made
+from paper_models import archard, case, flat, motion, named, steel
 
+from tribo import Grid, Simulation
 from tribo.closed_forms.hertz import first_yield_pressure
 from tribo.lab.report import lab_report, yield_ratio, yield_words
+from tribo.surfaces.cylinder import Cylinder
 
 H = 4e9
 
@@ -54,6 +57,25 @@ def test_yield_is_said_in_three_stages():
     assert yield_words(0.5 * H, H).endswith("(1.6 H/2.8)")
     assert yield_words(0.8 * H, H).startswith("the softer body yields beneath the surface at first")
     assert "yields from the start" in yield_words(H, H)
+
+
+@pytest.mark.parametrize("across", [20, 40])
+def test_the_ends_of_a_line_contact_do_not_count_towards_its_yield(across):
+    roller = case(
+        grid=Grid((0.4e-3, 2e-3), (40, across)),
+        ends_at_window=True,
+        load=200,
+        bodies=[
+            named("roller", Cylinder(radius="5 mm"), steel(hardness=H), archard()),
+            named("disk", flat(), steel(hardness=H), archard()),
+        ],
+        kinematics=motion(stroke="4 mm", duration=0.1),
+    )
+    first = lab_report(Simulation(roller).run()).first_contact
+    # The half-space bears more near the ends than Hertz's even load per length.
+    assert first.yield_ratio == pytest.approx(0.31, abs=0.01)
+    assert first.max_pressure > 1.4 * first.hertz_peak_pressure
+    assert "MPa at the ends (grows as the grid is refined)" in first.computed
 
 
 def test_a_line_contact_yields_at_its_own_factor():

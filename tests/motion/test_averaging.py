@@ -6,12 +6,10 @@ from pathlib import Path
 import pytest
 
 from tribo.core.errors import CaseError
-from tribo.core.grid import Grid
 from tribo.motion.averaging import groove_excess
 from tribo.motion.reciprocating import Reciprocating
 from tribo.motion.unidirectional import Unidirectional
 
-GRID = Grid((1e-3, 1e-3), (10, 10))
 FIGURES = Path(__file__).parents[2] / "docs" / "_data" / "moving_contact.json"
 TABLES = json.loads(FIGURES.read_text(encoding="utf-8"))["tables"]
 
@@ -22,7 +20,9 @@ def stroke(value="2 mm", **more):
 
 @pytest.mark.parametrize("row", TABLES["paper"], ids=lambda row: row["case"])
 def test_the_papers_hours_are_as_far_off_as_stated(row):
-    assert row["estimate_percent"] == pytest.approx(row["too_deep_percent"], rel=0.1)
+    # Below 4 half-widths the formula is an estimate.
+    rel = 0.1 if row["half_widths"] > 3.9 else 0.2
+    assert row["estimate_percent"] == pytest.approx(row["too_deep_percent"], rel=rel)
 
 
 @pytest.mark.parametrize(
@@ -55,26 +55,39 @@ def test_a_shallow_groove_is_average_down_to_strokes_of_two_half_widths_only():
 
 
 def test_the_papers_end_is_said_with_a_number_and_a_remedy():
-    said = stroke().track_limitation(GRID, 0.5e-3, 8.05e-6, 4.4e-6, 1.0)
-    assert "4 half-widths" in said
-    assert "18 % too deep" in said
-    assert "about 3 % with a stroke of 9.7 half-widths, 4.9 mm" in said
+    assert stroke(swept="disk").limitation(0.5e-3, 8.05e-6, 4.4e-6, 1.0) == (
+        "the groove of disk is about 18 % too deep at mid-stroke, because tribo averages over the "
+        "stroke (2 mm, 4 half-widths of the 1 mm contact); over the same sliding distance about "
+        "3 % with a stroke of 4.9 mm (frequency 10.3 Hz)"
+    )
 
 
-def test_a_stroke_of_a_fraction_of_the_contact_is_several_times_too_deep():
-    said = stroke("1 nm", allow_short_stroke=True).track_limitation(GRID, 0.15e-3, 0.0, 0.0, 1.0)
-    assert "several times too deep" in said
+@pytest.mark.parametrize(
+    ("length", "much"),
+    [
+        (
+            "0.15 mm",
+            "is about 64 % too deep at mid-stroke, because tribo averages over the stroke "
+            "(0.15 mm, 1 half-width of",
+        ),
+        ("0.1 mm", "is more than twice too deep"),
+        ("1 nm", "is several times too deep"),
+    ],
+)
+def test_a_stroke_of_a_fraction_of_the_contact_is_said_in_words(length, much):
+    short = stroke(length, allow_short_stroke=True)
+    assert much in short.limitation(0.15e-3, 1e-12, 1e-6, 1.0)
+    assert short.limitation(0.15e-3, 0.0, 1e-6, 1.0) is None
 
 
 def test_a_groove_far_shallower_than_the_approach_is_not_limited():
-    assert stroke().track_limitation(GRID, 0.5e-3, 0.3e-6, 4.4e-6, 1.0) is None
-    assert "% too deep" in stroke().limitation(GRID, 0.5e-3)
+    assert stroke().limitation(0.5e-3, 0.3e-6, 4.4e-6, 1.0) is None
 
 
 def test_a_stroke_under_one_half_width_is_refused_with_a_remedy():
     with pytest.raises(CaseError, match=r"^kinematics\.stroke: 0\.1 mm is shorter") as refused:
         stroke("0.1 mm").check_contact(0.15e-3)
-    assert "1.5 mm" in str(refused.value)
+    assert "at least 0.15 mm to run at all" in str(refused.value)
     assert "kinematics.allow_short_stroke = true" in str(refused.value)
     stroke("0.16 mm").check_contact(0.15e-3)
     stroke("0.1 mm", allow_short_stroke=True).check_contact(0.15e-3)

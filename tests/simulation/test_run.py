@@ -18,8 +18,10 @@ from tribo.contact.periodic import Periodic
 from tribo.core.errors import OutputError, TriboWarning
 from tribo.observers import recorder
 from tribo.observers.observer import Observer
+from tribo.simulation.predict import predict
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
+from tribo.surfaces.cylinder import Cylinder
 
 
 class Stopper(Observer):
@@ -221,7 +223,25 @@ def test_few_cells_are_warned_of_once_and_a_short_stroke_again_at_the_end():
     assert "cells wide" in coarse
     assert begins.startswith("averaging: at ")
     assert ends.startswith("averaging: at 200 s")
-    assert result.notices == tuple(texts)
+    # The end says what the beginning said, and more.
+    assert result.notices == (coarse, ends)
+
+
+def test_the_cells_of_a_line_contact_are_counted_by_hertz_as_check_counts_them():
+    # The solved contact is 10 cells wide, for it is longer at the ends; Hertz's 150 µm are 7.5.
+    model = small(
+        grid=Grid((0.4e-3, 2e-3), (20, 20)),
+        ends_at_window=True,
+        load=200,
+        bodies=[
+            named("roller", Cylinder(radius="5 mm"), steel(), archard(k=1e-17)),
+            named("disk", flat(), steel()),
+        ],
+        kinematics=motion(stroke="4 mm", duration=1),
+    )
+    (notice,) = states(model)[0].notices
+    assert notice.startswith("resolution: the first contact is only 7.5 cells wide")
+    assert notice.removeprefix("resolution: ") in predict(model).problems
 
 
 def test_a_contact_that_fills_its_period_has_no_stroke_that_is_too_short():

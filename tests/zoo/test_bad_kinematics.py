@@ -116,7 +116,7 @@ class LosesTheTime(Unidirectional):
 
 @bad("gave a int as its limitation")
 class LimitedByANumber(Unidirectional):
-    def limitation(self, grid, half_width_x):
+    def limitation(self, *track):
         return 7
 
 

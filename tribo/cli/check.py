@@ -15,6 +15,7 @@ from rich.text import Text
 from tribo.cli.console import Console
 from tribo.cli.options import CASE, JSON, SET, echo_json
 from tribo.core.errors import CaseError, NumericalError
+from tribo.lab.first_contact import computed_pressure
 from tribo.lab.report import yield_words
 from tribo.simulation.model import Model
 from tribo.simulation.predict import Prediction
@@ -75,19 +76,20 @@ def _lines(model: Model, prediction: Prediction) -> list[tuple[str, str]]:
 
 
 def _first(model: Model, prediction: Prediction) -> list[tuple[str, str]]:
-    hertz, peak = prediction.hertz, prediction.first.max_pressure
+    hertz, first = prediction.hertz, prediction.first
     if hertz is None or prediction.cells_across is None:
         return [("first contact", "no Hertz solution for these surfaces")]
     a, b = hertz.half_width_x, hertz.half_width_y
     widths = f"{1e6 * a:.4g} × {1e6 * b:.4g} µm along × across"
     if hertz.is_line:
         widths = f"{1e6 * min(a, b):.4g} µm of a line contact"
-    p0 = f"{1e-6 * hertz.peak_pressure:.1f} MPa, computed {1e-6 * peak:.1f} MPa"
+    pressure, computed = computed_pressure(model.system, first.max_pressure, first.centre_pressure)
+    p0 = f"{1e-6 * hertz.peak_pressure:.1f} MPa, computed {computed}"
     lines = [("Hertz half-widths", widths), ("Hertz peak pressure p0", p0)]
     hardness = model.system.cap
     if hardness is not None:
         lines.append(("p0/H", f"{hertz.peak_pressure / hardness:.3f}"))
-        lines.append(("yield", yield_words(peak, hardness, line=hertz.is_line)))
+        lines.append(("yield", yield_words(pressure, hardness, line=hertz.is_line)))
     across = [f"{n:.0f}" for n in prediction.cells_across if math.isfinite(n)]
     return [*lines, ("cells across the contact", " × ".join(across))]
 

@@ -136,16 +136,15 @@ def _saves_table(result: Result, left_out: Sequence[str]) -> Table:
 
 def _first_contact(first: FirstContact) -> str:
     """Return the line that sets the first contact against Hertz and the onset of yield."""
-    computed = 1e-6 * first.max_pressure
     if first.hertz_peak_pressure is None:
         return (
-            f"First contact: p max {computed:.1f} MPa; no closed form to compare: the surfaces "
+            f"First contact: {first.computed}; no closed form to compare: the surfaces "
             "state no curvature, or the contact is flat."
         )
-    p0 = 1e-6 * first.hertz_peak_pressure
-    line = f"First contact: p max {computed:.1f} MPa, Hertz {p0:.1f} MPa"
+    p0 = first.hertz_peak_pressure
+    line = f"First contact: {first.computed}, Hertz {1e-6 * p0:.1f} MPa"
     if first.comparable:
-        line += f" ({100 * (computed / p0 - 1):+.2f} %)"
+        line += f" ({100 * (first.max_pressure / p0 - 1):+.2f} %)"
     if first.yields is not None:
         line += f"; {first.yields}"
     return line + "."

@@ -68,7 +68,9 @@ def harmless(text: str) -> str:
 
 def say(what: str, colour: str, text: str) -> None:
     """Print a message on standard error, as ``"error: there is no such file"``."""
-    click.echo(click.style(f"{what}: ", fg=colour, bold=True) + harmless(text), err=True)
+    label = click.style(f"{what}: ", fg=colour, bold=True)
+    # To sys.stderr as it is now: a progress line that lives there moves out of the way.
+    click.echo(label + harmless(text), file=sys.stderr)
 
 
 def over(stream: TextIO, kind: type[Output | Remarks]) -> TextIO:

@@ -8,6 +8,10 @@ from math import inf
 from tribo.closed_forms import hertz
 from tribo.core.contact import ContactSystem
 
+AT_THE_CAP = 1 - 1e-9
+END_PEAK = 1.05
+"""Peak pressure over that at mid-length from which on the ends of a line are spoken of."""
+
 
 @dataclass(frozen=True)
 class HertzContact:
@@ -62,3 +66,29 @@ def hertz_contact(system: ContactSystem) -> HertzContact | None:
     if system.cap is not None:
         ratio = p0 / hertz.first_yield_pressure(system.cap, line=is_line)
     return HertzContact(a, b, p0, approach, ratio)
+
+
+def computed_pressure(
+    system: ContactSystem, max_pressure: float, centre_pressure: float
+) -> tuple[float, str]:
+    """Return the computed pressure that Hertz's and the onset of yield are for, and it in words.
+
+    The peak of a point contact, and the pressure of a line contact at mid-length: where a
+    cylinder ends on a half-space the pressure is singular.
+
+    Parameters
+    ----------
+    system : ContactSystem
+        The bodies in contact.
+    max_pressure, centre_pressure : float
+        As computed, in Pa.
+    """
+    hertz = hertz_contact(system)
+    if hertz is None or not hertz.is_line:
+        return max_pressure, f"p max {1e-6 * max_pressure:.1f} MPa"
+    words = f"p {1e-6 * centre_pressure:.1f} MPa at mid-length"
+    if max_pressure > END_PEAK * centre_pressure:
+        capped = system.cap is not None and max_pressure >= AT_THE_CAP * system.cap
+        why = "the hardness" if capped else "grows as the grid is refined"
+        words += f" and {1e-6 * max_pressure:.1f} MPa at the ends ({why})"
+    return centre_pressure, words

@@ -13,7 +13,7 @@ from tribo.lab.conversion import (
     mass_from_volume,
     specific_wear_rate,
 )
-from tribo.lab.first_contact import hertz_contact
+from tribo.lab.first_contact import AT_THE_CAP, computed_pressure, hertz_contact
 from tribo.lab.inferred import InferredVolume, inferred_volumes, track_section
 from tribo.lab.scar import scar
 from tribo.registry.contributions import LabRow, from_plugins_of
@@ -21,7 +21,6 @@ from tribo.result.read import Result
 
 HALF_SPACE = "dcfft"
 """The contact type that Hertz's theory is the smooth limit of."""
-_AT_THE_CAP = 1 - 1e-9
 
 
 @dataclass(frozen=True)
@@ -68,10 +67,13 @@ class FirstContact:
     hertz_peak_pressure : float or None
         In Pa; None where the surfaces give no Hertz contact.
     yield_ratio : float or None
-        `max_pressure` over the pressure at which a Hertz contact first yields
-        beneath the surface; None without a hardness or a Hertz contact.
+        `max_pressure`, or the pressure at mid-length of a line contact, over that at which a
+        Hertz contact first yields beneath the surface; None without a hardness or a Hertz
+        contact.
     yields : str or None
         The same in words; None where nothing can be said.
+    computed : str
+        The computed pressures in words.
     comparable : bool
         Whether the two pressures ought to agree: half-spaces, in contact
         within the window.
@@ -81,6 +83,7 @@ class FirstContact:
     hertz_peak_pressure: float | None
     yield_ratio: float | None
     yields: str | None
+    computed: str
     comparable: bool
 
 
@@ -136,35 +139,35 @@ def lab_report(result: Result) -> LabReport:
     return LabReport(
         bodies={name: _body(result, name, saves[-1]) for name in result.body_names},
         inferred=tuple(inferred_volumes(result)),
-        first_contact=_first_contact(result, saves[0]["max_pressure_Pa"]),
+        first_contact=_first_contact(result, saves[0]),
         rows=tuple(row for rows in from_plugins_of(result, "tribo_lab_rows") for row in rows),
     )
 
 
-def yield_ratio(max_pressure: float, hardness: float, *, line: bool = False) -> float:
+def yield_ratio(pressure: float, hardness: float, *, line: bool = False) -> float:
     """Return a peak pressure over that at which a Hertz contact first yields.
 
     Parameters
     ----------
-    max_pressure : float
-        In Pa.
+    pressure : float
+        In Pa; see `tribo.lab.first_contact.computed_pressure`.
     hardness : float
         Of the softer body, in Pa; see `tribo.closed_forms.hertz.first_yield_pressure`.
     line : bool, optional
         Whether it is a line contact.
     """
-    return max_pressure / first_yield_pressure(hardness, line=line)
+    return pressure / first_yield_pressure(hardness, line=line)
 
 
-def yield_words(max_pressure: float, hardness: float, *, line: bool = False) -> str:
+def yield_words(pressure: float, hardness: float, *, line: bool = False) -> str:
     """Say whether the softer body yields under a peak pressure; parameters as `yield_ratio`."""
-    if max_pressure >= _AT_THE_CAP * hardness:
-        return "the softer body yields from the start: p max is its hardness"
-    ratio, onset = yield_ratio(max_pressure, hardness, line=line), "1.79" if line else "1.6"
+    if pressure >= AT_THE_CAP * hardness:
+        return "the softer body yields from the start: the pressure is its hardness"
+    ratio, onset = yield_ratio(pressure, hardness, line=line), "1.79" if line else "1.6"
     percent = f"{100 * ratio:.0f} %"
     if ratio > 1:
         return (
-            f"the softer body yields beneath the surface at first (p max is {percent} of "
+            f"the softer body yields beneath the surface at first (at {percent} of "
             f"{onset} H/2.8), which this model leaves out"
         )
     return (
@@ -192,18 +195,20 @@ def _body(result: Result, name: str, save: Mapping[str, Any]) -> BodyReport:
     )
 
 
-def _first_contact(result: Result, max_pressure: float) -> FirstContact:
-    system = result.system
+def _first_contact(result: Result, save: Mapping[str, Any]) -> FirstContact:
+    system, max_pressure = result.system, save["max_pressure_Pa"]
+    pressure, computed = computed_pressure(system, max_pressure, save["centre_pressure_Pa"])
     hertz = hertz_contact(system)
     ratio = words = None
     if system.cap is not None and hertz is not None:
-        ratio = yield_ratio(max_pressure, system.cap, line=hertz.is_line)
-        words = yield_words(max_pressure, system.cap, line=hertz.is_line)
+        ratio = yield_ratio(pressure, system.cap, line=hertz.is_line)
+        words = yield_words(pressure, system.cap, line=hertz.is_line)
     return FirstContact(
         max_pressure=max_pressure,
         hertz_peak_pressure=None if hertz is None else hertz.peak_pressure,
         yield_ratio=ratio,
         yields=words,
+        computed=computed,
         comparable=result.case.get("contact", {}).get("type") == HALF_SPACE
         and not reaches_border(result.pressure(0)),
     )

@@ -65,32 +65,13 @@ class Kinematics(Component):
             If the motion names a body that the case does not have.
         """
 
-    def limitation(self, grid: Grid, half_width_x: float) -> str | None:
-        """Return why the motion's averaging no longer holds, or None while it does.
-
-        Parameters
-        ----------
-        grid : Grid
-            The window; its spacing is the accuracy of `half_width_x`.
-        half_width_x : float
-            Half the extent of the contact along x, in m.
-        """
-        return None
-
-    def track_limitation(
-        self,
-        grid: Grid,
-        half_width_x: float,
-        depth: float,
-        approach: float,
-        volume_ratio: float,
+    def limitation(
+        self, half_width_x: float, depth: float, approach: float, volume_ratio: float
     ) -> str | None:
-        """Return why the averaging does not hold for a track worn so deep; `limitation` if left.
+        """Return why the motion's averaging does not hold, or None while it does.
 
         Parameters
         ----------
-        grid : Grid
-            The window.
         half_width_x : float
             Half the extent of the contact along x, in m.
         depth : float
@@ -100,7 +81,7 @@ class Kinematics(Component):
         volume_ratio : float
             Volume lost by the bodies that stay over that lost by the swept ones.
         """
-        return self.limitation(grid, half_width_x)
+        return None
 
     def check_contact(self, half_width_x: float) -> None:
         """Raise `CaseError` if a first contact of this half-width makes the averaging absurd."""

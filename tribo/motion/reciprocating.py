@@ -12,7 +12,7 @@ from pydantic import ConfigDict, model_validator
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.core.units import Quantity
-from tribo.motion.averaging import excess_words
+from tribo.motion.averaging import GOOD, NOTICED, good_stroke, groove_excess, too_deep
 from tribo.motion.exposure import Exposure
 from tribo.motion.kinematics import Kinematics
 from tribo.motion.swept import one_swept_body
@@ -104,31 +104,34 @@ class Reciprocating(Kinematics):
         """Return a track as long as the stroke for the swept body."""
         return one_swept_body(grid, bodies, self.swept, self.stroke)
 
-    def limitation(self, grid: Grid, half_width_x: float) -> str | None:
-        """Return what the stroke average costs a groove far deeper than the elastic approach."""
-        return excess_words(self.stroke, half_width_x, math.inf, 0.0)
-
-    def track_limitation(
-        self,
-        grid: Grid,
-        half_width_x: float,
-        depth: float,
-        approach: float,
-        volume_ratio: float,
+    def limitation(
+        self, half_width_x: float, depth: float, approach: float, volume_ratio: float
     ) -> str | None:
         """Return what the stroke average costs, once that is more than 5 % of the depth."""
-        return excess_words(self.stroke, half_width_x, depth, approach, volume_ratio)
+        stroke, widths = self.stroke, self.stroke / half_width_x
+        excess = groove_excess(stroke, half_width_x, depth, approach, volume_ratio)
+        if depth <= 0 or excess < NOTICED:
+            return None
+        many = f"{widths:.2g} half-width" + ("" if f"{widths:.2g}" == "1" else "s")
+        longer = good_stroke(stroke, half_width_x, depth, approach, volume_ratio)
+        return (
+            f"the groove{f' of {self.swept}' if self.swept else ''} is {too_deep(excess)} at "
+            f"mid-stroke, because tribo averages over the stroke ({1e3 * stroke:.3g} mm, {many} of "
+            f"the {2e3 * half_width_x:.3g} mm contact); over the same sliding distance about "
+            f"{100 * GOOD:.0f} % with a stroke of {1e3 * longer:.2g} mm "
+            f"(frequency {self.frequency * stroke / longer:.3g} Hz)"
+        )
 
     def check_contact(self, half_width_x: float) -> None:
         """Refuse a stroke that is shorter than the half-width, unless the case allows it."""
-        stroke = self.stroke
-        if stroke >= half_width_x or self.allow_short_stroke:
+        if self.stroke >= half_width_x or self.allow_short_stroke:
             return
+        excess = groove_excess(self.stroke, half_width_x, 0.0, 0.0)
         raise CaseError(
-            f"{1e3 * stroke:.3g} mm is shorter than the half-width of the first contact, "
-            f"{1e3 * half_width_x:.3g} mm: the average over the stroke would make the groove "
-            "several times too deep; give a stroke of 10 half-widths or more "
-            f"({1e4 * half_width_x:.3g} mm), or set kinematics.allow_short_stroke = true to "
-            "go on without",
+            f"{1e3 * self.stroke:.3g} mm is shorter than the half-width of the first contact, "
+            f"{1e3 * half_width_x:.3g} mm: averaged over the stroke, even a shallow groove would "
+            f"be {too_deep(excess)}; give a stroke of at least {1e3 * half_width_x:.3g} mm to run "
+            "at all (tribo check then says how much too deep), or set "
+            "kinematics.allow_short_stroke = true",
             "kinematics.stroke",
         )

@@ -85,7 +85,9 @@ class Unidirectional(Kinematics):
         """Return the closed track for the swept body."""
         return one_swept_body(grid, bodies, self.swept, self.lap)
 
-    def limitation(self, grid: Grid, half_width_x: float) -> str | None:
+    def limitation(
+        self, half_width_x: float, depth: float, approach: float, volume_ratio: float
+    ) -> str | None:
         """Return a warning once the contact is longer than the track."""
         if 2 * half_width_x <= self.lap:
             return None

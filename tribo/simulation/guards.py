@@ -328,11 +328,11 @@ class GuardedMotion(Guard[Kinematics]):
         self.ask(self.component.check_contact, half_width_x)
 
     def limitation(
-        self, grid: Grid, half_width_x: float, depth: float, approach: float, volume_ratio: float
+        self, half_width_x: float, depth: float, approach: float, volume_ratio: float
     ) -> str | None:
-        """Return why its averaging no longer holds, if so; see `Kinematics.track_limitation`."""
-        asked = self.component.track_limitation
-        answer = self.ask(asked, grid, half_width_x, depth, approach, volume_ratio)
+        """Return why its averaging no longer holds, if so; see `Kinematics.limitation`."""
+        asked = self.component.limitation
+        answer = self.ask(asked, half_width_x, depth, approach, volume_ratio)
         if not isinstance(answer, str | None):
             raise self.wrong(answer, "as its limitation")
         return answer

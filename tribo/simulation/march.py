@@ -10,15 +10,13 @@ import numpy as np
 from tribo.core.errors import NumericalError, PluginError
 from tribo.core.measures import half_widths, reaches_border
 from tribo.core.state import State
-from tribo.simulation.averaging import check_stroke, limitation
 from tribo.simulation.doubt import doubting
 from tribo.simulation.model import Model
-from tribo.simulation.validity import short_of_a_lap
+from tribo.simulation.validity import check_stroke, few_cells, limitation, short_of_a_lap
 from tribo.stepping.invariants import chattering_words, chatters, hold
 from tribo.stepping.notices import AVERAGING, CHATTERING, is_told, sentence, told
 from tribo.stepping.step import first_contact, start_sliding
 
-FEW_CELLS = 8
 DEPTH_ACCURACY = 1e-6
 MOST_CUTS = 40
 
@@ -148,30 +146,23 @@ def _check_window(model: Model, state: State) -> None:
 
 def _noticed(model: Model, state: State) -> State:
     """Add to the state the warnings that are due and were not given before."""
-    width, breadth = half_widths(state.contact, model.grid)
     if not is_told(state, AVERAGING):
         words = limitation(model, state)
         if words is not None:
             state = told(state, AVERAGING, words)
-    dx, dy = model.grid.spacing
-    cells = min(2 * width / dx, 2 * breadth / dy)
-    lap = short_of_a_lap(model) if state.steps == 0 else None
-    if lap is not None:
-        state = replace(state, notices=(*state.notices, f"lap: {lap}"))
-    if state.steps == 0 and cells < FEW_CELLS:
-        text = (
-            f"resolution: the first contact is only {cells:.0f} cells wide; its pressure is "
-            f"inaccurate until it has grown: aim for {FEW_CELLS} or more (grid.cells)"
-        )
-        state = replace(state, notices=(*state.notices, text))
+    if state.steps == 0:
+        said = {"lap": short_of_a_lap(model), "resolution": few_cells(model, state.contact)}
+        texts = [f"{kind}: {words}" for kind, words in said.items() if words is not None]
+        state = replace(state, notices=(*state.notices, *texts))
     if chatters(state):
         state = told(state, CHATTERING, chattering_words(state))
     return state
 
 
 def _concluded(model: Model, state: State) -> State:
-    """Add what the averaging has come to by the end, unless that was just said."""
+    """Say what the averaging has come to by the end, in place of what it began with."""
     words = limitation(model, state)
-    if words is None or any(notice.endswith(words) for notice in state.notices):
+    if words is None:
         return state
-    return replace(state, notices=(*state.notices, sentence(state, AVERAGING, words)))
+    others = [notice for notice in state.notices if not notice.startswith(f"{AVERAGING}:")]
+    return replace(state, notices=(*others, sentence(state, AVERAGING, words)))

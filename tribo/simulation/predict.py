@@ -14,14 +14,19 @@ from tribo.core.state import State
 from tribo.lab.first_contact import HertzContact, hertz_contact
 from tribo.result.provenance import stated_facts
 from tribo.simulation.assembly import assemble, varied
-from tribo.simulation.averaging import check_stroke, limitation
 from tribo.simulation.doubt import doubting, too_deep
 from tribo.simulation.guard import calling
-from tribo.simulation.march import FEW_CELLS, begin, march
+from tribo.simulation.march import begin, march
 from tribo.simulation.measure import measure
 from tribo.simulation.memory import memory_needed
 from tribo.simulation.model import Model
-from tribo.simulation.validity import short_of_a_lap, too_wide
+from tribo.simulation.validity import (
+    check_stroke,
+    few_cells,
+    limitation,
+    short_of_a_lap,
+    too_wide,
+)
 from tribo.stepping.implicit import Implicit
 from tribo.stepping.step import first_contact, start_sliding
 
@@ -118,7 +123,7 @@ def predict(model: Model) -> Prediction:
     ]
     problems = (
         *unusual(model.case),
-        _few_cells(across or (2 * first.half_width_x / dx, 2 * first.half_width_y / dy)),
+        few_cells(model, state.contact),
         *(text for _, text in stopping),
         warned,
         *(too_wide(model, first) or too_wide(model, last or first)),
@@ -163,15 +168,6 @@ def _file_size(model: Model) -> float:
 
 def _failed(coarse: CoarseRun) -> str | None:
     return f"a trial run on a coarse grid failed: {coarse.error}" if coarse.error else None
-
-
-def _few_cells(across: tuple[float, float]) -> str | None:
-    if min(across) >= FEW_CELLS:
-        return None
-    return (
-        f"the first contact is only {min(across):.1f} cells wide, so its pressure is inaccurate "
-        f"until it has grown: raise grid.cells for {FEW_CELLS} or more"
-    )
 
 
 def _unsettled(model: Model, state: State) -> str | None:

@@ -305,9 +305,9 @@ def _with_notice(snapshot: Snapshot, text: str) -> Snapshot:
 
 
 def _announce(before: Sequence[str], after: Sequence[str]) -> None:
-    for notice in after[len(before) :]:
+    for notice in after:
         # That the case's own stop was reached is no warning; the result tells it.
-        if not notice.startswith("stop:"):
+        if notice not in before and not notice.startswith("stop:"):
             warnings.warn(notice, TriboWarning, stacklevel=4)
 
 

@@ -4,12 +4,35 @@ from __future__ import annotations
 
 import numpy as np
 
-from tribo.core.measures import Measures
+from tribo.core.contact import ContactSolution
+from tribo.core.errors import located
+from tribo.core.measures import Measures, half_widths
+from tribo.core.state import State
+from tribo.lab.first_contact import hertz_contact
 from tribo.simulation.model import Model
 
 STEEP = 0.3
 """Half-width of a contact over the radius of a body, from which on it is spoken of."""
 WHOLE = 1 - 1e-9
+FEW_CELLS = 8
+
+
+def few_cells(model: Model, first: ContactSolution) -> str | None:
+    """Say so if the first contact is only a few cells wide, by Hertz where that is known."""
+    dx, dy = model.grid.spacing
+    hertz = hertz_contact(model.system)
+    width, breadth = (
+        half_widths(first, model.grid)
+        if hertz is None
+        else (hertz.half_width_x, hertz.half_width_y)
+    )
+    cells = min(2 * width / dx, 2 * breadth / dy)
+    if cells >= FEW_CELLS:
+        return None
+    return (
+        f"the first contact is only {cells:.1f} cells wide, so its pressure is inaccurate "
+        f"until it has grown: raise grid.cells for {FEW_CELLS} or more"
+    )
 
 
 def too_wide(model: Model, measures: Measures) -> list[str]:
@@ -45,3 +68,44 @@ def short_of_a_lap(model: Model) -> str | None:
                 "average to hold many times"
             )
     return None
+
+
+def check_stroke(model: Model, state: State) -> None:
+    """Raise `CaseError` if averaging makes no sense for the first contact, in `state`."""
+    if _changing(model):
+        with located("kinematics"):
+            model.motion.check_contact(half_widths(state.contact, model.grid)[0])
+
+
+def limitation(model: Model, state: State) -> str | None:
+    """Return why the track average does not hold in `state`, if so."""
+    changing = _changing(model)
+    half_width = half_widths(state.contact, model.grid)[0]
+    words = model.motion.limitation(
+        half_width,
+        max((float(np.max(state.bodies[name].wear)) for name in changing), default=0.0),
+        state.reference_depth,
+        _volume_ratio(model, state),
+    )
+    # A contact all over the period that repeats has no ends.
+    endless = model.contact.periodic and 2 * half_width > model.grid.size[0] * (1 - 1e-9)
+    return words if changing and not endless else None
+
+
+def _volume_ratio(model: Model, state: State) -> float:
+    """Return the volume worn off the bodies that stay over that off those that are swept."""
+    lost = {True: 0.0, False: 0.0}
+    for name, body in state.bodies.items():
+        lost[name in model.swept] += model.exposures[name].volume(body.wear)
+    if lost[True] == 0:
+        return 1.0 if lost[False] == 0 else np.inf
+    return lost[False] / lost[True]
+
+
+def _changing(model: Model) -> list[str]:
+    """Return the names of the swept bodies that change their shape."""
+    return [
+        name
+        for name in model.bodies
+        if name in model.swept and (name in model.laws or model.plastic_share[name] > 0)
+    ]

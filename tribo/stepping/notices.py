@@ -25,4 +25,5 @@ def is_told(state: State, kind: str) -> bool:
 
 def sentence(state: State, kind: str, words: str) -> str:
     """Return a warning of what begins at `state`."""
-    return f"{kind}: at {state.time:.6g} s ({state.distance:.6g} m) {words}"
+    time, distance = (f"{float(f'{value:.4g}'):g}" for value in (state.time, state.distance))
+    return f"{kind}: at {time} s ({distance} m) {words}"

@@ -209,7 +209,9 @@ class KinematicsChecks(Checks):
     def limitation_is_said_in_words(self) -> None:
         """Up to some size of contact there is no limitation; beyond, there is one, in words."""
         motion = self._make()
-        said = [motion.limitation(GRID, float(half_width)) for half_width in _HALF_WIDTHS]
+        said = [
+            motion.limitation(float(half_width), 1e-5, 1e-6, 1.0) for half_width in _HALF_WIDTHS
+        ]
         for text in said:
             plain = text is None or (isinstance(text, str) and text.strip())
             require(plain, f"limitation gave {text!r}; a sentence or None is needed")

@@ -352,7 +352,7 @@ MOTIONS = [
             ).compliance(derivative, pressure)
         ),
     ),
-    ("limitation_is_said_in_words", {"limitation": lambda self, grid, half_width_x: 7}),
+    ("limitation_is_said_in_words", {"limitation": lambda self, *track: 7}),
 ]
 for number, (check, parts) in enumerate(MOTIONS):
     wrong(check, f"Moves{number}", Motion, **parts)
