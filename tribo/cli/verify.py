@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
@@ -11,6 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
+
+from tribo.cli.options import JSON, PATH, SET, echo_json
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -24,10 +25,10 @@ COLOURS = {"holds": "green", "fails": "red"}
 
 
 @click.command()
-@click.argument("case", required=False, type=click.Path(path_type=Path))
-@click.option("--set", "overrides", multiple=True, metavar="PATH=VALUE", help="Change a value.")
+@click.argument("case", required=False, type=PATH)
+@SET
 @click.option("--only", metavar="TEXT", help="Only checks with TEXT in their name or source.")
-@click.option("--json", "as_json", is_flag=True, help="One JSON object, in SI units.")
+@JSON
 def verify(case: Path | None, overrides: tuple[str, ...], only: str | None, as_json: bool) -> None:
     """Compare this installation with closed forms, limits and other codes, in about a minute.
 
@@ -67,7 +68,7 @@ def _verify_installation(only: str | None, as_json: bool) -> None:
     failed = [row for row in rows if row.verdict == "fails"]
     if as_json:
         found = {**environment(), "holds": not failed, "rows": [asdict(row) for row in rows]}
-        click.echo(json.dumps(found, indent=2))
+        echo_json(found)
     else:
         _print_suite(rows)
         held = sum(row.verdict == "holds" for row in rows)
@@ -88,7 +89,7 @@ def _verify_case(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
     with _progress(5.0) as tell:
         study = refine(model, lambda what: tell(what, 1.0))
     if as_json:
-        click.echo(json.dumps(asdict(study), indent=2))
+        echo_json(asdict(study))
         return
     _print_study(study)
 
