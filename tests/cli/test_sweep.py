@@ -6,14 +6,11 @@ from pathlib import Path
 import pandas
 import pytest
 import sweeps
+from command_line import tribo
+
+from tribo.study.sweeping.sweep import plan
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
-
-
-def tribo(*arguments, cwd):
-    process = sweeps.tribo(*arguments, cwd=cwd)
-    out, err = process.communicate(timeout=120)
-    return process.returncode, out, err
 
 
 @pytest.fixture(scope="module")
@@ -23,39 +20,35 @@ def swept(tmp_path_factory):
     return folder, tribo("sweep", "study.toml", "--jobs", 2, cwd=folder)
 
 
+@pytest.mark.slow
 def test_it_ends_with_tables_and_a_folder_of_results(swept):
     folder, (code, out, err) = swept
-    assert code == 0
-    assert out == ("4 of 4 runs are done.\nWrote study-sweep/runs.csv and study-sweep/saves.csv\n")
-    assert err.endswith("4 of 4 runs\n")
+    assert (code, err.splitlines()[-1]) == (0, "4 of 4 runs")
+    assert out == "4 of 4 runs are done.\nWrote study-sweep/runs.csv and study-sweep/saves.csv\n"
     runs = pandas.read_csv(folder / "study-sweep" / "runs.csv")
     files = {path.name for path in (folder / "study-sweep" / "results").iterdir()}
     assert files == set(runs["file"])
-    assert {p.name for p in (folder / "study-sweep").iterdir()} == {
-        "runs.csv",
-        "saves.csv",
-        "results",
-    }
+    left = {path.name for path in (folder / "study-sweep").iterdir()}
+    assert left == {"runs.csv", "saves.csv", "results"}
 
 
+@pytest.mark.slow
 def test_json_has_the_rows_of_the_table(swept):
-    folder, _ = swept
-    code, out, _ = tribo("sweep", "study.toml", "--json", cwd=folder)
-    assert code == 0
-    data = json.loads(out)
+    done = tribo("sweep", "study.toml", "--json", cwd=swept[0])
+    assert done.returncode == 0
+    data = json.loads(done.stdout)
     assert [run["load.normal_N"] for run in data["runs"]] == [50, 60, 70, 80]
     assert {run["status"] for run in data["runs"]} == {"done"}
 
 
+@pytest.mark.slow
 def test_failed_runs_are_told_by_reason_and_exit_with_3(tmp_path):
-    text = '[grid]\ngrid.size = ["0.6 mm", "0.2 mm"]'
-    sweeps.study(tmp_path, sweeps.QUICK + text)
+    sweeps.study(tmp_path, sweeps.QUICK + '[grid]\ngrid.size = ["0.6 mm", "0.2 mm"]')
     code, out, err = tribo("sweep", "study.toml", "-o", "out", cwd=tmp_path)
     assert code == 3
     assert out.startswith("1 of 2 runs are done.\n")
-    assert (
-        "error: 1 of 2 runs failed; --retry runs them again:\n  run 2 (grid.size=0.2 mm): " in err
-    )
+    told = "error: 1 of 2 runs failed; --retry runs them again:\n  run 2 (grid.size=0.2 mm): "
+    assert told in err
     assert "Traceback" not in err
 
 
@@ -64,10 +57,7 @@ def test_failed_runs_are_told_by_reason_and_exit_with_3(tmp_path):
     [
         (["none.toml"], "none.toml: there is no such file"),
         (["case.toml"], "is a case, not a study"),
-        (
-            ["study.toml", "--scheduler", "tcp://a:1", "--dask"],
-            "--scheduler has workers of its own",
-        ),
+        (["study.toml", "--scheduler", "tcp://a:1", "--dask"], "has workers of its own"),
         (["study.toml", "--jobs", 0], "0 is not in the range x>=1"),
     ],
 )
@@ -76,19 +66,10 @@ def test_bad_input_is_one_message(tmp_path, options, message):
     code, out, err = tribo("sweep", *options, cwd=tmp_path)
     assert (code, out) == (2, "")
     assert message in err
-    assert "Traceback" not in err
     assert {path.name for path in tmp_path.iterdir()} == {"case.toml", "study.toml"}
 
 
 def test_the_example_is_valid():
-    from tribo.study.sweeping.sweep import plan
-
     runs, paths = plan(EXAMPLES / "sweep.toml", Path("unused"))
     assert len(runs) == 8
     assert paths == ["contact.type", "load.normal", "bodies.ball.wear.k"]
-
-
-def test_help_has_an_example(tmp_path):
-    code, out, _ = tribo("sweep", "--help", cwd=tmp_path)
-    assert code == 0
-    assert "tribo sweep study.toml" in out

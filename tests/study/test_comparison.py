@@ -8,15 +8,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from made_results import written
 from pydantic import PrivateAttr
 
 from tribo import (
-    Comparison,
     Interrupted,
     Observer,
     Registry,
     Result,
-    Simulation,
     TriboWarning,
     compare,
 )
@@ -50,10 +49,25 @@ def both(law):
 
 
 @pytest.fixture(scope="module")
-def foundations():
-    return compare(case(), CONTACTS)
+def foundations(tmp_path_factory):
+    with compare(case(), CONTACTS, tmp_path_factory.mktemp("whole")) as comparison:
+        yield comparison
 
 
+@pytest.fixture
+def done(foundations, tmp_path):
+    """Return a folder with the same results."""
+    kept = Path(foundations.results["dcfft"].name).parent
+    return shutil.copytree(kept, tmp_path / "done")
+
+
+def assert_same(one, other):
+    for a, b in zip(one.results.values(), other.results.values(), strict=True):
+        assert a.status == "done"
+        assert np.array_equal(a.pressure(-1), b.pressure(-1))
+
+
+@pytest.mark.slow
 def test_energy_wear_with_alpha_k_over_mu_is_archards_to_round_off():
     data = case(friction={"coefficient": MU}, effects=["energy.friction_traction"])
     laws = [
@@ -113,19 +127,13 @@ def test_json_has_every_common_save_and_is_json(foundations):
     assert last["differences"]["winkler"]["pressure"].keys() == {"l2", "largest"}
 
 
-def test_other_grids_are_compared_in_section_and_told():
-    with compare(case(), {"grid.cells": (24, 48)}) as comparison:
-        (note,) = comparison.notes
-        assert note.startswith("48: not on the grid of 24, so that only scalars and sections")
-        coarse, fine = comparison.results.values()
-        worn = {each.field: each for each in differences(fine, coarse, 300.0)}
-        # Twice the cells change a smooth depth by the square of a cell over the scar: (37/270)².
-        assert worn["bodies.disk.wear_depth"].l2 < 0.02
-        assert 0 < worn["bodies.ball.wear_depth"].l2 < 0.05
+def opened(folder, *times, **options):
+    """Compare made results that were saved at these times."""
+    return compare([written(folder / f"{i}.h5", times=t) for i, t in enumerate(times)], **options)
 
 
-def test_only_common_saves_count():
-    with compare(case(), {"output.save_times": ([0, 50, 100], [0, 100, 150])}) as comparison:
+def test_only_common_saves_count(tmp_path):
+    with opened(tmp_path, (0, 50, 100, 300), (0, 100, 150, 300)) as comparison:
         assert comparison.times == [0, 100, 300]
         assert comparison.chosen_times() == [0, 300]
         assert comparison.chosen_times([100]) == [100]
@@ -133,34 +141,34 @@ def test_only_common_saves_count():
             comparison.chosen_times([50])
 
 
-def test_a_run_that_goes_on_alone_is_told():
-    with compare(case(), {"kinematics.duration": (300, 400)}) as comparison:
-        assert comparison.times == [0, 100]
-        assert comparison.notes == [
-            "300 goes on to 300 s, beyond the last common save",
-            "400 goes on to 400 s, beyond the last common save",
-        ]
+def test_a_run_that_goes_on_alone_is_told(tmp_path):
+    with opened(tmp_path, (0, 100, 300), (0, 100)) as comparison:
+        assert comparison.notes == ["0 goes on to 300 s, beyond the last common save"]
 
 
-def test_what_is_done_is_not_done_again(tmp_path):
-    compare(case(), CONTACTS, tmp_path).close()
-    written = {path.name: path.stat().st_mtime_ns for path in tmp_path.glob("*.h5")}
-    assert set(written) == {"contact.type=dcfft.h5", "contact.type=winkler.h5"}
+def test_results_without_a_common_save_are_refused(tmp_path):
+    with pytest.raises(CaseError, match="no time of a save in common: 0 <Result"):
+        opened(tmp_path, (0, 100), (50, 150))
+
+
+def test_what_is_done_is_not_done_again(done):
+    before = {path.name: path.stat().st_mtime_ns for path in done.iterdir()}
+    assert set(before) == {"contact.type=dcfft.h5", "contact.type=winkler.h5"}
     told = []
-    compare(case(), CONTACTS, tmp_path, tell=told.append).close()
+    compare(case(), CONTACTS, done, tell=told.append).close()
     assert all("done already" in line for line in told)
-    assert {path.name: path.stat().st_mtime_ns for path in tmp_path.glob("*.h5")} == written
+    assert {path.name: path.stat().st_mtime_ns for path in done.iterdir()} == before
 
 
-def test_a_folder_with_another_case_is_left_alone(tmp_path):
-    compare(case(), CONTACTS, tmp_path).close()
+def test_a_folder_with_another_case_is_left_alone(done):
     with pytest.raises(CaseError, match="is the result of another case; choose another folder"):
-        compare(case(load={"normal": 120}), CONTACTS, tmp_path)
-    with compare(case(load={"normal": 120}), CONTACTS, tmp_path, overwrite=True) as comparison:
+        compare(case(load={"normal": 120}), CONTACTS, done)
+    with compare(case(load={"normal": 120}), CONTACTS, done, overwrite=True) as comparison:
         assert all(r.case["load"]["normal"] == 120 for r in comparison.results.values())
 
 
-def test_a_run_that_was_interrupted_goes_on(tmp_path):
+@pytest.mark.slow
+def test_a_run_that_was_interrupted_goes_on(foundations, tmp_path):
     class StopAt(Observer):
         def on_step(self, snapshot):
             if snapshot.state.steps == 20:
@@ -168,11 +176,11 @@ def test_a_run_that_was_interrupted_goes_on(tmp_path):
 
     with pytest.raises(Interrupted, match=r"^contact\.type=dcfft: stopped at"):
         compare(case(), CONTACTS, tmp_path, observers=lambda: [StopAt()])
-    with compare(case(), CONTACTS, tmp_path) as resumed, compare(case(), CONTACTS) as whole:
-        for a, b in zip(resumed.results.values(), whole.results.values(), strict=True):
-            assert np.array_equal(a.pressure(-1), b.pressure(-1))
+    with compare(case(), CONTACTS, tmp_path) as resumed:
+        assert_same(resumed, foundations)
 
 
+@pytest.mark.slow
 def test_a_run_that_was_killed_goes_on(tmp_path):
     class Watch(Observer):
         """Copies what a kill would leave after 150 s, and notes the times of all steps."""
@@ -193,9 +201,7 @@ def test_a_run_that_was_killed_goes_on(tmp_path):
         # The second variant begins anew.
         assert second._times[0] >= 100
         assert min(second._times) == 0
-        for a, b in zip(resumed.results.values(), whole.results.values(), strict=True):
-            assert a.status == "done"
-            assert np.array_equal(a.pressure(-1), b.pressure(-1))
+        assert_same(resumed, whole)
 
 
 def test_a_run_that_fails_as_it_goes_on_keeps_what_was_saved(tmp_path, monkeypatch):
@@ -216,33 +222,31 @@ def test_a_run_that_fails_as_it_goes_on_keeps_what_was_saved(tmp_path, monkeypat
         assert list(result.times) == [0]
 
 
-def test_what_a_run_left_that_holds_nothing_is_made_anew_and_what_is_no_result_kept(tmp_path):
-    path = tmp_path / "contact.type=dcfft.h5"
-    path.touch()
-    with pytest.warns(TriboWarning, match=r"dcfft\.h5 is begun anew: .* is too short"):
-        compare(case(), CONTACTS, tmp_path).close()
+def test_a_file_that_is_not_a_result_is_kept(done):
+    path = done / "contact.type=dcfft.h5"
     path.write_text("my notes")
     with pytest.raises(
         CaseError, match=r"dcfft\.h5 is not a whole .* or run all anew with --force"
     ):
-        compare(case(), CONTACTS, tmp_path)
+        compare(case(), CONTACTS, done)
     assert path.read_text() == "my notes"
 
 
-def test_a_damaged_result_is_made_anew(tmp_path):
-    compare(case(), CONTACTS, tmp_path).close()
-    path = tmp_path / "contact.type=dcfft.h5"
+@pytest.mark.parametrize("damage", ["is too short", "is damaged"])
+def test_a_damaged_result_is_made_anew(done, damage):
+    path = done / "contact.type=dcfft.h5"
     content = bytearray(path.read_bytes())
     content[len(content) // 2] ^= 1
-    path.write_bytes(content)
+    path.write_bytes(content if damage == "is damaged" else b"")
     told = []
-    with pytest.warns(TriboWarning, match=r"dcfft\.h5 is begun anew: .* is damaged"):
-        compare(case(), CONTACTS, tmp_path, tell=told.append).close()
+    with pytest.warns(TriboWarning, match=rf"dcfft\.h5 is begun anew: .* {damage}"):
+        compare(case(), CONTACTS, done, tell=told.append).close()
     assert ["done already" in line for line in told] == [False, True]
     with Result.open(path) as result:
         result.check()
 
 
+@pytest.mark.slow
 def test_a_run_that_fails_is_named():
     data = case(stepping={"type": "explicit", "time_step": 0.25})
     settings = {"stepping.time_step": (0.25, 1e4)}
@@ -280,36 +284,27 @@ def test_values_alone_are_the_labels_where_the_paths_are_the_same():
 
 def test_files_are_compared_under_their_names(tmp_path):
     (tmp_path / "other").mkdir()
-    names = ("a.h5", "b.h5", "other/a.h5")
-    for name, load in zip(names, (100, 120, 140), strict=True):
-        Simulation(case(load={"normal": load})).run(tmp_path / name).close()
-    with compare([tmp_path / "a.h5", tmp_path / "b.h5"]) as comparison:
+    a, b, c = (written(tmp_path / name) for name in ("a.h5", "b.h5", "other/a.h5"))
+    with compare([a, b]) as comparison:
         assert list(comparison.results) == ["a", "b"]
         assert comparison.settings == {}
-    with compare([tmp_path / name for name in names]) as comparison:
-        assert list(comparison.results) == [str(tmp_path / name) for name in names]
-    with pytest.raises(CaseError, match=r"a\.h5 is given twice"):
-        compare([tmp_path / "a.h5", tmp_path / "a.h5"])
-    with pytest.raises(CaseError, match="one result alone has nothing to be compared with"):
-        compare([tmp_path / "a.h5"])
-    with pytest.raises(CaseError, match="is not a file"):
-        compare([tmp_path / "a.h5", tmp_path / "none.h5"])
+    with compare([a, b, c]) as comparison:
+        assert list(comparison.results) == [str(path) for path in (a, b, c)]
 
 
-def test_results_without_a_common_save_are_refused(tmp_path):
-    late = case()
-    Simulation(late).run(tmp_path / "a.h5").close()
-    with Result.open(tmp_path / "a.h5") as a:
-
-        class Later:
-            times = a.times + 1.0
-            body_names = a.body_names
-
-            def __repr__(self):
-                return "later"
-
-        with pytest.raises(CaseError, match="no time of a save in common: a <Result"):
-            Comparison({"a": a, "b": Later()})
+@pytest.mark.parametrize(
+    ("names", "message"),
+    [
+        ((), "nothing to be compared with"),
+        (("a.h5",), "nothing to be compared with"),
+        (("a.h5", "a.h5"), r"a\.h5 is given twice"),
+        (("a.h5", "none.h5"), "is not a file"),
+    ],
+)
+def test_files_that_cannot_be_compared_are_refused(tmp_path, names, message):
+    written(tmp_path / "a.h5")
+    with pytest.raises(CaseError, match=message):
+        compare([tmp_path / name for name in names])
 
 
 def test_a_notice_of_several_runs_is_told_once():

@@ -17,6 +17,7 @@ from tribo import Result
 from tribo.core.errors import CaseError
 from tribo.study.sweeping.executors import THREADS, on_scheduler, processes
 
+pytestmark = pytest.mark.slow
 PATIENCE = 120.0
 LOADS = '[grid]\nload.normal = ["50 N", "60 N", "70 N", "80 N"]'
 

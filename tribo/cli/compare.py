@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
 
 import click
 
 from tribo.cli.options import JSON, PATH, SET, echo_json
 from tribo.core.errors import CaseError, located
-
-if TYPE_CHECKING:
-    from tribo.study.comparison import Comparison
 
 
 @click.command()
@@ -51,11 +48,23 @@ def compare(
       tribo compare a.h5 b.h5 --at 0 --at '10 min'
     """
     from tribo.cli.side_by_side import print_comparison
+    from tribo.config.overrides import parse_value
+    from tribo.core.units import Quantity
+    from tribo.study.comparison import compare as run
 
     stems = dict.fromkeys(path.stem for path in files)
-    folder = output or files[0].with_name("-".join([*stems, *match, "compare"]))
-    times = _times(at)
-    with _comparison(files, vary, overrides, folder, times, _matches(match), force) as comparison:
+    folder = output or files[0].with_name("-".join([*stems, "compare"]))
+    with located("--at"):
+        times = [Quantity("s", at_least=0).read(parse_value(text)) for text in at]
+    pairs = [text.partition("=") for text in match]
+    for name, equals, own in pairs:
+        if not name or not own:
+            text = f"{name}{equals}{own}"
+            raise CaseError(f"{text!r} is not of the form NAME=NAME, as in ball=pin", "--match")
+    what, options = _asked(files, vary, overrides, force)
+    if vary:
+        options |= {"folder": folder, "times": times}
+    with run(what, match={name: own for name, _, own in pairs}, **options) as comparison:
         chosen = comparison.chosen_times(times)
         if not as_json:
             print_comparison(comparison, chosen)
@@ -65,45 +74,19 @@ def compare(
 
             pictures = save_overlays(comparison.results, chosen, folder)
         if as_json:
-            data = comparison.as_json(times) | {"pictures": [str(path) for path in pictures]}
-            echo_json(data)
+            echo_json(comparison.as_json(times) | {"pictures": [str(path) for path in pictures]})
             return
     for path in pictures:
         click.echo(f"Wrote {path}")
 
 
-def _times(at: tuple[str, ...]) -> list[float]:
-    """Return times in s; a number alone is in s."""
-    from tribo.config.overrides import parse_value
-    from tribo.core.units import Quantity
-
-    with located("--at"):
-        return [Quantity("s", at_least=0).read(parse_value(text)) for text in at]
-
-
-def _matches(given: tuple[str, ...]) -> dict[str, str]:
-    pairs = {}
-    for text in given:
-        name, _, own = text.partition("=")
-        if not name or not own:
-            raise CaseError(f"{text!r} is not of the form NAME=NAME, as in ball=pin", "--match")
-        pairs[name] = own
-    return pairs
-
-
-def _comparison(
-    files: tuple[Path, ...],
-    vary: tuple[str, ...],
-    overrides: tuple[str, ...],
-    folder: Path,
-    times: list[float],
-    match: dict[str, str],
-    force: bool,
-) -> Comparison:
+def _asked(
+    files: tuple[Path, ...], vary: tuple[str, ...], overrides: tuple[str, ...], force: bool
+) -> tuple[Any, dict[str, Any]]:
+    """Return what is compared, a case or result files, and how a case varies."""
     from tribo.config.load import read_toml
     from tribo.config.overrides import apply_settings
     from tribo.observers.progress import Progress
-    from tribo.study.comparison import compare as run
     from tribo.study.variation import read_axes
 
     if not vary:
@@ -114,16 +97,12 @@ def _comparison(
             )
         if overrides or force:
             raise CaseError("--set and --force are for a case that varies, with --vary")
-        return run(files, match=match)
+        return files, {}
     if len(files) > 1:
         raise CaseError(f"--vary varies one case, {len(files)} files are given")
-    return run(
-        apply_settings(read_toml(files[0]), overrides),
-        read_axes(vary),
-        folder,
-        times=times,
-        match=match,
-        observers=lambda: [Progress()],
-        tell=lambda text: click.echo(text, err=True),
-        overwrite=force,
-    )
+    return apply_settings(read_toml(files[0]), overrides), {
+        "vary": read_axes(vary),
+        "observers": lambda: [Progress()],
+        "tell": lambda text: click.echo(text, err=True),
+        "overwrite": force,
+    }

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import sys
 import time
 from collections.abc import Iterator
@@ -12,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tribo.cli.options import JSON, PATH
+from tribo.cli.options import JSON, PATH, echo_json
 from tribo.core.errors import CaseError, NumericalError
 
 if TYPE_CHECKING:
@@ -63,7 +62,7 @@ def sweep(
     total, reasons = len(swept.runs), swept.failures()
     failed = sum(map(len, reasons.values()))
     if as_json:
-        click.echo(json.dumps(swept.as_json(), indent=2, allow_nan=False, default=str))
+        echo_json(swept.as_json())
     else:
         click.echo(f"{total - failed} of {total} runs are done.")
         click.echo(f"Wrote {swept.folder / 'runs.csv'} and {swept.folder / 'saves.csv'}")

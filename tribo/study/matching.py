@@ -58,14 +58,14 @@ def matched(results: Mapping[str, Result], match: Mapping[str, str]) -> dict[str
     the same role, swept or not, else the next in order. CaseError if `match`
     names a body that there is not, or one twice.
     """
-    (reference, first), *others = results.items()
-    _check(match, first, [result for _, result in others])
-    found = {reference: first}
-    for label, result in others:
-        names = _pairs(first, result, match)
-        found[label] = (
-            Renamed(result, names) if any(n != own for n, own in names.items()) else result
-        )
+    found = dict(results)
+    if len(results) > 1:
+        first, *others = results.values()
+        _check(match, first, others)
+        for label, result in list(results.items())[1:]:
+            names = _pairs(first, result, match)
+            if any(name != own for name, own in names.items()):
+                found[label] = Renamed(result, names)
     return found
 
 

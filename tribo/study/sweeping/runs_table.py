@@ -12,7 +12,6 @@ import pandas
 from tribo.case import Case
 from tribo.config.overrides import leaves_at
 from tribo.core.errors import CaseError
-from tribo.core.files import write_whole
 from tribo.lab.report import lab_report
 from tribo.result.columns import labelled
 from tribo.result.read import Result
@@ -73,17 +72,6 @@ def failed_before(path: Path) -> dict[str, str]:
         return dict(zip(failed["file"], failed["message"], strict=True))
     except (OSError, ValueError, KeyError):
         return {}
-
-
-def write_csv(path: Path, table: pandas.DataFrame) -> None:
-    """Write a table without its empty columns, whole or not at all.
-
-    Raises
-    ------
-    OutputError
-        If it cannot be written.
-    """
-    write_whole(path, table.dropna(axis=1, how="all").to_csv(index=False))
 
 
 def _measured(result: Result) -> dict[str, Any]:

@@ -12,14 +12,15 @@ from typing import Any
 
 import pandas
 
-from tribo.core.errors import CaseError, OutputError
+from tribo.core.errors import CaseError
+from tribo.core.files import write_whole, writing
 from tribo.core.locks import BusyError
 from tribo.result.checkpoint import fingerprint
 from tribo.simulation.run import Simulation
 from tribo.study.runs import is_done
 from tribo.study.sweeping.carrying import carry
 from tribo.study.sweeping.executors import processes
-from tribo.study.sweeping.runs_table import Run, failed_before, tables, write_csv
+from tribo.study.sweeping.runs_table import Run, failed_before, tables
 from tribo.study.sweeping.study_file import count, load_study, points
 from tribo.study.sweeping.worker import locked
 from tribo.study.variation import variants
@@ -146,8 +147,9 @@ def sweep(
                 carry(left, workers, folder / STOP, ended, PATIENCE if executor else None)
         finally:
             table, saves = tables(runs, paths, failures)
-            write_csv(folder / RUNS, table)
-            write_csv(folder / SAVES, saves)
+            for name, rows in ((RUNS, table), (SAVES, saves)):
+                full = rows.dropna(axis=1, how="all") if len(rows) else rows
+                write_whole(folder / name, full.to_csv(index=False))
     return Sweep(folder, tuple(runs), table)
 
 
@@ -170,15 +172,14 @@ def plan(study: Path, folder: Path, *, many: bool = False) -> tuple[list[Run], l
 def _holding(folder: Path) -> Iterator[None]:
     """Make the folder, and keep other sweeps out of it."""
     try:
-        (folder / "results").mkdir(parents=True, exist_ok=True)
-        # It raises where the folder cannot be entered.
-        os.listdir(folder / "results")
-        with locked(folder / LOCK):
-            (folder / STOP).unlink(missing_ok=True)
-            yield
+        with writing(folder):
+            (folder / "results").mkdir(parents=True, exist_ok=True)
+            # It raises where the folder cannot be entered.
+            os.listdir(folder / "results")
+            with locked(folder / LOCK):
+                (folder / STOP).unlink(missing_ok=True)
+                yield
     except BusyError:
         raise CaseError(
             f"another sweep is writing to {folder}; wait for it, or choose another folder with -o"
         ) from None
-    except OSError as error:
-        raise OutputError(f"cannot write to {folder}: {error.strerror or error}") from error
