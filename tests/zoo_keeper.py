@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 import numpy as np
-from pydantic import create_model
+import pytest
 
 from tribo import Registry, Result, hookimpl
-from tribo.registry.kinds import KINDS
+from tribo.registry.kinds import kind_of
 
 CASE = """
 contact = {contact}
@@ -54,36 +53,46 @@ SOUND = {
 SLOTS = {"contact_solver": "contact"}
 
 
-def kind_of(cls: type) -> str:
-    return next(kind.name for kind in KINDS.values() if issubclass(cls, kind.interface))
+@dataclass(frozen=True)
+class Bad:
+    """A faulty class, what the message about it holds, its exit code, whether a file is left."""
+
+    cls: Any
+    words: str
+    code: int
+    saved: bool
 
 
 class Zoo:
-    """Faulty components of one kind, whose configurations have the fields given here."""
+    """Faulty components."""
 
-    def __init__(self, **config: Any) -> None:
-        self.kept: list[Any] = []
-        self._config = config
+    def __init__(self) -> None:
+        self.kept: list[Bad] = []
 
-    def bad(self, words: str, code: int = 3, *, saved: bool = False) -> Any:
-        """Call a class zoo.its_name, and say what its message holds and whether a file is left."""
+    def bad(
+        self,
+        name: str,
+        base: type,
+        words: str = "",
+        code: int = 3,
+        saved: bool = False,
+        **parts: Any,
+    ) -> Any:
+        """Keep a class zoo.name that differs from `base` by some parts."""
+        cls = type(name, (base,), {"__module__": __name__, "type": f"zoo.{name}", **parts})
+        self.kept.append(Bad(cls, words, code, saved))
+        return cls
 
-        def keep(cls: Any) -> Any:
-            name = "zoo." + re.sub(r"(?<!^)(?=[A-Z])", "_", cls.__name__).lower()
-            cls = create_model(
-                cls.__name__, __base__=cls, __module__=cls.__module__, **self._config
-            )
-            cls.type = name
-            cls.words, cls.code, cls.saved = words, code, saved
-            self.kept.append(cls)
-            return cls
-
-        return keep
+    @property
+    def each(self) -> pytest.MarkDecorator:
+        """A test of each of them, as the argument `bad`."""
+        return pytest.mark.parametrize("bad", self.kept, ids=lambda bad: bad.cls.__name__)
 
     def plugin(self) -> object:
         """Return a plugin that offers all of them."""
         plugin = ModuleType("zoo-tribo")
-        plugin.tribo_components = hookimpl(specname="tribo_components")(lambda: self.kept)
+        classes = [bad.cls for bad in self.kept]
+        plugin.tribo_components = hookimpl(specname="tribo_components")(lambda: classes)
         return plugin
 
     def registry(self) -> Registry:
@@ -92,7 +101,8 @@ class Zoo:
 
 def case_of(*classes: Any, **changes: str) -> str:
     """Return a case that names `classes`, as TOML."""
-    named = {SLOTS.get(kind_of(c), kind_of(c)): f'"{c.type}"' for c in classes}
+    kinds = [kind_of(cls).name for cls in classes]
+    named = {SLOTS.get(kind, kind): f'"{c.type}"' for kind, c in zip(kinds, classes, strict=True)}
     return CASE.format(**SOUND | named | changes)
 
 
@@ -105,16 +115,16 @@ class Ended:
     path: Path
 
 
-def expect_one_message(ended: Ended, cls: Any) -> None:
+def expect_one_message(ended: Ended, bad: Bad) -> None:
     """One line, no traceback, names component and fault; what was saved is there to be read."""
     line, *kept = ended.said
-    assert len(kept) == cls.saved
+    assert len(kept) == bad.saved
     assert line.startswith("error: ")
-    assert repr(cls.type) in line
-    assert cls.words in line
-    assert ended.code == cls.code
-    assert ended.path.exists() == cls.saved
-    if cls.saved:
+    assert repr(bad.cls.type) in line
+    assert bad.words in line
+    assert ended.code == bad.code
+    assert ended.path.exists() == bad.saved
+    if bad.saved:
         with Result.open(ended.path) as result:
             assert result.status == "failed"
             assert result.times[0] == 0

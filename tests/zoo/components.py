@@ -1,0 +1,322 @@
+"""Faulty components: whose methods raise, or answer nonsense from the start or from some step."""
+
+from dataclasses import replace
+
+import numpy as np
+from pydantic import field_serializer, model_validator
+from zoo_keeper import Zoo
+
+from tribo import (
+    CaseError,
+    DcFft,
+    Effect,
+    Field,
+    NumericalError,
+    Observer,
+    Sphere,
+    WearLaw,
+    WearRate,
+)
+
+ZOO, GROOVES, UNCHECKED = Zoo(), Zoo(), Zoo()
+"""The second are asked only where a groove is plastic, the third only where a result is written."""
+
+
+def raising(error):
+    def fail(*given, **options):
+        raise error
+
+    return fail
+
+
+class Unspeakable(Exception):
+    def __str__(self):
+        raise RuntimeError
+
+
+def writing(array):
+    array[:] = 0
+
+
+# Keys, and what is made of them.
+
+
+class Watcher(Observer):
+    pass
+
+
+def configured(name, error, words):
+    def check(self):
+        raise error
+
+    ZOO.bad(name, Watcher, words, 2, _check=model_validator(mode="after")(check))
+
+
+READ = "could not read its keys: "
+configured("looks_up", LookupError("no such"), READ + "LookupError: no such")
+configured("leaves_early", SystemExit(0), READ + "SystemExit: 0")
+configured("says_nothing", ValueError(), "refused its keys without saying why")
+configured("asserts", AssertionError(), "refused its keys without saying why")
+configured("refuses", CaseError("these exclude each other"), "these exclude each other")
+ZOO.bad(
+    "has_no_license",
+    Watcher,
+    READ + "RuntimeError: no license",
+    2,
+    model_post_init=raising(RuntimeError("no license")),
+)
+ZOO.bad(
+    "has_no_device", Watcher, READ + "OSError: no device", 2, __init__=raising(OSError("no device"))
+)
+ZOO.bad("is_offline", Watcher, "raised ConnectionError", facts=raising(ConnectionError("offline")))
+ZOO.bad("states_numbers", Watcher, "facts, not text by text", facts=lambda self: {"size": 3})
+
+
+class CannotBeWritten(Watcher):
+    key: str = "value"
+
+    @field_serializer("key")
+    def _write(self, key):
+        raise LookupError(key)
+
+
+UNCHECKED.bad("cannot_be_written", CannotBeWritten, "Error calling function")
+
+# Observers.
+
+
+def failing_late(self, snapshot):
+    if snapshot.state.steps > 10:
+        raise KeyError("step")
+
+
+def setting(self, snapshot):
+    snapshot.state.time = 0.0
+
+
+for name, words, parts in (
+    ("fails_at_start", "raised OSError: no screen", {"on_start": raising(OSError("no screen"))}),
+    ("fails_at_a_step", "raised KeyError: 'step'", {"on_step": failing_late}),
+    ("fails_at_a_save", "raised RuntimeError", {"on_save": staticmethod(raising(RuntimeError(7)))}),
+    ("leaves", "raised SystemExit: 1", {"on_step": raising(SystemExit(1))}),
+    ("presses", "read-only", {"on_step": lambda self, s: writing(s.state.contact.pressure)}),
+    ("wears", "read-only", {"on_step": lambda self, s: writing(s.state.bodies["ball"].wear)}),
+    ("sets_the_clock", "raised FrozenInstanceError", {"on_save": setting}),
+):
+    ZOO.bad(name, Watcher, words, saved=True, **parts)
+
+# Surfaces.
+
+
+class Ball(Sphere):
+    radius: float = 5e-3
+
+
+def holed(self, grid):
+    height = Sphere.height(self, grid)
+    height[0, 0] = np.nan
+    return height
+
+
+for name, words, height in (
+    ("column", "of body 'ball' gave a height", lambda s, grid: Sphere.height(s, grid)[:, :1]),
+    ("holed", "a height map that is not finite in 1 cells", holed),
+    ("complex_height", "complex128", lambda s, grid: Sphere.height(s, grid) + 1e-9j),
+    ("no_height", "a NoneType", lambda s, grid: None),
+    ("ragged", "a list", lambda s, grid: [[0.0], [0.0, 0.0]]),
+    ("no_scan", "FileNotFoundError: scan.opd", raising(FileNotFoundError("scan.opd"))),
+    ("asserts_height", "AssertionError and says no more", staticmethod(raising(AssertionError()))),
+    ("wordless", "raised CaseError and says no more", raising(CaseError(""))),
+):
+    ZOO.bad(name, Ball, words, height=height)
+for name, words, curvature in (
+    ("one_curvature", "not an array of shape (2,): 3", lambda self: 3),
+    ("curvature_nan", "not finite in 1 cells", lambda self: (200.0, np.nan)),
+    ("round", "not an array of shape (2,): a str", lambda self: "round"),
+    ("no_curvature", "raised AttributeError", lambda self: self.no_such_thing),
+):
+    ZOO.bad(name, Ball, words, curvature=property(curvature))
+
+# Effects.
+
+
+class Heat(Effect):
+    """A field of the pressure's shape for each body, and what is made of it."""
+
+    provides = (Field("zoo_heat", "W/m^2", "Power per area."),)
+
+    def fields(self, contact):
+        return {"zoo_heat": {name: self.heat(contact.pressure) for name in contact.materials}}
+
+    def heat(self, pressure):
+        return pressure * 0.1
+
+
+for name, words, fields in (
+    ("no_fields", "instead of its fields", lambda self, contact: None),
+    ("forgets_the_field", "gave no 'zoo_heat' for body 'ball'", lambda self, contact: {}),
+    (
+        "forgets_a_body",
+        "gave no 'zoo_heat' for body 'disk'",
+        lambda self, contact: {"zoo_heat": {"ball": contact.pressure}},
+    ),
+    (
+        "no_bodies",
+        "gave no 'zoo_heat' for body 'ball'",
+        lambda self, contact: {"zoo_heat": contact.pressure},
+    ),
+):
+    ZOO.bad(name, Heat, words, saved=True, fields=fields)
+for name, words, heat in (
+    ("short_heat", "not an array of shape (32, 32)", lambda self, pressure: pressure[1:]),
+    ("heat_nan", "not finite in", lambda self, pressure: pressure * np.nan),
+    ("complex_heat", "complex128", lambda self, pressure: pressure * 1j),
+    ("hot", "a str", lambda self, pressure: "hot"),
+    ("heat_raises", "raised KeyError: 'steel'", raising(KeyError("steel"))),
+    ("heat_writes", "read-only", lambda self, pressure: writing(pressure)),
+):
+    ZOO.bad(name, Heat, words, saved=True, heat=heat)
+ZOO.bad("unfit_heat", Heat, "raised TypeError", check=staticmethod(raising(TypeError("not these"))))
+
+# Wear laws.
+
+
+class Law(WearLaw):
+    """Good for 20 calls; `spoilt` is what it answers after them."""
+
+    _calls: int = 0
+
+    def rate(self, local):
+        self._calls += 1
+        k = np.full_like(local.pressure, 3e-16)
+        good = WearRate(k * local.pressure, k, {f.name: k for f in self.state_fields})
+        return self.spoilt(good, local) if self._calls > 20 else good
+
+    def spoilt(self, good, local):
+        return good
+
+
+class Slides(Law):
+    state_fields = (Field("slid", "m", "Distance slid."),)
+
+
+def rated(change):
+    return lambda self, good, local: replace(good, **change(good, local))
+
+
+for name, words, spoilt in (
+    ("no_rate", "of body 'ball' gave a NoneType", lambda self, good, local: None),
+    ("rate_nan", "not finite in", rated(lambda r, local: {"depth_rate": r.depth_rate * np.nan})),
+    ("endless", "not finite in", rated(lambda r, local: {"depth_slope": r.depth_slope * np.inf})),
+    ("short_rate", "of shape", rated(lambda r, local: {"depth_rate": r.depth_rate[1:]})),
+    ("deep", "of shape", rated(lambda r, local: {"depth_rate": "deep"})),
+    ("complex_rate", "complex128", rated(lambda r, local: {"depth_rate": r.depth_rate * 1j})),
+    ("grows", "gave a negative", rated(lambda r, local: {"depth_rate": -r.depth_rate})),
+    (
+        "wears_untouched",
+        "that is not 0 in",
+        rated(lambda r, local: {"depth_rate": 3e-16 * (local.pressure + 1e8)}),
+    ),
+    ("rate_writes", "read-only", rated(lambda r, local: writing(local.pressure))),
+    ("rate_raises", "raised KeyError: 'oops'", raising(KeyError("oops"))),
+    ("rate_leaves", "raised SystemExit: 0", staticmethod(raising(SystemExit(0)))),
+    ("state_is_7", "gave a int as rates of its state", rated(lambda r, _: {"state_rates": 7})),
+):
+    ZOO.bad(name, Law, words, saved=True, spoilt=spoilt)
+for name, words, rates in (
+    ("state_in_words", "a rate of 'slid' that is not an array", {"slid": "far"}),
+    ("forgets_its_state", "no rate for its state field 'slid'", {}),
+):
+    spoilt = rated(lambda r, local, rates=rates: {"state_rates": rates})
+    ZOO.bad(name, Slides, words, saved=True, spoilt=spoilt)
+ZOO.bad("starts_nowhere", Slides, "but starts with {}", initial_state=lambda self: {})
+ZOO.bad("starts_nan", Slides, "an initial 'slid'", initial_state=lambda self: {"slid": np.nan})
+ZOO.bad("unfit_law", Law, "raised TypeError", check=raising(TypeError("no material")))
+
+# Contact solvers.
+
+
+class Solver(DcFft):
+    """Good for 20 solves; `spoilt` is what it answers after them."""
+
+    _solves: int = 0
+    _kept: object = None
+
+    def solve(self, problem, start=None):
+        self._solves += 1
+        solution = super().solve(problem, start)
+        return self.spoilt(solution, problem) if self._solves > 20 else solution
+
+    def spoilt(self, solution, problem):
+        return solution
+
+
+def solution(change):
+    return lambda self, solution, problem: replace(solution, **change(solution))
+
+
+def point(values, **by_place):
+    """Return a copy of an array with other values at its corner and in its middle."""
+    values = values.copy()
+    values[0, 0] = by_place.get("corner", values[0, 0])
+    values[16, 16] += by_place.get("more", 0.0)
+    return values
+
+
+def focused(s):
+    pressure = np.zeros_like(s.pressure)
+    pressure[16, 16] = s.pressure.sum()
+    return {"pressure": pressure}
+
+
+def from_start(self, problem, start=None):
+    if start is not None:
+        start.pressure[:] = 0
+    return Solver.solve(self, problem, start)
+
+
+def used_again(self, problem, start=None):
+    answer = Solver.solve(self, problem, start)
+    if start is None:
+        self._kept = answer
+        return answer
+    self._kept.pressure[:] = answer.pressure
+    return self._kept
+
+
+for name, words, spoilt in (
+    ("no_solution", "NoneType instead of", lambda self, s, problem: None),
+    ("pressure_alone", "ndarray instead of", lambda self, s, problem: s.pressure),
+    ("short", "of shape (31, 32)", solution(lambda s: {"pressure": s.pressure[1:]})),
+    ("complex_p", "complex128", solution(lambda s: {"pressure": s.pressure + 0j})),
+    ("nan_p", "1 cells", solution(lambda s: {"pressure": point(s.pressure, corner=np.nan)})),
+    (
+        "adhesive",
+        "a negative pressure (-5",
+        solution(lambda s: {"pressure": point(s.pressure, corner=-5.0, more=5.0)}),
+    ),
+    ("too_hard", "above the hardness of 2e+09 Pa", solution(focused)),
+    ("too_strong", "carries 100.01 N", solution(lambda s: {"pressure": 1.0001 * s.pressure})),
+    ("no_approach", "an approach that is not", solution(lambda s: {"approach": np.nan})),
+    ("nan_overlap", "in 1 cells", solution(lambda s: {"overlap": point(s.overlap, corner=np.nan)})),
+    ("no_residuals", "instead of Residuals", solution(lambda s: {"residuals": None})),
+    (
+        "residual_nan",
+        "a residual of force that is not",
+        solution(lambda s: {"residuals": replace(s.residuals, force=np.nan)}),
+    ),
+    ("counts_in_words", "a number of iterations", solution(lambda s: {"iterations": "many"})),
+    ("divides", "raised ZeroDivisionError: division by zero", lambda self, s, problem: 1 / 0),
+    ("looks_in_vain", "raised LookupError and says no more", raising(LookupError())),
+    ("mute", "raised NumericalError", raising(NumericalError())),
+    ("gives_up", "it did not like it", raising(NumericalError("it did not like it"))),
+    ("unspeakable", "(its message cannot be shown)", raising(Unspeakable())),
+    ("solve_leaves", "raised SystemExit: 0", raising(SystemExit(0))),
+    ("writes_gap", "read-only", lambda self, s, problem: writing(problem.gap)),
+    ("writes_wear", "read-only", lambda self, s, problem: writing(problem.wear.local)),
+):
+    ZOO.bad(name, Solver, words, saved=True, spoilt=spoilt)
+ZOO.bad("writes_start", Solver, "read-only", saved=True, solve=from_start)
+ZOO.bad("uses_its_answer_again", Solver, "read-only", saved=True, solve=used_again)
+ZOO.bad("static", Solver, "raised LookupError", solve=staticmethod(raising(LookupError())))
+ZOO.bad("unfit_solver", Solver, "raised KeyError: 'no'", check=raising(KeyError("no")))

@@ -1,0 +1,166 @@
+"""Faulty components end a case that names them with one message, and harm no other."""
+
+import numpy as np
+import pytest
+from zoo.components import GROOVES, UNCHECKED, ZOO, Ball, Heat, Watcher, raising
+from zoo.motions import Slide
+from zoo_keeper import Zoo, case_of, expect_harmless, expect_one_message
+
+from tribo import CaseError, DcFft, Effect, Field, Result, Simulation
+from tribo.core.errors import PluginError
+
+
+@pytest.mark.filterwarnings("ignore:invalid value:RuntimeWarning")
+@ZOO.each
+def test_it_ends_with_one_message(run, bad):
+    expect_one_message(run(ZOO, bad.cls), bad)
+
+
+@GROOVES.each
+def test_it_is_asked_for_an_envelope_where_a_groove_is_drawn(run, bad):
+    expect_one_message(run(GROOVES, bad.cls, disk='hardness = "2 GPa"'), bad)
+
+
+@UNCHECKED.each
+def test_what_cannot_be_written_ends_a_run_with_one_message(run, bad):
+    expect_one_message(run(UNCHECKED, bad.cls), bad)
+
+
+CONFIGURED = [bad for bad in ZOO.kept if issubclass(bad.cls, Watcher) and not bad.saved]
+
+
+@pytest.mark.parametrize("bad", CONFIGURED, ids=lambda bad: bad.cls.__name__)
+def test_a_check_ends_with_it_too(tmp_path, command, bad):
+    (tmp_path / "case.toml").write_text(case_of(bad.cls))
+    expect_one_message(command(ZOO, "check", "case.toml"), bad)
+
+
+def test_none_harms_a_case_that_names_another(run):
+    expect_harmless(run(ZOO))
+
+
+def test_python_is_told_the_same(tmp_path):
+    (divides,) = (bad.cls for bad in ZOO.kept if bad.cls.__name__ == "divides")
+    (tmp_path / "case.toml").write_text(case_of(divides))
+    with pytest.raises(PluginError, match=r"zoo\.divides.*ZeroDivisionError"):
+        Simulation(tmp_path / "case.toml", ZOO.registry()).run()
+
+
+@pytest.mark.parametrize(
+    ("base", "method", "place"),
+    [
+        (Ball, "height", "bodies.ball.surface"),
+        (Heat, "check", "effects"),
+        (Slide, "exposures", "kinematics"),
+    ],
+)
+def test_what_a_component_refuses_is_bad_input_at_its_place(run, base, method, place):
+    zoo = Zoo()
+    cls = zoo.bad("refuses", base, **{method: raising(CaseError("this is too small"))})
+    ended = run(zoo, cls)
+    assert ended.code == 2
+    assert ended.said[0].startswith(f"error: {place}: this is too small")
+
+
+def test_the_smallest_compliance_is_a_number(run):
+    zoo = Zoo()
+    zoo.bad(
+        "boastful",
+        DcFft,
+        "a smallest compliance that is not a finite number",
+        smallest_compliance=lambda self, system: "tiny",
+    )
+    (bad,) = zoo.kept
+    stepping = 'stepping = { type = "explicit", time_step = 1 }'
+    expect_one_message(run(zoo, bad.cls, more=stepping), bad)
+
+
+def test_an_effect_that_does_not_say_what_it_provides_is_not_loaded():
+    zoo = Zoo()
+    zoo.bad("mute", Effect, fields=lambda self, contact: {})
+    with pytest.raises(TypeError, match="mute does not define provides, a tuple of Field"):
+        zoo.registry()
+
+
+def test_a_field_with_a_slash_cannot_be_declared():
+    with pytest.raises(TypeError, match=r"slashed\.provides: 'power/area' cannot name a field"):
+        Zoo().bad("slashed", Heat, provides=(Field("power/area", "W/m^2", "Power per area."),))
+
+
+# Observers have no say in the answer.
+
+
+def forgetting_the_bodies(self, snapshot):
+    snapshot.state.bodies.clear()
+    snapshot.state.rates.clear()
+    snapshot.measures.bodies.clear()
+
+
+def forgetting_the_case(self, run):
+    run.case.clear()
+    run.provenance.clear()
+    run.system.materials.clear()
+    run.bodies[0].height[:] = 0
+
+
+MEDDLERS = Zoo()
+MEDDLERS.bad("forgets_the_bodies", Watcher, on_step=forgetting_the_bodies)
+MEDDLERS.bad("forgets_the_case", Watcher, on_start=forgetting_the_case)
+
+
+@MEDDLERS.each
+def test_what_it_does_to_its_own_view_changes_no_bit(tmp_path, bad):
+    results = []
+    for name, classes in (("plain", ()), ("watched", (bad.cls,))):
+        case = tmp_path / f"{name}.toml"
+        case.write_text(case_of(*classes))
+        results.append(Simulation(case, MEDDLERS.registry()).run(case.with_suffix(".h5")))
+    plain, watched = results
+    assert plain.totals()["steps"] == watched.totals()["steps"]
+    np.testing.assert_array_equal(plain.pressure(-1), watched.pressure(-1))
+    worn = [result.body("ball").wear_depth[-1] for result in results]
+    np.testing.assert_array_equal(*worn)
+    assert len(watched.case["observers"]) == 1
+
+
+def test_a_stopped_run_resumes_though_an_observer_forgot_its_case(run, command):
+    def stopping(self, snapshot):
+        if snapshot.state.steps == 5:
+            raise KeyboardInterrupt
+
+    zoo = Zoo()
+    cls = zoo.bad("stops", Watcher, on_start=forgetting_the_case, on_step=stopping)
+    assert run(zoo, cls).code == 130
+    expect_harmless(command(zoo, "resume", "case.h5"))
+
+
+LAST_WORDS = "observer 'zoo.ends_badly' raised ValueError: cannot say goodbye"
+
+
+def ending_badly(zoo):
+    return zoo.bad("ends_badly", Watcher, on_finish=raising(ValueError("cannot say goodbye")))
+
+
+def test_what_fails_at_the_end_costs_no_result(run):
+    zoo = Zoo()
+    ended = run(zoo, ending_badly(zoo))
+    assert ended.code == 3
+    (line,) = ended.said
+    assert line.startswith(f"error: {LAST_WORDS}")
+    with Result.open(ended.path) as result:
+        assert result.status == "done"
+
+
+def test_of_a_run_that_failed_already_the_first_cause_is_the_error(run):
+    def failing(self, problem, start=None):
+        return None if start is not None else DcFft.solve(self, problem)
+
+    zoo = Zoo()
+    ended = run(zoo, ending_badly(zoo), zoo.bad("fails", DcFft, solve=failing))
+    assert ended.code == 3
+    later, first, _ = ended.said
+    assert later.startswith(f"warning: {LAST_WORDS}")
+    assert first.startswith("error: contact solver 'zoo.fails' gave a NoneType")
+    with Result.open(ended.path) as result:
+        assert result.status == "failed"
+        assert "zoo.fails'" in result.notices[-1]
