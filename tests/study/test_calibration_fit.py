@@ -68,6 +68,7 @@ def test_far_from_the_start_slopes_are_taken_anew():
     assert model.runs <= 8
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("part", "level"), [(0.03, 0.8), (0.12, 0.95)])
 def test_intervals_cover_the_truth_at_their_level(part, level):
     """Those of a prediction too.
