@@ -144,8 +144,8 @@ def lab_report(result: Result) -> LabReport:
     )
 
 
-def yield_ratio(pressure: float, hardness: float, *, line: bool = False) -> float:
-    """Return a peak pressure over that at which a Hertz contact first yields.
+def yield_words(pressure: float, hardness: float, *, line: bool = False) -> str:
+    """Say whether the softer body yields under a peak pressure of a Hertz contact.
 
     Parameters
     ----------
@@ -156,14 +156,10 @@ def yield_ratio(pressure: float, hardness: float, *, line: bool = False) -> floa
     line : bool, optional
         Whether it is a line contact.
     """
-    return pressure / first_yield_pressure(hardness, line=line)
-
-
-def yield_words(pressure: float, hardness: float, *, line: bool = False) -> str:
-    """Say whether the softer body yields under a peak pressure; parameters as `yield_ratio`."""
     if pressure >= AT_THE_CAP * hardness:
         return "the softer body yields from the start: the pressure is its hardness"
-    ratio, onset = yield_ratio(pressure, hardness, line=line), "1.79" if line else "1.6"
+    onset = "1.79" if line else "1.6"
+    ratio = pressure / first_yield_pressure(hardness, line=line)
     percent = f"{100 * ratio:.0f} %"
     if ratio > 1:
         return (
@@ -201,7 +197,7 @@ def _first_contact(result: Result, save: Mapping[str, Any]) -> FirstContact:
     hertz = hertz_contact(system)
     ratio = words = None
     if system.cap is not None and hertz is not None:
-        ratio = yield_ratio(pressure, system.cap, line=hertz.is_line)
+        ratio = pressure / first_yield_pressure(system.cap, line=hertz.is_line)
         words = yield_words(pressure, system.cap, line=hertz.is_line)
     return FirstContact(
         max_pressure=max_pressure,
