@@ -14,7 +14,7 @@ class Stop(Table):
     """Ends the run at the first condition that is met."""
 
     distance: Annotated[float, Quantity("m", above=0)] | None = None
-    """Path slid."""
+    """Sliding distance."""
     depth: Annotated[float, Quantity("m", above=0)] | None = None
     """Largest wear depth."""
     body: str | None = None

@@ -38,7 +38,7 @@ class State:
     Parameters
     ----------
     time, distance : float
-        Time in s and path slid in m.
+        Time in s and sliding distance in m.
     bodies : Mapping[str, BodyState]
         By name.
     contact : ContactSolution
@@ -123,7 +123,7 @@ class RunInfo:
     end_time : float
         When the run will end if nothing stops it, in s.
     end_distance : float
-        The path slid by then, in m.
+        The sliding distance by then, in m.
     case : Mapping[str, object]
         The full configuration, as plain data.
     provenance : Mapping[str, object]

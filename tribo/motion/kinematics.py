@@ -35,10 +35,10 @@ class Kinematics(Component):
             low, high = (middle, high) if self.distance_at(middle) < distance else (low, middle)
 
     def speeds(self) -> Sequence[tuple[float, float]] | None:
-        """Return the sliding speeds of a cycle, each with its share of the path.
+        """Return the sliding speeds of a cycle, each with its share of the distance.
 
         Effects and wear laws are asked at each of these speeds, and their rates
-        averaged over the path, however long a step is.
+        averaged over the distance, however long a step is.
 
         Returns
         -------

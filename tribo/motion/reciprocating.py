@@ -26,7 +26,7 @@ class Reciprocating(Kinematics):
 
     With ``waveform = "sinusoidal"`` the position is −(S/2) cos(2πft) and the
     speed ``πSf |sin(2πft)|``. The track average is over positions, so the waveform
-    changes only the path at times inside a half cycle, and the speeds at which
+    changes only the distance at times inside a half cycle, and the speeds at which
     effects and wear laws are asked.
 
     The track average is the paper's model, and makes a groove too deep at mid-stroke. One as deep
@@ -74,7 +74,7 @@ class Reciprocating(Kinematics):
         return self.time_at(self.distance)
 
     def distance_at(self, time: float) -> float:
-        """Return the path slid until `time`, in m."""
+        """Return the sliding distance until `time`, in m."""
         half_cycles = 2 * self.frequency * time
         if self.waveform == "constant_speed":
             return half_cycles * self.stroke
@@ -94,7 +94,7 @@ class Reciprocating(Kinematics):
         if self.waveform == "constant_speed":
             return None
         nodes, weights = np.polynomial.legendre.leggauss(PHASES)
-        # From a reversal to mid-stroke; the path is as the integral of the speed over the phase.
+        # From a reversal to mid-stroke; the distance is as the integral of the speed over the phase.
         sines = np.sin(0.25 * math.pi * (nodes + 1))
         shares = weights * sines / np.sum(weights * sines)
         largest = math.pi * self.stroke * self.frequency

@@ -74,7 +74,7 @@ class Unidirectional(Kinematics):
         return self.distance / self.speed
 
     def distance_at(self, time: float) -> float:
-        """Return the path slid until `time`, in m."""
+        """Return the sliding distance until `time`, in m."""
         return self.speed * time
 
     def time_at(self, distance: float) -> float:

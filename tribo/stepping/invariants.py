@@ -70,7 +70,7 @@ def wear_balance(
         if not error <= VOLUME * asked:
             asked = max(asked, SMALL * exposure.volume(before.bodies[name].wear))
         volumes.append(error / asked if asked != 0 else error)
-        regrowths.append(-float(np.min(depth)))
+        regrowths.append(0.0 - float(np.min(depth)))
     # Unlike that of Python, the maximum of numpy is NaN if a value is.
     return Invariants(volume=float(np.max(volumes)), regrowth=float(np.max(regrowths)))
 
