@@ -240,8 +240,8 @@ def test_the_cells_of_a_line_contact_are_counted_by_hertz_as_check_counts_them()
         kinematics=motion(stroke="4 mm", duration=1),
     )
     (notice,) = states(model)[0].notices
-    assert notice.startswith("resolution: the first contact is only 7.5 cells wide")
-    assert notice.removeprefix("resolution: ") in predict(model).problems
+    assert notice.text.startswith("the first contact is only 7.5 cells wide")
+    assert (notice.kind, notice.text in predict(model).problems) == ("resolution", True)
 
 
 def test_a_contact_that_fills_its_period_has_no_stroke_that_is_too_short():

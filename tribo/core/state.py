@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution, ContactSystem
 from tribo.core.fields import Field, WearRate
 from tribo.core.measures import Invariants, Measures
+from tribo.core.notices import Kind, Notice
 
 
 @dataclass(frozen=True)
@@ -56,8 +57,8 @@ class State:
     rates : Mapping[str, WearRate]
         Rates of the laws at the end of the last implicit step, in the contact
         frame: where the next one begins. Empty where there are none.
-    notices : tuple of str
-        Warnings given so far, each given once.
+    notices : tuple of Notice
+        What was told so far, each once.
     invariants : Invariants
         How well they hold in the step that led here.
     previous : ndarray of shape (nx, ny) or None
@@ -79,10 +80,23 @@ class State:
     solver_iterations: int = 0
     saves: int = 0
     rates: Mapping[str, WearRate] = field(default_factory=dict)
-    notices: tuple[str, ...] = ()
+    notices: tuple[Notice, ...] = ()
     invariants: Invariants = field(default_factory=Invariants)
     previous: Array | None = None
     speed: float = 0.0
+
+    def has_notice(self, kind: Kind) -> bool:
+        """Whether a notice of this kind was given."""
+        return any(notice.kind == kind for notice in self.notices)
+
+    def without_notice(self, kind: Kind) -> State:
+        """Return the state without notices of this kind."""
+        return replace(self, notices=tuple(n for n in self.notices if n.kind != kind))
+
+    def with_notice(self, kind: Kind, text: str, *, from_here: bool = False) -> State:
+        """Return the state with one notice more, of the whole run or of what begins here."""
+        where = (self.time, self.distance) if from_here else ()
+        return replace(self, notices=(*self.notices, Notice(kind, text, *where)))
 
 
 @dataclass(frozen=True)

@@ -94,7 +94,7 @@ class Reciprocating(Kinematics):
         if self.waveform == "constant_speed":
             return None
         nodes, weights = np.polynomial.legendre.leggauss(PHASES)
-        # From a reversal to mid-stroke; the distance is as the integral of the speed over the phase.
+        # From a reversal to mid-stroke; distance goes as the integral of the speed over the phase.
         sines = np.sin(0.25 * math.pi * (nodes + 1))
         shares = weights * sines / np.sum(weights * sines)
         largest = math.pi * self.stroke * self.frequency

@@ -21,6 +21,7 @@ from tribo.core.contact import ContactSolution, Residuals
 from tribo.core.errors import CaseError, OutputError, TriboWarning
 from tribo.core.fields import WearRate
 from tribo.core.measures import Invariants
+from tribo.core.notices import Notice
 from tribo.core.state import BodyState, State
 from tribo.result.guarded import GuardedFile
 from tribo.result.journal import journal_path
@@ -178,7 +179,7 @@ _SCALARS = (
 def _write_state(file: h5py.File, state: State, wall_time: float) -> None:
     contact = state.contact
     scalars = {name: getattr(state, name) for name in _SCALARS}
-    scalars["notices"] = list(state.notices)
+    scalars["notices"] = [vars(notice) for notice in state.notices]
     scalars["approach"] = contact.approach
     scalars["iterations"] = contact.iterations
     scalars["residuals"] = vars(contact.residuals)
@@ -234,7 +235,7 @@ def _read_state(file: GuardedFile) -> tuple[State, float]:
         bodies=bodies,
         contact=contact,
         rates=rates,
-        notices=tuple(scalars["notices"]),
+        notices=tuple(Notice(**notice) for notice in scalars["notices"]),
         invariants=Invariants(**scalars["invariants"]),
         previous=file.array("previous") if "previous" in file.file else None,
     )

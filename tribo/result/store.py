@@ -20,6 +20,7 @@ import numpy as np
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.measures import Measures
+from tribo.core.notices import Notice
 from tribo.core.state import RunInfo, Snapshot, State
 from tribo.result.columns import BODY_COLUMNS, COLUMNS
 from tribo.result.sealed_file import close_sealed
@@ -154,9 +155,9 @@ class ResultWriter:
         self._append_rows("saves", [snapshot.measures])
         self.note(state.notices)
 
-    def note(self, notices: Sequence[str]) -> None:
+    def note(self, notices: Sequence[Notice]) -> None:
         """Write the warnings of the run so far."""
-        self._file.attrs["notices"] = json.dumps(notices)
+        self._file.attrs["notices"] = json.dumps([str(notice) for notice in notices])
 
     def commit(self, *, sync: bool = False) -> None:
         """Write the remembered rows, and put all that was written on disk, or none of it.

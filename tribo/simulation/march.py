@@ -14,7 +14,6 @@ from tribo.simulation.doubt import doubting
 from tribo.simulation.model import Model
 from tribo.simulation.validity import check_stroke, few_cells, limitation, short_of_a_lap
 from tribo.stepping.invariants import chattering_words, chatters, hold
-from tribo.stepping.notices import AVERAGING, CHATTERING, is_told, sentence, told
 from tribo.stepping.step import first_contact, start_sliding
 
 DEPTH_ACCURACY = 1e-6
@@ -78,11 +77,11 @@ def _march(model: Model, state: State, limit: float) -> Iterator[Accepted]:
             if last:
                 state = _concluded(model, state)
             if worn_out and state.time < model.end_time:
-                text = (
-                    f"stop: ended at {state.time:.6g} s, where the wear depth reached "
-                    f"{1e6 * limit:.4g} µm"
+                state = state.with_notice(
+                    "stop",
+                    f"ended at {state.time:.6g} s, where the wear depth reached "
+                    f"{1e6 * limit:.4g} µm",
                 )
-                state = replace(state, notices=(*state.notices, text))
             save = last or state.time >= until
             if save:
                 state = replace(state, saves=state.saves + 1)
@@ -145,17 +144,18 @@ def _check_window(model: Model, state: State) -> None:
 
 
 def _noticed(model: Model, state: State) -> State:
-    """Add to the state the warnings that are due and were not given before."""
-    if not is_told(state, AVERAGING):
+    """Add to the state the notices that are due and were not given before."""
+    if not state.has_notice("averaging"):
         words = limitation(model, state)
         if words is not None:
-            state = told(state, AVERAGING, words)
+            state = state.with_notice("averaging", words, from_here=True)
     if state.steps == 0:
-        said = {"lap": short_of_a_lap(model), "resolution": few_cells(model, state.contact)}
-        texts = [f"{kind}: {words}" for kind, words in said.items() if words is not None]
-        state = replace(state, notices=(*state.notices, *texts))
-    if chatters(state):
-        state = told(state, CHATTERING, chattering_words(state))
+        if lap := short_of_a_lap(model):
+            state = state.with_notice("lap", lap)
+        if few := few_cells(model, state.contact):
+            state = state.with_notice("resolution", few)
+    if chatters(state) and not state.has_notice("chattering"):
+        state = state.with_notice("chattering", chattering_words(state), from_here=True)
     return state
 
 
@@ -164,5 +164,4 @@ def _concluded(model: Model, state: State) -> State:
     words = limitation(model, state)
     if words is None:
         return state
-    others = [notice for notice in state.notices if not notice.startswith(f"{AVERAGING}:")]
-    return replace(state, notices=(*others, sentence(state, AVERAGING, words)))
+    return state.without_notice("averaging").with_notice("averaging", words, from_here=True)

@@ -14,6 +14,7 @@ from typing import Any
 from tribo.case import Case
 from tribo.config.load import load_case, validate_case
 from tribo.core.errors import CaseError, Interrupted, TriboError, TriboWarning
+from tribo.core.notices import Notice
 from tribo.core.state import BodyInfo, RunInfo, Snapshot, State
 from tribo.observers.observer import Observer
 from tribo.observers.recorder import Recorder
@@ -33,7 +34,6 @@ from tribo.simulation.measure import measure
 from tribo.simulation.model import Model
 from tribo.stepping.rates import effect_fields
 
-FAILED = "failed"
 OTHERS = (".csv", ".json", ".pdf", ".png", ".svg", ".toml", ".txt", ".xls", ".xlsx")
 """Endings of files that are not HDF5."""
 
@@ -166,8 +166,7 @@ class Simulation:
         if case != self.model.data and not changes:
             raise CaseError(f"{path} is the result of another case; resume that one")
         state, wall_time = read_checkpoint(path, case)
-        kept = tuple(text for text in state.notices if not text.startswith(FAILED))
-        state = replace(state, notices=kept)
+        state = state.without_notice("failed")
         recorder = Recorder(path=path)
         return partial(
             self._follow,
@@ -218,7 +217,8 @@ class Simulation:
             reason = "done"
         except TriboError as error:
             # For whoever opens the result: it says why it ends here.
-            snapshot = _with_notice(snapshot, f"{FAILED}: {error}")
+            failed = snapshot.state.with_notice("failed", str(error))
+            snapshot = replace(snapshot, state=failed)
             if recorder.path:
                 error.add_note(
                     f"{recorder.path} holds what was saved until then; 'tribo run' replaces it "
@@ -299,16 +299,11 @@ def _model(
         raise CaseError(f"{error}; these do: {', '.join(providers)}") from error
 
 
-def _with_notice(snapshot: Snapshot, text: str) -> Snapshot:
-    state = replace(snapshot.state, notices=(*snapshot.state.notices, text))
-    return replace(snapshot, state=state)
-
-
-def _announce(before: Sequence[str], after: Sequence[str]) -> None:
+def _announce(before: Sequence[Notice], after: Sequence[Notice]) -> None:
     for notice in after:
         # That the case's own stop was reached is no warning; the result tells it.
-        if notice not in before and not notice.startswith("stop:"):
-            warnings.warn(notice, TriboWarning, stacklevel=4)
+        if notice not in before and notice.kind != "stop":
+            warnings.warn(str(notice), TriboWarning, stacklevel=4)
 
 
 def _held(path: Path) -> str:

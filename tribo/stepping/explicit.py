@@ -14,7 +14,6 @@ from tribo.core.fields import WearRate
 from tribo.core.state import State
 from tribo.core.units import Quantity
 from tribo.stepping.invariants import wear_balance
-from tribo.stepping.notices import STABILITY, is_told, told
 from tribo.stepping.rates import Moment, law_states, wear_rates
 from tribo.stepping.scheme import Scheme
 from tribo.stepping.step import (
@@ -92,10 +91,10 @@ class Explicit(Scheme):
         increment = distance_until(model, state, time) - state.distance
         moment = moment_after(state, increment, time)
         state = rated(model, state, moment)
-        if not (self.allow_unstable and is_told(state, STABILITY)):
+        if not (self.allow_unstable and state.has_notice("stability")):
             words = self._instability(model, state, moment)
             if words is not None:
-                state = told(state, STABILITY, words)
+                state = state.with_notice("stability", words, from_here=True)
         return self.step(model, state, increment, time)
 
     def step(self, model: Model, state: State, increment: float, time: float) -> State:

@@ -1,0 +1,36 @@
+"""Notices: what a run tells its user once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+Kind = Literal["stability", "averaging", "chattering", "lap", "resolution", "stop", "failed"]
+
+
+@dataclass(frozen=True)
+class Notice:
+    """What a user should know about a run.
+
+    Parameters
+    ----------
+    kind : str
+        What it is about; ``"stop"`` and ``"failed"`` say why a run ended.
+    text : str
+        What is to be known, and what to do.
+    time, distance : float or None
+        From when on it holds, in s, and the sliding distance by then, in m; None
+        for what holds of the whole run.
+    """
+
+    kind: Kind
+    text: str
+    time: float | None = None
+    distance: float | None = None
+
+    def __str__(self) -> str:
+        """Return the sentence that results keep."""
+        if self.time is None or self.distance is None:
+            return f"{self.kind}: {self.text}"
+        time, distance = (f"{float(f'{value:.4g}'):g}" for value in (self.time, self.distance))
+        return f"{self.kind}: at {time} s ({distance} m) {self.text}"
