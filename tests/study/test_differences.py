@@ -11,25 +11,19 @@ from tribo.study.differences import differences
 from tribo.templates import template
 
 DATA = tomllib.loads(template("ball_on_disk")) | {"output": {}}
-DATA["grid"] = {"size": "0.9 mm", "cells": 24}
+DATA["grid"] = {"size": "0.9 mm", "cells": 26}
 DATA["kinematics"]["duration"] = 300
 
 
-@pytest.mark.parametrize(
-    ("varied", "most"),
-    [
-        # Twice the cells change a smooth depth by the square of a cell over the scar: (37/270)².
-        ({"grid.cells": (48, 24)}, 0.02),
-        # Cells of other sizes change it by their own errors, too.
-        ({"grid.size": ("0.9 mm", "0.7 mm")}, 0.02),
-    ],
-)
-def test_a_groove_does_not_end_with_the_cells(varied, most):
+@pytest.mark.parametrize("varied", [{"grid.cells": (52, 26)}, {"grid.size": ("0.9 mm", "0.7 mm")}])
+def test_a_groove_does_not_end_with_the_cells(varied):
     with compare(DATA, varied) as comparison:
         first, other = comparison.results.values()
         for result, reference in ((first, other), (other, first)):
             found = {each.field: each for each in differences(result, reference, 300.0)}
-            assert 0 < found["bodies.disk.wear_depth"].largest < most
+            # Twice the cells change a smooth depth by (cell over scar)², (35/270)²; cells of
+            # other sizes by their own errors, too.
+            assert 0 < found["bodies.disk.wear_depth"].largest < 0.02
 
 
 class Made:

@@ -102,41 +102,23 @@ def test_a_path_may_be_quoted_or_lie_in_tables():
     assert validate_study(nested) == validate_study(quoted)
 
 
-SAMPLE = '[sample]\nmethod = "sobol"\ncount = 2\n[sample.ranges]\n'
+GRID, SAMPLE = "[grid]\n", '[sample]\nmethod = "sobol"\ncount = 2\n[sample.ranges]\n'
 
 
 @pytest.mark.parametrize(
     ("text", "message"),
     [
         ("", "nothing varies; give [grid], [zip], [[list]] or [sample]"),
-        (
-            "[grid]\nload.normal = []",
-            'grid."load.normal": at least 1 value is needed, none was',
-        ),
-        ("[grid]\nload.normal = 3", 'grid."load.normal": a list is needed, 3 was given'),
+        (GRID + "load.normal = []", 'grid."load.normal": at least 1 value is needed'),
+        (GRID + "load.normal = 3", 'grid."load.normal": a list is needed, 3 was given'),
         ("[gird]\nload.normal = [1]", "gird: unknown key 'gird'; did you mean 'grid'?"),
-        ("[grid]\nloda.normal = [1]", "loda: unknown key 'loda'; did you mean 'load'?"),
-        ("[grid]\nload.normla = [1]", "unknown key 'normla'; did you mean 'normal'?"),
-        ("[grid]\n'bodies.bal.wear.k' = [1]", "no body 'bal'; did you mean 'ball'?"),
-        ("[grid]\nload.normal = ['1 Pa']", "load.normal: '1 Pa' is a pressure [Pa]; a force"),
-        ("[grid]\nload.normal = [1, '1 N']", "are the same case; leave one of them out"),
-        ("[grid]\nload.normal=[1]\n'load.normal'=[2]", "grid: 'load.normal' is given twice"),
-        (
-            "[grid]\nload.normal = [1]\n[zip]\nload.normal = [2]",
-            "load.normal: varies twice",
-        ),
-        (
-            "[zip]\nload.normal = [1, 2]\nkinematics.stroke = [1e-3]",
-            "zip: values that go together must be equally many: load.normal has 2, "
-            "kinematics.stroke has 1",
-        ),
+        (GRID + "loda.normal = [1]", "loda: unknown key 'loda'; did you mean 'load'?"),
+        (GRID + "load.normal=[1]\n'load.normal'=[2]", "grid: 'load.normal' is given twice"),
+        (GRID + "load.normal = [1]\n[zip]\nload.normal = [2]", "load.normal: varies twice"),
+        ("[zip]\nload.normal = [1, 2]\nkinematics.stroke = [1e-3]", "zip: values that go together"),
         (SAMPLE.replace("sobol", "sobl"), "did you mean 'sobol'?"),
         (SAMPLE, "sample.ranges: at least 1"),
         (SAMPLE + "load.normal = {low = 1}", 'sample.ranges."load.normal".high: missing'),
-        (
-            SAMPLE + "load.normal = {low = '1 Pa', high = 2}",
-            "sample.ranges: the low ends cannot be used: load.normal: '1 Pa' is a pressure",
-        ),
         (
             SAMPLE + "load.normal = {low = 0, high = 2}",
             "sample.ranges: the low ends cannot be used: load.normal: 0 N: must be greater than 0",
