@@ -48,6 +48,7 @@ MEASURE = """
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", ["ball", "periodic", "plastic", "flat punch"])
 def test_the_estimate_is_above_the_peak_and_not_far(case, tmp_path):
     script = [sys.executable, "-c", textwrap.dedent(MEASURE), case, "320", str(tmp_path / "r.h5")]
@@ -77,6 +78,7 @@ def test_yielding_takes_more(tight):
     assert predict(small(bodies=bodies)).memory > predict(small()).memory
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", ["check", "run"])
 def test_commands_refuse_it_under_a_limit_of_the_process(command, tmp_path):
     case = tmp_path / "big.toml"

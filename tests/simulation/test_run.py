@@ -61,6 +61,7 @@ def test_every_save_carries_the_load_without_overlap():
         assert save["penetration_error"] < 1e-7
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 @pytest.mark.parametrize("after", [0, 1, 7])
 def test_a_stopped_run_resumes_to_the_same_bits(tmp_path, number, after):
@@ -81,6 +82,7 @@ def test_a_stopped_run_resumes_to_the_same_bits(tmp_path, number, after):
     assert sorted(p.name for p in tmp_path.iterdir()) == ["parts.h5", "whole.h5"]
 
 
+@pytest.mark.slow
 def test_a_run_stopped_twice_resumes_to_the_same_bits(tmp_path):
     whole, parts = tmp_path / "whole.h5", tmp_path / "parts.h5"
     model = small(save_times=(20, 100))
@@ -107,6 +109,7 @@ def test_a_run_gone_on_with_changed_components_and_stopped_again_says_how_to_go_
     Simulation(case()).resume(path, allow_changed=True).close()
 
 
+@pytest.mark.slow
 def test_a_torn_checkpoint_falls_back_on_the_one_before(tmp_path):
     whole, parts = tmp_path / "whole.h5", tmp_path / "parts.h5"
     model = small(save_times=(20, 100))
@@ -304,6 +307,7 @@ def test_replacing_a_result_drops_its_checkpoints(tmp_path):
     assert [p.name for p in tmp_path.iterdir()] == ["run.h5"]
 
 
+@pytest.mark.slow
 def test_a_result_that_lost_rows_is_not_padded(tmp_path):
     path = tmp_path / "run.h5"
     with pytest.raises(Interrupted):

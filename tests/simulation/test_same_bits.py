@@ -11,6 +11,8 @@ import pytest
 
 from tribo.templates import template
 
+pytestmark = pytest.mark.slow
+
 SETTINGS = {
     "grid.cells": "96",
     "kinematics.duration": "60",

@@ -113,6 +113,7 @@ class RunningIn(WearLaw):
         return WearRate(k * local.pressure, k, {"slid": touching})
 
 
+@pytest.mark.slow
 def test_a_law_with_state_follows_its_integral():
     # Where a point is in contact from the start, its state is the distance;
     # V = F k0 s0 (1 − exp(−s/s0)) would hold for a uniform state.

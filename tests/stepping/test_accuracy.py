@@ -59,12 +59,14 @@ def volume(law, stepping):
         return result.saves()[-1]["bodies"]["ball"]["wear_volume_m3"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", [power(2), Threshold()], ids=["p^2", "threshold"])
 def test_a_law_not_linear_in_pressure_is_right_to_0_3_percent(law):
     default, fine = volume(law, Implicit()), volume(law, FINE)
     assert default == pytest.approx(fine, rel=3e-3, abs=0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("law", "length"),
     [(running_in(20.0), 20.0), (running_in(5.0), 5.0), (Fading(), 5.0)],
@@ -95,6 +97,7 @@ class Steepless(Power):
         return WearRate(super().rate(local).depth_rate)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("exponent", [1, 1.5, 3])
 def test_a_slope_that_a_law_leaves_out_is_found(exponent):
     ours = Steepless(k=K, p_exponent=exponent, reference_pressure="1 GPa")

@@ -55,16 +55,6 @@ def test_the_groove_is_the_envelope_of_what_was_pressed_in(run):
     assert np.all(second[0] >= first.max(axis=0))
 
 
-def test_nothing_yields_twice_at_the_same_load(run):
-    model, all_states = run
-    settled = start_sliding(model, all_states[0])
-    again = model.contact.solve(
-        ContactProblem(model.system, geometry(model, settled.bodies), model.load)
-    )
-    deepest = settled.bodies["disk"].plastic.max()
-    assert again.overlap.max() < 1e-5 * deepest
-
-
 @pytest.mark.parametrize("part", [0.25, 0.5])
 def test_a_lighter_contact_on_the_groove_is_elastic(run, part):
     model, all_states = run
@@ -84,12 +74,6 @@ def test_wear_takes_the_pressure_below_the_cap_for_good(run):
     assert depths[-1] == depths[1]
 
 
-def test_the_softer_body_takes_all_of_it():
-    first = first_contact(yielding(hardness=("6 GPa", "4 GPa")))
-    assert first.bodies["ball"].plastic.max() == 0
-    assert first.bodies["disk"].plastic.max() > 0
-
-
 def test_without_plasticity_the_pressure_is_hertzs():
     from paper_models import half_space
 
@@ -104,6 +88,7 @@ def test_the_papers_load_does_not_yield():
     assert replace(model.system).cap == HARDNESS
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("hardness", [("6 GPa", "4 GPa"), ("4 GPa", "3 GPa")])
 def test_a_softer_disk_gets_a_groove_that_comes_to_rest(hardness):
     model = yielding(hardness=hardness, kinematics=motion(duration=20))
