@@ -13,7 +13,7 @@ from tribo.case import Body, Case
 from tribo.contact.winkler import Winkler
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactProblem, ContactSystem, WearCompliance
-from tribo.core.fields import ContactConditions, Field
+from tribo.core.fields import FRICTION_COEFFICIENT, ContactConditions, Field
 from tribo.core.grid import Grid
 from tribo.core.material import Material, contact_modulus
 from tribo.effects.effect import Effect
@@ -46,7 +46,6 @@ ARCHARD = Archard(k=1e-16)
 """It wears a third of the first approach within some metres."""
 
 _TYPICAL: Mapping[str, FieldValue] = {
-    "friction_coefficient": 0.3,
     "temperature": 400.0,
     "traction": lambda pressure: 0.3 * pressure,
     "traction_slope": 0.3,
@@ -57,16 +56,28 @@ _TYPICAL: Mapping[str, FieldValue] = {
 def field(name: str, names: Sequence[str], given: Mapping[str, FieldValue], p: Array) -> Array:
     """Return a typical value of the field `name` at the pressures `p`.
 
-    As `given`, else guessed from its name; one that is unknown follows its
+    As `given`, else as declared or guessed from its name; one that is unknown follows its
     slope if that is among `names` too, and is 1 if not.
     """
     value = given.get(name)
+    if value is None:
+        value = _declared(name)
     if value is None:
         value = next((value for end, value in _TYPICAL.items() if name.endswith(end)), None)
     if value is None:
         slope = f"{name}_slope"
         return field(slope, (), given, p) * p if slope in names else np.ones_like(p)
     return np.zeros_like(p) + (value(p) if callable(value) else value)
+
+
+def _declared(name: str) -> float | None:
+    """Return the typical value of a field that the case or a loaded effect provides, if stated."""
+    known = [FRICTION_COEFFICIENT]
+    effects = Effect.__subclasses__()
+    for effect in effects:
+        effects += effect.__subclasses__()
+        known += getattr(effect, "provides", ())
+    return next((f.typical for f in known if f.name == name and f.typical is not None), None)
 
 
 def fields(names: Sequence[str], given: Mapping[str, FieldValue], p: Array) -> dict[str, Array]:

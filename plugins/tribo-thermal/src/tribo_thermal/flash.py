@@ -11,7 +11,13 @@ from tribo import Array, CaseError, ContactConditions, Effect, Field, Material, 
 
 from tribo_thermal.sources import Profile, Rise, rise_per_power, source_radius
 
-TEMPERATURE = Field("temperature", "K", "Temperature of the body's surface in the contact.")
+TEMPERATURE = Field(
+    "temperature",
+    "K",
+    "Temperature of the body's surface in the contact.",
+    at_least=0.0,
+    typical=400.0,
+)
 RISE = Field("temperature_rise", "K", "The same above the ambient temperature.")
 
 
