@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 
 from tribo import Registry, Result, hookimpl
-from tribo.registry.kinds import kind_of
 
 CASE = """
 contact = {contact}
@@ -101,8 +100,7 @@ class Zoo:
 
 def case_of(*classes: Any, **changes: str) -> str:
     """Return a case that names `classes`, as TOML."""
-    kinds = [kind_of(cls).name for cls in classes]
-    named = {SLOTS.get(kind, kind): f'"{c.type}"' for kind, c in zip(kinds, classes, strict=True)}
+    named = {SLOTS.get(c.kind(), c.kind()): f'"{c.type}"' for c in classes}
     return CASE.format(**SOUND | named | changes)
 
 

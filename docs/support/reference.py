@@ -142,10 +142,10 @@ def hooks_table() -> Iterator[str]:
 def kinds_table() -> Iterator[str]:
     """Yield the base classes of components with the question that each answers."""
     yield "| Base class | Question that it answers |\n| --- | --- |"
-    for kind in KINDS.values():
-        module = inspect.getmodule(kind.interface)
+    for base in KINDS.values():
+        module = inspect.getmodule(base)
         question = (inspect.getdoc(module) or "").splitlines()[0]
-        yield f"| `{kind.interface.__name__}` | {question} |"
+        yield f"| `{base.__name__}` | {question} |"
 
 
 def plugin_page() -> Iterator[str]:
@@ -181,7 +181,8 @@ def _help(words: list[str]) -> str:
 def _components(registry: Registry, kind: str, heading: str) -> Iterator[str]:
     names = registry.names(kind)
     if not names:
-        yield f"No {KINDS[kind].words} comes with tribo; a [plugin](plugins.md) may offer one.\n"
+        words = kind.replace("_", " ")
+        yield f"No {words} comes with tribo; a [plugin](plugins.md) may offer one.\n"
     for name in names:
         cls = registry.lookup(kind, name)
         yield f'{heading} `type = "{name}"`\n'

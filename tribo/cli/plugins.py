@@ -1,4 +1,4 @@
-"""`tribo plugins`: what is installed, what it does, whether it holds, and how to begin one."""
+"""`tribo plugins`: list, describe, check and begin plugins."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a registry holds, for people: lists and descriptions."""
+"""Lists and descriptions of the components in a registry."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from tribo.core.errors import CaseError
 from tribo.core.fields import Field
 from tribo.core.units import Quantity
 from tribo.core.words import did_you_mean, suggestion
-from tribo.registry.kinds import KINDS, kind_of
+from tribo.registry.kinds import KINDS
 from tribo.registry.plugins import Plugin
 from tribo.registry.registry import Registry
 
@@ -25,9 +25,9 @@ from tribo.registry.registry import Registry
 def catalogue(registry: Registry) -> list[dict[str, str]]:
     """Return a row for every component, and for every plugin that cannot be used.
 
-    Nothing is imported that has not been: of what is in a plugin not imported
-    yet the kind is empty, and the summary that of its distribution. A name
-    that more than one plugin claims has a row for each, in conflict.
+    No plugin is imported: for a component of one not imported yet, the kind is
+    empty and the summary is that of its distribution. A name that several
+    plugins claim has a row for each, with the status ``conflict``.
 
     Returns
     -------
@@ -47,9 +47,9 @@ def catalogue(registry: Registry) -> list[dict[str, str]]:
 
 
 def find(registry: Registry, name: str) -> list[str]:
-    """Return the names of the component, or of all of the distribution, called `name`.
+    """Return the names of the component called `name`, or of those of the distribution.
 
-    Names that more than one plugin claims are found too, and come last.
+    Names in conflict come last.
 
     Raises
     ------
@@ -72,8 +72,8 @@ def find(registry: Registry, name: str) -> list[str]:
 
 
 def describe(cls: type[Component], plugin: Plugin) -> str:
-    """Return what a user should know of a component, as text."""
-    lines = [f"{cls.type}: {kind_of(cls).words} from {plugin}", ""]
+    """Return the description of a component: its docstring, parameters and fields."""
+    lines = [f"{cls.type}: {_words(cls)} from {plugin}", ""]
     lines += [_description(cls) or "(it has no description)", ""]
     parameters = list(_parameters(cls))
     if parameters:
@@ -85,8 +85,12 @@ def describe(cls: type[Component], plugin: Plugin) -> str:
     return "\n".join(lines)
 
 
+def _words(cls: type[Component]) -> str:
+    return cls.kind().replace("_", " ")
+
+
 def _description(cls: type[Component]) -> str:
-    """Return the docstring of a class; empty where it has none, or one that is no text."""
+    """Return the docstring of a class; empty if it has none, or it is not text."""
     return inspect.cleandoc(cls.__doc__) if isinstance(cls.__doc__, str) else ""
 
 
@@ -95,14 +99,14 @@ def _row(name: str, cls: type[Component] | None, plugin: Plugin) -> dict[str, st
         plugin = replace(plugin, status="incompatible", reason=lacks)
     facts = {key: plugin.facts[key] for key in ("distribution", "version", "status", "reason")}
     if cls is not None:
-        kind, summary = kind_of(cls).words, _description(cls).partition("\n")[0]
+        kind, summary = _words(cls), _description(cls).partition("\n")[0]
     else:
         kind, summary = "", f"(all of {plugin.distribution}) {plugin.summary}".rstrip()
     return {"name": name, "kind": kind, **facts, "summary": summary}
 
 
 def _parameters(table: type[BaseModel], within: tuple[type[BaseModel], ...] = ()) -> Iterator[str]:
-    """Yield a line for each key of a table, and indented below it those of the tables it holds."""
+    """Yield a line for each key of a table; those of tables inside follow, indented."""
     within = (*within, table)
     for name, field in table.model_fields.items():
         yield _parameter(name, field)
@@ -120,7 +124,7 @@ def _parameter(name: str, field: FieldInfo) -> str:
 
 
 def _parts(field: FieldInfo) -> Iterator[Any]:
-    """Yield the types in a field's annotation and what annotates them, however deep."""
+    """Yield every type in the annotation of a field, and what annotates it."""
     waiting = [*field.metadata, field.annotation]
     while waiting:
         part = waiting.pop(0)

@@ -1,4 +1,4 @@
-"""What plugins add to what tribo shows and writes, several of them at once."""
+"""What plugins add to reports, pictures, exports and templates."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class LabRow(NamedTuple):
-    """A row of the table that a run ends with: what it is, its value and the value's unit."""
+    """A row of the table after a run: its label, its value and the unit of the value."""
 
     label: str
     value: float
@@ -25,7 +25,7 @@ class LabRow(NamedTuple):
 
 
 class ExportFormat(NamedTuple):
-    """A format of `tribo export`: its name, what it holds, and how it is written to a folder."""
+    """A format of `tribo export`: its name, what it holds, and a function that writes it."""
 
     name: str
     summary: str
@@ -41,12 +41,21 @@ class CaseTemplate(NamedTuple):
 
 
 def choose(hook: str, name: str, words: str) -> Any:
-    """Return what any plugin that can be imported offers by this name.
+    """Return the format or template of this name; imports every plugin.
+
+    Parameters
+    ----------
+    hook : str
+        The hook by which plugins offer it.
+    name : str
+        Its name.
+    words : str
+        What it is, for the message: ``"format"`` or ``"template"``.
 
     Raises
     ------
     CaseError
-        If none does; `words` say what is wanted, and those that there are get listed.
+        If no plugin offers it.
     """
     registry = default_registry()
     for plugin in registry.load_all():
@@ -60,9 +69,9 @@ def choose(hook: str, name: str, words: str) -> Any:
 
 
 def from_plugins_of(result: Result, hook: str) -> list[Any]:
-    """Return what the plugins of a result's models answer to a hook about that result.
+    """Return the answers to a hook about a result, of the plugins whose models it names.
 
-    A result is shown, too, where one of them is not at hand.
+    Those that are not installed are left out.
     """
     registry = default_registry()
     for made in result.provenance["components"].values():

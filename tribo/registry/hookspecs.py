@@ -1,4 +1,4 @@
-"""The hooks by which a plugin takes part: all of them."""
+"""The hooks that a plugin may implement."""
 
 from __future__ import annotations
 
@@ -24,29 +24,29 @@ hookimpl = pluggy.HookimplMarker(PROJECT)
 
 @hookspec
 def tribo_components() -> Iterable[type[Component]]:
-    """Return the classes that a case may name; the base of each says of what kind it is."""
+    """Return classes that a case may name; the base of each is its kind."""
     return ()
 
 
 @hookspec
 def tribo_lab_rows(result: Result) -> Iterable[LabRow]:
-    """Return rows for the lab table of a result in which this plugin took part."""
+    """Return rows for the lab table of a result that used this plugin."""
     return ()
 
 
 @hookspec
 def tribo_figures(result: Result) -> Mapping[str, Callable[[], Figure]]:
-    """Return how to draw pictures of a result in which this plugin took part, by file name."""
+    """Return functions that draw a result that used this plugin, by file name."""
     return {}
 
 
 @hookspec
 def tribo_export_formats() -> Iterable[ExportFormat]:
-    """Return formats in which `tribo export` may write a result."""
+    """Return formats for `tribo export`."""
     return ()
 
 
 @hookspec
 def tribo_templates() -> Iterable[CaseTemplate]:
-    """Return cases that `tribo new` may write."""
+    """Return cases for `tribo new`."""
     return ()

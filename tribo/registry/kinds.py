@@ -1,10 +1,9 @@
-"""The kinds of component, each known by its base class."""
+"""The kinds of component, each known by its base class, and what their classes must fulfil."""
 
 from __future__ import annotations
 
 import inspect
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 
 from tribo.component import Component
@@ -15,45 +14,48 @@ from tribo.observers.observer import Observer
 from tribo.surfaces.surface import Surface
 from tribo.wear.law import WearLaw
 
-
-@dataclass(frozen=True)
-class Kind:
-    """A kind of component: its name, as ``"wear_law"``, and the base of its classes."""
-
-    name: str
-    interface: type[Component]
-
-    @property
-    def words(self) -> str:
-        """Its name in a sentence, as ``"wear law"``."""
-        return self.name.replace("_", " ")
-
-    @property
-    def article(self) -> str:
-        """The article of `words`: ``"a"`` or ``"an"``."""
-        return "an" if self.name[0] in "aeiou" else "a"
+_BASES: list[type[Component]] = [ContactSolver, WearLaw, Kinematics, Surface, Effect, Observer]
+KINDS: Mapping[str, type[Component]] = MappingProxyType({base.kind(): base for base in _BASES})
+"""Base class of each kind, as ``"wear_law"``."""
+Classes = dict[str, type[Component]]
+"""Classes by the name in a case."""
 
 
-INTERFACES: dict[str, type[Component]] = {
-    "contact_solver": ContactSolver,
-    "wear_law": WearLaw,
-    "kinematics": Kinematics,
-    "surface": Surface,
-    "effect": Effect,
-    "observer": Observer,
-}
-KINDS: Mapping[str, Kind] = MappingProxyType({n: Kind(n, base) for n, base in INTERFACES.items()})
-
-
-def kind_of(cls: object) -> Kind:
-    """Return the kind of component that a class implements; TypeError if it is none."""
+def check_class(cls: object) -> None:
+    """Raise `TypeError` unless `cls` is a class that implements exactly one kind of component."""
     if not inspect.isclass(cls):
         raise TypeError(f"{cls!r} is not a class; give the class, not an object of it")
-    kinds = [kind for kind in KINDS.values() if issubclass(cls, kind.interface)]
-    if len(kinds) != 1:
-        names = ", ".join(kind.interface.__name__ for kind in KINDS.values())
+    bases = [base for base in _BASES if issubclass(cls, base)]
+    if len(bases) != 1:
+        names = ", ".join(base.__name__ for base in _BASES)
         raise TypeError(f"{cls.__qualname__} must be a subclass of exactly one of {names}")
     if inspect.isabstract(cls):
         missing = ", ".join(sorted(getattr(cls, "__abstractmethods__", ())))
         raise TypeError(f"{cls.__qualname__} does not define {missing}")
-    return kinds[0]
+    if "provides" in bases[0].__annotations__ and not hasattr(cls, "provides"):
+        raise TypeError(
+            f"{cls.__qualname__} does not define provides, a tuple of Field, as in "
+            '(Field("name", "m", "What it means."),)'
+        )
+
+
+def offered(answers: Iterable[object]) -> Classes:
+    """Return the classes in the answers to the hook `tribo_components`, by name.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an answer is not a list, or holds something else than components or a name twice.
+    """
+    found: Classes = {}
+    for answer in answers:
+        if not isinstance(answer, Iterable):
+            raise TypeError(
+                f"tribo_components returns {answer!r}; it must return a list of classes"
+            )
+        for cls in answer:
+            check_class(cls)
+            if cls.type in found:
+                raise ValueError(f"tribo_components returns {cls.type!r} twice")
+            found[cls.type] = cls
+    return found

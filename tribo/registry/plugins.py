@@ -1,4 +1,4 @@
-"""The plugins that are at hand; none that is installed is imported here."""
+"""Find the plugins that are installed, without importing them."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Literal
 
 from packaging.requirements import Requirement
 
-from tribo.core.distributions import applies, with_entry_points
+from tribo.core.distributions import applies, entry_points
 from tribo.registry.hookspecs import PROJECT
 
 Status = Literal["available", "loaded", "disabled", "broken", "incompatible", "conflict"]
@@ -32,9 +32,9 @@ class Plugin:
         How it was found: ``"built-in"``, ``"installed"`` or ``"given"``.
     status : str
         ``available`` (not imported yet), ``loaded``, ``disabled`` by the user,
-        ``broken`` (it raised, or does not hold to the contract) or
-        ``incompatible`` (what its distribution requires is not there); in
-        lists, a name that another claims too is in ``conflict``.
+        ``broken`` (it raised, or breaks the contract of plugins) or
+        ``incompatible`` (a requirement of its distribution is not met); in
+        lists, a name that two plugins declare is in ``conflict``.
     reason : str
         Why it cannot be used; empty if it can.
     names : tuple of str
@@ -57,17 +57,17 @@ class Plugin:
 
     @property
     def usable(self) -> bool:
-        """Whether anything of it can be used, as far as is known."""
+        """Whether it can be used, as far as is known."""
         return self.status not in ("disabled", "broken", "incompatible")
 
     @property
     def facts(self) -> dict[str, str]:
-        """What is known, as plain data."""
+        """All but its names, as plain data."""
         return {key: value for key, value in vars(self).items() if key not in ("names", "load")}
 
     @property
     def summary(self) -> str:
-        """What its distribution says it is about; empty if nothing."""
+        """The summary of its distribution; empty if it has none."""
         with suppress(metadata.PackageNotFoundError, KeyError, ValueError):
             return metadata.metadata(self.distribution)["Summary"] or ""
         return ""
@@ -84,42 +84,30 @@ def builtin() -> Plugin:
 
 
 def given(plugin: object) -> Plugin:
-    """Return a plugin that is at hand: a module, or any object that carries hooks."""
+    """Return the record of a module, or any other object, that implements hooks."""
     name = str(getattr(plugin, "__name__", type(plugin).__name__))
     version = str(getattr(plugin, "__version__", ""))
     return Plugin(name, version, name, "given", "loaded", load=lambda: plugin)
 
 
 def installed() -> list[Plugin]:
-    """Return the plugins of installed distributions, sorted.
+    """Return the plugins of installed distributions, sorted; imports none.
 
-    An entry point ``acme.fretting = "acme_tribo"`` in the group ``tribo`` says
-    that the module ``acme_tribo`` hands over a component of that name. The
-    entry points of one module are one plugin.
+    An entry point ``acme.fretting = "acme_tribo"`` in the group ``tribo``
+    declares that the module ``acme_tribo`` offers a component of that name.
+    The entry points of one module make one plugin.
     """
-    found: list[Plugin] = []
-    for distribution, points in with_entry_points(f"[{PROJECT}]"):
-        modules: dict[str, list[metadata.EntryPoint]] = {}
-        for point in points:
-            if point.group == PROJECT:
-                modules.setdefault(point.value, []).append(point)
-        for module, ours in modules.items():
-            names = tuple(point.name for point in ours)
-            plugin = Plugin(
-                distribution.name,
-                distribution.version,
-                module,
-                "installed",
-                names=names,
-                load=ours[0].load,
-            )
-            if bare := [name for name in names if "." not in name]:
-                reason = (
-                    f"{bare[0]!r} needs a prefix, as in 'acme.fretting'; others are tribo's own"
-                )
-                plugin = replace(plugin, status="broken", reason=reason)
-            found.append(plugin)
-    return sorted(found, key=lambda plugin: (plugin.distribution, plugin.entry_point))
+    found: dict[tuple[str, str], Plugin] = {}
+    for distribution, point in entry_points(PROJECT):
+        key = distribution.name, point.value
+        plugin = found.get(key) or Plugin(
+            distribution.name, distribution.version, point.value, "installed", load=point.load
+        )
+        if "." not in point.name:
+            reason = f"{point.name!r} needs a prefix, as in 'acme.fretting'; others are tribo's own"
+            plugin = replace(plugin, status="broken", reason=plugin.reason or reason)
+        found[key] = replace(plugin, names=(*plugin.names, point.name))
+    return [found[key] for key in sorted(found)]
 
 
 def undeclared() -> list[str]:
@@ -127,11 +115,9 @@ def undeclared() -> list[str]:
     found = set()
     for distribution in metadata.distributions():
         with suppress(Exception):
-            needs = {
-                Requirement(text).name.lower()
-                for text in filter(applies, distribution.requires or ())
-            }
-            if PROJECT in needs and not distribution.entry_points.select(group=PROJECT):
+            needed = [Requirement(text) for text in distribution.requires or () if applies(text)]
+            requires_us = PROJECT in [requirement.name.lower() for requirement in needed]
+            if requires_us and not distribution.entry_points.select(group=PROJECT):
                 found.add(f"{distribution.name} {distribution.version}")
     return [
         f"{which} requires tribo but declares no plugin; if it is one, add an entry point to the "

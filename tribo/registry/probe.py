@@ -1,4 +1,4 @@
-"""Try a plugin in a process of its own, where it can neither hang nor crash this one."""
+"""Import a plugin in a child process, so that it can neither hang nor crash this one."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ LIMIT = "TRIBO_PLUGIN_TIME_LIMIT"
 
 
 def probe(plugin: Plugin, time_limit: float | None = None) -> Plugin:
-    """Return what importing an installed plugin in a child process shows.
+    """Return the record of an installed plugin after its import in a child process.
 
     Parameters
     ----------
     plugin : Plugin
-        One that may be used and is not imported yet; any other is returned as it is.
+        One with the status ``available``; any other is returned unchanged.
     time_limit : float, optional
         In s; that of the environment variable TRIBO_PLUGIN_TIME_LIMIT, or
         20 s, if left out.
@@ -84,7 +84,7 @@ def _ended(code: int) -> str:
 
 
 def _answer(distribution: str, entry_point: str) -> None:
-    """Import the plugin here, and write what is known of it then to what was stdout."""
+    """Import the plugin in this process, and write its record to stdout as JSON."""
     answer = os.dup(1)
     os.dup2(2, 1)
     wanted = (distribution, entry_point)

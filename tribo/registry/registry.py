@@ -1,4 +1,4 @@
-"""Which class a name in a case stands for."""
+"""Look up the class that a name in a case stands for."""
 
 from __future__ import annotations
 
@@ -22,8 +22,7 @@ from tribo.core.distributions import unmet
 from tribo.core.errors import CaseError, PluginError
 from tribo.core.words import did_you_mean, said, suggestion
 from tribo.registry import hookspecs
-from tribo.registry.kinds import KINDS, kind_of
-from tribo.registry.offers import Classes, offered
+from tribo.registry.kinds import Classes, offered
 from tribo.registry.plugins import Plugin, builtin, given, installed
 from tribo.registry.selection import selected
 
@@ -31,9 +30,8 @@ from tribo.registry.selection import selected
 class Registry:
     """The components that a set of plugins offers, by name.
 
-    One plugin manager holds the plugins. An installed one is imported only
-    when a name that its entry points declare is looked up. A name that two
-    plugins claim belongs to neither.
+    An installed plugin is imported only when a name that its entry points
+    declare is looked up. A name that two plugins claim cannot be used.
 
     Parameters
     ----------
@@ -43,7 +41,7 @@ class Registry:
     Raises
     ------
     TypeError, ValueError
-        If one that is at hand does not hold to the contract.
+        If one that was given as an object breaks the contract.
     """
 
     def __init__(self, plugins: Iterable[Plugin]) -> None:
@@ -64,9 +62,7 @@ class Registry:
 
     @classmethod
     def with_plugins(cls, *plugins: object) -> Registry:
-        """Return a registry of the built-in components and those of `plugins`.
-
-        Nothing else that is installed takes part.
+        """Return a registry of the built-in components and those of `plugins` only.
 
         Parameters
         ----------
@@ -77,7 +73,7 @@ class Registry:
 
     @property
     def plugins(self) -> tuple[Plugin, ...]:
-        """Every plugin that was found, with what is known of it by now."""
+        """Every plugin that was found, with its present status."""
         return tuple(self._plugins.values())
 
     @property
@@ -92,7 +88,7 @@ class Registry:
 
     @property
     def waiting(self) -> list[str]:
-        """The usable names of the plugins not imported yet, of whatever kind, sorted."""
+        """The usable names of the plugins not imported yet, sorted; their kinds are unknown."""
         claims = sorted(self._claims.items())
         return [n for n, keys in claims if len(keys) == 1 and keys[0] not in self._classes]
 
@@ -107,8 +103,7 @@ class Registry:
 
     def names(self, kind: str) -> list[str]:
         """Return the usable names of one kind, sorted, of the plugins that were imported."""
-        interface = KINDS[kind].interface
-        return sorted(name for name, cls in self.components.items() if issubclass(cls, interface))
+        return sorted(name for name, cls in self.components.items() if cls.kind() == kind)
 
     def claimants(self, name: str) -> list[Plugin]:
         """Return the plugins that claim a name; imports nothing."""
@@ -131,20 +126,19 @@ class Registry:
             If no plugin, or more than one, offers `name`, the one that does
             cannot be used, or it is of another kind.
         """
-        wanted = KINDS[kind]
-        cls = self.find(name, wanted.words)
+        words = kind.replace("_", " ")
+        cls = self.find(name, words)
         if cls is None:
             meant = suggestion(did_you_mean(name, [*self.names(kind), *self.waiting]))
-            raise CaseError(
-                f"unknown {wanted.words} {name!r}{meant} Installed: {self.choices(kind)}"
-            )
-        if not issubclass(cls, wanted.interface):
-            other = kind_of(cls)
-            raise CaseError(f"unknown {wanted.words} {name!r}: it is {other.article} {other.words}")
+            raise CaseError(f"unknown {words} {name!r}{meant} Installed: {self.choices(kind)}")
+        if cls.kind() != kind:
+            other = cls.kind().replace("_", " ")
+            article = "an" if other[0] in "aeiou" else "a"
+            raise CaseError(f"unknown {words} {name!r}: it is {article} {other}")
         return cls
 
     def find(self, name: str, words: str = "component") -> type[Component] | None:
-        """Return the class, of whatever kind, that `name` stands for; None if there is none.
+        """Return the class of any kind that `name` stands for, or None.
 
         Raises
         ------
@@ -161,12 +155,12 @@ class Registry:
         return cls
 
     def load_all(self) -> list[Plugin]:
-        """Import every plugin that may take part, and return those that turn out unusable."""
+        """Import every plugin that is not disabled, and return those that cannot be used."""
         usable = [key for key, plugin in self._plugins.items() if plugin.usable]
         return [self._plugins[key] for key in usable if not self._load(key)]
 
     def providers(self, fields: Iterable[str]) -> list[str]:
-        """Return the effects, of plugins that were imported, that provide any of `fields`."""
+        """Return the effects of imported plugins that provide any of `fields`, as text."""
         wanted = set(fields)
         return [
             f"{name!r} ({self.claimants(name)[0]})"
@@ -175,20 +169,18 @@ class Registry:
         ]
 
     def ask(self, hook: str, **arguments: object) -> list[Any]:
-        """Return what the plugins that were imported answer to a hook, in their order.
+        """Return the answers of the imported plugins to a hook, in the order of the plugins.
 
         Raises
         ------
         PluginError
-            If one of them raises; its file and line are named.
+            If one of them raises; the message has its file and line.
         """
         try:
             with _process_kept():
                 answers: list[Any] = getattr(self._manager.hook, hook)(**arguments)
         except Exception as error:
-            packages = [
-                plugin.entry_point for plugin in self.plugins if plugin.origin != "built-in"
-            ]
+            packages = [each.entry_point for each in self.plugins if each.origin != "built-in"]
             raise PluginError(
                 f"a plugin's {hook} raised {said(error)}{_place(error, *packages)}; --no-plugin "
                 "leaves that plugin out"
@@ -196,7 +188,7 @@ class Registry:
         return answers[::-1]
 
     def choices(self, kind: str) -> str:
-        """Return the usable names of one kind as text, with who provides them."""
+        """Return the usable names of one kind as text, each with its plugin."""
         text = self._by_plugin(self.names(kind)) or "none"
         waiting = self._by_plugin(self.waiting)
         return f"{text}; of plugins not imported yet: {waiting}" if waiting else text
@@ -208,7 +200,7 @@ class Registry:
         return "; ".join(f"{', '.join(own)} ({plugin})" for plugin, own in by_plugin.items())
 
     def _load(self, key: str) -> Classes:
-        """Import a plugin once, and return its classes; none, and say why, if that fails."""
+        """Import a plugin once, and return its classes; none if that fails."""
         if key in self._classes:
             return self._classes[key]
         plugin, self._classes[key] = self._plugins[key], {}
@@ -228,7 +220,7 @@ class Registry:
         return self._classes[key]
 
     def _register(self, key: str) -> Classes:
-        """Hand a plugin over to the manager, and return the classes that it offers."""
+        """Register a plugin with the plugin manager, and return the classes that it offers."""
         plugin = self._plugins[key].load()
         self._manager.register(plugin, key)
         self._manager.check_pending()
@@ -250,7 +242,7 @@ def default_registry() -> Registry:
 
 
 def _place(error: BaseException, *entry_points: str) -> str:
-    """Return file and line of a plugin's own innermost call, as text; empty if there is none."""
+    """Return file and line of the innermost call in a plugin, as text; empty if there is none."""
     if isinstance(error, SyntaxError):
         return ""  # Its message has its place.
     packages = {re.split("[.:]", entry_point)[0] for entry_point in entry_points}
@@ -264,9 +256,9 @@ def _place(error: BaseException, *entry_points: str) -> str:
 
 @contextmanager
 def _process_kept() -> Iterator[None]:
-    """Keep the process as it is; what is printed goes to stderr, for stdout is the command's."""
+    """Restore folder, warning filters and numpy's errors afterwards; print to stderr meanwhile."""
     with ExitStack() as kept, redirect_stdout(sys.stderr), warnings.catch_warnings(), np.errstate():
-        # A directory that was deleted cannot be gone back to.
+        # The folder may have been deleted.
         with suppress(FileNotFoundError):
             kept.callback(os.chdir, os.getcwd())
         yield

@@ -17,7 +17,7 @@ DISABLED = "TRIBO_DISABLE_PLUGINS"
 
 
 def selected(plugins: Iterable[Plugin]) -> list[Plugin]:
-    """Return the plugins, those that the environment turns off marked as disabled.
+    """Return the plugins; those that the environment turns off are marked as disabled.
 
     ``TRIBO_DISABLE_PLUGINS`` lists distributions, or names or prefixes of
     components, to leave out, separated by commas; ``*`` stands for all.
@@ -44,12 +44,12 @@ def selected(plugins: Iterable[Plugin]) -> list[Plugin]:
 
 
 def turn_off(names: Iterable[str]) -> None:
-    """Add to what this process and its children leave out."""
+    """Leave these plugins out, in this process and its children."""
     os.environ[DISABLED] = ",".join([*sorted(_listed(DISABLED)), *names])
 
 
 def keep_only(names: Iterable[str]) -> None:
-    """Let only these take part in this process and its children."""
+    """Use these plugins only, in this process and its children."""
     os.environ[ONLY] = ",".join(names)
 
 

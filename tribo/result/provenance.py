@@ -175,8 +175,8 @@ def _named_modules() -> tuple[tuple[list[str], metadata.Distribution], ...]:
     """Return the modules that entry points name, in parts, each with its distribution."""
     return tuple(
         (point.value.split(":")[0].strip().split("."), distribution)
-        for distribution, point in entry_points()
-        if point.group in ("tribo", "console_scripts")
+        for group in ("tribo", "console_scripts")
+        for distribution, point in entry_points(group)
     )
 
 

@@ -84,8 +84,8 @@ def _words(plugin: PluginName, kind: str) -> dict[str, str]:
         "component": plugin.component,
         "title": plugin.title,
         "kind": kind,
-        "words": KINDS[kind].words,
-        "article": KINDS[kind].article.title(),
+        "words": kind.replace("_", " "),
+        "article": "An" if kind[0] in "aeiou" else "A",
         "year": str(date.today().year),
     }
     words["example"] = _filled(f"{kind}/example.toml", words).strip()

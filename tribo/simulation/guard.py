@@ -15,7 +15,6 @@ from tribo.component import Component
 from tribo.core.arrays import Array
 from tribo.core.errors import BadValues, Interrupted, NumericalError, PluginError, TriboError
 from tribo.core.words import said
-from tribo.registry.kinds import kind_of
 
 REAL = "fiub"
 """Kinds of a dtype that are real numbers."""
@@ -43,7 +42,8 @@ class Guard(Generic[C]):
 
     def __str__(self) -> str:
         """Return what messages call it, as ``wear law 'archard' of body 'ball'``."""
-        words = f"{kind_of(type(self.component)).words} {self.component.type!r}"
+        kind = type(self.component).kind().replace("_", " ")
+        words = f"{kind} {self.component.type!r}"
         return f"{words} of body {self.body!r}" if self.body else words
 
     def ask(self, method: Callable[P, T], *given: P.args, **named: P.kwargs) -> T:

@@ -15,7 +15,7 @@ from pydantic import ValidationError
 
 from tribo.component import Component
 from tribo.core.words import said
-from tribo.registry.kinds import kind_of
+from tribo.registry.kinds import check_class
 from tribo.testing.checks import Checks, FieldValue
 from tribo.testing.checks_contact_solver import ContactSolverChecks
 from tribo.testing.checks_effect import EffectChecks
@@ -150,13 +150,14 @@ def check(
     ValueError
         If there is no configuration, or one is not valid.
     """
-    kind = kind_of(cls)
+    check_class(cls)
     outcomes = [
         _outcome(checks, name)
         for checks in suites(cls, configs, fields)
         for name in names_of(type(checks))
     ]
-    return Report(f"{kind.words} {cls.__qualname__} ({cls.type})", tuple(outcomes))
+    kind = cls.kind().replace("_", " ")
+    return Report(f"{kind} {cls.__qualname__} ({cls.type})", tuple(outcomes))
 
 
 def parametrize_checks(
@@ -193,7 +194,8 @@ def parametrize_checks(
     """
     import pytest
 
-    suite = SUITES[kind_of(cls).name]
+    check_class(cls)
+    suite = SUITES[cls.kind()]
     for name in expected_failures:
         if name not in names_of(suite):
             raise ValueError(f"expected_failures: {suite.__name__} has no check {name!r}")
@@ -273,7 +275,7 @@ def suites(
         except ValidationError as error:
             what = f"configs[{number}] is not valid for {cls.__qualname__}"
             raise ValueError(f"{what}: {error}") from error
-        yield SUITES[kind_of(cls).name](made, fields)
+        yield SUITES[cls.kind()](made, fields)
 
 
 def names_of(suite: type[Checks]) -> list[str]:
