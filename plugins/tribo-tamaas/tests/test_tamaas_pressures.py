@@ -123,13 +123,6 @@ def test_where_nothing_reaches_the_cap_it_changes_nothing():
     assert not capped.overlap.any()
 
 
-def test_plasticity_can_be_switched_off():
-    problem = ball(size=(1.2e-3, 1.2e-3), load=1000.0, cap=4e9)
-    solution = solver(plasticity=False).solve(problem)
-    assert solution.pressure.max() > 4.5e9
-    assert not solution.overlap.any()
-
-
 @pytest.mark.parametrize("cap", [None, 4e9])
 def test_warm_start_saves_iterations_and_finds_the_same(cap):
     problem = ball(size=(1.2e-3, 1.2e-3), load=1000.0, cap=cap)

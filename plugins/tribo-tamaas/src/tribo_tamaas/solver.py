@@ -63,7 +63,7 @@ class Tamaas(ContactSolver):
                 f"{self.type!r} needs tamaas, which is not installed: pip install tamaas "
                 "(there are wheels for Linux on x86-64 only), or use type = 'dcfft'"
             )
-        _check_bearable(system, system.load, self._cap(system))
+        _check_bearable(system, system.load, system.cap)
 
     def solve(
         self, problem: ContactProblem, start: ContactSolution | None = None
@@ -73,7 +73,7 @@ class Tamaas(ContactSolver):
             raise CaseError(
                 f"{self.type!r} takes no wear compliance; use stepping.type = 'explicit'"
             )
-        cap = self._cap(problem.system)
+        cap = problem.system.cap
         _check_bearable(problem.system, problem.load, cap)
         if not np.isfinite(problem.gap).all():
             raise NumericalError("the gap has values that are not finite")
@@ -90,9 +90,6 @@ class Tamaas(ContactSolver):
         """Return the compliance of the chequerboard mode, in m/Pa."""
         # On a box of 64 cells it is within 1.5 % of its limit, for cells up to 1 : 10.
         return float(np.min(_half_space((64, 64), system.grid.spacing, system.modulus).symbol()))
-
-    def _cap(self, system: ContactSystem) -> float | None:
-        return system.cap if self.plasticity else None
 
     def _reach(
         self, problem: ContactProblem, cap: float | None, guess: Array | None, iterations: int = 0
