@@ -134,9 +134,9 @@ def check(
     fields : Mapping[str, float or callable], optional
         Typical values, in SI, of the local fields that the class requires. One
         that follows the pressure is given as a function of it, and belongs to
-        what the law's derivative is compared with. Unless given, a field whose
-        ``NAME_slope`` is required too is that slope times the pressure; others
-        have plausible values, most of them the same at every pressure.
+        what the law's derivative is compared with. Unless given, a field has the
+        typical value of its declaration; one without, whose ``NAME_slope`` is
+        required too, is that slope times the pressure, and any other is 1.
 
     Returns
     -------

@@ -45,25 +45,15 @@ STEEL = Material(
 ARCHARD = Archard(k=1e-16)
 """It wears a third of the first approach within some metres."""
 
-_TYPICAL: Mapping[str, FieldValue] = {
-    "temperature": 400.0,
-    "traction": lambda pressure: 0.3 * pressure,
-    "traction_slope": 0.3,
-}
-"""What is plausible for a field whose name ends so."""
-
 
 def field(name: str, names: Sequence[str], given: Mapping[str, FieldValue], p: Array) -> Array:
     """Return a typical value of the field `name` at the pressures `p`.
 
-    As `given`, else as declared or guessed from its name; one that is unknown follows its
-    slope if that is among `names` too, and is 1 if not.
+    As `given`, else as declared by an effect that was imported. One of which
+    nothing is known follows its slope if that is among `names` too, and is 1
+    if not.
     """
-    value = given.get(name)
-    if value is None:
-        value = _declared(name)
-    if value is None:
-        value = next((value for end, value in _TYPICAL.items() if name.endswith(end)), None)
+    value = given.get(name, _declared(name))
     if value is None:
         slope = f"{name}_slope"
         return field(slope, (), given, p) * p if slope in names else np.ones_like(p)

@@ -10,7 +10,7 @@ import pytest
 from tribo import CaseError, Observer, Simulation
 
 from tribo_energy.plugin import EXAMPLE
-from tribo_energy.report import figures, lab_rows
+from tribo_energy.report import tribo_figures, tribo_lab_rows
 
 HERE = Path(__file__).parent
 ALPHA, MU, LOAD = 3.11e-15, 0.1, 100.0
@@ -134,8 +134,8 @@ def test_the_lab_is_told_the_energy_and_the_volume_it_wore():
     data = tomllib.loads(EXAMPLE.read_text())
     data["kinematics"]["duration"], data["output"] = 50, {}
     with Simulation(data).run() as result:
-        energy, volume = lab_rows(result)
-        (draw,) = figures(result).values()
+        energy, volume = tribo_lab_rows(result)
+        (draw,) = tribo_figures(result).values()
         assert draw().axes[0].get_xlabel() == "Dissipated energy, J"
     # Two bodies, each V = α Σ E.
     assert energy.value == pytest.approx(MU * LOAD * 2 * 2e-3 * 25 * 50, rel=1e-9, abs=0)

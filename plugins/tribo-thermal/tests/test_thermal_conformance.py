@@ -1,12 +1,12 @@
 """The checks of tribo that every wear law and every effect has to pass."""
 
-from tribo.testing import example_configs, parametrize_checks
+from tribo.testing import parametrize_checks
 
 from tribo_thermal.arrhenius import Arrhenius
 from tribo_thermal.flash import Flash
 from tribo_thermal.softening import Softening
 
-test_flash = parametrize_checks(Flash, example_configs(Flash))
+test_flash = parametrize_checks(Flash)
 test_flash_by_body = parametrize_checks(
     Flash,
     [
@@ -15,5 +15,5 @@ test_flash_by_body = parametrize_checks(
     ],
     expected_failures={"bodies_may_have_any_names": "its configuration names the bodies"},
 )
-test_arrhenius = parametrize_checks(Arrhenius, example_configs(Arrhenius))
-test_softening = parametrize_checks(Softening, example_configs(Softening))
+test_arrhenius = parametrize_checks(Arrhenius)
+test_softening = parametrize_checks(Softening)

@@ -11,7 +11,10 @@ from tribo import CaseError, ContactConditions, Simulation
 
 from tribo_thermal.flash import Flash
 from tribo_thermal.plugin import EXAMPLE
-from tribo_thermal.report import figures, lab_rows
+from tribo_thermal.report import tribo_figures, tribo_lab_rows
+
+# The case is small, so that it runs in a second.
+pytestmark = pytest.mark.filterwarnings("ignore:resolution:tribo.TriboWarning")
 
 HERE = Path(__file__).parent
 
@@ -138,8 +141,8 @@ def test_ten_to_one_says_what_the_readme_shows(ten_to_one, capsys):
 
 def test_the_lab_is_told_the_temperature_that_the_wear_followed():
     with Simulation(case(duration=20)).run() as result:
-        ball, disk = lab_rows(result)
-        assert list(figures(result)) == ["contact_temperature"]
+        ball, disk = tribo_lab_rows(result)
+        assert list(tribo_figures(result)) == ["contact_temperature"]
         config = Flash.model_validate(result.case["effects"][0])
     assert ball.value == disk.value
     # The first contact is the smallest, and so the hottest; its rise is that of a lone source.

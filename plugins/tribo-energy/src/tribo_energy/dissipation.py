@@ -33,9 +33,8 @@ class Dissipation(WearLaw):
     model_config = ConfigDict(
         json_schema_extra={
             "examples": [
-                {"type": "energy.dissipation", "alpha": "3.11e-6 mm^3/J"},
+                {"alpha": "3.11e-6 mm^3/J"},
                 {
-                    "type": "energy.dissipation",
                     "alpha": "3.11e-6 mm^3/J",
                     "threshold_traction": "50 MPa",
                     "threshold_energy": "10 MJ/m^2",

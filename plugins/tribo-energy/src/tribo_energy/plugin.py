@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
-from matplotlib.figure import Figure
-from tribo import CaseTemplate, Component, LabRow, Result, hookimpl
+from tribo import CaseTemplate, Component, hookimpl
 
-from tribo_energy import report
 from tribo_energy.dissipation import Dissipation
+from tribo_energy.report import tribo_figures, tribo_lab_rows
 from tribo_energy.traction import FrictionTraction
+
+__all__ = ["tribo_components", "tribo_figures", "tribo_lab_rows", "tribo_templates"]
 
 EXAMPLE = Path(__file__).with_name("ball_on_disk.toml")
 
@@ -19,18 +19,6 @@ EXAMPLE = Path(__file__).with_name("ball_on_disk.toml")
 def tribo_components() -> tuple[type[Component], ...]:
     """Offer wear by dissipated energy, and the friction traction."""
     return (Dissipation, FrictionTraction)
-
-
-@hookimpl
-def tribo_lab_rows(result: Result) -> list[LabRow]:
-    """Offer the dissipated energy."""
-    return report.lab_rows(result)
-
-
-@hookimpl
-def tribo_figures(result: Result) -> dict[str, Callable[[], Figure]]:
-    """Offer the worn volumes over the dissipated energy."""
-    return report.figures(result)
 
 
 @hookimpl

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from matplotlib.figure import Figure
-from tribo import Array, LabRow, Result
+from tribo import Array, LabRow, Result, hookimpl
 
 
 def dissipated(result: Result) -> Array | None:
@@ -19,8 +19,9 @@ def dissipated(result: Result) -> Array | None:
     return energy
 
 
-def lab_rows(result: Result) -> list[LabRow]:
-    """Return the energy dissipated in all, and the volume lost for it."""
+@hookimpl
+def tribo_lab_rows(result: Result) -> list[LabRow]:
+    """Offer the energy dissipated in all, and the volume lost for it."""
     energy = dissipated(result)
     if energy is None or not energy[-1] > 0:
         return []
@@ -31,8 +32,9 @@ def lab_rows(result: Result) -> list[LabRow]:
     ]
 
 
-def figures(result: Result) -> dict[str, Callable[[], Figure]]:
-    """Return how to draw the worn volumes over the dissipated energy."""
+@hookimpl
+def tribo_figures(result: Result) -> dict[str, Callable[[], Figure]]:
+    """Offer the worn volumes over the dissipated energy."""
     energy = dissipated(result)
     if energy is None or not energy[-1] > 0:
         return {}

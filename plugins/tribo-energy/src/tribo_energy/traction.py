@@ -7,7 +7,9 @@ from collections.abc import Mapping
 from tribo import Array, ContactConditions, Effect, Field
 
 TRACTION = Field("friction_traction", "Pa", "Magnitude of the friction traction, for both bodies.")
-SLOPE = Field("friction_traction_slope", "1", "Derivative of the friction traction in pressure.")
+SLOPE = Field(
+    "friction_traction_slope", "1", "Derivative of the traction in pressure.", typical=0.3
+)
 
 
 class FrictionTraction(Effect):

@@ -29,7 +29,6 @@ class Arrhenius(WearLaw):
         json_schema_extra={
             "examples": [
                 {
-                    "type": "thermal.arrhenius",
                     "k": "3.11e-16 1/Pa",
                     "activation_energy": "50 kJ/mol",
                     "reference_temperature": "90 degC",

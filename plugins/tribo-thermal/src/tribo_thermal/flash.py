@@ -59,13 +59,8 @@ class Flash(Effect):
     model_config = ConfigDict(
         json_schema_extra={
             "examples": [
-                {"type": "thermal.flash", "ambient": "90 degC"},
-                {
-                    "type": "thermal.flash",
-                    "ambient": "20 degC",
-                    "source": "parabolic",
-                    "rise": "maximum",
-                },
+                {"ambient": "90 degC"},
+                {"ambient": "20 degC", "source": "parabolic", "rise": "maximum"},
             ]
         }
     )

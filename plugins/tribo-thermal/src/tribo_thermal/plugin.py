@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
-from matplotlib.figure import Figure
-from tribo import CaseTemplate, Component, LabRow, Result, hookimpl
+from tribo import CaseTemplate, Component, hookimpl
 
-from tribo_thermal import report
 from tribo_thermal.arrhenius import Arrhenius
 from tribo_thermal.flash import Flash
+from tribo_thermal.report import tribo_figures, tribo_lab_rows
 from tribo_thermal.softening import Softening
+
+__all__ = ["tribo_components", "tribo_figures", "tribo_lab_rows", "tribo_templates"]
 
 EXAMPLE = Path(__file__).with_name("ball_on_disk.toml")
 
@@ -20,18 +20,6 @@ EXAMPLE = Path(__file__).with_name("ball_on_disk.toml")
 def tribo_components() -> tuple[type[Component], ...]:
     """Offer the contact temperature, and Archard's law with what follows it."""
     return (Flash, Arrhenius, Softening)
-
-
-@hookimpl
-def tribo_lab_rows(result: Result) -> list[LabRow]:
-    """Offer the highest temperatures in the contact."""
-    return report.lab_rows(result)
-
-
-@hookimpl
-def tribo_figures(result: Result) -> dict[str, Callable[[], Figure]]:
-    """Offer the temperature in the contact over time."""
-    return report.figures(result)
 
 
 @hookimpl

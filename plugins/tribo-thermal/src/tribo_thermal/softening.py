@@ -27,12 +27,7 @@ class Softening(WearLaw):
     model_config = ConfigDict(
         json_schema_extra={
             "examples": [
-                {
-                    "type": "thermal.softening",
-                    "K": 1.24e-6,
-                    "softening": "0.001 1/K",
-                    "reference_temperature": "20 degC",
-                }
+                {"K": 1.24e-6, "softening": "0.001 1/K", "reference_temperature": "20 degC"}
             ]
         }
     )
