@@ -13,8 +13,11 @@ from tribo_thermal.flash import Flash
 from tribo_thermal.plugin import EXAMPLE
 from tribo_thermal.report import tribo_figures, tribo_lab_rows
 
-# The case is small, so that it runs in a second.
-pytestmark = pytest.mark.filterwarnings("ignore:resolution:tribo.TriboWarning")
+# The case is small, and its stroke is the paper's.
+pytestmark = [
+    pytest.mark.filterwarnings(f"ignore:{about}:tribo.TriboWarning")
+    for about in ("resolution", "averaging")
+]
 
 HERE = Path(__file__).parent
 
