@@ -27,7 +27,7 @@ def few_cells(model: Model, first: ContactSolution) -> str | None:
         else (hertz.half_width_x, hertz.half_width_y)
     )
     cells = min(2 * width / dx, 2 * breadth / dy)
-    if cells >= FEW_CELLS:
+    if round(cells) >= FEW_CELLS:
         return None
     return (
         f"the first contact is only {cells:.1f} cells wide, so its pressure is inaccurate "
