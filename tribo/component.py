@@ -1,4 +1,4 @@
-"""What a model is, and how a name in a case finds its class."""
+"""The base of every model, and the look-up of its class by the name in a case."""
 
 from __future__ import annotations
 
@@ -34,8 +34,8 @@ KIND = "x-kind"
 class Component(Table, ABC):
     """A model: its fields are its configuration, its methods its physics.
 
-    It is frozen and knows all its keys. What it caches is private and changes
-    no answer; what evolves in a run is never kept in it.
+    It is frozen and refuses unknown keys. It may cache values in private
+    attributes, but never keeps what evolves in a run.
 
     A field declared as one of the interfaces (`WearLaw`, `Surface`, …) takes
     any component of that kind: an object, a table whose ``type`` names its
@@ -66,13 +66,13 @@ class Component(Table, ABC):
 
     @classmethod
     def kind(cls) -> str:
-        """Return which kind of component it is, as ``"wear_law"``: its interface in snake case."""
+        """Return its kind: the name of its interface in snake case, as ``"wear_law"``."""
         interface = next(base for base in cls.__mro__ if Component in base.__bases__)
         return _snake_case(interface.__name__)
 
     @classmethod
     def hint(cls, info: ValidationInfo) -> str:
-        """Return which components of its kind there are, as text."""
+        """Return the names of the installed components of its kind, as text."""
         return f"installed: {_registry(info).choices(cls.kind())}"
 
     @classmethod
@@ -127,18 +127,18 @@ class Component(Table, ABC):
         return made
 
     def __eq__(self, other: object) -> bool:
-        """Whether both are of one class and configured alike; what they cache does not count."""
+        """Whether class and configuration are the same; caches do not count."""
         return type(self) is type(other) and dict(self) == dict(other)
 
     def __hash__(self) -> int:
         return hash((type(self), *(value for _, value in self)))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Travel to another process as a class and its configuration."""
+        """Pickle the class and its configuration."""
         return type(self).model_validate, (dict(self),)
 
     def facts(self) -> Mapping[str, str]:
-        """Return what a user ought to see before a run, such as what a file was read as.
+        """Return facts that a user should see before a run, such as how a file was read.
 
         ``tribo check`` shows it, every result keeps it, and a run does not
         resume where it has changed.

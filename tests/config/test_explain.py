@@ -73,7 +73,7 @@ def lines(dummies: Any) -> Callable[..., list[str]]:
         (
             ball(material={"poisson": 0.3}),
             "bodies.ball.material.young",
-            "missing; a pressure [Pa] is needed, as in '207 GPa'",
+            "missing; a pressure [Pa] is needed, as in '4 GPa'",
         ),
         (
             ball(wear="linear"),

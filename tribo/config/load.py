@@ -1,14 +1,15 @@
-"""From a file to a validated case."""
+"""Read a case from a file, and validate it."""
 
 from __future__ import annotations
 
 import re
 import tomllib
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from packaging.requirements import InvalidRequirement, Requirement
+from packaging.requirements import InvalidRequirement
 from pydantic import ValidationError
 
 from tribo.case import Case
@@ -43,7 +44,7 @@ def load_case(
     Raises
     ------
     CaseError
-        If the file cannot be read, or what it says is wrong; one line an error.
+        If the file cannot be read or the case is wrong; one line for each error.
     """
     return validate_case(apply_settings(read_toml(path), overrides), registry=registry)
 
@@ -61,37 +62,28 @@ def validate_case(data: Mapping[str, Any], *, registry: Registry | None = None) 
     Raises
     ------
     CaseError
-        If anything in `data` is wrong; one line an error.
+        If anything in `data` is wrong; one line for each error.
     """
     check_depth(data, "the case")
     known = registry or default_registry()
     data = _with_default_types(data)
     requires = data.get("requires")
-    if isinstance(requires, list | tuple) and all(_is_requirement(text) for text in requires):
-        # Before any name is looked up: what lacks is then told by the package to install.
-        check_requirements(requires, known.plugins)
+    if isinstance(requires, list | tuple):
+        # First, so that the message names the package to install; Case refuses malformed ones.
+        with suppress(InvalidRequirement, TypeError):
+            check_requirements(requires, known.plugins)
     try:
         case = Case.model_validate(data, context={"registry": known})
     except ValidationError as error:
         raise case_error(error) from None
-    fewest, most = min(case.grid.cells), max(case.grid.cells)
-    if fewest < FEWEST:
-        raise CaseError(f"{fewest}: must be at least {FEWEST}", "grid.cells")
-    if most > MOST:
-        raise CaseError(f"{most}: must be at most {MOST}", "grid.cells")
+    for cells in case.grid.cells:
+        if not FEWEST <= cells <= MOST:
+            raise CaseError(f"{cells}: must be from {FEWEST} to {MOST}", "grid.cells")
     return case
 
 
-def _is_requirement(text: object) -> bool:
-    try:
-        Requirement(str(text))
-    except InvalidRequirement:
-        return False
-    return isinstance(text, str)
-
-
 def _with_default_types(data: Mapping[str, Any]) -> dict[str, Any]:
-    """Let [contact] and [stepping] change a key of their default type without naming it."""
+    """Add the default type to [contact] and [stepping] that do not name one."""
     completed = dict(data)
     for key, name in _DEFAULT_TYPES.items():
         table = completed.get(key)
@@ -101,7 +93,7 @@ def _with_default_types(data: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _quotes(content: bytes, error: ValueError) -> str:
-    """Return what to write where a TOML error is in a line with a unit but no quotes."""
+    """Return a hint if the line of a TOML error has a value with a unit but no quotes."""
     at = re.search(r"at line (\d+)", str(error))
     line = content.splitlines()[int(at[1]) - 1].decode() if at else ""
     bare = re.fullmatch(r"([\w.-]+ *= *)([\d.e+-]+ *[A-Za-zµ°][^\"'#]*)", line.strip())
@@ -109,7 +101,7 @@ def _quotes(content: bytes, error: ValueError) -> str:
 
 
 def case_tables(case: Case | Mapping[str, Any] | str | Path) -> Mapping[str, Any]:
-    """Return the tables of a case, given as itself, its tables or its TOML file."""
+    """Return the tables of a case, which is given as a Case, as tables or as a TOML file."""
     if isinstance(case, Case):
         return case.model_dump(mode="json")
     return case if isinstance(case, Mapping) else read_toml(case)
@@ -121,8 +113,7 @@ def read_toml(path: str | Path) -> dict[str, Any]:
     Raises
     ------
     CaseError
-        If there is no such file, it is not TOML in UTF-8, with line and column,
-        or its tables nest too deeply.
+        If the file does not exist, is not TOML in UTF-8 or nests too deeply.
     """
     path = Path(path)
     try:
@@ -144,7 +135,7 @@ def read_toml(path: str | Path) -> dict[str, Any]:
     if b"\0" in content:
         raise CaseError(f"{path} is not text in UTF-8; 'tribo new' writes a case to start from")
     try:
-        # Editors on Windows put a mark at the start, which TOML does not know.
+        # Editors on Windows put a byte order mark at the start.
         data = tomllib.loads(content.decode("utf-8-sig"))
     except UnicodeDecodeError as error:
         line = content.count(b"\n", 0, error.start) + 1

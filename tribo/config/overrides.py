@@ -1,4 +1,4 @@
-"""Values of a case by path, as ``load.normal``: change them, and read them with their units."""
+"""Change and list the values of a case by path, as ``load.normal``."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ def apply_settings(
 ) -> dict[str, Any]:
     """Return `data` with values replaced.
 
-    Setting the ``type`` of a table to another one drops the table's other
-    keys, which belong to the former type. Such changes are made first,
-    whatever the order in `settings`; of the others, the last one counts.
+    Setting ``type`` to another one drops the other keys of the table, which
+    belong to the former type. Such changes are made first, in any order of
+    `settings`; of several values for one path, the last counts.
 
     Parameters
     ----------
@@ -32,7 +32,7 @@ def apply_settings(
     settings : Mapping or sequence of str
         Values by path, as TOML would give them, or texts ``"path=value"``, as
         ``"effects.0.rate=2"``, whose value is read as TOML or else as text.
-        Missing tables are added; validation finds keys that no case has.
+        Missing tables are added; unknown keys are left to the validation.
 
     Raises
     ------
@@ -77,7 +77,7 @@ def path_keys(path: str) -> list[str]:
 
 
 def parse_value(text: str) -> Any:
-    """Return what a text says as TOML, or else the text; CaseError if it nests too deeply."""
+    """Return the value of a text as TOML, or else the text; CaseError if it nests too deeply."""
     try:
         read = tomllib.loads(f"value = {text}")
     except (ValueError, RecursionError):
@@ -89,7 +89,7 @@ def parse_value(text: str) -> Any:
 def leaves(
     value: object, annotation: Any = None, place: tuple[str | int, ...] = ()
 ) -> Iterator[tuple[tuple[str | int, ...], Any, Quantity | None]]:
-    """Yield every value in a case that is not a table or list: its keys, itself, its quantity."""
+    """Yield keys, value and quantity of every value in a case that is not a table or list."""
     if isinstance(value, BaseModel):
         if isinstance(value, Component):
             yield (*place, "type"), value.type, None
@@ -129,7 +129,7 @@ def _set(data: dict[str, Any], keys: list[str], value: Any) -> None:
     for depth, key in enumerate(keys):
         inside = holder[place]
         if isinstance(inside, str) and depth:
-            # The name of a component alone stands for a table with its type.
+            # The name of a component is short for a table with its type.
             inside = holder[place] = {"type": inside}
         if keys[depth:] == ["type"] and depth and isinstance(inside, dict):
             holder[place] = inside if inside.get("type") == value else {"type": value}

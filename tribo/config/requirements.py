@@ -1,4 +1,4 @@
-"""Are the distributions that a case asks for installed, and their plugins at hand?"""
+"""Check that the distributions a case requires are installed and usable."""
 
 from __future__ import annotations
 
@@ -15,22 +15,16 @@ from tribo.registry.plugins import Plugin
 def check_requirements(requires: Iterable[str], plugins: Iterable[Plugin] = ()) -> None:
     """Raise `CaseError` unless every requirement, as ``"acme-tribo>=1.2"``, is met.
 
-    One whose marker, as ``; python_version < "3.12"``, does not hold here is none. A plugin
-    of which nothing is usable (disabled, broken or incompatible) does not meet one.
+    One whose marker does not hold here, as ``; python_version < "3.12"``, is
+    skipped. A distribution whose plugins are all disabled, broken or
+    incompatible does not meet a requirement.
     """
-    found_as: dict[str, Plugin] = {}
-    # Of the modules of a distribution, one that is usable counts.
-    for plugin in sorted(plugins, key=lambda plugin: plugin.usable):
-        found_as[canonicalize_name(plugin.distribution)] = plugin
+    known = list(plugins)
     for text in filter(applies, requires):
         if lack := lacking(text):
             raise CaseError(f"{text!r} is needed, but {lack}; install it with pip", "requires")
-        _check_usable(text, found_as.get(canonicalize_name(Requirement(text).name)))
-
-
-def _check_usable(text: str, plugin: Plugin | None) -> None:
-    if plugin is not None and not plugin.usable:
-        raise CaseError(
-            f"{text!r} is needed, but the plugin {plugin} is {plugin.status}: {plugin.reason}",
-            "requires",
-        )
+        name = canonicalize_name(Requirement(text).name)
+        found = [plugin for plugin in known if canonicalize_name(plugin.distribution) == name]
+        if found and not any(plugin.usable for plugin in found):
+            reason = f"the plugin {found[0]} is {found[0].status}: {found[0].reason}"
+            raise CaseError(f"{text!r} is needed, but {reason}", "requires")

@@ -1,4 +1,4 @@
-"""The JSON schema of a case, with the components that are installed now."""
+"""The JSON schema of a case, with the installed components."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 from pydantic import BaseModel
 
-from tribo.component import KIND, Component
+from tribo.component import KIND
 from tribo.core.errors import TriboWarning
 from tribo.core.words import said
 from tribo.registry.registry import Registry, default_registry
@@ -61,7 +61,7 @@ def json_schema(
 
 
 def _choice(schemas: dict[str, Schema], mode: Mode) -> Schema:
-    """Return a choice by type; by name alone, too, where a component needs no keys."""
+    """Return a choice by type, or by name alone of components that need no keys."""
     if not schemas:
         return {"not": {}}
     mapping = {name: f"#/$defs/{name}" for name in schemas}
@@ -76,7 +76,7 @@ def _choice(schemas: dict[str, Schema], mode: Mode) -> Schema:
 
 
 def _schema(registry: Registry, kind: str, name: str, mode: Mode) -> Schema | None:
-    cls: type[Component] = registry.lookup(kind, name)
+    cls = registry.components[name]
     try:
         schema = cls.model_json_schema(mode=mode, ref_template=f"#/$defs/{name}/$defs/{{model}}")
         json.dumps(schema, allow_nan=False)
@@ -94,7 +94,7 @@ def _schema(registry: Registry, kind: str, name: str, mode: Mode) -> Schema | No
 
 
 def _places(schema: Any) -> Iterator[Schema]:
-    """Yield the parts of a schema that stand for any component of a kind."""
+    """Yield the places in a schema that take any component of a kind."""
     if isinstance(schema, dict):
         if KIND in schema:
             yield schema

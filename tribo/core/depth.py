@@ -1,4 +1,4 @@
-"""How deeply tables and lists may lie in each other."""
+"""The limit on how deeply tables and lists of a case may nest."""
 
 from __future__ import annotations
 
@@ -10,21 +10,17 @@ LEVELS = 100
 """Far more than a case needs, and far fewer than exhaust Python's recursion."""
 
 
-def check_depth(data: object, what: object) -> None:
-    """Raise `CaseError` that names `what` if tables or lists in `data` nest too deeply."""
-    waiting = [(data, 0)]
-    while waiting:
-        inside, level = waiting.pop()
-        if level > LEVELS:
-            raise too_deep(what)
-        if isinstance(inside, Mapping):
-            waiting += [(value, level + 1) for value in inside.values()]
-        elif isinstance(inside, list | tuple):
-            waiting += [(value, level + 1) for value in inside]
+def check_depth(data: object, what: object, levels: int = LEVELS) -> None:
+    """Raise `CaseError` that names `what` if tables or lists nest deeper than `levels`."""
+    if levels < 0:
+        raise too_deep(what)
+    if isinstance(data, Mapping | list | tuple):
+        for part in data.values() if isinstance(data, Mapping) else data:
+            check_depth(part, what, levels - 1)
 
 
 def too_deep(what: object) -> CaseError:
-    """Return the error of what nests too deeply."""
+    """Return the error for tables or lists of `what` that nest too deeply."""
     return CaseError(
         f"{what}: tables or lists are nested too deeply; at most {LEVELS} levels are allowed"
     )

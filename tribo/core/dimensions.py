@@ -1,4 +1,4 @@
-"""Units: their size in SI and their dimension."""
+"""Size in SI and dimension of a unit."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ _UNPREFIXED: dict[str, tuple[str, Dimension]] = {
     "kgf": ("9.80665", (1, 1, -2, 0, 0)),
     "HV": ("9806650", (-1, 1, -2, 0, 0)),
 }
-"""Symbols that do not. Vickers hardness is in kgf/mm² (ISO 6507-1)."""
+"""Symbols without prefixes. Vickers hardness is in kgf/mm² (ISO 6507-1)."""
 _PREFIXES = {"p": -12, "n": -9, "u": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9, "T": 12}
 _FACTOR = re.compile(r"(1|[A-Za-z]+)(?:\^?(-?[1-9]))?")
 _VICKERS_WITH_LOAD = re.compile(r"\bHV\d+(?:\.\d+)?\b")
@@ -49,7 +49,7 @@ _PLAIN_SIGNS = str.maketrans("µμ·⋅⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "uu**012
 def scale(unit: str) -> tuple[Fraction, Dimension]:
     """Return the size in SI and the dimension of a unit such as ``mm^3/(N m)``.
 
-    A Vickers hardness may name its test load in kgf, as ``HV30``; it does not count.
+    The test load of a Vickers hardness, as in ``HV30``, is ignored.
 
     Raises
     ------

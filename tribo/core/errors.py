@@ -1,4 +1,4 @@
-"""What can go wrong, as one family of exceptions with documented exit codes."""
+"""Exceptions of tribo, with the exit codes of the command line."""
 
 from __future__ import annotations
 
@@ -48,8 +48,8 @@ class PluginError(NumericalError):
 class BadValues(PluginError):
     """A component answered with values that break its contract.
 
-    A state that a step only tries may be one that a model was not made for, and
-    a shorter step then does; the same answer at an accepted state is a fault.
+    In the middle of a step, a shorter step may avoid them; at an accepted state
+    they are an error.
     """
 
 
@@ -66,7 +66,7 @@ class Interrupted(TriboError):
 
 
 class ReaderGone(TriboError):
-    """Standard output is a pipe that was closed, as by `head`; nothing is said."""
+    """Standard output is a pipe that was closed, as by `head`; no message is printed."""
 
     exit_code: ClassVar[int] = 141
 
@@ -77,7 +77,7 @@ class TriboWarning(UserWarning):
 
 @contextmanager
 def located(path: str) -> Iterator[None]:
-    """Give a `CaseError` raised inside its place in the case, unless it has one."""
+    """Add its place in the case to a `CaseError` raised inside that has none."""
     try:
         yield
     except CaseError as error:

@@ -1,4 +1,4 @@
-"""What is wrong with the keys of a table, in the words of a case."""
+"""Error messages for the keys of a table, in the words of a case."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from tribo.core.errors import CaseError
 from tribo.core.words import did_you_mean, shown, suggestion
 
 TOLD = "told"
-"""Type of an error whose message is a finished one."""
+"""Type of an error whose message needs no more explanation."""
 UNKNOWN = "unknown_key"
 _NEEDED = {
     "float_type": "a number",
@@ -110,7 +110,7 @@ def explained(
 
 
 def case_error(error: ValidationError) -> CaseError:
-    """Return what pydantic raised as one exception: an error a line, with the path of the first.
+    """Return pydantic's error as one exception, a line for each error, with the first path.
 
     Unknown keys come first: a key that is misspelt is often also the one that is missing.
     """
@@ -138,7 +138,7 @@ def path(keys: tuple[str | int, ...]) -> str:
 
 
 def message(details: ErrorDetails) -> str:
-    """Return what pydantic found, in the words of a case; empty if it says nothing."""
+    """Return the message of pydantic's error in the words of a case; it may be empty."""
     kind, given, context = details["type"], shown(details["input"]), details.get("ctx", {})
     if kind in _NEEDED:
         return f"{_NEEDED[kind]} is needed, {given} was given"
@@ -189,7 +189,7 @@ def _get(value: object, key: str | int) -> tuple[object] | None:
 
 
 def _hints(declared: tuple[Any, ...], info: ValidationInfo) -> Iterator[str]:
-    """Yield what is needed where a field is left out, as its types and marks say."""
+    """Yield the hints of the types and marks of a field that is missing."""
     for mark in declared:
         if get_origin(mark) is Annotated or (get_args(mark) and not inspect.isclass(mark)):
             yield from _hints(get_args(mark), info)

@@ -1,4 +1,4 @@
-"""The lock of an open file; it ends with its process."""
+"""Lock an open file until its process ends."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ else:
         fcntl = None  # type: ignore[assignment]
 
 _BYTE = 2**31 - 1
-"""What is locked on Windows, where nobody else could read it: the last byte it can lock."""
+"""Byte that is locked on Windows: the last possible one, so that the file stays readable."""
 
 
 class BusyError(Exception):
@@ -22,7 +22,7 @@ class BusyError(Exception):
 
 
 def lock(handle: int) -> bool:
-    """Lock an open file; return False where there are no locks.
+    """Lock an open file; return False if the system has no locks.
 
     Raises
     ------
@@ -40,6 +40,6 @@ def lock(handle: int) -> bool:
     except (BlockingIOError, PermissionError):
         raise BusyError from None
     except OSError:
-        # Some network file systems have none.
+        # Some network file systems have no locks.
         return False
     return True

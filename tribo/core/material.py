@@ -12,7 +12,7 @@ from tribo.core.units import Quantity
 class Material(Table):
     """An isotropic material; elastic, or elastic-perfectly-plastic with a hardness."""
 
-    young: Annotated[float, Quantity("Pa", above=0, usual=(1e4, 2e12), example="207 GPa")]
+    young: Annotated[float, Quantity("Pa", above=0, usual=(1e4, 2e12))]
     """Young's modulus E."""
     poisson: Annotated[float, Quantity("1", above=-1, below=0.5)]
     """Poisson's ratio."""

@@ -20,7 +20,7 @@ from tribo.core.units import quantities
 
 
 class Table(BaseModel):
-    """A frozen table that knows all its keys, and says in plain words what is wrong with them."""
+    """A frozen table that refuses unknown keys, and explains errors in the words of a case."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
 

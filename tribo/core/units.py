@@ -1,8 +1,9 @@
-"""Quantities: kept as floats in SI, written with a unit where one likes."""
+"""Quantities: floats in SI, which a case may write with any unit."""
 
 from __future__ import annotations
 
 import math
+import operator
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -43,7 +44,15 @@ _KINDS = {
     "W/(m K)": ("a thermal conductivity", "46 W/(m K)"),
     "J/(kg K)": ("a heat capacity", "460 J/(kg K)"),
 }
-"""What a quantity is called, by its SI unit, and how one may be written."""
+"""Name and example of a quantity, by its SI unit."""
+
+_BOUNDS = (
+    ("above", "greater than", operator.gt, "exclusiveMinimum"),
+    ("at_least", "at least", operator.ge, "minimum"),
+    ("below", "less than", operator.lt, "exclusiveMaximum"),
+    ("at_most", "at most", operator.le, "maximum"),
+)
+"""Bounds of a `Quantity`: field, words, comparison and keyword in a JSON schema."""
 
 _LONGEST = 100
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3}(?!\d))?)(?![\d.])(.*)", re.S)
@@ -108,10 +117,8 @@ class Quantity:
     above, at_least, below, at_most : float, optional
         Bounds, in `unit`.
     usual : tuple of float, optional
-        Range, in `unit`, beyond which a value other than 0 is allowed but asked
-        about: in `tribo check`, and where a run fails.
-    example : str, optional
-        How a value may be written; one of that unit if left out.
+        Range, in `unit`. A value beyond it, other than 0, is allowed, but
+        `tribo check` and the message of a failed run ask about it.
     """
 
     unit: str
@@ -120,11 +127,10 @@ class Quantity:
     below: float | None = None
     at_most: float | None = None
     usual: tuple[float, float] | None = None
-    example: str = ""
 
     def hint(self, info: object = None) -> str:
         """Return what is needed, as "a length [m] is needed, as in '5 mm'"."""
-        return _needed(self.unit, self.example)
+        return _needed(self.unit)
 
     def read(self, value: object) -> float:
         """Return `value` in SI.
@@ -146,19 +152,15 @@ class Quantity:
             raise CaseError(f"{shown(value)} is not a quantity; {self.hint()}")
         if not math.isfinite(number):
             raise CaseError(f"{given} is not finite; {self.hint()}")
-        for words, bound, holds in (
-            ("greater than", self.above, float.__gt__),
-            ("at least", self.at_least, float.__ge__),
-            ("less than", self.below, float.__lt__),
-            ("at most", self.at_most, float.__le__),
-        ):
-            if bound is not None and not holds(number, float(bound)):
+        for field, words, holds, _ in _BOUNDS:
+            bound = getattr(self, field)
+            if bound is not None and not holds(number, bound):
                 unit = "" if self.unit == "1" or (bound == 0 and self.unit != "K") else self.unit
                 raise CaseError(f"{given}: must be {words} {bound:g} {unit}".rstrip())
         return number
 
     def doubt(self, value: float) -> str | None:
-        """Return what to ask about `value` (in `unit`), if it is out of the usual range."""
+        """Return a question about `value` (in `unit`) if it is out of the usual range."""
         if self.usual is None or value == 0 or self.usual[0] <= value <= self.usual[1]:
             return None
         low, high = self.usual
@@ -166,7 +168,7 @@ class Quantity:
             return f"{value:g}, usual are {low:g} to {high:g}: is that meant?"
         return (
             f"{value:g} {self.unit}, usual are {low:g} to {high:g} {self.unit}: a unit forgotten, "
-            f"as in '{self.example or _example(self.unit)}'?"
+            f"as in '{_example(self.unit)}'?"
         )
 
     def __get_pydantic_core_schema__(
@@ -183,20 +185,14 @@ class Quantity:
     ) -> JsonSchemaValue:
         """Return the JSON schema of the field: a number, or text with a unit."""
         number: JsonSchemaValue = {"type": "number"}
-        for keyword, bound in (
-            ("exclusiveMinimum", self.above),
-            ("minimum", self.at_least),
-            ("exclusiveMaximum", self.below),
-            ("maximum", self.at_most),
-        ):
-            if bound is not None:
-                number[keyword] = bound
+        for field, _, _, keyword in _BOUNDS:
+            if getattr(self, field) is not None:
+                number[keyword] = getattr(self, field)
         if self.unit != "1":
             number["description"] = f"in {self.unit}"
         if handler.mode == "serialization":
             return {**number, "x-unit": self.unit}
-        example = self.example or _example(self.unit)
-        text = {"type": "string", "description": f"with a unit, as in '{example}'"}
+        text = {"type": "string", "description": f"with a unit, as in '{_example(self.unit)}'"}
         return {"anyOf": [number, text], "x-unit": self.unit}
 
     def _validate(self, value: object) -> float:
@@ -207,7 +203,7 @@ class Quantity:
 
 
 def quantities(annotation: Any) -> Iterator[Quantity]:
-    """Yield the quantities in an annotation, however it is wrapped."""
+    """Yield the quantities in an annotation and in its parts."""
     if isinstance(annotation, Quantity):
         yield annotation
     for part in annotation if isinstance(annotation, tuple) else get_args(annotation):
@@ -226,5 +222,5 @@ def _example(unit: str) -> str:
     return _KINDS[unit][1] if unit in _KINDS else f"1 {unit}"
 
 
-def _needed(unit: str, example: str = "") -> str:
-    return f"{_called(scale(unit)[1])} is needed, as in '{example or _example(unit)}'"
+def _needed(unit: str) -> str:
+    return f"{_called(scale(unit)[1])} is needed, as in '{_example(unit)}'"

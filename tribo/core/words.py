@@ -1,4 +1,4 @@
-"""Values and names as they appear in messages."""
+"""Values and names in messages."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ def shown(value: object) -> str:
 
 
 def did_you_mean(name: object, known: Iterable[str]) -> str | None:
-    """Return the one of `known` that `name` was probably meant to be, if any."""
+    """Return the name in `known` that is most like `name`, if one is."""
     close = get_close_matches(name, list(known), n=1) if isinstance(name, str) else []
     return close[0] if close else None
 
 
 def suggestion(meant: str | None) -> str:
-    """Return the end of a sentence that suggests what was meant, if that is known."""
+    """Return the end of a sentence, with a suggestion if there is one."""
     return f"; did you mean {meant!r}?" if meant else "."
 
 

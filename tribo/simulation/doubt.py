@@ -1,17 +1,40 @@
-"""Values so far from the usual that a slip of units is more likely than what they say."""
+"""Values so far from the usual that a forgotten unit is likely."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 
+from pydantic import BaseModel
+
 from tribo.case import Case
-from tribo.config.usual import unusual
+from tribo.config.overrides import leaves
 from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError, NumericalError, PluginError
+from tribo.core.explain import path
 
 DEEP = 0.1
 """Wear depth, relative to the radius of curvature, from which on it is doubted."""
+
+
+def unusual(case: BaseModel) -> list[str]:
+    """Ask about each quantity of a case that is out of its usual range.
+
+    Returns
+    -------
+    list of str
+        As ``"bodies.ball.surface.radius is 5 m, usual are 1e-09 to 1 m: a unit
+        forgotten, as in '5 mm'?"``.
+    """
+    found = []
+    for place, value, mark in leaves(case):
+        doubt = mark.doubt(value) if mark and isinstance(value, float) else None
+        if doubt is not None:
+            while isinstance(place[-1], int):
+                # A pair may be written as one value.
+                place = place[:-1]
+            found.append(f"{path(place)} is {doubt}")
+    return list(dict.fromkeys(found))
 
 
 @contextmanager

@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from tribo.case import Output
-from tribo.config.usual import unusual
 from tribo.core.errors import CaseError, NumericalError, PluginError
 from tribo.core.grid import Grid
 from tribo.core.measures import Measures
@@ -14,7 +13,7 @@ from tribo.core.state import State
 from tribo.lab.first_contact import HertzContact, hertz_contact
 from tribo.result.provenance import stated_facts
 from tribo.simulation.assembly import assemble, varied
-from tribo.simulation.doubt import doubting, too_deep
+from tribo.simulation.doubt import doubting, too_deep, unusual
 from tribo.simulation.guard import calling
 from tribo.simulation.march import begin, march
 from tribo.simulation.measure import measure
