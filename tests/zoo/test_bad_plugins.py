@@ -3,7 +3,6 @@
 import os
 import subprocess
 import sys
-import tomllib
 from pathlib import Path
 
 import pytest
@@ -11,6 +10,9 @@ from fake_distributions import distribute
 
 import tribo
 from tribo import Result
+
+# Each is a command in a process of its own.
+pytestmark = pytest.mark.slow
 
 LAW = """
 import numpy as np
@@ -299,10 +301,6 @@ def test_the_result_says_who_took_part_and_a_changed_version_is_refused(tmp_path
         assert result.status == "done"
         (later,) = result.provenance["resumed_with"]
     assert later["components"]["bodies.ball.wear"]["version"] == "1.1"
-
-
-def test_the_case_is_toml():
-    assert tomllib.loads(CASE.format(wear='"x"'))["grid"]["cells"] == 32
 
 
 @pytest.mark.parametrize("fault", ["entry points", "no metadata", "odd value"])

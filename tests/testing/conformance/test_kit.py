@@ -158,6 +158,7 @@ test_unknown = parametrize_checks(Unknown, configs=[{}])
 """
 
 
+@pytest.mark.slow
 def test_pytest_reports_each_check(tmp_path):
     (tmp_path / "test_them.py").write_text(PYTEST)
     done = subprocess.run(
@@ -174,6 +175,7 @@ def test_pytest_reports_each_check(tmp_path):
         assert f"FAILED test_them.py::{name}[{CURVATURE}-0]" in done.stdout
 
 
+@pytest.mark.slow
 def test_the_kit_works_without_pytest():
     code = (
         "import sys; sys.modules['pytest'] = None\n"
