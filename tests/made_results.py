@@ -50,7 +50,7 @@ def made(
             ),
             end_time=3600.0,
             end_distance=360.0,
-            case={"bodies": {name: {} for name in names}},
+            case={"grid": grid.model_dump(), "bodies": {name: {} for name in names}},
             provenance=provenance({}),
         )
     )

@@ -8,15 +8,16 @@ import matplotlib
 import numpy as np
 import pytest
 
-from tribo.plotting.history import ACROSS, ALONG, CENTRE, LARGEST
-from tribo.plotting.section import UNWORN, WORN
+from tribo.plotting.history import BODIES, LARGEST
+from tribo.plotting.profiles import UNWORN, WORN
 from tribo.plotting.style import (
-    BODY_STROKES,
+    OVER,
+    PRESSURES,
+    UNDER,
     house_style,
     legend_below,
     new_figure,
-    pressure_colours,
-    save_strokes,
+    save_looks,
 )
 
 
@@ -24,50 +25,39 @@ def lightness(colour):
     """Relative luminance of a colour (IEC 61966-2-1)."""
     rgb = np.asarray(matplotlib.colors.to_rgb(colour))
     linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
-    return float(linear @ [0.2126, 0.7152, 0.0722])
+    return float(np.sum(linear * [0.2126, 0.7152, 0.0722]))
 
 
 def test_higher_pressure_is_lighter_and_no_contact_white():
-    colours = pressure_colours()
-    shades = [lightness(colours(value)[:3]) for value in np.linspace(0, 1, 64)]
+    colours = matplotlib.colormaps[PRESSURES](np.linspace(0, 1, 64))
+    shades = [lightness(colour[:3]) for colour in colours]
     assert np.all(np.diff(shades) > 0)
-    assert lightness(colours.get_bad()[:3]) > shades[-1] + 0.1
+    assert shades[-1] + 0.1 < 1.0
 
 
 @pytest.mark.parametrize("count", [1, 2, 5, 17])
-def test_saves_following_each_other_differ_in_dashes_and_lightness(count):
-    strokes = save_strokes(count)
-    assert len(strokes) == count
-    for one, other in pairwise(strokes):
-        assert one.dashes != other.dashes
-        assert lightness(one.colour) < lightness(other.colour)
-
-
-def test_every_save_shows_on_white():
+def test_saves_show_on_white_and_differ_from_the_next_in_dashes_and_lightness(count):
+    looks = save_looks(count)
+    assert len(looks) == count
+    for one, other in pairwise(looks):
+        assert one["linestyle"] != other["linestyle"]
+        assert lightness(one["color"]) < lightness(other["color"])
     # A contrast of 2 to 1 with the paper, (1 + 0.05) / (L + 0.05).
-    assert all(lightness(stroke.colour) < 0.475 for stroke in save_strokes(9))
+    assert all(lightness(look["color"]) < 0.475 for look in looks)
 
 
-def test_bodies_differ_in_marker_width_and_lightness():
-    one, other = BODY_STROKES
-    assert one.marker != other.marker
-    assert one.width > 2 * other.width
-    assert lightness(one.colour) > 4 * lightness(other.colour)
-
-
-@pytest.mark.parametrize(
-    "pair", [(LARGEST, CENTRE), (ALONG, ACROSS), (WORN, UNWORN[0]), (WORN, UNWORN[1]), UNWORN]
-)
-def test_other_pairs_of_lines_differ_in_dashes(pair):
+@pytest.mark.parametrize("pair", [(WORN, UNWORN[0]), (WORN, UNWORN[1]), UNWORN])
+def test_lines_of_one_picture_differ_in_dashes(pair):
     one, other = pair
-    assert one.dashes != other.dashes
+    assert one.get("linestyle") != other.get("linestyle")
 
 
-@pytest.mark.parametrize("pair", [(LARGEST, CENTRE), (ALONG, ACROSS)])
+@pytest.mark.parametrize("pair", [(LARGEST, OVER), (UNDER, OVER), BODIES])
 def test_lines_that_may_coincide_both_show(pair):
     below, above = pair
-    assert below.width > 2 * above.width
-    assert lightness(below.colour) > 4 * lightness(above.colour)
+    assert below["linewidth"] > 2 * above["linewidth"]
+    assert lightness(below["color"]) > 4 * lightness(above["color"])
+    assert below.get("linestyle") != above["linestyle"]
 
 
 def test_the_style_ends_with_its_context_and_ignores_the_users():
@@ -82,15 +72,18 @@ def test_a_legend_reads_row_by_row_and_names_the_ends_of_many():
     with house_style():
         figure = new_figure(60.0)
         axes = figure.add_subplot()
-        x = np.arange(2.0)
-        lines = [s.draw(axes, x, x, str(i)) for i, s in enumerate(save_strokes(40))]
+        lines = [
+            axes.plot([0, 1], [0, 1], label=str(i), **look)[0]
+            for i, look in enumerate(save_looks(40))
+        ]
+        mark = axes.axhline(1.0, label="mark")
         legend_below(figure, lines[:4])
-        legend_below(figure, lines)
+        legend_below(figure, lines, marks=[mark])
     few, many = ([text.get_text() for text in legend.get_texts()] for legend in figure.legends)
     # Two columns, filled from the left: 0 and 2 stand above each other.
     assert few == ["0", "2", "1", "3"]
     assert len(many) == 12
-    assert {"0", "39"} <= set(many)
+    assert {"0", "39", "mark"} <= set(many)
 
 
 def test_drawing_needs_no_pyplot():

@@ -3,8 +3,7 @@
 from tribo.plotting.figures import save_figures
 from tribo.plotting.history import contact_history, wear_history
 from tribo.plotting.pressure import pressure_map, pressure_sections
-from tribo.plotting.profiles import body_profiles, groove
-from tribo.plotting.section import worn_section
+from tribo.plotting.profiles import body_profiles, groove, worn_section
 
 __all__ = [
     "body_profiles",

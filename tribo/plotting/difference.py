@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
-from tribo.core.grid import Grid
-from tribo.plotting.maps import Frame, draw_image, draw_lines, frame, new_maps
-from tribo.plotting.style import difference_colours, house_style
-from tribo.plotting.units import Unit, height_unit, pressure_unit
-from tribo.plotting.window import scar_mask
+from tribo.plotting.maps import new_maps
+from tribo.plotting.sections import scar_mask
+from tribo.plotting.style import DIFFERENCES, house_style
+from tribo.plotting.units import fitting, height_unit, size
 from tribo.result.read import Result
 
 _LEVELS = (-0.5, -0.25, 0.25, 0.5)
@@ -50,39 +48,35 @@ def difference_map(results: Mapping[str, Result], label: str, time: float) -> Fi
             "difference"
         )
     i, j = result.save_at(time), first.save_at(time)
-    fields: list[tuple[str, Callable[[float], Unit], Array]] = [
-        ("Pressure", pressure_unit, result.pressure(i) - first.pressure(j))
-    ]
-    touched = (result.pressure(i) > 0) | (first.pressure(j) > 0)
+    pressure, other = result.pressure(i), first.pressure(j)
+    marked = (pressure > 0) | (other > 0)
+    fields = {"Pressure": np.asarray(pressure - other)}
+    units = {"Pressure": fitting("Pa", _largest(fields["Pressure"]))}
     for name in result.body_names:
         if name in first.body_names and not result.body(name).swept:
             worn, other = result.wear_depth(name, i), first.wear_depth(name, j)
-            touched |= scar_mask(worn) | scar_mask(other)
+            marked |= scar_mask(worn) | scar_mask(other)
             if np.any(worn != other):
-                fields.append((f"Wear depth of {name}", height_unit, np.asarray(worn - other)))
-    shown = frame(touched, grid)
+                what = f"Wear depth of {name}"
+                fields[what] = np.asarray(worn - other)
+                units[what] = height_unit(_largest(fields[what]))
     with house_style():
-        figure, panels = new_maps(shown, len(fields))
-        for axes, (what, fitting, field) in zip(panels, fields, strict=True):
-            unit = fitting(float(np.max(np.abs(field))))
-            _draw_difference(axes, grid, shown, unit.of(field), f"{what} ({unit.name})")
-        panels[0].set_title(f"{label} less {first_label}, t = {time:g} s", loc="left")
+        figure, maps = new_maps(marked, grid, count=len(fields))
+        for shown, (what, field) in zip(maps, fields.items(), strict=True):
+            values = field / size(units[what])
+            largest = _largest(values) or 1.0
+            scale = f"{what} ({units[what]})"
+            colours = {"cmap": DIFFERENCES, "interpolation": "nearest"}
+            shown.image(values, scale, vmin=-largest, vmax=largest, **colours)
+            dashes = ["dashed" if level < 0 else "solid" for level in _LEVELS]
+            shown.lines(
+                values,
+                [largest * level for level in _LEVELS],
+                [{"colors": "black", "linestyles": dash} for dash in dashes],
+            )
+        maps[0].axes.set_title(f"{label} less {first_label}, t = {time:g} s", loc="left")
     return figure
 
 
-def _draw_difference(axes: Axes, grid: Grid, shown: Frame, field: Array, label: str) -> None:
-    largest = float(np.max(np.abs(field))) or 1.0
-    draw_image(
-        axes,
-        grid,
-        shown,
-        field,
-        label,
-        cmap=difference_colours(),
-        vmin=-largest,
-        vmax=largest,
-        interpolation="nearest",
-    )
-    looks = [{"linestyles": "dashed" if level < 0 else "solid"} for level in _LEVELS]
-    levels = [largest * level for level in _LEVELS]
-    draw_lines(axes, grid, shown, field, levels, [{"colors": "black"} | look for look in looks])
+def _largest(field: Array) -> float:
+    return float(np.max(np.abs(field)))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -14,10 +15,9 @@ from tribo.core.errors import CaseError
 from tribo.core.files import writing
 from tribo.plotting.history import contact_history, wear_history
 from tribo.plotting.pressure import pressure_map, pressure_sections
-from tribo.plotting.profiles import body_profiles, groove
-from tribo.plotting.section import worn_section
+from tribo.plotting.profiles import body_profiles, groove, worn_section
+from tribo.plotting.sections import number_of_saves, removed
 from tribo.plotting.style import house_style
-from tribo.plotting.window import number_of_saves, removed
 from tribo.registry.contributions import from_plugins_of
 from tribo.result.read import Result
 
@@ -66,7 +66,10 @@ def write_figures(
     pictures: Mapping[str, Callable[[], Figure]], folder: Path, suffix: str = "png"
 ) -> list[Path]:
     """Draw pictures and write them to files of their names; see `save_figures`."""
-    suffix = _known(suffix)
+    suffix = suffix.removeprefix(".")
+    known = FigureCanvasBase.get_supported_filetypes()
+    if suffix not in known:
+        raise CaseError(f"pictures cannot be written as {suffix!r}; use one of {', '.join(known)}")
     paths = []
     with writing(folder):
         folder.mkdir(parents=True, exist_ok=True)
@@ -79,38 +82,25 @@ def write_figures(
     return paths
 
 
-def _known(suffix: str) -> str:
-    suffix = suffix.removeprefix(".")
-    known = FigureCanvasBase.get_supported_filetypes()
-    if suffix not in known:
-        raise CaseError(f"pictures cannot be written as {suffix!r}; use one of {', '.join(known)}")
-    return suffix
-
-
 def _pictures(result: Result) -> dict[str, Callable[[], Figure]]:
     """Return how to draw each picture, by file name."""
     count = number_of_saves(result)
-    pictures: dict[str, Callable[[], Figure]] = {"pressure_map": lambda: pressure_map(result)}
+    pictures: dict[str, Callable[[], Figure]] = {"pressure_map": partial(pressure_map, result)}
     if count > 2:
-        pictures["pressure_map_early"] = lambda: pressure_map(result, 1)
-    pictures["pressure_sections"] = lambda: pressure_sections(result)
+        pictures["pressure_map_early"] = partial(pressure_map, result, 1)
+    pictures["pressure_sections"] = partial(pressure_sections, result)
     worn = [name for name in result.body_names if np.any(removed(result, name) > 0)]
     for name in worn:
-        pictures |= _profiles(result, name)
+        if result.body(name).swept:
+            pictures[f"{name}_groove"] = partial(groove, result, name)
+        else:
+            pictures[f"{name}_along"] = partial(body_profiles, result, name, 0)
+            pictures[f"{name}_across"] = partial(body_profiles, result, name, 1)
     if worn:
-        pictures["worn_section"] = lambda: worn_section(result)
+        pictures["worn_section"] = partial(worn_section, result)
     history = result.table("history")
     if any(np.any(history[f"bodies.{name}.wear_volume_m3"] > 0) for name in result.body_names):
-        pictures["wear_history"] = lambda: wear_history(result)
+        pictures["wear_history"] = partial(wear_history, result)
     if len(history["time_s"]) > 1:
-        pictures["contact_history"] = lambda: contact_history(result)
+        pictures["contact_history"] = partial(contact_history, result)
     return pictures
-
-
-def _profiles(result: Result, name: str) -> dict[str, Callable[[], Figure]]:
-    if result.body(name).swept:
-        return {f"{name}_groove": lambda: groove(result, name)}
-    return {
-        f"{name}_along": lambda: body_profiles(result, name, 0),
-        f"{name}_across": lambda: body_profiles(result, name, 1),
-    }

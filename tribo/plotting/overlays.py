@@ -9,22 +9,11 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from tribo.core.arrays import Array, Mask
 from tribo.plotting.difference import difference_map
 from tribo.plotting.figures import write_figures
-from tribo.plotting.sections import COLUMNS, Section, draw_profiles
-from tribo.plotting.style import (
-    WIDE,
-    house_style,
-    legend_below,
-    legend_height,
-    new_figure,
-    overlay_strokes,
-    ticks,
-)
-from tribo.plotting.units import pressure_unit
-from tribo.plotting.window import joined, positions, removed, scar_mask, section_limits
-from tribo.result.export import profile
+from tribo.plotting.sections import draw_profiles, removed, scar_mask, through_centre
+from tribo.plotting.style import WIDE, house_style, legend_below, new_figure, overlay_looks
+from tribo.plotting.units import fitting, size
 from tribo.result.read import Result
 
 Results = Mapping[str, Result]
@@ -47,23 +36,21 @@ def pressure_overlay(results: Results, time: float) -> Figure:
     CaseError
         If one has no save then.
     """
-    fields = {label: result.pressure(result.save_at(time)) for label, result in results.items()}
-    sections = [
-        _section(results, {label: field > 0 for label, field in fields.items()}, fields, axis)
-        for axis in (0, 1)
-    ]
-    highest = max(float(np.max(field)) for field in fields.values())
-    unit, strokes = pressure_unit(highest), overlay_strokes(len(results))
+    fields = [result.pressure(result.save_at(time)) for result in results.values()]
+    grids = [result.grid for result in results.values()]
+    marked = [field > 0 for field in fields]
+    highest = max(float(np.max(field)) for field in fields)
+    unit = fitting("Pa", highest)
+    up = (0.0, 1.05 * highest or size(unit))
     with house_style():
-        figure = new_figure(54.0 + legend_height(len(results), COLUMNS), WIDE)
+        figure = new_figure(54.0, WIDE)
         panels = figure.subplots(1, 2, sharey=True)
-        for axes, section in zip(panels, sections, strict=True):
-            curves = section.draw(axes, unit, strokes, list(results))
-        panels[0].set_ylim(0.0, 1.05 * unit.factor * highest or 1.0)
-        panels[0].set_ylabel(f"Pressure ({unit.name})")
-        panels[0].yaxis.set_major_locator(ticks(7))
+        for axis, axes in enumerate(panels):
+            section = through_centre(axis, grids, fields, marked)
+            curves = section.draw(axes, unit, overlay_looks(len(fields)), list(results), up)
+        panels[0].set_ylabel(f"Pressure ({unit})")
         panels[0].set_title(f"t = {time:g} s", loc="left")
-        legend_below(figure, curves, columns=COLUMNS)
+        legend_below(figure, curves)
     return figure
 
 
@@ -86,14 +73,14 @@ def profile_overlay(results: Results, name: str, time: float) -> Figure:
     CaseError
         If one has no such body, or no save then.
     """
-    saves = {label: result.save_at(time) for label, result in results.items()}
-    bodies = {label: result.body(name) for label, result in results.items()}
-    swept = all(body.swept for body in bodies.values())
-    marked = {label: scar_mask(removed(results[label], name)[i]) for label, i in saves.items()}
-    surfaces = {label: bodies[label].surface(i) for label, i in saves.items()}
+    saves = [(result, result.save_at(time)) for result in results.values()]
+    swept = all(result.body(name).swept for result, _ in saves)
+    grids = [result.grid for result, _ in saves]
+    surfaces = [result.body(name).surface(i) for result, i in saves]
+    marked = [scar_mask(removed(result, name)[i]) for result, i in saves]
     return draw_profiles(
-        [_section(results, marked, surfaces, axis) for axis in ((1,) if swept else (0, 1))],
-        overlay_strokes(len(results)),
+        [through_centre(axis, grids, surfaces, marked) for axis in ((1,) if swept else (0, 1))],
+        overlay_looks(len(results)),
         list(results),
         f"{name}, t = {time:g} s",
     )
@@ -154,14 +141,3 @@ def _pictures(results: Results, time: float) -> dict[str, Callable[[], Figure]]:
                 difference_map, results, label, time
             )
     return pictures
-
-
-def _section(
-    results: Results, marked: Mapping[str, Mask], fields: Mapping[str, Array], axis: int
-) -> Section:
-    """Return the sections of fields of several results, and limits around all that is marked."""
-    return Section(
-        axis,
-        joined(section_limits(marked[label], results[label].grid, axis) for label in results),
-        [(positions(results[label].grid, axis), profile(fields[label], axis)) for label in results],
-    )

@@ -1,16 +1,29 @@
-"""Pictures of worn surfaces in section, at every save."""
+"""Pictures of worn surfaces in section: of one body at every save, and of both together."""
 
 from __future__ import annotations
 
+import numpy as np
 from matplotlib.figure import Figure
 
 from tribo.core.errors import CaseError
-from tribo.plotting.sections import Section, draw_profiles
-from tribo.plotting.style import save_strokes
-from tribo.plotting.units import time_labels
-from tribo.plotting.window import number_of_saves, positions, removed, scar_mask, section_limits
-from tribo.result.export import profile
+from tribo.plotting.sections import (
+    draw_profiles,
+    number_of_saves,
+    removed,
+    scar_mask,
+    through_centre,
+)
+from tribo.plotting.style import Look, house_style, save_looks
+from tribo.plotting.units import height_unit, size, time_labels
 from tribo.result.read import Result
+
+WORN: Look = {"color": "black", "linewidth": 1.0}
+UNWORN: tuple[Look, Look] = (
+    {"color": "#202020", "linewidth": 1.0, "linestyle": (0.0, (1.2, 1.2))},
+    {"color": "#404040", "linewidth": 0.8, "linestyle": (0.0, (5.0, 1.6))},
+)
+"""Of the upper and of the lower body."""
+UPPER, LOWER = "#e4e4e4", "#b4b4b4"
 
 
 def body_profiles(result: Result, name: str, axis: int) -> Figure:
@@ -18,7 +31,7 @@ def body_profiles(result: Result, name: str, axis: int) -> Figure:
 
     The height points out of the body, so that material goes downwards: the
     unworn profile lies on top. Plastic displacement is part of it; elastic
-    deformation is not.
+    deformation is not. The picture states how much it enlarges heights.
 
     Parameters
     ----------
@@ -29,11 +42,6 @@ def body_profiles(result: Result, name: str, axis: int) -> Figure:
     axis : int
         0 along the sliding direction, 1 across it.
 
-    Returns
-    -------
-    Figure
-        The picture, which states how much it enlarges heights.
-
     Raises
     ------
     CaseError
@@ -42,14 +50,14 @@ def body_profiles(result: Result, name: str, axis: int) -> Figure:
     if axis not in (0, 1):
         raise CaseError(f"a profile runs along axis 0 or across, axis 1; not {axis!r}")
     count = number_of_saves(result)
-    grid, body = result.grid, result.body(name)
-    x = positions(grid, axis)
-    section = Section(
+    body = result.body(name)
+    section = through_centre(
         axis,
-        section_limits(scar_mask(removed(result, name)[-1]), grid, axis),
-        [(x, profile(body.surface(i), axis)) for i in range(count)],
+        [result.grid] * count,
+        [body.surface(i) for i in range(count)],
+        [scar_mask(removed(result, name)[-1])] * count,
     )
-    return draw_profiles([section], save_strokes(count), time_labels(result), name)
+    return draw_profiles([section], save_looks(count), time_labels(result.times), name)
 
 
 def groove(result: Result, name: str) -> Figure:
@@ -62,11 +70,6 @@ def groove(result: Result, name: str) -> Figure:
     name : str
         The body.
 
-    Returns
-    -------
-    Figure
-        The picture, which states how much it enlarges heights.
-
     Raises
     ------
     CaseError
@@ -77,3 +80,73 @@ def groove(result: Result, name: str) -> Figure:
             f"{name} is not swept in {result.name}, so that it has no groove; draw body_profiles"
         )
     return body_profiles(result, name, 1)
+
+
+def worn_section(result: Result) -> Figure:
+    """Draw both bodies in section at the last save, along and across sliding.
+
+    They are set down on each other without load, so that they touch at their
+    closest point and the scars are seen to conform. A swept body lies below.
+    The unworn surface of each worn body is drawn where its points were: that
+    of the upper one, dotted, runs inside the lower body. The picture states
+    how much it enlarges heights and how deep the scars are.
+
+    Raises
+    ------
+    CaseError
+        If there is no save.
+    """
+    last = number_of_saves(result) - 1
+    upper, lower = (result.body(name) for name in result.body_names)
+    if upper.swept and not lower.swept:
+        upper, lower = lower, upper
+    gone = [removed(result, body.name)[last] for body in (upper, lower)]
+    depths = [float(np.max(depth)) for depth in gone]
+    marked = np.zeros(result.grid.cells, dtype=bool)
+    for body, depth in zip((upper, lower), gone, strict=True):
+        if not body.swept:
+            marked |= scar_mask(depth)
+    if not marked.any():
+        marked = result.pressure(last) > 0
+    top, bottom = upper.surface(last), lower.surface(last)
+    lift = float(np.max(top + bottom))
+    surfaces, looks, labels = [lift - top, bottom], [WORN, WORN], ["worn", ""]
+    unworn = lift - upper.height, lower.height
+    for body, surface, depth, look in zip((upper, lower), unworn, depths, UNWORN, strict=True):
+        if depth > 0:
+            surfaces.append(surface)
+            looks.append(look)
+            labels.append(f"{body.name} unworn")
+    count = len(surfaces)
+    figure = draw_profiles(
+        [
+            through_centre(axis, [result.grid] * count, surfaces, [marked] * count)
+            for axis in (0, 1)
+        ],
+        looks,
+        labels,
+        f"t = {time_labels(result.times)[last]}, unloaded",
+        shape=0.8,
+        room=(0.27, 0.18),
+    )
+    along, across = figure.axes
+    with house_style():
+        for axes in (along, across):
+            low, high = axes.get_ylim()
+            for line, end, colour in zip(axes.lines, (high, low), (UPPER, LOWER), strict=False):
+                x, z = line.get_data()
+                axes.fill_between(x, z, end, color=colour, linewidth=0.0)
+        places = (0.97, "top"), (0.04, "bottom")
+        for body, depth, (at, side) in zip((upper, lower), depths, places, strict=True):
+            look = {"ha": "center", "va": side}
+            along.text(0.5, at, body.name, transform=along.transAxes, **look)
+            across.text(0.5, at, _scar(body.name, depth), transform=across.transAxes, **look)
+    return figure
+
+
+def _scar(name: str, depth: float) -> str:
+    """Return a body's name and how deep its scar is."""
+    if depth <= 0:
+        return name
+    unit = height_unit(depth)
+    return f"{name}: {depth / size(unit):.3g} {unit} deep"

@@ -1,66 +1,61 @@
-"""What pictures of sections share: panels, their limits and their curves."""
+"""Sections through the window's centre: their limits, their curves and their panels."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from tribo.core.arrays import Array
-from tribo.plotting.style import (
-    AXIS_LABELS,
-    SINGLE_COLUMN,
-    WIDE,
-    Stroke,
-    house_style,
-    legend_below,
-    legend_height,
-    new_figure,
-    ticks,
-    times,
-)
-from tribo.plotting.units import Unit, height_unit, length_unit
-from tribo.plotting.window import Limits, spread
+from tribo.core.arrays import Array, Mask
+from tribo.core.errors import CaseError
+from tribo.core.grid import Grid
+from tribo.plotting import style
+from tribo.plotting.units import fitting, height_unit, size
+from tribo.result.export import profile
+from tribo.result.read import Result
 
-SHAPE = 0.62
-"""Height of the axes of a profile over their width, on paper."""
-COLUMNS = 3
-"""Most entries in a row of the legend of a picture of profiles."""
+MARGIN = 0.2
+"""Shown beyond the contact or the scar on each side, in parts of its half-width."""
+
+Limits = tuple[float, float]
+Curve = tuple[Array, Array]
+"""Positions and values, in SI units."""
 
 
 @dataclass(frozen=True)
 class Section:
-    """Curves along an axis, 0 or 1: positions and values in SI units."""
+    """Curves along an axis, 0 or 1, and the part of the axis that is shown, in m."""
 
     axis: int
     window: Limits
-    curves: Sequence[tuple[Array, Array]]
+    curves: Sequence[Curve]
 
     @property
-    def unit(self) -> Unit:
+    def unit(self) -> str:
         """The unit of its positions."""
-        return length_unit(max(map(abs, self.window)))
-
-    def label(self, axes: Axes) -> None:
-        """Set the limits and the label of the axis of positions."""
-        axes.set_xlim(*(self.unit.factor * end for end in self.window))
-        axes.set_xlabel(f"{AXIS_LABELS[self.axis]} ({self.unit.name})")
-        axes.xaxis.set_major_locator(ticks(5))
+        return fitting("m", max(map(abs, self.window)))
 
     def draw(
-        self, axes: Axes, unit: Unit, strokes: Sequence[Stroke], labels: Sequence[str]
+        self, axes: Axes, unit: str, looks: Sequence[style.Look], labels: Sequence[str], up: Limits
     ) -> list[Line2D]:
-        """Draw the curves with values in `unit`, and label the axis of positions."""
-        self.label(axes)
-        return [
-            stroke.draw(axes, self.unit.of(position), unit.of(values), label)
-            for (position, values), stroke, label in zip(self.curves, strokes, labels, strict=True)
-        ]
+        """Draw the curves with values in `unit` between the limits `up`, which are in SI units."""
+        axes.set_xlim(*(end / size(self.unit) for end in self.window))
+        axes.set_xlabel(f"{style.AXIS_LABELS[self.axis]} ({self.unit})")
+        axes.xaxis.set_major_locator(style.ticks(5))
+        axes.set_ylim(*(end / size(unit) for end in up))
+        axes.yaxis.set_major_locator(style.ticks(7))
+        lines: list[Line2D] = []
+        for (position, values), look, label in zip(self.curves, looks, labels, strict=True):
+            # Matplotlib leaves labels that begin with a line out of the legend.
+            shown = position / size(self.unit), values / size(unit)
+            lines += axes.plot(*shown, label=label.lstrip("_"), **look)
+        return lines
 
-    def visible(self) -> list[Array]:
+    def in_sight(self) -> list[Array]:
         """Return the part of each curve that lies inside the limits, or all if none does."""
         low, high = self.window
         masks = [(position >= low) & (position <= high) for position, _ in self.curves]
@@ -70,31 +65,121 @@ class Section:
         ]
 
 
+def through_centre(
+    axis: int,
+    grids: Sequence[Grid],
+    fields: Sequence[Array],
+    marked: Sequence[Mask],
+    reach: float = 0.0,
+) -> Section:
+    """Return the section of fields along an axis, and limits around all that is marked.
+
+    Parameters
+    ----------
+    axis : int
+        0 along the sliding direction, 1 across it.
+    grids, fields, marked : sequence
+        Of each curve.
+    reach : float, optional
+        Distance from the centre to be shown as well, in m.
+    """
+    positions = [(grid.x, grid.y)[axis] for grid in grids]
+    lows, highs = [], []
+    for x, grid, mask in zip(positions, grids, marked, strict=True):
+        low, high = limits(mask, grid, axis, reach)
+        # The outermost cells' centres end a section.
+        lows.append(max(low, float(x[0])))
+        highs.append(min(high, float(x[-1])))
+    curves = [(x, profile(field, axis)) for x, field in zip(positions, fields, strict=True)]
+    return Section(axis, (min(lows), max(highs)), curves)
+
+
+def limits(marked: Mask, grid: Grid, axis: int, reach: float = 0.0) -> Limits:
+    """Return limits in m that show all marked cells, a margin, and no more.
+
+    Parameters
+    ----------
+    marked : ndarray of bool, shape (nx, ny) or (1, ny)
+        What to show; the whole window if nothing is marked.
+    grid : Grid
+        The window.
+    axis : int
+        0 for x, 1 for y.
+    reach : float, optional
+        Distance from the origin to be shown as well, in m.
+    """
+    edge = 0.5 * grid.size[axis]
+    index = np.flatnonzero(np.broadcast_to(marked, grid.cells).any(axis=1 - axis))
+    if index.size == 0:
+        return -edge, edge
+    step = grid.spacing[axis]
+    low = min(float(index[0]) * step - edge, -reach)
+    high = max(float(index[-1] + 1) * step - edge, reach)
+    margin = MARGIN * max(0.5 * (high - low), 2.0 * step)
+    return max(low - margin, -edge), min(high + margin, edge)
+
+
+def number_of_saves(result: Result) -> int:
+    """Return how many saves there are; CaseError if there is none."""
+    count = len(result.times)
+    if count == 0:
+        raise CaseError(f"{result.name} holds no save yet; there is nothing to draw")
+    return count
+
+
+def removed(result: Result, name: str) -> Array:
+    """Return how far a body's surface lies below its first at each save, in m."""
+    body = result.body(name)
+    return np.asarray(body.wear_depth + body.plastic_depth)
+
+
+def scar_mask(depth: Array) -> Mask:
+    """Return where more than a thousandth of the largest depth is gone."""
+    deepest = float(np.max(depth, initial=0.0))
+    return np.asarray(depth > 1e-3 * deepest)
+
+
 def draw_profiles(
-    sections: Sequence[Section], strokes: Sequence[Stroke], labels: Sequence[str], title: str
+    sections: Sequence[Section],
+    looks: Sequence[style.Look],
+    labels: Sequence[str],
+    title: str,
+    shape: float = 0.62,
+    room: Limits = (0.05, 0.05),
 ) -> Figure:
-    """Draw profiles in one panel for each section, all with one scale of heights."""
-    height = spread([line for section in sections for line in section.visible()])
-    unit = height_unit(max(map(abs, height)))
-    with house_style():
-        figure = new_figure(
-            (52.0 if len(sections) > 1 else 62.0) + legend_height(len(labels), COLUMNS),
-            WIDE if len(sections) > 1 else SINGLE_COLUMN,
+    """Draw surfaces in one panel for each section, all with one scale of heights.
+
+    Parameters
+    ----------
+    sections : sequence of Section
+        The surfaces, in m.
+    looks, labels : sequence
+        Of each curve; one without a label is left out of the legend.
+    title : str
+        Stands on the left; how much heights are enlarged, on the right.
+    shape : float, optional
+        Height of the axes over their width, on paper.
+    room : tuple of float, optional
+        Left free below and above the curves, in parts of their range.
+    """
+    parts = [line for section in sections for line in section.in_sight()]
+    low, high = min(map(np.min, parts)), max(map(np.max, parts))
+    span = float(high - low) or 2e-8
+    up = float(low) - room[0] * span, float(high) + room[1] * span
+    unit = height_unit(max(map(abs, up)))
+    two = len(sections) > 1
+    with style.house_style():
+        figure = style.new_figure(
+            20.0 + shape * (52.0 if two else 68.0), style.WIDE if two else style.SINGLE_COLUMN
         )
         panels = figure.subplots(1, len(sections), sharey=True, squeeze=False)[0]
         for axes, section in zip(panels, sections, strict=True):
-            curves = section.draw(axes, unit, strokes, labels)
-            note_enlargement(axes, section.window, height, SHAPE)
-        panels[0].set_ylim(*(unit.factor * end for end in height))
-        panels[0].set_ylabel(f"Height ({unit.name})")
-        panels[0].yaxis.set_major_locator(ticks(7))
+            lines = section.draw(axes, unit, looks, labels, up)
+            axes.set_box_aspect(shape)
+            enlarged = shape * (section.window[1] - section.window[0]) / (up[1] - up[0])
+            axes.set_title(f"height × {style.times(enlarged)}", loc="right", fontsize=7.0)
+        panels[0].set_ylabel(f"Height ({unit})")
         panels[0].set_title(title, loc="left")
-        legend_below(figure, curves, columns=COLUMNS)
+        named = [line for line, label in zip(lines, labels, strict=True) if label]
+        style.legend_below(figure, named)
     return figure
-
-
-def note_enlargement(axes: Axes, across: Limits, up: Limits, shape: float) -> None:
-    """Give axes a height over width, and say how much larger they show heights than widths."""
-    axes.set_box_aspect(shape)
-    factor = shape * (across[1] - across[0]) / (up[1] - up[0])
-    axes.set_title(f"height × {times(factor)}", loc="right", fontsize=7.0)

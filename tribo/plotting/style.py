@@ -3,21 +3,16 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
-from typing import Any, Literal
+from typing import Any
 
 import matplotlib
 import numpy as np
 from matplotlib import style
-from matplotlib.axes import Axes
-from matplotlib.colors import Colormap
+from matplotlib.artist import Artist
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
-
-from tribo.core.arrays import Array
 
 SINGLE_COLUMN = 85.0
 """Width of a picture in one column, in mm."""
@@ -57,8 +52,10 @@ _STYLE: dict[str, Any] = {
     "svg.hashsalt": "tribo",
 }
 
-Dashes = tuple[float, tuple[float, ...]]
-DASHES: tuple[Dashes, ...] = (
+Look = Mapping[str, Any]
+"""How a line looks: keywords of `Axes.plot`."""
+
+DASHES = (
     (0.0, (4.0, 1.6)),
     (0.0, ()),
     (0.0, (6.0, 1.4, 1.2, 1.4)),
@@ -66,43 +63,17 @@ DASHES: tuple[Dashes, ...] = (
     (0.0, (8.0, 1.6)),
     (0.0, (5.0, 1.2, 1.2, 1.2, 1.2, 1.2)),
 )
+UNDER: Look = {"color": "#56b4e9", "linewidth": 2.4}
+OVER: Look = {"color": "#202020", "linewidth": 1.1, "linestyle": (0.0, (3.0, 1.6))}
+"""A wide light line and a narrow dark one: both show where they coincide."""
+
+PRESSURES = "viridis"
+"""Colours of pressures: higher is lighter."""
+DIFFERENCES = "PuOr"
+"""Colours of differences: white is none, and both ends are dark."""
 
 # Matplotlib keeps its settings in one place for all threads.
 _lock = threading.RLock()
-
-
-@dataclass(frozen=True)
-class Stroke:
-    """How a line looks: its lightness, its dashes and its marker."""
-
-    colour: str | tuple[float, float, float]
-    dashes: Dashes | Literal["none"] = (0.0, ())
-    marker: str = ""
-    width: float = 1.2
-    size: float = 4.0
-
-    def draw(self, axes: Axes, x: Array, y: Array, label: str = "", **more: Any) -> Line2D:
-        """Draw `y` over `x`, and return the line; `more` goes to `Axes.plot`."""
-        (line,) = axes.plot(
-            x,
-            y,
-            color=self.colour,
-            linestyle=self.dashes,
-            marker=self.marker,
-            linewidth=self.width,
-            markersize=self.size,
-            label=label.lstrip("_") or None,
-            **more,
-        )
-        return line
-
-
-OVER = Stroke("#202020", dashes=(0.0, (3.0, 1.6)), width=1.1)
-"""A narrow dark line: it and a wide light one below it both show where they coincide."""
-BODY_STROKES = (
-    Stroke("#56b4e9", marker="o", width=2.4, size=7.0),
-    replace(OVER, marker="s", size=3.0),
-)
 
 
 @contextmanager
@@ -116,13 +87,7 @@ def house_style() -> Iterator[None]:
 
 
 def new_figure(height: float, width: float = SINGLE_COLUMN) -> Figure:
-    """Return an empty figure of a size in mm, tied to no display.
-
-    Parameters
-    ----------
-    height, width : float
-        In mm.
-    """
+    """Return an empty figure of a size in mm, tied to no display."""
     return Figure(figsize=(width / 25.4, height / 25.4))
 
 
@@ -143,58 +108,48 @@ def times(factor: float) -> str:
     return f"{float(f'{factor:.1e}'):g}"
 
 
-def pressure_colours() -> Colormap:
-    """Return the map of pressures: lighter is higher, and white is no contact."""
-    return matplotlib.colormaps["viridis"].with_extremes(bad="white")
-
-
-def save_strokes(count: int) -> list[Stroke]:
-    """Return a stroke for each save, from dark to light, neighbours dashed differently."""
+def save_looks(count: int) -> list[Look]:
+    """Return a look for each save, from dark to light, neighbours dashed differently."""
     # The lightest third of the map would not show on white.
     colours = matplotlib.colormaps["viridis"](np.linspace(0.0, 0.7, max(count - 1, 1)))
-    strokes = [Stroke("black", DASHES[0])]
-    for i, (red, green, blue, _) in enumerate(colours[: count - 1], start=1):
-        strokes.append(Stroke((float(red), float(green), float(blue)), DASHES[i % len(DASHES)]))
-    return strokes[:count]
+    return [
+        {"color": colour, "linestyle": DASHES[i % len(DASHES)]}
+        for i, colour in enumerate(["black", *map(tuple, colours)][:count])
+    ]
 
 
-def overlay_strokes(count: int) -> list[Stroke]:
-    """Return a stroke for each of several results; the first shows below one that coincides."""
-    return [Stroke("#a8a8a8", width=3.0), *save_strokes(count - 1)][:count]
+def overlay_looks(count: int) -> list[Look]:
+    """Return a look for each of several results; the first shows below one that coincides."""
+    return [{"color": "#a8a8a8", "linewidth": 3.0}, *save_looks(count - 1)][:count]
 
 
-def difference_colours() -> Colormap:
-    """Return the map of differences: white is none, and both ends are dark."""
-    return matplotlib.colormaps["PuOr"]
-
-
-def legend_below(figure: Figure, lines: Sequence[Line2D], columns: int = 3) -> None:
-    """Put a legend under the axes, where it hides nothing.
+def legend_below(
+    figure: Figure, curves: Sequence[Artist], columns: int = 3, marks: Sequence[Artist] = ()
+) -> None:
+    """Put a legend under the axes, where it hides nothing, and make the figure as much higher.
 
     Parameters
     ----------
     figure : Figure
         The figure.
-    lines : sequence of Line2D
+    curves : sequence of Artist
         What it explains; if too many, some are left out evenly.
     columns : int, optional
         Most columns.
+    marks : sequence of Artist, optional
+        What it explains after these, all of it.
     """
-    most = LEGEND_ROWS * columns
-    if len(lines) > most:
-        chosen = np.unique(np.linspace(0, len(lines) - 1, most).round().astype(int))
-        lines = [lines[i] for i in chosen]
-    rows = -(-len(lines) // columns)
-    columns = -(-len(lines) // rows)
+    most = LEGEND_ROWS * columns - len(marks)
+    if len(curves) > most:
+        chosen = np.unique(np.linspace(0, len(curves) - 1, most).round().astype(int))
+        curves = [curves[i] for i in chosen]
+    entries = [*curves, *marks]
+    rows = -(-len(entries) // columns)
+    columns = -(-len(entries) // rows)
+    figure.set_figheight(figure.get_figheight() + 3.6 * (rows + 1) / 25.4)
     # Matplotlib fills column by column; a reader goes row by row.
     figure.legend(
-        handles=[line for start in range(columns) for line in lines[start::columns]],
+        handles=[entry for start in range(columns) for entry in entries[start::columns]],
         loc="outside lower center",
         ncols=columns,
     )
-
-
-def legend_height(count: int, columns: int = 3) -> float:
-    """Return how high a legend is with its surroundings, in mm."""
-    rows = min(-(-count // columns), LEGEND_ROWS)
-    return 3.6 * (rows + 1)
