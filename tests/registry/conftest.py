@@ -1,12 +1,24 @@
 from __future__ import annotations
 
+import os
+import sys
+from collections.abc import Iterator
 from pathlib import Path
+from unittest.mock import patch
 
 import pytest
 
+from tribo.registry.registry import default_registry
+
 
 @pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder of distributions that are found as if installed."""
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """A folder of distributions that are found as if installed; none stays imported."""
     monkeypatch.syspath_prepend(str(tmp_path))
-    return tmp_path
+    default_registry.cache_clear()
+    with patch.dict(os.environ):
+        yield tmp_path
+    default_registry.cache_clear()
+    for name, module in list(sys.modules.items()):
+        if str(getattr(module, "__file__", None) or "").startswith(str(tmp_path)):
+            del sys.modules[name]
