@@ -50,27 +50,24 @@ def test_a_case_that_nests_too_deeply(case: Path, text: str) -> None:
     assert "\n" not in message
 
 
-@pytest.mark.parametrize("change", [f"{PATH}=1", f"load.normal={{{PATH}=1}}"])
-def test_an_override_that_nests_too_deeply(case: Path, change: str) -> None:
-    assert "nested too deeply" in refusal("check", case, "--set", change)
-
-
-@pytest.mark.parametrize("values", [f"{{{PATH}=1}},{{a=2}}", f"{{{PATH}=1}},a,{{b=,"])
-def test_values_to_vary_that_nest_too_deeply(case: Path, values: str) -> None:
-    assert "nested too deeply" in refusal("compare", case, "--vary", f"load.normal={values}")
-
-
-def test_a_study_that_nests_too_deeply(case: Path) -> None:
-    study = case.with_name("study.toml")
+@pytest.mark.parametrize(
+    "command",
+    [
+        f"check {{case}} --set {PATH}=1",
+        f"check {{case}} --set load.normal={{{{{PATH}=1}}}}",
+        f"compare {{case}} --vary load.normal={{{{{PATH}=1}}}},{{{{a=2}}}}",
+        f"compare {{case}} --vary load.normal={{{{{PATH}=1}}}},a,{{{{b=,",
+        "sweep {study}",
+        "calibrate {case} --measured {measured}",
+    ],
+    ids=["path", "value", "values", "half a value", "study", "measured"],
+)
+def test_what_nests_too_deeply_is_refused_by_every_command(case: Path, command: str) -> None:
+    study, measured = case.with_name("study.toml"), case.with_name("measured.toml")
     study.write_text(STUDY + TABLES)
-    assert "study.toml: tables or lists are nested" in refusal("sweep", study)
-
-
-def test_measured_values_that_nest_too_deeply(case: Path) -> None:
-    measured = case.with_name("measured.toml")
     measured.write_text(MEASURED + TABLES)
-    message = refusal("calibrate", case, "--measured", measured)
-    assert "measured.toml: tables or lists are nested" in message
+    message = refusal(*command.format(case=case, study=study, measured=measured).split())
+    assert "nested too deeply" in message
 
 
 def test_tables_from_python_that_nest_too_deeply() -> None:

@@ -14,7 +14,6 @@ STEEL = {"young": "207 GPa", "poisson": 0.3}
 LINEAR = {"type": "linear", "k": 1e-15}
 LAWS = "blend, linear, none (dummies 1.0)"
 PRESSURE = "a pressure [Pa] is needed, as in '4 GPa'"
-MATERIAL_KEYS = "young, poisson, hardness, density, conductivity, heat_capacity"
 
 
 def ball(**changes: object) -> dict[str, Any]:
@@ -33,137 +32,60 @@ def lines(dummies: Any) -> Callable[..., list[str]]:
     return explained
 
 
+BLEND = {"type": "blend", "parts": ["none", {**LINEAR, "zzz": 1}]}
+
+
 @pytest.mark.parametrize(
-    ("data", "path", "message"),
+    ("data", "path", "words"),
     [
         # Unknown keys, at each depth.
-        (
-            {"bodies": {}, "obsrevers": []},
-            "obsrevers",
-            "unknown key 'obsrevers'; did you mean 'observers'?"
-            " Allowed: bodies, cells, verbose, stepping, observers",
-        ),
-        (
-            ball(material={**STEEL, "hardnes": 1}),
-            "bodies.ball.material.hardnes",
-            f"unknown key 'hardnes'; did you mean 'hardness'? Allowed: {MATERIAL_KEYS}",
-        ),
-        (
-            ball(wear={**LINEAR, "pases": 1}),
-            "bodies.ball.wear.pases",
-            "unknown key 'pases'; did you mean 'passes'? Allowed: type, k, passes",
-        ),
-        (
-            ball(wear={"type": "blend", "parts": ["none", {**LINEAR, "zzz": 1}]}),
-            "bodies.ball.wear.parts[1].zzz",
-            "unknown key 'zzz'. Allowed: type, k, passes",
-        ),
+        ({"bodies": {}, "obsrevers": []}, "obsrevers", "did you mean 'observers'? Allowed: bodies"),
+        (ball(material={**STEEL, "hardnes": 1}), "bodies.ball.material.hardnes", "'hardness'?"),
+        (ball(wear={**LINEAR, "pases": 1}), "bodies.ball.wear.pases", "Allowed: type, k, passes"),
+        (ball(wear=BLEND), "bodies.ball.wear.parts[1].zzz", "unknown key 'zzz'. Allowed: type, k"),
         (
             {"bodies": {}, "observers": [{"type": "counter"}, {"type": "counter", "evry": 2}]},
             "observers[1].evry",
-            "unknown key 'evry'; did you mean 'every'? Allowed: type, every",
+            "'every'?",
         ),
-        (
-            {"bodies": {}, "stepping": {"type": "fast", "limt": 2}},
-            "stepping.limt",
-            "unknown key 'limt'; did you mean 'limit'? Allowed: type, limit",
-        ),
+        ({"bodies": {}, "stepping": {"type": "fast", "limt": 2}}, "stepping.limt", "'limit'?"),
         # Missing ones.
         ({}, "bodies", "missing"),
-        (
-            ball(material={"poisson": 0.3}),
-            "bodies.ball.material.young",
-            "missing; a pressure [Pa] is needed, as in '4 GPa'",
-        ),
-        (
-            ball(wear="linear"),
-            "bodies.ball.wear.k",
-            "missing; an inverse pressure [1/Pa] is needed, as in '1e-6 mm^3/(N m)'",
-        ),
-        (
-            {"bodies": {}, "stepping": {"type": "slow"}},
-            "stepping.step",
-            "missing; a time [s] is needed, as in '1 h'",
-        ),
+        (ball(material={"poisson": 0.3}), "bodies.ball.material.young", f"missing; {PRESSURE}"),
+        (ball(wear="linear"), "bodies.ball.wear.k", "as in '1e-6 mm^3/(N m)'"),
+        ({"bodies": {}, "stepping": {"type": "slow"}}, "stepping.step", "missing; a time [s]"),
         ({"bodies": {}, "cells": [8]}, "cells[1]", "missing"),
         # A misspelt key is one mistake, not an unknown key and a missing one.
-        (
-            ball(material={"yuong": 1e9, "poisson": 0.3}),
-            "bodies.ball.material.yuong",
-            f"unknown key 'yuong'; did you mean 'young'? Allowed: {MATERIAL_KEYS}",
-        ),
+        (ball(material={"yuong": 1e9, "poisson": 0.3}), "bodies.ball.material.yuong", "'young'?"),
         # Types.
-        (
-            ball(wear={"k": 1}),
-            "bodies.ball.wear.type",
-            f"type is missing; installed: {LAWS}",
-        ),
-        (
-            ball(wear={"type": "liner"}),
-            "bodies.ball.wear.type",
-            f"unknown wear law 'liner'; did you mean 'linear'? Installed: {LAWS}",
-        ),
-        (
-            ball(wear="liner"),
-            "bodies.ball.wear",
-            f"unknown wear law 'liner'; did you mean 'linear'? Installed: {LAWS}",
-        ),
+        (ball(wear={"k": 1}), "bodies.ball.wear.type", f"type is missing; installed: {LAWS}"),
+        (ball(wear={"type": "liner"}), "bodies.ball.wear.type", f"'linear'? Installed: {LAWS}"),
+        (ball(wear="liner"), "bodies.ball.wear", f"'linear'? Installed: {LAWS}"),
+        (ball(wear={"type": "{x}"}), "bodies.ball.wear.type", "unknown wear law '{x}'."),
+        (ball(wear={"type": ["linear"]}), "bodies.ball.wear.type", "type must be text"),
+        (ball(wear={"type": "blend", "parts": [{}]}), "bodies.ball.wear.parts[0].type", LAWS),
         (
             {"bodies": {}, "observers": ["counter", {"type": 3}]},
             "observers[1].type",
             "type must be text; installed: counter (dummies 1.0)",
         ),
-        (
-            {"bodies": {}, "stepping": {"type": "slwo"}},
-            "stepping.type",
-            "'slow' or 'fast' is needed, 'slwo' was given; did you mean 'slow'?",
-        ),
-        (
-            {"bodies": {}, "stepping": {"limit": 3}},
-            "stepping.type",
-            "type is missing; allowed: slow, fast",
-        ),
+        ({"bodies": {}, "stepping": {"type": "slwo"}}, "stepping.type", "did you mean 'slow'?"),
+        ({"bodies": {}, "stepping": {"limit": 3}}, "stepping.type", "allowed: slow, fast"),
         # Wrong kinds of value.
         (
             ball(material={**STEEL, "young": "stiff"}),
             "bodies.ball.material.young",
             f"'stiff' is not a quantity; {PRESSURE}",
         ),
-        (
-            ball(material={**STEEL, "young": -1}),
-            "bodies.ball.material.young",
-            "-1 Pa: must be greater than 0",
-        ),
-        (
-            ball(material={**STEEL, "hardness": "4 mm"}),
-            "bodies.ball.material.hardness",
-            f"'4 mm' is a length [m]; {PRESSURE}",
-        ),
+        (ball(wear={"type": "linear", "k": -1}), "bodies.ball.wear.k", "greater than 0"),
         (ball(material=3), "bodies.ball.material", "a table is needed, 3 was given"),
-        (
-            ball(wear={**LINEAR, "passes": "many"}),
-            "bodies.ball.wear.passes",
-            "a whole number is needed, 'many' was given",
-        ),
-        (
-            ball(wear={**LINEAR, "passes": 2.5}),
-            "bodies.ball.wear.passes",
-            "a whole number is needed, 2.5 was given",
-        ),
-        (
-            ball(wear=4),
-            "bodies.ball.wear",
-            f"a wear law is needed, as a table with its type; installed: {LAWS}",
-        ),
-        ({"bodies": 3}, "bodies", "a table is needed, 3 was given"),
-        ({"bodies": {}, "cells": 3}, "cells", "a list is needed, 3 was given"),
-        ({"bodies": {}, "cells": [8, "x"]}, "cells[1]", "a whole number is needed, 'x' was given"),
+        (ball(wear={**LINEAR, "passes": 2.5}), "bodies.ball.wear.passes", "a whole number"),
+        (ball(wear=4), "bodies.ball.wear", "a wear law is needed, as a table with its type"),
+        ({"bodies": 3}, "bodies", "a table is needed"),
+        ({"bodies": {}, "cells": 3}, "cells", "a list is needed"),
+        ({"bodies": {}, "cells": [8, "x"]}, "cells[1]", "a whole number is needed"),
         ({"bodies": {}, "cells": [8, 8, 8]}, "cells", "at most 2 values are allowed, 3 were given"),
-        (
-            {"bodies": {}, "verbose": "maybe"},
-            "verbose",
-            "true or false is needed, 'maybe' was given",
-        ),
+        ({"bodies": {}, "verbose": "maybe"}, "verbose", "true or false is needed"),
         (
             {"bodies": {}, "observers": [{"type": "counter", "every": 0}]},
             "observers[0].every",
@@ -176,14 +98,16 @@ def lines(dummies: Any) -> Callable[..., list[str]]:
         (
             ball(wear={"type": "blend", "parts": ["none"], "weight": "much"}),
             "bodies.ball.wear.weight",
-            "a number is needed, 'much' was given; or 'auto' is needed, 'much' was given",
+            "a number is needed, 'much' was given; or 'auto' is needed",
         ),
         # Names that TOML would quote.
         ({"bodies": {"my ball": {}}}, 'bodies."my ball".material', "missing"),
     ],
 )
-def test_a_mistake_is_one_line(lines: Any, data: object, path: str, message: str) -> None:
-    assert lines(data) == [f"{path}: {message}" if path else message]
+def test_a_mistake_is_one_line(lines: Any, data: object, path: str, words: str) -> None:
+    (line,) = lines(data)
+    assert line.startswith(f"{path}: " if path else words)
+    assert words in line
 
 
 def test_unknown_keys_come_first(lines: Any) -> None:

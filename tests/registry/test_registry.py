@@ -17,7 +17,7 @@ from tribo.observers.observer import Observer
 from tribo.registry.catalogue import catalogue
 from tribo.registry.hookspecs import hookimpl
 from tribo.registry.plugins import builtin
-from tribo.registry.registry import Registry, default_registry
+from tribo.registry.registry import Registry
 from tribo.registry.selection import selected
 from tribo.surfaces.surface import Surface
 
@@ -67,25 +67,22 @@ def test_a_name_belongs_to_the_kind_of_its_class() -> None:
 def test_an_unknown_name_suggests_one_and_says_who_provides_what() -> None:
     versioned = plugin("acme", Loud)
     versioned.__version__ = "1.2"  # type: ignore[attr-defined]
-    with pytest.raises(CaseError) as caught:
+    with pytest.raises(
+        CaseError, match=r"did you mean 'quiet'\?.* loud \(acme 1\.2\).* quiet \(good\)"
+    ):
         Registry.with_plugins(GOOD, versioned).lookup("observer", "quite")
-    assert "unknown observer 'quite'; did you mean 'quiet'? Installed: " in str(caught.value)
-    assert "loud (acme 1.2)" in str(caught.value)
-    assert "quiet (good)" in str(caught.value)
 
 
 @pytest.mark.parametrize(
     ("bad", "reason"),
     [
-        (plugin("bad", Loud, hook="tribo_component"), "unknown hook 'tribo_component'"),
-        (plugin("bad", dict), "dict must be a subclass of exactly one of ContactSolver, WearLaw"),
         (plugin("bad", Quiet()), "is not a class"),
         (plugin("bad", Bare), "Bare does not define height"),
         (plugin("bad", Quiet, AlsoQuiet), "returns 'quiet' twice"),
     ],
 )
-def test_a_plugin_at_hand_must_hold_to_the_contract(bad: ModuleType, reason: str) -> None:
-    with pytest.raises(Exception, match=reason):
+def test_a_given_plugin_must_keep_the_contract(bad: ModuleType, reason: str) -> None:
+    with pytest.raises((TypeError, ValueError), match=reason):
         Registry.with_plugins(bad)
 
 
@@ -94,41 +91,23 @@ def test_a_hook_of_another_version_may_be_optional() -> None:
     assert Registry.with_plugins(later).plugins[1].status == "loaded"
 
 
-def test_a_name_claimed_twice_is_unusable_and_both_are_named() -> None:
-    registry = Registry.with_plugins(GOOD, plugin("other", AlsoQuiet, Loud))
-    with pytest.raises(CaseError, match="'quiet' is offered by good and other"):
-        registry.lookup("observer", "quiet")
-    assert registry.lookup("observer", "loud") is Loud
-    assert "quiet" not in registry.names("observer")
-
-
 def test_a_plugin_is_imported_when_one_of_its_names_is_looked_up(folder: Path) -> None:
-    code = observer("one.calm")
-    distribute(folder, "one-tribo", "1.2", {"one.calm": "one_calm"}, one_calm=code)
-    registry = found("one-tribo")
-    assert registry.waiting == ["one.calm"]
-    assert "one_calm" not in sys.modules
-    assert [(str(p), p.status) for p in registry.plugins] == [("one-tribo 1.2", "available")]
-    assert registry.lookup("observer", "one.calm").__module__ == "one_calm"
-    assert registry.names("observer") == ["one.calm"]
-    assert [p.status for p in registry.plugins] == ["loaded"]
-
-
-def test_a_module_with_two_names_is_one_plugin(folder: Path) -> None:
     code = observer("pair.one") + observer("pair.two").replace("[Two]", "[One, Two]")
-    distribute(folder, "pair", "1.0", {"pair.one": "pair", "pair.two": "pair"}, pair=code)
+    distribute(folder, "pair", "1.0", {"pair.two": "pair", "pair.one": "pair"}, pair=code)
     registry = found("pair")
+    assert registry.waiting == ["pair.one", "pair.two"]
+    assert [(str(p), p.status) for p in registry.plugins] == [("pair 1.0", "available")]
+    assert "pair" not in sys.modules
     for name in ("pair.one", "pair.two"):
         assert registry.lookup("observer", name).type == name
+    assert registry.names("observer") == ["pair.one", "pair.two"]
     assert [p.status for p in registry.plugins] == ["loaded"]
 
 
 def test_what_is_meant_may_be_in_a_plugin_not_imported_yet(folder: Path) -> None:
     distribute(folder, "far", "1.0", {"far.calm": "far_calm"}, far_calm="1/0")
-    with pytest.raises(CaseError) as caught:
+    with pytest.raises(CaseError, match=r"did you mean 'far\.calm'\?.*not imported yet: far\.calm"):
         found("far").lookup("observer", "far.clam")
-    assert "did you mean 'far.calm'?" in str(caught.value)
-    assert "of plugins not imported yet: far.calm (far 1.0)" in str(caught.value)
 
 
 BROKEN = {
@@ -155,13 +134,11 @@ BROKEN = {
 }
 
 
-@pytest.mark.parametrize("fault", list(BROKEN))
+@pytest.mark.parametrize("fault", BROKEN)
 def test_a_broken_plugin_is_fatal_only_where_it_is_named(folder: Path, fault: str) -> None:
     code, reason = BROKEN[fault]
-    module = "two_" + fault.replace(" ", "_")
-    distribute(folder, "two-tribo", "0.1", {"two.calm": module}, **{module: code})
+    distribute(folder, "two-tribo", "0.1", {"two.calm": "two_calm"}, two_calm=code)
     registry = Registry([builtin(), *plugins("two-tribo")])
-    assert registry.lookup("wear_law", "archard").type == "archard"
     for _ in range(2):
         with pytest.raises(
             CaseError, match=r"'two\.calm' cannot be used: two-tribo 0\.1 is broken"
@@ -185,10 +162,10 @@ def test_a_broken_plugin_is_fatal_only_where_it_is_named(folder: Path, fault: st
 def test_a_failed_import_shows_the_author_s_file_and_line(
     folder: Path, name: str, code: str, line: int
 ) -> None:
-    distribute(folder, name, "0.1", {"lost.calm": f"lost_{name}"}, **{f"lost_{name}": code})
+    distribute(folder, name, "0.1", {"lost.calm": name}, **{name: code})
     with pytest.raises(CaseError) as caught:
         found(name).lookup("observer", "lost.calm")
-    assert f"({folder / f'lost_{name}.py'}, line {line})" in str(caught.value)
+    assert f"({folder / f'{name}.py'}, line {line})" in str(caught.value)
 
 
 @pytest.mark.parametrize(
@@ -216,14 +193,8 @@ def test_a_plugin_whose_requirements_do_not_hold_is_not_used(
     "requires", ["tribo>=0.0.1", "numpy", "no-such; extra == 'x'", "no-such; python_version < '3'"]
 )
 def test_a_requirement_that_holds_or_is_none_here_is_no_matter(folder: Path, requires: str) -> None:
-    distribute(
-        folder,
-        "glad",
-        "1",
-        {"glad.calm": "glad_calm"},
-        [requires],
-        glad_calm=observer("glad.calm"),
-    )
+    code = observer("glad.calm")
+    distribute(folder, "glad", "1", {"glad.calm": "glad"}, [requires], glad=code)
     assert found("glad").lookup("observer", "glad.calm").type == "glad.calm"
 
 
@@ -234,7 +205,9 @@ def test_a_name_without_a_prefix_is_tribo_s(folder: Path) -> None:
     assert "'archard' needs a prefix" in registry.plugins[1].reason
 
 
-def test_two_distributions_that_claim_a_name_lose_it_and_no_other(folder: Path) -> None:
+def test_two_distributions_that_claim_a_name_lose_it_unless_one_is_turned_off(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     for name in ("four-c", "four-d"):
         module = name.replace("-", "_")
         own = f"{module}.loud"
@@ -246,6 +219,9 @@ def test_two_distributions_that_claim_a_name_lose_it_and_no_other(folder: Path) 
     with pytest.raises(CaseError, match=r"'four.quiet' is offered by four-c 1\.0 and four-d 1\.0"):
         registry.lookup("observer", "four.quiet")
     assert registry.lookup("observer", "four_c.loud").__module__ == "four_c"
+    monkeypatch.setenv("TRIBO_DISABLE_PLUGINS", "four-c")
+    settled = found("four-c", "four-d")
+    assert settled.lookup("observer", "four.quiet").__module__ == "four_d"
 
 
 def test_a_folder_that_is_searched_twice_holds_its_plugins_once(
@@ -320,18 +296,6 @@ def test_only_some_plugins_can_be_kept(folder: Path, monkeypatch: pytest.MonkeyP
     assert [p.status for p in found("six-a", "six-b").plugins] == ["disabled", "available"]
 
 
-def test_turning_one_of_two_off_settles_their_conflict(
-    folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    for name in ("seven-a", "seven-b"):
-        module = name.replace("-", "_")
-        code = {module: observer("seven.calm")}
-        distribute(folder, name, "1.0", {"seven.calm": module}, **code)
-    monkeypatch.setenv("TRIBO_DISABLE_PLUGINS", "seven-a")
-    registry = found("seven-a", "seven-b")
-    assert registry.lookup("observer", "seven.calm").__module__ == "seven_b"
-
-
 def test_the_built_in_components_come_through_the_same_hook() -> None:
     registry = Registry.with_plugins(GOOD)
     assert [(p.origin, p.status, p.reason) for p in registry.plugins] == [
@@ -343,7 +307,3 @@ def test_the_built_in_components_come_through_the_same_hook() -> None:
         "wear_law": ["archard", "power"],
         "surface": ["cylinder", "flat", "paraboloid", "sphere"],
     }
-
-
-def test_the_default_registry_is_loaded_once() -> None:
-    assert default_registry() is default_registry()
