@@ -84,7 +84,7 @@ BLEND = {"type": "blend", "parts": ["none", {**LINEAR, "zzz": 1}]}
         ({"bodies": 3}, "bodies", "a table is needed"),
         ({"bodies": {}, "cells": 3}, "cells", "a list is needed"),
         ({"bodies": {}, "cells": [8, "x"]}, "cells[1]", "a whole number is needed"),
-        ({"bodies": {}, "cells": [8, 8, 8]}, "cells", "at most 2 values are allowed, 3 were given"),
+        ({"bodies": {}, "cells": [8, 8, 8]}, "cells", "at most 2 allowed, 3 given"),
         ({"bodies": {}, "verbose": "maybe"}, "verbose", "true or false is needed"),
         (
             {"bodies": {}, "observers": [{"type": "counter", "every": 0}]},

@@ -109,7 +109,7 @@ GRID, SAMPLE = "[grid]\n", '[sample]\nmethod = "sobol"\ncount = 2\n[sample.range
     ("text", "message"),
     [
         ("", "nothing varies; give [grid], [zip], [[list]] or [sample]"),
-        (GRID + "load.normal = []", 'grid."load.normal": at least 1 value is needed'),
+        (GRID + "load.normal = []", 'grid."load.normal": at least 1 needed'),
         (GRID + "load.normal = 3", 'grid."load.normal": a list is needed, 3 was given'),
         ("[gird]\nload.normal = [1]", "gird: unknown key 'gird'; did you mean 'grid'?"),
         (GRID + "loda.normal = [1]", "loda: unknown key 'loda'; did you mean 'load'?"),

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import inspect
 import re
-from collections.abc import Iterator, Mapping
-from typing import Annotated, Any, get_args, get_origin
+from collections.abc import Mapping
+from typing import get_args
 
 from pydantic import BaseModel, ValidationError, ValidationInfo
 from pydantic_core import ErrorDetails, InitErrorDetails, PydanticCustomError
 
 from tribo.core.errors import CaseError
+from tribo.core.units import parts
 from tribo.core.words import did_you_mean, shown, suggestion
 
 TOLD = "told"
@@ -95,7 +95,8 @@ def explained(
         if kind == "missing" and len(loc) == 1:
             if loc[0] not in meant:
                 field = fields[str(loc[0])]
-                hints = _hints((field.annotation, *field.metadata), info)
+                marks = parts((field.annotation, *field.metadata))
+                hints = [mark.hint(info) for mark in marks if hasattr(mark, "hint")]
                 lines.append(_details(details, loc, told("; ".join(["missing", *hints]))))
             continue
         if kind.startswith("union_tag"):
@@ -145,9 +146,12 @@ def message(details: ErrorDetails) -> str:
     if kind in _BOUNDS:
         return f"{given}: must be {_BOUNDS[kind].format(**context)}"
     if kind == "too_short":
-        return f"at least {_values(context['min_length'], 'needed')}, {_count(context)} given"
+        length = context.get("actual_length")
+        given = "fewer" if length is None else str(length)
+        return f"at least {context['min_length']} needed, {given} given"
     if kind == "too_long":
-        return f"at most {_values(context['max_length'], 'allowed')}, {_count(context)} given"
+        given = str(context.get("actual_length") or "more")
+        return f"at most {context['max_length']} allowed, {given} given"
     if kind == "literal_error":
         return _choice(details["input"], context["expected"])
     if kind == "union_tag_invalid":
@@ -188,15 +192,6 @@ def _get(value: object, key: str | int) -> tuple[object] | None:
     return None
 
 
-def _hints(declared: tuple[Any, ...], info: ValidationInfo) -> Iterator[str]:
-    """Yield the hints of the types and marks of a field that is missing."""
-    for mark in declared:
-        if get_origin(mark) is Annotated or (get_args(mark) and not inspect.isclass(mark)):
-            yield from _hints(get_args(mark), info)
-        elif hasattr(mark, "hint"):
-            yield mark.hint(info)
-
-
 def _unsaid(given: object) -> str:
     if isinstance(given, Mapping) and "type" in given:
         return f"{given['type']!r} refused its keys without saying why"
@@ -206,14 +201,3 @@ def _unsaid(given: object) -> str:
 def _choice(given: object, expected: str) -> str:
     meant = did_you_mean(given, re.findall(r"'([^']*)'", expected))
     return f"{expected} is needed, {shown(given)} was given" + (suggestion(meant) if meant else "")
-
-
-def _values(count: int, what: str) -> str:
-    return f"1 value is {what}" if count == 1 else f"{count} values are {what}"
-
-
-def _count(context: dict[str, Any]) -> str:
-    count = context.get("actual_length")
-    if count is None:
-        return "fewer were"
-    return f"{count or 'none'} {'was' if count in (0, 1) else 'were'}"

@@ -203,11 +203,15 @@ class Quantity:
 
 
 def quantities(annotation: Any) -> Iterator[Quantity]:
-    """Yield the quantities in an annotation and in its parts."""
-    if isinstance(annotation, Quantity):
-        yield annotation
+    """Yield the quantities among the `parts` of an annotation."""
+    return (part for part in parts(annotation) if isinstance(part, Quantity))
+
+
+def parts(annotation: Any) -> Iterator[Any]:
+    """Yield an annotation, or a tuple of them, and every type and mark inside."""
+    yield annotation
     for part in annotation if isinstance(annotation, tuple) else get_args(annotation):
-        yield from quantities(part)
+        yield from parts(part)
 
 
 def _called(dimension: Dimension) -> str:

@@ -6,7 +6,7 @@ import inspect
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
-from typing import Any, get_args
+from typing import Any
 
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
@@ -15,7 +15,7 @@ from tribo.component import Component
 from tribo.core.distributions import unmet
 from tribo.core.errors import CaseError
 from tribo.core.fields import Field
-from tribo.core.units import Quantity
+from tribo.core.units import parts, quantities
 from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.kinds import KINDS
 from tribo.registry.plugins import Plugin
@@ -110,26 +110,18 @@ def _parameters(table: type[BaseModel], within: tuple[type[BaseModel], ...] = ()
     within = (*within, table)
     for name, field in table.model_fields.items():
         yield _parameter(name, field)
-        for part in _parts(field):
+        for part in parts(field.annotation):
             if inspect.isclass(part) and issubclass(part, BaseModel) and part not in within:
                 yield from (f"    {line}" for line in _parameters(part, within))
 
 
 def _parameter(name: str, field: FieldInfo) -> str:
-    unit = next((f" [{q.unit}]" for q in _parts(field) if isinstance(q, Quantity)), "")
+    marks = quantities((field.annotation, *field.metadata))
+    unit = next((f" [{mark.unit}]" for mark in marks), "")
     needed = "needed" if field.is_required() else f"default {field.default!r}"
     if field.default is None or field.default_factory is not None:
         needed = "optional"
     return f"{name}{unit} ({needed}): {field.description or 'no description'}"
-
-
-def _parts(field: FieldInfo) -> Iterator[Any]:
-    """Yield every type in the annotation of a field, and what annotates it."""
-    waiting = [*field.metadata, field.annotation]
-    while waiting:
-        part = waiting.pop(0)
-        yield part
-        waiting += [*get_args(part), *getattr(part, "__metadata__", ())]
 
 
 def _facts(cls: type[Any]) -> list[str]:
