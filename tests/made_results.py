@@ -16,6 +16,16 @@ GRID = Grid((2e-3, 1.6e-3), (50, 40))
 RADIUS = 5e-3
 TIMES = (0.0, 200.0, 500.0, 1500.0, 3600.0)
 SETTLED = Residuals(0.0, 0.0, 0.0)
+ENDLESS = 1e9
+SHAPES = {
+    "line contact": {"shape": (0.3, ENDLESS), "curvature": (200.0, 0.0)},
+    "flat pin": {"shape": (ENDLESS, ENDLESS), "power": 1e-9, "curvature": None},
+    "rough": {"texture": 0.6, "curvature": None},
+    "long window": {"grid": Grid((10e-3, 1e-3), (100, 20)), "shape": (4.0, 0.4)},
+    "1:1000": {"grid": Grid((1e-3, 1.0), (40, 40)), "shape": (0.3, 300.0)},
+    "hard": {"cap": 2e9},
+}
+"""Contacts of every shape: what `made` takes for each."""
 
 
 def made(

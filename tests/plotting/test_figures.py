@@ -1,10 +1,11 @@
 """Pictures on disk: which, for whatever kind of result."""
 
 from concurrent.futures import ThreadPoolExecutor
+from itertools import pairwise
 
 import numpy as np
 import pytest
-from made_results import TIMES, made
+from made_results import SHAPES, TIMES, made
 from matplotlib.figure import Figure
 from matplotlib.image import imread
 
@@ -17,6 +18,7 @@ WORN = ["disk_groove", "worn_section"]
 BALL = ["ball_along", "ball_across"]
 
 
+@pytest.mark.slow
 def test_the_pictures_are_images_of_the_width_of_a_column(tmp_path):
     paths = save_figures(made(), tmp_path / "new" / "folder")
     assert [path.stem for path in paths] == [*CONTACT, *BALL, *WORN, *OVER_TIME]
@@ -63,13 +65,36 @@ CASES = {
 }
 
 
+CASES |= {name: (shape, [*CONTACT, *BALL, *WORN, *OVER_TIME]) for name, shape in SHAPES.items()}
+UNITS = tuple(f"({unit})" for unit in ("mm", "µm", "nm", "pm", "MPa", "s", "mm³", "mg"))
+
+
+def check_layout(figure):
+    """Nothing is cut off, no labels of ticks overlap, and axes with numbers name a unit."""
+    figure.draw_without_rendering()
+    text, paper = figure.get_tightbbox(), figure.bbox_inches
+    assert min(text.x0, text.y0, paper.x1 - text.x1, paper.y1 - text.y1) > -0.01
+    for axes in [each for parent in figure.axes for each in (parent, *parent.child_axes)]:
+        for axis in (axes.xaxis, axes.yaxis):
+            low, high = sorted(axis.get_view_interval())
+            labels = zip(axis.get_majorticklocs(), axis.get_majorticklabels(), strict=False)
+            boxes = [
+                label.get_window_extent()
+                for place, label in labels
+                if low <= place <= high and label.get_visible() and label.get_text()
+            ]
+            assert not any(one.overlaps(other) for one, other in pairwise(boxes))
+            assert not boxes or axis.get_label_text().split("\n")[0].endswith(UNITS)
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize(("changes", "expected"), CASES.values(), ids=CASES)
 def test_each_result_gets_the_pictures_that_make_sense(changes, expected, tmp_path, monkeypatch):
     drawn = []
 
     def lay_out(figure, path, **_):
         # All of the work but the pixels, which take long.
-        figure.draw_without_rendering()
+        check_layout(figure)
         drawn.append(path)
 
     monkeypatch.setattr(Figure, "savefig", lay_out)
@@ -93,6 +118,7 @@ def test_a_place_that_cannot_be_written_is_an_output_error(tmp_path):
         save_figures(made((0.0,)), tmp_path / "taken")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", ["pdf", ".svg"])
 def test_the_same_result_gives_the_same_file(suffix, tmp_path):
     result = made((0.0,))
@@ -100,6 +126,7 @@ def test_the_same_result_gives_the_same_file(suffix, tmp_path):
     assert one.read_bytes() == other.read_bytes()
 
 
+@pytest.mark.slow
 def test_threads_can_draw_at_the_same_time():
     result = made()
     with ThreadPoolExecutor(4) as pool:

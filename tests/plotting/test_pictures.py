@@ -18,18 +18,6 @@ from tribo.plotting import (
 )
 from tribo.result.export import profile
 
-DRAWINGS = {
-    "pressure_map": pressure_map,
-    "pressure_sections": pressure_sections,
-    "ball_along": lambda result: body_profiles(result, "ball", 0),
-    "ball_across": lambda result: body_profiles(result, "ball", 1),
-    "disk_groove": lambda result: groove(result, "disk"),
-    "worn_section": worn_section,
-    "wear_history": wear_history,
-    "contact_history": contact_history,
-}
-UNITS = ("(mm)", "(µm)", "(MPa)", "(s)", "(mm³)", "(mg)")
-
 
 @pytest.fixture(scope="module")
 def result():
@@ -43,20 +31,6 @@ def curves(axes):
 
 def names(legend):
     return {text.get_text() for text in legend.get_texts()}
-
-
-@pytest.mark.parametrize("draw", DRAWINGS.values(), ids=DRAWINGS)
-def test_every_axis_with_numbers_says_what_and_in_which_unit(draw, result):
-    figure = draw(result)
-    figure.draw_without_rendering()
-    labelled = 0
-    for axes in figure.axes:
-        for axis in (axes.xaxis, axes.yaxis):
-            numbers = [label for label in axis.get_ticklabels() if label.get_visible()]
-            if any(label.get_text() for label in numbers):
-                assert axis.get_label_text().endswith(UNITS)
-                labelled += 1
-    assert labelled >= 2
 
 
 @pytest.mark.parametrize("axis", [0, 1])
@@ -125,17 +99,13 @@ def test_a_first_pressure_that_dwarfs_the_later_ones_stands_whole_in_its_own_pan
     shown = curves(whole)
     assert set(shown) == {"0 s", "Hertz, 0 s"}
     np.testing.assert_allclose(shown["0 s"][1], 1e-6 * profile(result.pressure(0), 0))
-    assert whole.get_ylim()[1] >= max(1e-6 * result.pressure(0).max(), shown["Hertz, 0 s"][1].max())
     later = 1e-6 * profile(result.pressure(1), 0).max()
     for axes in (along, across):
         assert later < axes.get_ylim()[1] < 1.2 * later
-
-
-def test_later_pressures_as_high_as_the_first_share_its_panels():
-    result = made((0.0, 1.0))
-    along, across = pressure_sections(result).axes
-    for axes in (along, across):
-        assert axes.get_ylim()[1] >= 1e-6 * result.pressure(0).max()
+    others = pressure_sections(made((0.0, 1.0))).axes
+    highest = 1e-6 * result.pressure(0).max()
+    assert all(axes.get_ylim()[1] >= highest for axes in (whole, *others))
+    assert len(others) == 2
 
 
 @pytest.mark.parametrize("times", [(0.0, 1.0), TIMES])
@@ -160,30 +130,16 @@ def test_sections_show_where_a_line_contact_ends():
     assert not pressure_sections(made(**line)).axes[-1].patches
 
 
-def test_the_map_is_the_pressure_at_true_scale(result):
+def test_the_map_is_the_pressure_from_zero_to_the_largest(result):
     (axes,) = pressure_map(result, 1).axes
-    (bar,) = axes.child_axes
     (image,) = axes.images
-    pressure = result.pressure(1).T
+    pressure = 1e-6 * result.pressure(1).T
     shown = np.asarray(image.get_array())
-    np.testing.assert_allclose(shown[pressure > 0], 1e-6 * pressure[pressure > 0])
+    np.testing.assert_allclose(shown[pressure > 0], pressure[pressure > 0])
     np.testing.assert_allclose(image.get_extent(), [-1.0, 1.0, -0.8, 0.8])
-    axes.figure.draw_without_rendering()
-    box = axes.get_window_extent()
-    per_mm = box.width / np.ptp(axes.get_xlim()), box.height / np.ptp(axes.get_ylim())
-    assert per_mm[0] == pytest.approx(per_mm[1])
+    assert image.get_clim() == (0.0, pytest.approx(pressure.max()))
     assert axes.get_title(loc="left") == "t = 200 s"
-    assert bar.get_ylabel() == "Pressure (MPa)"
-    reach = 1e3 * half_width(200.0)
-    assert reach < axes.get_xlim()[1] < 1.5 * reach
-
-
-@pytest.mark.parametrize("power", [0.5, 0.05])
-def test_the_scale_of_a_map_goes_from_zero_to_the_largest_pressure(power):
-    result = made((0.0, 3600.0), power=power)
-    (axes,) = pressure_map(result).axes
-    assert axes.images[0].get_clim() == (0.0, pytest.approx(1e-6 * result.pressure(1).max()))
-    assert axes.child_axes[0].get_ylabel().endswith("(MPa)")
+    assert axes.child_axes[0].get_ylabel() == "Pressure (MPa)"
 
 
 def test_a_map_is_white_outside_a_smooth_edge_of_the_contact(result):
@@ -201,28 +157,10 @@ def test_a_map_is_white_outside_a_smooth_edge_of_the_contact(result):
     assert np.mean(inside == (pressure > 0)) > 0.97
 
 
-@pytest.mark.parametrize(("power", "lines"), [(0.5, True), (0.001, False)])
-def test_lines_of_equal_pressure_are_labelled_or_the_pressure_is_called_even(power, lines):
-    (axes,) = pressure_map(made((0.0, 3600.0), power=power)).axes
-    assert bool(axes.texts) is lines
-    assert ("even within" in axes.get_title(loc="left")) is not lines
-
-
-SHAPES = {"1:20": (0.05, 1.0), "20:1": (1.0, 0.05), "1:5": (0.2, 1.0), "5:1": (1.0, 0.2)}
-
-
-@pytest.mark.parametrize("shape", SHAPES.values(), ids=SHAPES)
-def test_the_map_of_a_thin_contact_has_room_for_title_and_scale(shape):
-    (axes,) = pressure_map(made((6e4,), shape=shape, curvature=None)).axes
-    figure = axes.figure
-    figure.draw_without_rendering()
-    box, bar = axes.get_window_extent(), axes.child_axes[0].get_window_extent()
-    assert 1 / 3.05 < box.height / box.width < 3.05
-    assert bar.height == pytest.approx(box.height)
-    assert figure.bbox.width >= axes.get_tightbbox().x1
-    assert "enlarged" in (axes.get_xlabel() if shape[0] < shape[1] else axes.get_ylabel())
-    assert not axes.get_title(loc="right")
-    assert not figure.legends
+def test_lines_of_equal_pressure_are_labelled(result):
+    (axes,) = pressure_map(result).axes
+    assert axes.texts
+    assert "even within" not in axes.get_title(loc="left")
 
 
 def test_the_map_marks_the_ellipse_of_hertz(result):
@@ -231,11 +169,6 @@ def test_the_map_marks_the_ellipse_of_hertz(result):
     assert names(figure.legends[0]) == {"Hertz, 0 s"}
     hertz = hertz_contact(result.system)
     np.testing.assert_allclose(np.hypot(x / hertz.half_width_x, y / hertz.half_width_y), 1e3)
-
-
-def test_the_map_knows_only_saves_that_exist(result):
-    with pytest.raises(CaseError, match="no save 5: it has 5"):
-        pressure_map(result, 5)
 
 
 def test_worn_bodies_touch_but_do_not_overlap(result):
@@ -270,17 +203,13 @@ def test_volume_and_mass_are_the_histories(result):
     shown = curves(axes)
     assert set(shown) == {"ball", "disk"} == names(figure.legends[0])
     np.testing.assert_allclose(shown["ball"][0], history["time_s"])
+    line = axes.lines[0]
+    np.testing.assert_allclose(line.get_xdata()[line.get_markevery()], TIMES)
     np.testing.assert_allclose(shown["ball"][1], 1e9 * history["bodies.ball.wear_volume_m3"])
     figure.draw_without_rendering()
     # 7.85 mg to the mm³ of steel.
     assert right.get_ylim()[1] == pytest.approx(7.85 * axes.get_ylim()[1])
     assert right.get_ylabel().endswith("(mg)")
-
-
-def test_markers_stand_at_the_saves(result):
-    axes = wear_history(result).axes[0]
-    line = axes.lines[0]
-    np.testing.assert_allclose(line.get_xdata()[line.get_markevery()], TIMES)
 
 
 def test_two_moments_are_not_joined_and_no_marker_is_cut_off():
@@ -293,23 +222,23 @@ def test_two_moments_are_not_joined_and_no_marker_is_cut_off():
     assert not any(line.get_clip_on() for line in lines(more))
 
 
-def test_different_densities_give_mass_its_own_panel():
-    volume, mass = wear_history(made(densities=(7850.0, 3200.0))).axes
+@pytest.mark.parametrize(
+    ("densities", "masses"),
+    [
+        ((7850.0, 3200.0), {"ball": 7.85, "disk": 3.2}),
+        ((7850.0, None), {"ball": 7.85}),
+        ((None, None), {}),
+    ],
+)
+def test_mass_has_its_own_panel_unless_all_densities_are_equal(densities, masses):
+    volume, *mass = wear_history(made(densities=densities)).axes
     assert not volume.child_axes
-    volumes, masses = curves(volume), curves(mass)
-    np.testing.assert_allclose(masses["ball"][1], 7.85 * volumes["ball"][1])
-    np.testing.assert_allclose(masses["disk"][1], 3.2 * volumes["disk"][1])
-    assert mass.get_ylabel() == "Mass worn (mg)"
-
-
-def test_without_densities_there_is_no_mass():
-    (axes,) = wear_history(made(densities=(None, None))).axes
-    assert not axes.child_axes
-
-
-def test_a_weighed_body_stands_alone_beside_one_without_density():
-    _, mass = wear_history(made(densities=(7850.0, None))).axes
-    assert set(curves(mass)) == {"ball"}
+    assert len(mass) == bool(masses)
+    for axes in mass:
+        assert axes.get_ylabel() == "Mass worn (mg)"
+        assert set(curves(axes)) == set(masses)
+        for name, (_, y) in curves(axes).items():
+            np.testing.assert_allclose(y, masses[name] * curves(volume)[name][1])
 
 
 def test_contact_history_is_the_history(result):

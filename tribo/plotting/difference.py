@@ -68,12 +68,7 @@ def difference_map(results: Mapping[str, Result], label: str, time: float) -> Fi
             scale = f"{what} ({units[what]})"
             colours = {"cmap": DIFFERENCES, "interpolation": "nearest"}
             shown.image(values, scale, vmin=-largest, vmax=largest, **colours)
-            dashes = ["dashed" if level < 0 else "solid" for level in _LEVELS]
-            shown.lines(
-                values,
-                [largest * level for level in _LEVELS],
-                [{"colors": "black", "linestyles": dash} for dash in dashes],
-            )
+            shown.lines(values, {largest * level: "black" for level in _LEVELS})
         maps[0].axes.set_title(f"{label} less {first_label}, t = {time:g} s", loc="left")
     return figure
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,7 +16,7 @@ from matplotlib.ticker import MaxNLocator
 from tribo.core.arrays import Array, Mask
 from tribo.core.grid import Grid
 from tribo.plotting.sections import limits
-from tribo.plotting.style import AXIS_LABELS, Look, new_figure, ticks, times
+from tribo.plotting.style import AXIS_LABELS, new_figure, ticks, times
 from tribo.plotting.units import fitting, size
 
 _AROUND = 19.0
@@ -63,12 +63,11 @@ class Map:
         axes.figure.colorbar(image, cax=scale, label=label, ticks=ticks(max(3, int(height / 8))))
         return image
 
-    def lines(
-        self, field: Array, levels: Iterable[float], looks: Iterable[Look]
-    ) -> list[QuadContourSet]:
+    def lines(self, field: Array, levels: Mapping[float, str]) -> list[QuadContourSet]:
         """Draw lines of equal value, but for those in fragments or without room, and return them.
 
-        The field may be masked; `looks` go to `Axes.contour`, one for each level.
+        The field may be masked; `levels` says in which colour each is drawn. Matplotlib
+        dashes those below zero.
         """
         x, y = self.positions()
         corners = np.array([(x[0], y[0]), (x[-1], y[-1])])
@@ -76,8 +75,8 @@ class Map:
         per_unit = np.asarray(self.size) / np.ptp(shown, axis=1)
         lines: list[QuadContourSet] = []
         drawn: list[Array] = []
-        for level, look in zip(levels, looks, strict=True):
-            line = self.axes.contour(x, y, field.T, levels=[level], linewidths=0.5, **look)
+        for level, colour in levels.items():
+            line = self.axes.contour(x, y, field.T, [level], colors=colour, linewidths=0.5)
             pieces = [piece for piece in line.allsegs[0] if len(piece)]
             whole = all(_is_whole(piece, corners, per_unit) for piece in pieces)
             points = per_unit * np.concatenate([*pieces, np.empty((0, 2))])
@@ -94,16 +93,8 @@ def new_maps(
 ) -> tuple[Figure, list[Map]]:
     """Return a figure of maps without fields, true to scale unless that would be thin.
 
-    Parameters
-    ----------
-    marked : ndarray of bool, shape (nx, ny)
-        The cells that they show.
-    grid : Grid
-        The window.
-    reach : sequence of float, optional
-        Distances from the centre along x and y to be shown as well, in m.
-    count : int, optional
-        How many.
+    They show all marked cells, and a distance `reach` from the centre along x
+    and y, in m.
     """
     windows = [limits(marked, grid, axis, reach[axis]) for axis in (0, 1)]
     x, y = (high - low for low, high in windows)

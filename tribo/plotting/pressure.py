@@ -216,9 +216,9 @@ def _draw_levels(shown: Map, pressure: Array, low: float, high: float) -> None:
     levels = levels[(levels > low) & (levels < high)]
     # The jumps of single cells would make the lines ragged, and those at the rim into crumbs.
     field = np.ma.masked_where(_smooth(pressure > 0, 2) < 0.99, _smooth(pressure, 2))
-    bright = levels > 0.55 * float(np.max(pressure))
-    looks = [{"colors": "black" if light else "white"} for light in bright]
-    for line in shown.lines(field, levels, looks):
+    bright = 0.55 * float(np.max(pressure))
+    colours = {float(level): "black" if level > bright else "white" for level in levels}
+    for line in shown.lines(field, colours):
         shown.axes.clabel(line, fontsize=6.0, fmt="%g", inline_spacing=2)
 
 

@@ -50,19 +50,15 @@ class Section:
         axes.yaxis.set_major_locator(style.ticks(7))
         lines: list[Line2D] = []
         for (position, values), look, label in zip(self.curves, looks, labels, strict=True):
-            # Matplotlib leaves labels that begin with a line out of the legend.
+            # Matplotlib leaves labels that begin with an underscore out of the legend.
             shown = position / size(self.unit), values / size(unit)
             lines += axes.plot(*shown, label=label.lstrip("_"), **look)
         return lines
 
     def in_sight(self) -> list[Array]:
-        """Return the part of each curve that lies inside the limits, or all if none does."""
+        """Return the part of each curve that lies inside the limits."""
         low, high = self.window
-        masks = [(position >= low) & (position <= high) for position, _ in self.curves]
-        return [
-            values[inside] if inside.any() else values
-            for (_, values), inside in zip(self.curves, masks, strict=True)
-        ]
+        return [values[(low <= x) & (x <= high)] for x, values in self.curves]
 
 
 def through_centre(
@@ -72,16 +68,10 @@ def through_centre(
     marked: Sequence[Mask],
     reach: float = 0.0,
 ) -> Section:
-    """Return the section of fields along an axis, and limits around all that is marked.
+    """Return the section of fields, each on its grid, with limits around all that is marked.
 
-    Parameters
-    ----------
-    axis : int
-        0 along the sliding direction, 1 across it.
-    grids, fields, marked : sequence
-        Of each curve.
-    reach : float, optional
-        Distance from the centre to be shown as well, in m.
+    `axis` is 0 along the sliding direction and 1 across it; `reach` is a
+    distance from the centre to be shown as well, in m.
     """
     positions = [(grid.x, grid.y)[axis] for grid in grids]
     lows, highs = [], []
@@ -97,16 +87,8 @@ def through_centre(
 def limits(marked: Mask, grid: Grid, axis: int, reach: float = 0.0) -> Limits:
     """Return limits in m that show all marked cells, a margin, and no more.
 
-    Parameters
-    ----------
-    marked : ndarray of bool, shape (nx, ny) or (1, ny)
-        What to show; the whole window if nothing is marked.
-    grid : Grid
-        The window.
-    axis : int
-        0 for x, 1 for y.
-    reach : float, optional
-        Distance from the origin to be shown as well, in m.
+    They are those of the window if nothing is marked. `marked` has shape
+    (nx, ny) or (1, ny); `reach` is as in `through_centre`.
     """
     edge = 0.5 * grid.size[axis]
     index = np.flatnonzero(np.broadcast_to(marked, grid.cells).any(axis=1 - axis))
@@ -149,18 +131,9 @@ def draw_profiles(
 ) -> Figure:
     """Draw surfaces in one panel for each section, all with one scale of heights.
 
-    Parameters
-    ----------
-    sections : sequence of Section
-        The surfaces, in m.
-    looks, labels : sequence
-        Of each curve; one without a label is left out of the legend.
-    title : str
-        Stands on the left; how much heights are enlarged, on the right.
-    shape : float, optional
-        Height of the axes over their width, on paper.
-    room : tuple of float, optional
-        Left free below and above the curves, in parts of their range.
+    A curve without a label is left out of the legend. `shape` is the height of
+    the axes over their width, on paper; `room` is left free below and above
+    the curves, in parts of their range.
     """
     parts = [line for section in sections for line in section.in_sight()]
     low, high = min(map(np.min, parts)), max(map(np.max, parts))

@@ -65,7 +65,7 @@ DASHES = (
 )
 UNDER: Look = {"color": "#56b4e9", "linewidth": 2.4}
 OVER: Look = {"color": "#202020", "linewidth": 1.1, "linestyle": (0.0, (3.0, 1.6))}
-"""A wide light line and a narrow dark one: both show where they coincide."""
+"""A wide light line and a narrow dark one; both show where they coincide."""
 
 PRESSURES = "viridis"
 """Colours of pressures: higher is lighter."""
@@ -128,16 +128,8 @@ def legend_below(
 ) -> None:
     """Put a legend under the axes, where it hides nothing, and make the figure as much higher.
 
-    Parameters
-    ----------
-    figure : Figure
-        The figure.
-    curves : sequence of Artist
-        What it explains; if too many, some are left out evenly.
-    columns : int, optional
-        Most columns.
-    marks : sequence of Artist, optional
-        What it explains after these, all of it.
+    Where there are too many curves for it, some are left out evenly; `marks`
+    are all named.
     """
     most = LEGEND_ROWS * columns - len(marks)
     if len(curves) > most:

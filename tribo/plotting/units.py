@@ -16,17 +16,7 @@ def size(unit: str) -> float:
 
 
 def fitting(si: str, largest: float, least: float = 0.1) -> str:
-    """Return the unit for values up to `largest`.
-
-    Parameters
-    ----------
-    si : str
-        What `largest` is in: ``"m"`` or ``"Pa"``.
-    largest : float
-        The largest value shown.
-    least : float, optional
-        The least that it may be in the unit; the smallest unit is taken where it is less in all.
-    """
+    """Return the unit for values up to `largest`, in m or Pa, which is at least `least` in it."""
     units = _UNITS[si]
     if largest == 0:
         return units[0]
