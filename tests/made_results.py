@@ -6,10 +6,7 @@ from tribo.core.contact import ContactSolution, ContactSystem, Residuals
 from tribo.core.grid import Grid
 from tribo.core.measures import BodyMeasures, Measures, centre, contact_area, half_widths
 from tribo.core.state import BodyInfo, BodyState, RunInfo, Snapshot, State
-from tribo.result.guarded import GuardedFile
 from tribo.result.provenance import provenance
-from tribo.result.read import Result
-from tribo.result.seal import write_sealed
 from tribo.result.store import ResultWriter
 
 GRID = Grid((2e-3, 1.6e-3), (50, 40))
@@ -50,7 +47,7 @@ def made(
     parts of a, `texture` the part of the pressure that comes and goes from cell to cell.
     """
     bodies = tuple(zip(names, swept, worn, densities, strict=True))
-    writer = ResultWriter(None)
+    writer = ResultWriter()
     writer.create(
         RunInfo(
             system=ContactSystem(grid, 1.137e11, 100.0, cap, curvature),
@@ -65,22 +62,21 @@ def made(
         )
     )
     looks = bodies, plastic, power, shape, grid, texture
-    for time in times:
+    for before, time in zip((0.0, *times), times, strict=False):
         snapshot = _snapshot(time, *looks)
         # Two steps to each save.
         if time > 0:
-            writer.append_step(_snapshot(0.9 * time, *looks).measures)
+            writer.append_step(_snapshot(0.1 * before + 0.9 * time, *looks).measures)
         writer.append_step(snapshot.measures)
         writer.append_save(snapshot)
     writer.finish(status, 1.0)
-    return Result(GuardedFile(writer.file, "made"))
+    return writer.result()
 
 
 def written(path, **options):
     """Write what `made` returns to a file."""
-    file = made(**options)._file.file
-    file.flush()
-    write_sealed(path, file.id.get_file_image(), identity=bytes(16), sync=False)
+    with made(**options) as result:
+        result.save(path)
     return path
 
 

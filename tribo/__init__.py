@@ -68,6 +68,7 @@ if TYPE_CHECKING:
     from tribo.registry.hookspecs import hookimpl as hookimpl
     from tribo.registry.registry import Registry as Registry
     from tribo.result.read import Result as Result
+    from tribo.result.read import open as open
     from tribo.simulation.run import Simulation as Simulation
     from tribo.stepping.explicit import Explicit as Explicit
     from tribo.stepping.implicit import Implicit as Implicit
@@ -136,7 +137,7 @@ _NAMES = {
     "tribo.registry.contributions": "CaseTemplate ExportFormat LabRow",
     "tribo.registry.hookspecs": "hookimpl",
     "tribo.registry.registry": "Registry",
-    "tribo.result.read": "Result",
+    "tribo.result.read": "Result open",
     "tribo.simulation.run": "Simulation",
     "tribo.stepping.explicit": "Explicit",
     "tribo.stepping.implicit": "Implicit",

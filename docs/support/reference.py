@@ -122,12 +122,12 @@ def exit_codes() -> Iterator[str]:
 
 
 def columns_table() -> Iterator[str]:
-    """Yield the scalars of `saves` and `history`."""
-    yield "| Dataset | Unit | Meaning |\n| --- | --- | --- |"
+    """Yield the scalars of each save and each step."""
+    yield "| Variable | Unit | Meaning |\n| --- | --- | --- |"
     for column in COLUMNS:
         yield f"| `{column.name}` | {column.unit} | {column.description}. |"
     for part in BODY_COLUMNS:
-        yield f"| `bodies/NAME/{part.name}` | {part.unit} | {part.description}. |"
+        yield f"| `{part.name}` of a body | {part.unit} | {part.description}. |"
 
 
 def hooks_table() -> Iterator[str]:

@@ -11,7 +11,6 @@ from rich.console import Console as RichConsole
 from tribo.cli.console import Console
 from tribo.cli.streams import harmless
 from tribo.result.provenance import provenance
-from tribo.result.store import write_text
 from tribo.templates import template
 
 EVIL = "\x1b]0;pwned\x07\x1b[2J\x9b31m\r\x08[/x]"
@@ -41,19 +40,15 @@ def test_provenance_is_shown_without_them(result):
     made_with = provenance({}) | {"python": EVIL, "packages": {EVIL: EVIL}}
     plugin = dict.fromkeys(("distribution", "version", "status", "reason"), EVIL)
     with edited(result) as file:
-        del file["provenance"], file["provenance_bytes"]
-        write_text(file, "provenance", json.dumps(made_with | {"plugins": [plugin]}))
+        file.attrs["provenance"] = json.dumps(made_with | {"plugins": [plugin]})
     assert command("show", result)[0] == 0
 
 
 def test_names_of_bodies_are_shown_without_them(result):
     evil = EVIL.replace("/", "\\")
     with edited(result) as file:
-        del file["case"], file["case_bytes"]
-        write_text(file, "case", json.dumps({"bodies": {evil: {}, "[disk]": {}}}))
-        for table in ("", "saves/", "history/"):
-            file.move(f"{table}bodies/ball", f"{table}bodies/{evil}")
-            file.move(f"{table}bodies/disk", f"{table}bodies/[disk]")
+        file.attrs["case"] = json.dumps({"bodies": {evil: {}, "[disk]": {}}})
+        file["body"][:] = [evil, "[disk]"]
     code, text = command("show", result)
     assert code == 0
     assert "[disk]" in text

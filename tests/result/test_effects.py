@@ -3,7 +3,6 @@
 import csv
 import json
 
-import h5py
 import numpy as np
 import pytest
 from click.testing import CliRunner
@@ -52,12 +51,10 @@ def test_each_save_has_the_field_of_its_own_pressure(path):
 def test_it_has_unit_and_meaning(path):
     with Result.open(path) as result:
         (field,) = result.body("ball").effect_fields
+        shown = result.dataset[OXIDE]
     assert (field.name, field.unit) == (OXIDE, "1")
-    with h5py.File(path) as file:
-        dataset = file[f"bodies/disk/effects/{OXIDE}"]
-        assert dataset.attrs["units"] == "1"
-        assert dataset.attrs["long_name"] == "Part of the surface under oxide."
-        assert [scale.label or scale[0].name for scale in dataset.dims] == ["/time", "/x", "/y"]
+    assert shown.attrs["long_name"] == "Part of the surface under oxide."
+    assert shown.dims == ("time", "body", "x", "y")
 
 
 def test_it_is_exported_in_the_profiles(path, tmp_path):

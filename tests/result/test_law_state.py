@@ -1,14 +1,14 @@
 """What a wear law keeps per material point is kept in the result."""
 
 import csv
+from dataclasses import replace
 
-import h5py
 import numpy as np
 import pytest
 from paper_models import archard, case, flat, named, small, sphere, steel
 from strangers.running_in import RunningIn
 
-from tribo import Result, Simulation
+from tribo import Field, Result, Simulation
 from tribo.result.export import export_csv
 from tribo.simulation.predict import predict
 
@@ -42,12 +42,30 @@ def test_it_is_read_back_with_unit_and_meaning(path):
 
 
 def test_it_lies_in_the_file_as_the_wear_depth_does(path):
-    with h5py.File(path) as file:
-        for body, shape in (("ball", (3, 48, 48)), ("disk", (3, 48))):
-            slip = file[f"bodies/{body}/state/slip"]
-            assert slip.shape == file[f"bodies/{body}/wear_depth"].shape == shape
-            assert slip.attrs["units"] == "m"
-            assert "slid" in slip.attrs["long_name"]
+    with Result.open(path) as result:
+        slip = result.dataset.slip
+        assert slip.dims == result.dataset.wear_depth.dims
+        assert slip.attrs["units"] == "m"
+        assert "slid" in slip.attrs["long_name"]
+
+
+def test_what_one_law_does_not_keep_is_nan_there_and_a_taken_name_gets_its_kind(tmp_path):
+    class Named(RunningIn):
+        state_fields = (Field("pressure", "m", "Slid under pressure."),)
+
+        def rate(self, local):
+            slid = {"slip": local.state["pressure"]}
+            found = super().rate(replace(local, state=slid))
+            return replace(found, state_rates={"pressure": found.state_rates["slip"]})
+
+    law = Named(k_first=9e-16, k_last=3e-16, length=20.0)
+    bodies = [named("ball", sphere(), steel(), law), named("disk", flat(), steel(), archard())]
+    with Simulation(case(bodies=bodies)).run() as result:
+        kept = result.dataset.state_pressure
+        assert np.isfinite(kept.sel(body="ball")).all()
+        assert np.isnan(kept.sel(body="disk")).all()
+        assert list(result.body("ball").state) == ["pressure"]
+        assert result.body("disk").state == {}
 
 
 def test_it_is_exported_in_the_profiles(path, tmp_path):

@@ -69,15 +69,6 @@ def test_matched_bodies_are_compared_and_told(files):
         assert note.startswith("plate and pin: compares 'pin' with 'ball', 'plate' with 'disk'; ")
 
 
-@pytest.mark.parametrize("names", [("pin",), ("pin", "x", "y")])
-def test_a_file_that_has_not_two_bodies_is_refused(files, tmp_path, names):
-    n = len(names)
-    given = {"swept": (False,) * n, "worn": (True,) * n, "densities": (None,) * n}
-    odd = written(tmp_path / "odd.h5", names=names, **given)
-    with pytest.raises(CaseError, match=r"is damaged: .* two are needed"):
-        compare([*files("ball and disk"), odd])
-
-
 @pytest.mark.parametrize(
     ("match", "message"),
     [

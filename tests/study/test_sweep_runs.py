@@ -183,7 +183,7 @@ def test_a_stopped_run_goes_on_from_its_checkpoint(tmp_path, monkeypatch):
     folder = tmp_path / "study-sweep"
 
     def stop_at_first_checkpoint():
-        while not list((folder / "results").glob("*.ckpt")):
+        while not list((folder / "results").glob("*.run/*.checkpoint")):
             time.sleep(0.01)
         os.kill(os.getpid(), signal.SIGINT)
 

@@ -18,8 +18,8 @@ from trust.trial import command, start, whole
 from tribo import CaseError, Result
 from tribo.cli.show import show
 from tribo.lab.report import lab_report
-from tribo.result.seal import PAGE
 
+PAGE = 4096
 REFUSED, HARMLESS, WRONG = 2, 10, 11
 NAMES = {REFUSED: "refused", HARMLESS: "read right", WRONG: "silently wrong", 70: "traceback"}
 

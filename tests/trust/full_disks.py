@@ -45,8 +45,8 @@ def fill_and_resume(count, seed, *, tmpfs=False):
         path = whole(folder)
         undisturbed, most = contents(path), path.stat().st_size
         while disks.stopped + disks.other_exits < count:
-            # The first save takes nine tenths of it; checkpoints and the journal take room too.
-            room = chance.randrange(9 * most // 10, 3 * most if tmpfs else most)
+            # A part is smaller than the result, the folder of the run larger.
+            room = chance.randrange(most // 2, 5 * most if tmpfs else most)
             _one(Path(folder), room, tmpfs, undisturbed, disks)
     return disks
 

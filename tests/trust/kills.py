@@ -7,7 +7,6 @@ import os
 import random
 import sys
 import time
-from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -15,12 +14,9 @@ from tempfile import TemporaryDirectory
 from trust.trial import command, contents, dying, resume, run, same, start, whole
 
 from tribo import CaseError, Result
-from tribo.result.checkpoint import checkpoint_path, previous_path
-from tribo.result.journal import journal_path
-from tribo.result.seal import NotSealedError
-from tribo.result.sealed_file import SealedFile
+from tribo.result.checkpoint import RunFolder, _checkpoint, _load
 
-WRITES = 700
+WRITES = 300
 """About as many writes as a run makes."""
 
 
@@ -79,7 +75,7 @@ def _one(path, chance, duration, undisturbed, kills):
         return
     kills.killed += 1
     while code != 0:
-        if chance.random() < 0.25 and previous_path(path).exists():
+        if chance.random() < 0.25 and RunFolder(path).synced.exists():
             kills.power_cuts += 1
             _cut_power(path, chance)
             # What came after the last wait for the disk is made again.
@@ -114,26 +110,12 @@ def _killed(work, path, chance, duration, writing):
 
 
 def _cut_power(path, chance):
-    """Tear what did not wait for the disk."""
-    unwaited = [checkpoint_path(path)]
-    if _whole_without_journal(path):
-        unwaited.append(journal_path(path))
-    for torn in unwaited:
+    """Tear what did not wait for the disk: the last checkpoint, and parts after the one before."""
+    folder = RunFolder(path)
+    waited = {folder.part(n) for n in range(_checkpoint(_load(folder.synced)).parts)}
+    for torn in {folder.last, *folder.path.glob("*.part")} - waited:
         if torn.exists():
             os.truncate(torn, chance.randrange(torn.stat().st_size))
-
-
-def _whole_without_journal(path):
-    """Whether the journal is not being carried out, for which it would have waited."""
-    alone = path.with_name("alone.h5")
-    alone.write_bytes(path.read_bytes())
-    try:
-        with closing(SealedFile(alone)) as file:
-            return not file.bad_pages()
-    except NotSealedError:
-        return False
-    finally:
-        alone.unlink()
 
 
 def _times(path):

@@ -12,14 +12,13 @@ from trust.full_disks import FullDisks, fill_and_resume
 from trust.kills import kill_and_resume
 from trust.trial import contents, resume, run, same, start, whole
 
-from tribo.observers import recorder
-from tribo.result import sealed_file
-from tribo.result.checkpoint import checkpoint_path, write_checkpoint
+from tribo.result import opening
+from tribo.result.checkpoint import RunFolder
 from tribo.result.store import ResultWriter
 
 
-# Some are cut off from power, which tears the journal.
-@pytest.mark.filterwarnings("ignore:.*its journal is damaged")
+# Some are cut off from power, which tears a checkpoint.
+@pytest.mark.filterwarnings("ignore:.*going on from synced")
 def test_killed_runs_go_on_to_the_same_bits():
     kills = kill_and_resume(6, seed=3)
     assert kills.killed == kills.identical == 6
@@ -70,10 +69,7 @@ def test_killed_as_it_ended(tmp_path):
     path = tmp_path / "run.h5"
 
     def dies(*args):
-        # There is none yet as the run begins.
-        recorder.remove_checkpoint = lambda path: (
-            checkpoint_path(path).exists() and os.kill(os.getpid(), signal.SIGKILL)
-        )
+        RunFolder.remove = lambda folder: os.kill(os.getpid(), signal.SIGKILL)
         run(*args)
 
     assert start(dies, path).wait()[0] == -signal.SIGKILL
@@ -83,11 +79,7 @@ def test_killed_as_it_ended(tmp_path):
 
 
 def test_a_file_read_wrong_would_be_seen(tmp_path, monkeypatch):
-    class Anything(bytes):
-        def __ne__(self, other):
-            return False
-
-    monkeypatch.setattr(sealed_file, "digest", lambda page: Anything())
+    monkeypatch.setattr(opening, "check_sealed", lambda path: None)
     monkeypatch.setattr(trust.damages, "KINDS", (trust.damages.flip,))
     monkeypatch.chdir(tmp_path)
     damages = damage_and_read(40, seed=3)
@@ -96,10 +88,13 @@ def test_a_file_read_wrong_would_be_seen(tmp_path, monkeypatch):
 
 
 def test_other_bits_after_a_kill_would_be_seen(monkeypatch):
-    def write(result, state, *args, **options):
-        write_checkpoint(result, replace(state, distance=state.distance + 1e-9), *args, **options)
+    write = RunFolder.write_checkpoint
 
-    monkeypatch.setattr(recorder, "write_checkpoint", write)
+    def other(folder, kept, **options):
+        state = replace(kept.state, distance=kept.state.distance + 1e-9)
+        write(folder, replace(kept, state=state), **options)
+
+    monkeypatch.setattr(RunFolder, "write_checkpoint", other)
     kills = kill_and_resume(2, seed=3)
     assert kills.different > 0
     assert not kills.good

@@ -21,7 +21,7 @@ from tribo.core.errors import TriboError
 from tribo.observers import recorder
 from tribo.observers.observer import Observer
 from tribo.observers.recorder import Recorder
-from tribo.result import sealed_writer
+from tribo.result import store
 
 SAVES = tuple(range(10, 100, 10))
 TIME_LIMIT = 120.0
@@ -62,31 +62,36 @@ def resume(path, pipe):
 
 
 def dying(work, at):
-    """Return `work` that kills itself half-way through its write number `at`."""
+    """Return `work` that kills itself at its write number `at`, or half-way through it."""
     left = [at]
-    write_all, replace, unlink = sealed_writer._write_all, Path.replace, Path.unlink
 
-    def die():
+    def dies():
         left[0] -= 1
-        if left[0] < 0:
-            os.kill(os.getpid(), signal.SIGKILL)
+        return left[0] < 0
 
-    def half(fd, data, position):
-        if left[0] == 0:
-            write_all(fd, data[: len(data) // 2], position)
-        die()
-        write_all(fd, data, position)
-
-    def first(function):
+    def before(function):
         def then(*args, **options):
-            die()
+            if dies():
+                os.kill(os.getpid(), signal.SIGKILL)
             return function(*args, **options)
 
         return then
 
+    def half(function):
+        def then(target, *args):
+            function(target, *args)
+            if dies():
+                if isinstance(target, Path):
+                    os.truncate(target, target.stat().st_size // 2)
+                else:
+                    target.truncate(target.tell() // 2)
+                os.kill(os.getpid(), signal.SIGKILL)
+
+        return then
+
     def worked(*args):
-        sealed_writer._write_all = half
-        Path.replace, Path.unlink = first(replace), first(unlink)
+        np.savez, store.write_hdf5 = half(np.savez), half(store.write_hdf5)
+        Path.replace, Path.unlink = before(Path.replace), before(Path.unlink)
         work(*args)
 
     return worked
@@ -151,14 +156,8 @@ class Child:
 
 def contents(path):
     """Every dataset of a result, read without tribo."""
-    found = {}
     with h5py.File(path) as file:
-        file.visititems(
-            lambda name, item: (
-                found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None
-            )
-        )
-    return found
+        return {name: dataset[()] for name, dataset in file.items()}
 
 
 def same(first, second):

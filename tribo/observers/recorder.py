@@ -1,10 +1,11 @@
-"""Write the result file and its checkpoint."""
+"""Write the result file and its checkpoints."""
 
 from __future__ import annotations
 
+import math
 import os
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any
@@ -15,8 +16,6 @@ from tribo.core.errors import CaseError, OutputError
 from tribo.core.state import RunInfo, Snapshot
 from tribo.core.units import Quantity
 from tribo.observers.observer import Observer
-from tribo.result.checkpoint import remove_checkpoint, write_checkpoint
-from tribo.result.guarded import GuardedFile
 from tribo.result.read import Result
 from tribo.result.store import ResultWriter
 
@@ -26,7 +25,7 @@ kill does not."""
 
 
 class Recorder(Observer):
-    """Writes a result file, and beside it a checkpoint to resume from."""
+    """Writes a result file, and beside it checkpoints to resume from."""
 
     type = "recorder"
     path: Path | None = None
@@ -37,14 +36,12 @@ class Recorder(Observer):
     """Wall time between checkpoints; one is also written at every save."""
 
     _writer: ResultWriter = PrivateAttr()
+    _effects: bool = False
     _clock: float = 0.0
     _spent_before: float = 0.0
     _last_checkpoint: float = 0.0
-    _synced: float = 0.0
-    _kept_synced: bool = True
+    _synced: float = -math.inf
     _saved: float = -1.0
-    _saves: int = 0
-    _case: Mapping[str, object] = PrivateAttr(default_factory=dict)
 
     def model_post_init(self, context: Any, /) -> None:
         """Make the writer."""
@@ -53,36 +50,29 @@ class Recorder(Observer):
     def on_start(self, run: RunInfo) -> None:
         """Create the file, or go on with it."""
         self._clock = self._last_checkpoint = time.monotonic()
-        self._case = run.case
+        self._effects = bool(run.effect_fields)
         with self._writing():
-            if run.resumed_from is None or self.path is None:
-                self._make_room()
-                self._writer.create(run)
-                # Not before the file is ours: another process may be writing it.
-                if self.path is not None:
-                    remove_checkpoint(self.path)
-            else:
+            if run.resumed_from is not None and self.path is not None:
                 self._spent_before = run.wall_time
                 self._saved = run.resumed_from.state.time
-                self._saves = run.resumed_from.state.saves
-                self._writer.reopen(run, run.resumed_from.state)
-                # Gone on with other versions, the file keeps the case it was begun with.
-                self._case = self._writer.case()
+                self._writer.reopen(run)
+                return
+            if self.path is not None and os.path.exists(self.path) and not self.overwrite:
+                raise CaseError(f"{self.path} exists; choose another path, or set overwrite = true")
+            self._writer.create(run)
 
     def on_step(self, snapshot: Snapshot) -> None:
         """Add to the history; now and then write a checkpoint."""
         self._writer.append_step(snapshot.measures)
         # A state that counts a save still to be written has its checkpoint with that.
-        if snapshot.state.saves > self._saves:
-            return
-        if time.monotonic() - self._last_checkpoint > self.checkpoint_every:
+        due = time.monotonic() - self._last_checkpoint > self.checkpoint_every
+        if due and snapshot.state.saves == self._writer.saves:
             self._checkpoint(snapshot)
 
     def on_save(self, snapshot: Snapshot) -> None:
         """Write the fields and a checkpoint; when this returns the save is safe."""
-        with self._writing():
-            self._writer.append_save(snapshot)
-        self._saved, self._saves = snapshot.state.time, snapshot.state.saves
+        self._writer.append_save(snapshot)
+        self._saved = snapshot.state.time
         self._checkpoint(snapshot)
 
     def on_finish(self, snapshot: Snapshot | None, reason: str) -> None:
@@ -90,51 +80,37 @@ class Recorder(Observer):
         try:
             with self._writing():
                 if snapshot is not None and reason != "done":
-                    self._checkpoint(snapshot)
-                    if snapshot.state.time != self._saved:
-                        # For the user to see; resuming drops it again.
-                        self._writer.append_save(snapshot)
-                    self._writer.note(snapshot.state.notices)
-                self._writer.finish(reason, self._spent())
+                    self._keep_last(snapshot)
+                notices = () if snapshot is None else snapshot.state.notices
+                self._writer.finish(reason, self._spent(), notices)
         finally:
-            if self.path is not None:
-                self._writer.close()
-        if self.path is not None and reason == "done":
-            remove_checkpoint(self.path)
+            self._writer.close()
 
     def result(self) -> Result:
         """Return what was recorded, for reading."""
-        if self.path is not None:
-            return Result.open(self.path)
-        return Result(GuardedFile(self._writer.file, "the result"))
+        return self._writer.result()
 
-    def _make_room(self) -> None:
-        """Refuse to replace a file unasked."""
-        path = self.path
-        if path is None:
-            return
-        if os.path.exists(path) and not self.overwrite:
-            raise CaseError(f"{path} exists; choose another path, or set overwrite = true")
+    def _keep_last(self, snapshot: Snapshot) -> None:
+        """Write the moment at which the run ends before its time."""
+        state, writer = snapshot.state, self._writer
+        if writer.rows <= state.steps:
+            writer.append_step(snapshot.measures)
+        whole = bool(snapshot.effects) or not self._effects
+        if whole and writer.saves < state.saves:
+            writer.append_save(snapshot)
+            self._saved = state.time
+        if writer.saves == state.saves:
+            self._checkpoint(snapshot)
+        if state.time != self._saved:
+            # For the user to see; it belongs to no checkpoint.
+            writer.append_save(snapshot)
 
     def _checkpoint(self, snapshot: Snapshot) -> None:
-        if self.path is None:
-            return
         now = time.monotonic()
         sync = now - self._synced > SYNC_EVERY
         with self._writing():
-            # The file must hold every row that the checkpoint counts.
-            self._writer.commit(sync=sync)
-            # The one before is one that would outlive a power failure.
-            write_checkpoint(
-                self.path,
-                snapshot.state,
-                self._spent(),
-                self._case,
-                sync=sync,
-                keep=self._kept_synced,
-            )
+            self._writer.checkpoint(snapshot.state, self._spent(), sync=sync)
         self._last_checkpoint = now
-        self._kept_synced = sync
         if sync:
             self._synced = now
 

@@ -1,44 +1,192 @@
-"""Keep the whole state of a run beside its results, so that it can go on.
+"""The files of a run that is not done: its parts and its checkpoints.
 
-A checkpoint is a sealed file that takes the place of the one before at once;
-one before it is kept. It holds every bit of the state.
+Beside `my.h5` a folder `my.h5.run` holds them. A part has the rows that the
+run added since the one before, and never changes. A checkpoint has the whole
+state and says how many parts belong to it. It is replaced whole, and the last
+one that the disk is known to have is kept apart.
 """
 
 from __future__ import annotations
 
-import io
 import json
+import shutil
 import warnings
-from collections.abc import Mapping
-from contextlib import closing
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, fields
 from hashlib import sha256
 from pathlib import Path
-from uuid import uuid4
+from typing import IO, Any
+from zipfile import BadZipFile
 
-import h5py
+import numpy as np
 
+from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution, Residuals
-from tribo.core.errors import CaseError, OutputError, TriboWarning
+from tribo.core.errors import CaseError, TriboWarning
 from tribo.core.fields import WearRate
+from tribo.core.locks import BusyError, lock
 from tribo.core.measures import Invariants
 from tribo.core.notices import Notice
 from tribo.core.state import BodyState, State
-from tribo.result.guarded import GuardedFile
-from tribo.result.journal import journal_path
-from tribo.result.read import Result
-from tribo.result.seal import write_sealed
-from tribo.result.sealed_writer import SealedWriter
-from tribo.result.store import write_array, write_text
+from tribo.result.hdf5 import Part
+from tribo.result.sealed import check_sealed, replacing, wait_for_disk
+
+_ARRAY = "array number"
 
 
-def checkpoint_path(result: Path) -> Path:
-    """Return where the checkpoint of a result file is kept."""
-    return result.with_name(result.name + ".ckpt")
+@dataclass(frozen=True)
+class Checkpoint:
+    """Where a run can go on.
+
+    Parameters
+    ----------
+    case : str
+        The `fingerprint` of its case.
+    state : State
+        The whole state.
+    wall_time : float
+        Time spent until then, in s.
+    parts, saves, rows : int
+        Parts that belong to it, and saves and steps in these.
+    """
+
+    case: str
+    state: State
+    wall_time: float
+    parts: int
+    saves: int
+    rows: int
 
 
-def previous_path(result: Path) -> Path:
-    """Return where the checkpoint before the last one is kept."""
-    return result.with_name(result.name + ".ckpt.prev")
+class RunFolder:
+    """The folder of a run that is not done.
+
+    Parameters
+    ----------
+    result : Path
+        The result file, not a link.
+    """
+
+    def __init__(self, result: Path) -> None:
+        self.path = result.with_name(result.name + ".run")
+        self.last = self.path / "last.checkpoint"
+        self.synced = self.path / "synced.checkpoint"
+        self._result = result
+        self._lock: IO[bytes] | None = None
+        self._waiting: list[Path] = []
+
+    def lock(self) -> None:
+        """Make the folder, and keep other processes from writing the result.
+
+        Raises
+        ------
+        CaseError
+            If another process is writing it.
+        """
+        self.path.mkdir(exist_ok=True)
+        place = self.path / "lock"
+        self._lock = place.open("ab")
+        busy = CaseError(f"{self._result} is in use: another process is writing it")
+        try:
+            if not lock(self._lock.fileno()):
+                warnings.warn(
+                    f"{self._result}: its file system has no locks, so nothing stops another run "
+                    "from writing the same file; see that none does, or choose another place with "
+                    "-o",
+                    TriboWarning,
+                    stacklevel=2,
+                )
+        except BusyError:
+            self.unlock()
+            raise busy from None
+        if not place.exists():
+            # The run that held it has just ended and taken the folder with it.
+            self.unlock()
+            raise busy
+
+    def unlock(self) -> None:
+        """Let other processes write the result."""
+        if self._lock is not None:
+            self._lock.close()
+
+    def clear(self) -> None:
+        """Remove checkpoints and parts."""
+        for path in (self.last, self.synced):
+            path.unlink(missing_ok=True)
+        for path in self.path.glob("*.part"):
+            path.unlink()
+
+    def remove(self) -> None:
+        """Remove the folder of a run that is done, and end the lock."""
+        shutil.rmtree(self.path, ignore_errors=True)
+        self.unlock()
+        # An open file cannot be removed everywhere.
+        shutil.rmtree(self.path, ignore_errors=True)
+
+    def parts(self, count: int) -> Iterator[Part]:
+        """Read the first parts, one after the other."""
+        return (_load(self.part(number)) for number in range(count))
+
+    def part(self, number: int) -> Path:
+        """Return the file of a part."""
+        return self.path / f"{number:06}.part"
+
+    def write_part(self, number: int, rows: Part) -> None:
+        """Write a part; `write_checkpoint` waits for the disk if need be."""
+        _store(self.part(number), dict(rows), sync=False)
+        self._waiting.append(self.part(number))
+
+    def write_checkpoint(self, checkpoint: Checkpoint, *, sync: bool) -> None:
+        """Replace the last checkpoint; with `sync` wait until it would survive a power failure."""
+        if not sync:
+            _store(self.last, checkpoint, sync=False)
+            return
+        for path in self._waiting:
+            wait_for_disk(path)
+        self._waiting.clear()
+        _store(self.synced, checkpoint, sync=True)
+        self.last.unlink(missing_ok=True)
+
+    def read_checkpoint(self) -> Checkpoint:
+        """Return the latest checkpoint that is sound, as its parts are.
+
+        A warning says which were damaged.
+
+        Raises
+        ------
+        CaseError
+            If there is none, with the reasons.
+        """
+        reasons, found = [], []
+        for path in (self.last, self.synced):
+            try:
+                found.append((_checkpoint(_load(path)), path.name))
+            except FileNotFoundError:
+                continue
+            except CaseError as error:
+                reasons.append(str(error))
+        for checkpoint, name in sorted(found, key=lambda pair: -pair[0].rows):
+            try:
+                self._check_parts(checkpoint)
+            except (OSError, CaseError) as error:
+                reasons.append(f"{name} counts on a part that cannot be read ({error})")
+                continue
+            if reasons:
+                warnings.warn(
+                    f"{'; '.join(reasons)}: going on from {name}, at {checkpoint.state.time:.6g} s",
+                    TriboWarning,
+                    stacklevel=2,
+                )
+            return checkpoint
+        raise CaseError("; ".join(reasons) or "its run was stopped before the first was written")
+
+    def _check_parts(self, checkpoint: Checkpoint) -> None:
+        saves = rows = 0
+        for part in self.parts(checkpoint.parts):
+            saves += len(part.get("time", ()))
+            rows += len(part.get("history_time", ()))
+        if (saves, rows) != (checkpoint.saves, checkpoint.rows):
+            raise CaseError("the parts are those of another run")
 
 
 def fingerprint(case: Mapping[str, object]) -> str:
@@ -46,197 +194,99 @@ def fingerprint(case: Mapping[str, object]) -> str:
     return sha256(json.dumps(case, sort_keys=True).encode()).hexdigest()
 
 
-def write_checkpoint(
-    result: Path,
-    state: State,
-    wall_time: float,
-    case: Mapping[str, object],
-    *,
-    sync: bool = True,
-    keep: bool = True,
-) -> None:
-    """Replace the checkpoint of `result` by `state`.
+def _store(path: Path, data: object, *, sync: bool) -> None:
+    """Write plain data, dataclasses and arrays, so that `_load` returns the same bits."""
+    arrays: list[Array] = []
 
-    Parameters
-    ----------
-    result : Path
-        The result file.
-    state : State
-        What to keep.
-    wall_time : float
-        Time spent so far, in s.
-    case : Mapping
-        The configuration of the run, as plain data.
-    sync : bool, optional
-        Whether to wait until it would outlive a power failure.
-    keep : bool, optional
-        Whether the one that it replaces becomes the one before; else that stays.
-    """
-    image = io.BytesIO()
-    with h5py.File(image, "w", libver="earliest") as file:
-        file.attrs["case"] = fingerprint(case)
-        _write_state(file, state, wall_time)
-    path = checkpoint_path(result)
-    if keep and path.exists():
-        path.replace(previous_path(result))
-    write_sealed(path, image.getvalue(), identity=uuid4().bytes, sync=sync)
+    def plain(value: Any) -> object:
+        if isinstance(value, np.ndarray):
+            arrays.append(value)
+            return {_ARRAY: len(arrays) - 1}
+        if isinstance(value, np.generic):
+            return value.item()
+        if isinstance(value, Mapping):
+            return dict(value)
+        return {field.name: getattr(value, field.name) for field in fields(value)}
+
+    # json writes floats so that they read back to the same bits.
+    text = json.dumps(data, default=plain)
+    with replacing(path, sync=sync) as fresh, fresh.open("wb") as file:
+        np.savez(file, np.frombuffer(text.encode(), np.uint8), *arrays)
+
+
+def _load(path: Path) -> dict[str, Any]:
+    check_sealed(path)
+    try:
+        with np.load(path) as data:
+
+            def whole(table: dict[str, Any]) -> object:
+                return data[f"arr_{table[_ARRAY] + 1}"] if _ARRAY in table else table
+
+            loaded: dict[str, Any] = json.loads(data["arr_0"].tobytes(), object_hook=whole)
+            return loaded
+    except (OSError, LookupError, ValueError, TypeError, BadZipFile) as error:
+        raise CaseError(f"{path} cannot be read: {error}") from error
+
+
+def _checkpoint(data: dict[str, Any]) -> Checkpoint:
+    """Return a checkpoint from plain data."""
+    try:
+        state = data.pop("state")
+        contact = state.pop("contact")
+        residuals = Residuals(**contact.pop("residuals"))
+        return Checkpoint(
+            state=State(
+                contact=ContactSolution(residuals=residuals, **contact),
+                bodies={name: BodyState(**body) for name, body in state.pop("bodies").items()},
+                rates={name: WearRate(**rate) for name, rate in state.pop("rates").items()},
+                notices=tuple(Notice(**notice) for notice in state.pop("notices")),
+                invariants=Invariants(**state.pop("invariants")),
+                **state,
+            ),
+            **data,
+        )
+    except (LookupError, TypeError, AttributeError) as error:
+        raise CaseError(f"its checkpoint is of another version of tribo: {error}") from error
 
 
 def read_checkpoint(result: Path, case: Mapping[str, object]) -> tuple[State, float]:
-    """Return the last good state of `result` and the time spent until then.
+    """Return the last good state of a stopped run, and the time spent until then.
 
     Parameters
     ----------
     result : Path
         The result file.
     case : Mapping
-        Its configuration, as plain data; a checkpoint of another is refused.
+        Its configuration, as plain data.
 
     Raises
     ------
     CaseError
-        If there is no readable checkpoint.
+        If there is no good checkpoint, or it belongs to another case.
     """
-    with Result.open(result) as rows:
-        saves, steps = len(rows.times), rows.totals()["steps"]
-    reasons = []
-    for path in (checkpoint_path(result), previous_path(result)):
-        if not path.exists():
-            continue
-        try:
-            with closing(GuardedFile.open(path)) as kept:
-                if kept.attribute("case") != fingerprint(case):
-                    reasons.append(f"{path.name} belongs to another case")
-                    continue
-                with kept.reading("its state"):
-                    state, wall_time = _read_state(kept)
-        except CaseError as error:
-            reasons.append(str(error))
-            continue
-        if state.saves > saves or state.steps > steps:
-            reasons.append(f"{path.name} counts rows that {result.name} lacks")
-            continue
-        if reasons:
-            warnings.warn(
-                f"{'; '.join(reasons)}: going on from {path.name}, at {state.time:.6g} s",
-                TriboWarning,
-                stacklevel=2,
-            )
-        return state, wall_time
-    raise CaseError(
-        f"{result} has no checkpoint to resume from: "
-        + ("; ".join(reasons) or "its run was stopped before the first was written")
-        + "; start again with 'tribo run --force'"
-    )
-
-
-def remove_checkpoint(result: Path) -> None:
-    """Delete the checkpoints of a run that is done, one that was not finished too."""
-    path = checkpoint_path(result)
-    path.with_name(path.name + ".new").unlink(missing_ok=True)
-    previous_path(result).unlink(missing_ok=True)
-    path.unlink(missing_ok=True)
+    try:
+        checkpoint = RunFolder(result.resolve()).read_checkpoint()
+        if checkpoint.case != fingerprint(case):
+            raise CaseError("it belongs to another case")
+    except CaseError as error:
+        raise CaseError(
+            f"{result} has no checkpoint to resume from: {error}; start again with "
+            "'tribo run --force'"
+        ) from error
+    return checkpoint.state, checkpoint.wall_time
 
 
 def tidied(result: Path) -> bool:
-    """Put away what a run that was killed as it ended left beside its result.
+    """Remove the folder that a run left which was killed just as it ended.
 
     Returns
     -------
     bool
-        Whether there was anything.
-
-    Raises
-    ------
-    OutputError
-        If the result cannot be written.
+        Whether there was one.
     """
-    if not (checkpoint_path(result).exists() or journal_path(result).exists()):
+    folder = RunFolder(result.resolve())
+    if not folder.path.is_dir():
         return False
-    try:
-        with closing(SealedWriter(result)) as file:
-            file.commit(sync=True)
-    except OSError as error:
-        raise OutputError(f"cannot write {result}: {error}") from error
-    remove_checkpoint(result)
+    folder.lock()
+    folder.remove()
     return True
-
-
-_SCALARS = (
-    "time",
-    "distance",
-    "speed",
-    "increment",
-    "reference_depth",
-    "steps",
-    "rejected_steps",
-    "contact_solves",
-    "solver_iterations",
-    "saves",
-)
-
-
-def _write_state(file: h5py.File, state: State, wall_time: float) -> None:
-    contact = state.contact
-    scalars = {name: getattr(state, name) for name in _SCALARS}
-    scalars["notices"] = [vars(notice) for notice in state.notices]
-    scalars["approach"] = contact.approach
-    scalars["iterations"] = contact.iterations
-    scalars["residuals"] = vars(contact.residuals)
-    scalars["invariants"] = vars(state.invariants)
-    scalars["wall_time"] = wall_time
-    scalars["bodies"] = {name: sorted(body.law) for name, body in state.bodies.items()}
-    scalars["rates"] = {name: sorted(rate.state_rates) for name, rate in state.rates.items()}
-    # json writes floats so that they read back to the same bits.
-    write_text(file, "scalars", json.dumps(scalars))
-    write_array(file, "pressure", contact.pressure)
-    write_array(file, "overlap", contact.overlap)
-    if state.previous is not None:
-        write_array(file, "previous", state.previous)
-    for name, body in state.bodies.items():
-        write_array(file, f"bodies/{name}/wear", body.wear)
-        write_array(file, f"bodies/{name}/plastic", body.plastic)
-        for field, values in body.law.items():
-            write_array(file, f"bodies/{name}/law/{field}", values)
-    for name, rate in state.rates.items():
-        write_array(file, f"rates/{name}/depth", rate.depth_rate)
-        write_array(file, f"rates/{name}/derivative", rate.depth_slope)
-        for field, values in rate.state_rates.items():
-            write_array(file, f"rates/{name}/state/{field}", values)
-
-
-def _read_state(file: GuardedFile) -> tuple[State, float]:
-    scalars = json.loads(file.text("scalars"))
-    contact = ContactSolution(
-        pressure=file.array("pressure"),
-        approach=scalars["approach"],
-        overlap=file.array("overlap"),
-        iterations=scalars["iterations"],
-        residuals=Residuals(**scalars["residuals"]),
-    )
-    bodies = {
-        name: BodyState(
-            wear=file.array(f"bodies/{name}/wear"),
-            plastic=file.array(f"bodies/{name}/plastic"),
-            law={field: file.array(f"bodies/{name}/law/{field}") for field in fields},
-        )
-        for name, fields in scalars["bodies"].items()
-    }
-    rates = {
-        name: WearRate(
-            depth_rate=file.array(f"rates/{name}/depth"),
-            depth_slope=file.array(f"rates/{name}/derivative"),
-            state_rates={field: file.array(f"rates/{name}/state/{field}") for field in fields},
-        )
-        for name, fields in scalars["rates"].items()
-    }
-    state = State(
-        **{name: scalars[name] for name in _SCALARS},
-        bodies=bodies,
-        contact=contact,
-        rates=rates,
-        notices=tuple(Notice(**notice) for notice in scalars["notices"]),
-        invariants=Invariants(**scalars["invariants"]),
-        previous=file.array("previous") if "previous" in file.file else None,
-    )
-    return state, scalars["wall_time"]

@@ -1,4 +1,4 @@
-"""Read a result back."""
+"""A result: a dataset, and the questions that a tribologist asks of it."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from pathlib import Path
 from types import TracebackType
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
@@ -17,52 +17,57 @@ from tribo.core.fields import Field
 from tribo.core.grid import Grid
 from tribo.result.body import BodyResult, checked_save
 from tribo.result.columns import BODY_COLUMNS, COLUMNS, INVARIANTS, labelled
-from tribo.result.guarded import GuardedFile
-from tribo.result.store import FORMAT
-from tribo.result.stored import StoredCase, StoredProvenance, stored
+from tribo.result.hdf5 import Contents, write_hdf5
+from tribo.result.layout import EFFECT, STATE
+from tribo.result.opening import contents_of
+from tribo.result.sealed import replacing
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 SAME_TIME = 1e-9
 """How far a time may be off that of a save, relative to the last one."""
-STATUSES = ("done", "running", "interrupted", "failed")
 _LISTED = 8
 
 
 class Result:
-    """A finished, stopped or running simulation, read from its file.
+    """A finished, stopped or running simulation.
 
-    Use it as a context manager, or `close` it. Arrays are read when asked for.
+    `dataset` has all of it, and each variable of that is an attribute:
+    ``result.pressure.sel(time=200, method="nearest")``. Use it as a context
+    manager, or `close` it.
 
     Parameters
     ----------
-    file : GuardedFile
-        The open file; most users call `Result.open`.
+    contents : Contents
+        What its file holds; most users call `tribo.open`.
     """
 
-    def __init__(self, file: GuardedFile) -> None:
-        self._file = file
-        self.name = file.name
+    def __init__(self, contents: Contents) -> None:
+        self.name = contents.name
+        self.contents = contents
+        self._header = contents.header
+        self._variables = contents.variables
+        self._scalars = contents.scalars
+        self._dataset: xr.Dataset | None = None
 
     @classmethod
-    def open(cls, path: str | Path) -> Self:
+    def open(cls, path: str | Path) -> Result:
         """Open a result file.
 
-        What is read from it is held against its checksums when it is read.
+        The whole file is compared with its checksum. That of a run which goes
+        on, or was killed, is put together from what the run has saved so far.
 
         Raises
         ------
         CaseError
             If there is no such file, it is not a tribo result, or it is
-            damaged at its root.
+            damaged.
         """
-        result = cls(GuardedFile.open(Path(path)))
-        found = result._file.attribute("tribo_format", None)
-        if not np.array_equal(found, FORMAT):
-            result.close()
-            raise CaseError(f"{path} is a tribo result of format {found}, not {FORMAT}")
-        return result
+        return cls(contents_of(Path(path)))
 
     def __repr__(self) -> str:
-        if not self._file.file:
+        if not self.contents.file:
             return f"<Result {self.name}: closed>"
         times = self.times
         listed = [f"{time:g}" for time in times]
@@ -85,62 +90,83 @@ class Result:
 
     def close(self) -> None:
         """Close the file."""
-        self._file.close()
+        if self._dataset is not None:
+            self._dataset.close()
+        self.contents.file.close()
 
     def check(self) -> None:
-        """Hold the whole file against its checksums.
+        """Check every number of every field.
 
         Raises
         ------
         CaseError
-            If it is damaged, with what of it cannot be read.
+            If one is not finite, or out of range.
         """
-        self._file.check()
+        self.contents.check()
+
+    @property
+    def dataset(self) -> xr.Dataset:
+        """All of the result, as `xarray.open_dataset` gives it."""
+        if self._dataset is None:
+            import xarray as xr
+
+            self.check()
+            self._dataset = xr.open_dataset(self.contents.source, engine="h5netcdf")
+        return self._dataset
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_") or name not in self._variables:
+            raise AttributeError(f"a result has no {name!r}")
+        return self.dataset[name]
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._variables]
+
+    def save(self, path: str | Path) -> None:
+        """Write the result to a file, in the place of what is there.
+
+        Raises
+        ------
+        OSError
+            If it cannot be written.
+        """
+        with replacing(Path(path), sync=True) as fresh:
+            write_hdf5(fresh, self.contents.frame(), [self.contents.rows()])
 
     @property
     def status(self) -> str:
         """``"done"``, ``"running"``, ``"interrupted"`` or ``"failed"``."""
-        status = self._file.attribute("status")
-        with self._file.reading("'status'"):
-            if status not in STATUSES:
-                raise ValueError(f"it is {status!r:.60}; {', '.join(STATUSES)} are known")
-        return str(status)
+        return self._header.status
 
     @property
     def wall_time(self) -> float | None:
         """Time the run took, in s; None of one that is still running, or was killed."""
-        if self.status == "running":
-            return None
-        return self._file.numbers("wall_time_s")[0]
+        return None if self.status == "running" else self._header.wall_time_s
 
     @property
     def case(self) -> dict[str, Any]:
         """The full configuration, as plain data."""
-        return dict(self._stored("case", self._file.text("case"), StoredCase))
+        return self._header.case
 
     @property
     def provenance(self) -> dict[str, Any]:
         """Versions and classes that made the result."""
-        return dict(self._stored("provenance", self._file.text("provenance"), StoredProvenance))
+        return self._header.provenance
 
     @property
     def notices(self) -> tuple[str, ...]:
         """Warnings given during the run."""
-        text = str(self._file.attribute("notices", "[]"))
-        return tuple(self._stored("notices", text, list[str]))
+        return tuple(self._header.notices)
 
     @property
     def system(self) -> ContactSystem:
         """Window, load, contact modulus, pressure cap and initial curvature."""
-        file = self._file
-        attributes = file.file.attrs
-        lx, ly = file.numbers("window_m", 2, above=0)
-        (modulus,) = file.numbers("modulus_Pa", above=0)
-        (load,) = file.numbers("load_N", above=0)
-        cap = file.numbers("cap_Pa", above=0)[0] if "cap_Pa" in attributes else None
-        curved = file.numbers("curvature_1_m", 2) if "curvature_1_m" in attributes else None
+        header = self._header
+        (lx, ly), curved = header.window_m, header.curvature_1_m
+        cells = len(self._scalars["x"]), len(self._scalars["y"])
         curvature = None if curved is None else (curved[0], curved[1])
-        return ContactSystem(Grid((lx, ly), self._cells), modulus, load, cap, curvature)
+        grid = Grid((lx, ly), cells)
+        return ContactSystem(grid, header.modulus_Pa, header.load_N, header.cap_Pa, curvature)
 
     @property
     def grid(self) -> Grid:
@@ -150,12 +176,12 @@ class Result:
     @property
     def times(self) -> Array:
         """Time of each save, in s."""
-        return self._list("time")
+        return self._scalars["time"]
 
     @property
     def distances(self) -> Array:
         """Path slid at each save, in m."""
-        return self._file.array("saves/distance", shapes=[self.times.shape], finite=True)
+        return self._scalars["distance"]
 
     @property
     def body_names(self) -> tuple[str, ...]:
@@ -172,24 +198,22 @@ class Result:
         CaseError
             If there is no such save.
         """
-        save = checked_save(save, len(self.times), self.name)
-        return self._file.array("pressure", save, shapes=[self._shape], finite=True)
+        return self.contents.read("pressure", checked_save(save, len(self.times), self.name))
 
     def wear_depth(self, body: str, save: int) -> Array:
         """Return the worn depth of a body at a save, shape (nx, ny), in m.
 
-        Saves count from 0; -1 is the last. Reads no other save, as `Result.body` does.
+        Saves count from 0; -1 is the last.
 
         Raises
         ------
         CaseError
             If there is no such body or save.
         """
-        self._check_body(body)
-        save = checked_save(save, len(self.times), self.name)
-        path = f"bodies/{body}/wear_depth"
-        depth = self._file.array(path, save, shapes=self._on_surface, finite=True)
-        return np.broadcast_to(depth, self._cells)
+        index = self._index(body)
+        return self.contents.read(
+            "wear_depth", checked_save(save, len(self.times), self.name), index
+        )
 
     def save_at(self, time: float) -> int:
         """Return the index of the save at `time`.
@@ -220,29 +244,24 @@ class Result:
         CaseError
             If there is no body of that name.
         """
-        self._check_body(name)
-        with self._file.reading(f"'bodies/{name}'"):
-            group = self._file.file[f"bodies/{name}"]
-            swept, weighed = bool(group.attrs["swept"]), "density_kg_m3" in group.attrs
-        kept, provided = self._fields(name, "state"), self._fields(name, "effects")
+        index, density = self._index(name), self._scalars["density"]
+        kept = {kind: self._fields(name, kind) for kind in (STATE, EFFECT)}
+        read, every = self.contents.read, slice(None)
+        values = {
+            kind: {field.name: read(key, every, index) for key, field in found.items()}
+            for kind, found in kept.items()
+        }
         return BodyResult(
             name=name,
-            swept=swept,
-            density=self._file.numbers("density_kg_m3", above=0, of=f"bodies/{name}")[0]
-            if weighed
-            else None,
-            height=self._file.array(f"bodies/{name}/height", shapes=[self._cells], finite=True),
-            wear_depth=self._on_window(f"bodies/{name}/wear_depth"),
-            plastic_depth=self._file.array(
-                f"bodies/{name}/plastic_depth", shapes=[self._shape], finite=True
-            ),
-            state={f.name: self._on_window(f"bodies/{name}/state/{f.name}") for f in kept},
-            state_fields=kept,
-            effects={
-                f.name: self._file.array(f"bodies/{name}/effects/{f.name}", shapes=[self._shape])
-                for f in provided
-            },
-            effect_fields=provided,
+            swept=bool(self._scalars["swept"][index]),
+            density=None if np.isnan(density[index]) else float(density[index]),
+            height=read("height", index),
+            wear_depth=read("wear_depth", every, index),
+            plastic_depth=read("plastic_depth", every, index),
+            state=values[STATE],
+            state_fields=tuple(kept[STATE].values()),
+            effects=values[EFFECT],
+            effect_fields=tuple(kept[EFFECT].values()),
         )
 
     def table(self, name: str) -> dict[str, Array]:
@@ -250,31 +269,30 @@ class Result:
 
         A body's columns are called ``bodies.NAME.wear_volume_m3`` and so on.
         """
-        rows = self.times if name == "saves" else self._list(f"{name}/step")
-        paths = {column.label: f"{name}/{column.name}" for column in COLUMNS}
-        for body in self.body_names:
+        prefix = "" if name == "saves" else "history_"
+        columns = {column.label: self._scalars[prefix + column.name] for column in COLUMNS}
+        for index, body in enumerate(self.body_names):
             for part in BODY_COLUMNS:
-                paths[f"bodies.{body}.{part.label}"] = f"{name}/bodies/{body}/{part.name}"
-        return {
-            label: self._file.array(path, shapes=[rows.shape], finite=True)
-            for label, path in paths.items()
-        }
+                label = f"bodies.{body}.{part.label}"
+                columns[label] = self._scalars[prefix + part.name][:, index]
+        return columns
 
     def saves(self) -> list[dict[str, Any]]:
         """Return the scalars of each save, those of the bodies under ``bodies``."""
         table = self.table("saves")
-        rows: list[dict[str, Any]] = []
-        for i in range(len(self.times)):
-            row: dict[str, Any] = {c.label: float(table[c.label][i]) for c in COLUMNS}
-            row["bodies"] = {
-                body: {
-                    part.label: float(table[f"bodies.{body}.{part.label}"][i])
-                    for part in BODY_COLUMNS
-                }
-                for body in self.body_names
+        return [
+            {
+                **{c.label: float(table[c.label][i]) for c in COLUMNS},
+                "bodies": {
+                    body: {
+                        part.label: float(table[f"bodies.{body}.{part.label}"][i])
+                        for part in BODY_COLUMNS
+                    }
+                    for body in self.body_names
+                },
             }
-            rows.append(row)
-        return rows
+            for i in range(len(self.times))
+        ]
 
     def summary(self) -> dict[str, Any]:
         """Return the whole result but its fields, as plain data.
@@ -293,11 +311,10 @@ class Result:
 
     def _saves_with_ranges(self) -> list[dict[str, Any]]:
         rows = self.saves()
-        for body in self.body_names:
-            for field in self._fields(body, "effects"):
+        for index, body in enumerate(self.body_names):
+            for key, field in self._fields(body, EFFECT).items():
                 for i, row in enumerate(rows):
-                    path = f"bodies/{body}/effects/{field.name}"
-                    values = self._file.array(path, i, shapes=[self._shape])
+                    values = self.contents.read(key, i, index)
                     low, high = float(np.min(values)), float(np.max(values))
                     ranges = row["bodies"][body].setdefault("effects", {})
                     failed = math.isnan(low)
@@ -321,58 +338,29 @@ class Result:
 
     def worst(self) -> Mapping[str, float]:
         """Return the worst value, over all steps, of each invariant that the run was held to."""
-        columns = [column for column in COLUMNS if column.name in INVARIANTS]
-        return {c.label: float(np.max(self._list(f"history/{c.name}"), initial=0)) for c in columns}
+        return {
+            column.label: float(np.max(self._scalars[f"history_{column.name}"], initial=0))
+            for column in COLUMNS
+            if column.name in INVARIANTS
+        }
 
-    def _fields(self, body: str, kind: str) -> tuple[Field, ...]:
-        """Return the fields that are kept of a body, of its law's state or of the effects."""
-        path = f"bodies/{body}/{kind}"
-        with self._file.reading(repr(path)):
-            group = self._file.file.get(path, {})
-            return tuple(
-                Field(name, str(values.attrs["units"]), str(values.attrs["long_name"]))
-                for name, values in group.items()
-            )
+    def _fields(self, body: str, kind: str) -> dict[str, Field]:
+        """Return the fields of a kind that a body has, by variable."""
+        return {
+            name: Field(variable.field, variable.unit, variable.meaning)
+            for name, variable in self._variables.items()
+            if variable.kind == kind and body in variable.bodies
+        }
 
-    def _check_body(self, name: str) -> None:
-        if name not in self.body_names:
+    def _check_body(self, body: str) -> None:
+        if body not in self.body_names:
             raise CaseError(
-                f"{self.name} has no body {name!r}; its bodies are {', '.join(self.body_names)}"
+                f"{self.name} has no body {body!r}; its bodies are {', '.join(self.body_names)}"
             )
 
-    def _on_window(self, name: str) -> Array:
-        """Return a body's own field at every save, spread along x where the body is swept."""
-        values = self._file.array(name, shapes=self._on_surface, finite=True)
-        if values.ndim == 2:
-            values = np.broadcast_to(values[:, None, :], self._shape)
-        return values
+    def _index(self, body: str) -> int:
+        self._check_body(body)
+        return self.body_names.index(body)
 
-    @property
-    def _cells(self) -> tuple[int, int]:
-        nx, ny = len(self._list("x")), len(self._list("y"))
-        with self._file.reading("'x' and 'y'"):
-            if not nx * ny:
-                raise ValueError("they are empty")
-        return nx, ny
 
-    @property
-    def _shape(self) -> tuple[int, int, int]:
-        """Shape of a field of the window at every save."""
-        return len(self.times), *self._cells
-
-    @property
-    def _on_surface(self) -> tuple[tuple[int, ...], ...]:
-        """Shapes of a field of a body's surface at every save; a swept one has no x."""
-        saves, nx, ny = self._shape
-        return (saves, nx, ny), (saves, ny)
-
-    def _list(self, name: str) -> Array:
-        values = self._file.array(name, finite=True)
-        with self._file.reading(repr(name)):
-            if values.ndim != 1:
-                raise ValueError(f"its shape is {values.shape}; a list is needed")
-        return values
-
-    def _stored(self, name: str, text: str, kind: type) -> Any:
-        with self._file.reading(repr(name)):
-            return stored(text, kind)
+open = Result.open

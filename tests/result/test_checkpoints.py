@@ -1,0 +1,193 @@
+"""What a run keeps beside its result: parts, checkpoints and a lock."""
+
+import errno
+import os
+import shutil
+from contextlib import closing
+
+import numpy as np
+import pytest
+from paper_models import case, motion
+
+from tribo import CaseError, Grid, Interrupted, Result, Simulation
+from tribo.core import locks
+from tribo.core.errors import OutputError, TriboWarning
+from tribo.observers import recorder
+from tribo.observers.observer import Observer
+from tribo.result.checkpoint import Checkpoint, RunFolder, _load, _store
+from tribo.result.store import ResultWriter
+
+
+class StopAfter(Observer):
+    steps: int = 13
+
+    def on_step(self, snapshot):
+        if snapshot.state.steps == self.steps:
+            raise KeyboardInterrupt
+
+
+def simulation():
+    grid = Grid((0.7e-3, 0.7e-3), (24, 24))
+    return Simulation(case(grid=grid, kinematics=motion(duration=60), save_times=(5, 20)))
+
+
+@pytest.fixture(scope="module")
+def undisturbed():
+    with simulation().run() as result:
+        return everything(result)
+
+
+def everything(result):
+    return {name: values.tobytes() for name, values in result.contents.rows().items()}
+
+
+@pytest.fixture(scope="module")
+def left(tmp_path_factory):
+    """A folder left by a killed run: a checkpoint that waited for the disk, and a later one."""
+    folder = tmp_path_factory.mktemp("left")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(recorder, "SYNC_EVERY", 1e9)
+
+        def full(*_):
+            raise OSError(errno.ENOSPC, "No space left on device")
+
+        # As if it were killed before it writes the whole result.
+        patch.setattr(ResultWriter, "finish", full)
+        with pytest.warns(TriboWarning, match="No space"), pytest.raises(Interrupted):
+            simulation().run(folder / "run.h5", observers=[StopAfter()])
+    return folder
+
+
+@pytest.fixture
+def killed(left, tmp_path):
+    shutil.copytree(left, tmp_path, dirs_exist_ok=True)
+    return tmp_path / "run.h5"
+
+
+def flip(path, at):
+    data = bytearray(path.read_bytes())
+    data[at] ^= 1
+    path.write_bytes(data)
+
+
+def test_a_killed_run_is_shown_as_far_as_it_came_and_goes_on_to_the_same_bits(killed, undisturbed):
+    with Result.open(killed) as result:
+        assert (result.status, result.wall_time) == ("running", None)
+        np.testing.assert_array_equal(result.times, [0, 5])
+        assert len(result.table("history")["time_s"]) == 14
+        assert float(result.dataset.pressure.sel(time=5).max()) > 0
+    with simulation().resume(killed) as result:
+        assert everything(result) == undisturbed
+    assert list(killed.parent.iterdir()) == [killed]
+
+
+@pytest.mark.parametrize("at", [0, 1000, -5000, -1])
+def test_where_the_last_checkpoint_is_damaged_the_one_before_is_used(killed, undisturbed, at):
+    flip(RunFolder(killed).last, at)
+    with (
+        pytest.warns(TriboWarning, match=r"last\.checkpoint is (damaged|not a whole).*going on"),
+        simulation().resume(killed) as result,
+    ):
+        assert everything(result) == undisturbed
+
+
+def test_a_part_that_the_disk_had_not_kept_costs_no_more_than_its_checkpoint(killed, undisturbed):
+    folder = RunFolder(killed)
+    part = folder.part(len(list(folder.path.glob("*.part"))) - 1)
+    part.write_bytes(part.read_bytes()[:-100])
+    with (
+        pytest.warns(TriboWarning, match="last.checkpoint counts on a part that cannot be read"),
+        simulation().resume(killed) as result,
+    ):
+        assert everything(result) == undisturbed
+
+
+@pytest.mark.parametrize("names", [("last.checkpoint", "synced.checkpoint"), ("000000.part",)])
+def test_where_nothing_is_sound_resume_says_what_is_damaged(killed, names):
+    for name in names:
+        flip(RunFolder(killed).path / name, 2000)
+    with pytest.raises(CaseError) as raised:
+        simulation().resume(killed)
+    assert all(name in str(raised.value) for name in names)
+    assert "tribo run --force" in str(raised.value)
+
+
+def test_a_damaged_result_is_not_resumed(killed):
+    flip(killed, 5000)
+    with pytest.raises(CaseError, match="is damaged"):
+        simulation().resume(killed)
+
+
+def test_a_checkpoint_of_another_version_of_tribo_is_refused(killed):
+    folder = RunFolder(killed)
+    folder.last.unlink()
+    data = _load(folder.synced)
+    data["state"]["invariants"]["unheard_of"] = 1.0
+    _store(folder.synced, data, sync=False)
+    with pytest.raises(CaseError, match=r"no checkpoint.*another version.*unheard_of"):
+        simulation().resume(killed)
+
+
+def test_parts_that_do_not_fit_their_checkpoint_are_refused(killed):
+    folder = RunFolder(killed)
+    folder.last.unlink()
+    shutil.copy(folder.part(1), folder.part(0))
+    with pytest.raises(CaseError, match="parts are those of another run"):
+        simulation().resume(killed)
+
+
+def test_every_bit_of_a_state_is_kept(killed, tmp_path):
+    folder = RunFolder(killed)
+    kept = folder.read_checkpoint()
+    assert isinstance(kept, Checkpoint)
+    _store(tmp_path / "again", kept, sync=False)
+    first, second = folder.last.read_bytes(), (tmp_path / "again").read_bytes()
+    assert first == second
+
+
+def test_only_one_process_writes_a_result(tmp_path):
+    path = tmp_path / "run.h5"
+    with pytest.raises(Interrupted):
+        simulation().run(path, observers=[StopAfter()])
+    folder = RunFolder(path)
+    before = folder.synced.read_bytes()
+    with closing(ResultWriter(path)) as other:
+        other._folder.lock()
+        for write in (simulation().resume, lambda p: simulation().run(p, overwrite=True)):
+            with pytest.raises(CaseError, match="in use"):
+                write(path)
+    assert folder.synced.read_bytes() == before
+    simulation().resume(path).close()
+
+
+def test_a_file_system_without_locks_is_told_of_once(tmp_path, monkeypatch):
+    def flock(*_):
+        raise OSError(errno.ENOLCK, "No locks available")
+
+    monkeypatch.setattr(locks.fcntl, "flock", flock)
+    with pytest.warns(TriboWarning, match=r"run\.h5: its file system has no locks") as told:
+        simulation().run(tmp_path / "run.h5").close()
+    assert len([each for each in told if "locks" in str(each.message)]) == 1
+
+
+@pytest.mark.parametrize("length", [300, 253, 250])
+def test_an_output_that_cannot_be_written_is_one_message(tmp_path, length):
+    with pytest.raises(OutputError, match=r"cannot write .*too long.*choose another place"):
+        simulation().run(tmp_path / ("a" * length + ".h5"))
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_pipe_is_not_replaced(tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    with pytest.raises(CaseError, match="not a file that could be replaced"):
+        simulation().run(tmp_path / "pipe", overwrite=True)
+
+
+def test_a_result_may_be_a_link(tmp_path, undisturbed):
+    link, there = tmp_path / "link.h5", tmp_path / "there.h5"
+    there.write_text("old")
+    link.symlink_to(there)
+    simulation().run(link, overwrite=True).close()
+    assert link.is_symlink()
+    with Result.open(there) as result:
+        assert everything(result) == undisturbed

@@ -1,0 +1,238 @@
+"""A result as a netCDF-4 file, which is HDF5: every chunk of it has a checksum."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+
+from tribo.core.arrays import Array
+from tribo.core.errors import CaseError
+from tribo.core.fields import Field
+from tribo.core.state import RunInfo
+from tribo.result.header import LARGEST, Header
+from tribo.result.layout import FIXED, Variable, field_variable, run_variables
+
+Part = Mapping[str, Array]
+"""Rows that a run has added, by variable."""
+
+_ROWS = 256
+_MOST_PACKED = 1100
+"""Bytes that a byte of a file may stand for; deflate comes to 1032."""
+
+
+@dataclass(frozen=True)
+class Frame:
+    """What of a result does not grow with the run.
+
+    Parameters
+    ----------
+    header : Header
+        The attributes.
+    variables : Mapping[str, Variable]
+        All variables, those that grow too.
+    arrays : Mapping[str, ndarray]
+        The values of those that do not.
+    """
+
+    header: Header
+    variables: Mapping[str, Variable]
+    arrays: Mapping[str, Array]
+
+    @classmethod
+    def of_run(cls, run: RunInfo) -> Frame:
+        """Return the frame of a run that begins."""
+        densities = [np.nan if body.density is None else body.density for body in run.bodies]
+        arrays: dict[str, Array] = {
+            "x": run.system.grid.x,
+            "y": run.system.grid.y,
+            "swept": np.array([float(body.swept) for body in run.bodies]),
+            "density": np.array(densities),
+            "height": np.stack([body.height for body in run.bodies]),
+        }
+        return cls(Header.of_run(run), run_variables(run), arrays)
+
+    def with_header(self, **changes: Any) -> Frame:
+        """Return a frame with other attributes."""
+        return replace(self, header=self.header.model_copy(update=changes))
+
+
+def write_hdf5(target: Path | BytesIO, frame: Frame, parts: Iterable[Part]) -> None:
+    """Write a result.
+
+    Parameters
+    ----------
+    target : Path or BytesIO
+        Where to.
+    frame : Frame
+        What does not grow.
+    parts : iterable of Mapping
+        What does, in order.
+    """
+    import h5netcdf
+
+    bodies = list(frame.header.case["bodies"])
+    with h5netcdf.File(target, "w") as file:
+        file.attrs.update(frame.header.attributes())
+        nx, ny = frame.arrays["height"].shape[1:]
+        file.dimensions = {"time": None, "step": None, "body": len(bodies), "x": nx, "y": ny}
+        names = np.array(bodies, object)
+        file.create_variable("body", ("body",), dtype=h5py.string_dtype(), data=names)
+        for name, variable in frame.variables.items():
+            _create(file, name, variable, frame.arrays.get(name))
+        filled = {"time": 0, "step": 0}
+        for part in parts:
+            ends = dict(filled)
+            for dim, clock in (("time", "time"), ("step", "history_time")):
+                ends[dim] += len(part.get(clock, ()))
+                if ends[dim] > filled[dim]:
+                    file.resize_dimension(dim, ends[dim])
+            for name, rows in part.items():
+                dim = frame.variables[name].dims[0]
+                file.variables[name][filled[dim] : ends[dim]] = rows
+            filled = ends
+
+
+def _create(file: Any, name: str, variable: Variable, values: Array | None) -> None:
+    sizes = [file.dimensions[dim].size for dim in variable.dims]
+    chunks = [_ROWS if variable.grows else sizes[0], *sizes[1:]]
+    if len(sizes) > 2:
+        # One body at one time.
+        chunks[:-2] = [1] * (len(sizes) - 2)
+    created = file.create_variable(
+        name,
+        variable.dims,
+        dtype=np.dtype("f8") if values is None else values.dtype,
+        data=values,
+        chunks=tuple(chunks),
+        fletcher32=True,
+        shuffle=True,
+        compression="gzip",
+        compression_opts=1,
+    )
+    created.attrs["units"] = variable.unit
+    created.attrs["long_name"] = variable.meaning
+    if variable.kind:
+        created.attrs["kind"] = variable.kind
+        created.attrs["field"] = variable.field
+        created.attrs["bodies"] = list(variable.bodies)
+
+
+class Contents:
+    """The contents of a result file; each number is checked as it is read.
+
+    Parameters
+    ----------
+    source : Path or BytesIO
+        The file.
+    name : str
+        What to call it in messages.
+
+    Raises
+    ------
+    CaseError
+        If it is damaged, which is all that any method raises.
+    """
+
+    def __init__(self, source: Path | BytesIO, name: str) -> None:
+        self.source = source
+        self.name = name
+        size = source.stat().st_size if isinstance(source, Path) else source.getbuffer().nbytes
+        with self._reading():
+            self.file = h5py.File(source, "r")
+        try:
+            with self._reading():
+                self.header = Header.read(dict(self.file.attrs))
+                self.variables = _variables(self.file, size)
+                bodies = self.file["body"].asstr()[:].tolist()
+                if bodies != list(self.header.case["bodies"]):
+                    raise ValueError(f"it holds the bodies {bodies}, but its case has others")
+            self.fields = [name for name, v in self.variables.items() if v.dims[-2:] == ("x", "y")]
+            scalars = self.variables.keys() - set(self.fields)
+            self.scalars = {name: self.read(name) for name in scalars}
+        except BaseException:
+            self.file.close()
+            raise
+
+    def read(self, name: str, *index: int | slice) -> Array:
+        """Return a variable, or a part of it."""
+        with self._reading():
+            values: Array = self.file[name][(*index, ...)]
+            _check(name, self.variables[name], values)
+            return values
+
+    def check(self) -> None:
+        """Read all there is, one save at a time."""
+        for name in self.fields:
+            for save in range(len(self.file[name])):
+                self.read(name, save)
+
+    def close(self) -> None:
+        """Close the file."""
+        self.file.close()
+
+    def frame(self) -> Frame:
+        """Return what does not grow with the run."""
+        fixed = [name for name, variable in self.variables.items() if not variable.grows]
+        return Frame(self.header, self.variables, {name: self.read(name) for name in fixed})
+
+    def rows(self) -> Part:
+        """Return what does."""
+        grown = [name for name, variable in self.variables.items() if variable.grows]
+        return {name: self.read(name) for name in grown}
+
+    @contextmanager
+    def _reading(self) -> Iterator[None]:
+        """Name the file in whatever HDF5 raises about it."""
+        try:
+            yield
+        except (OSError, LookupError, RuntimeError, ValueError, TypeError, AttributeError) as error:
+            raise CaseError(f"{self.name} is damaged: {error}") from error
+
+
+def _variables(file: h5py.File, size: int) -> dict[str, Variable]:
+    """Return the variables of a file of so many bytes; ValueError if their shapes do not fit."""
+    variables = dict(FIXED)
+    for name, dataset in file.items():
+        if "kind" in dataset.attrs:
+            keys = ("field", "units", "long_name")
+            name_in_model, unit, meaning = (str(dataset.attrs[key]) for key in keys)
+            field = Field(name_in_model, unit, meaning)
+            kind = str(dataset.attrs["kind"])
+            variables[name] = field_variable(kind, field, map(str, dataset.attrs["bodies"]))
+    sizes = {
+        dim: file[name].shape[0]
+        for dim, name in (("time", "time"), ("step", "history_time"), ("x", "x"), ("y", "y"))
+    }
+    sizes["body"] = 2
+    if not sizes["x"] * sizes["y"]:
+        raise ValueError("it has no cells")
+    for name, variable in variables.items():
+        dataset = file[name]
+        if dataset.dtype.kind not in "fiu":
+            raise ValueError(f"{name!r} holds no real numbers")
+        needed = tuple(sizes[dim] for dim in variable.dims)
+        if dataset.shape != needed:
+            raise ValueError(f"the shape of {name!r} is {dataset.shape} instead of {needed}")
+        if dataset.nbytes > _MOST_PACKED * size:
+            raise ValueError(f"{name!r} claims {dataset.nbytes:.3g} bytes, more than the file has")
+    return variables
+
+
+def _check(name: str, variable: Variable, values: Array) -> None:
+    """Raise ValueError if a value is not finite, or out of range."""
+    sound = np.abs(values) < LARGEST
+    if variable.gaps:
+        sound |= np.isnan(values)
+    if not sound.all():
+        raise ValueError(f"{name!r} is not finite, or above {LARGEST:g}")
+    if (values < variable.least).any():
+        raise ValueError(f"{name!r} is below {variable.least:g}")
+    if name in ("x", "y", "time", "history_time") and (np.diff(values) <= 0).any():
+        raise ValueError(f"{name!r} does not grow")

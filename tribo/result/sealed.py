@@ -1,0 +1,103 @@
+"""Files that are replaced whole and end in a checksum of all that they hold.
+
+The last 40 bytes of such a file are eight that mark it and the SHA-256 of the
+rest. HDF5 and zip readers ignore bytes behind their own data.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from hashlib import sha256
+from io import BufferedReader
+from pathlib import Path
+
+from tribo.core.errors import CaseError
+
+_MARK = b"tribo\0\0\2"
+_LENGTH = len(_MARK) + 32
+_BLOCK = 1 << 20
+
+
+@contextmanager
+def replacing(path: Path, *, fresh: Path | None = None, sync: bool) -> Iterator[Path]:
+    """Replace a file by the one written inside, whole or not at all.
+
+    Parameters
+    ----------
+    path : Path
+        The file to replace, or to make.
+    fresh : Path, optional
+        Where to write in the meantime, in the same file system; beside `path`
+        if left out.
+    sync : bool
+        Whether to wait until the new file would survive a power failure.
+
+    Yields
+    ------
+    Path
+        Where to write; the checksum is added at the end.
+    """
+    fresh = fresh or path.with_name(path.name + ".new")
+    try:
+        yield fresh
+        with fresh.open("rb") as written:
+            checksum = _checksum(written, fresh.stat().st_size)
+        with fresh.open("ab") as file:
+            file.write(_MARK + checksum)
+        if sync:
+            wait_for_disk(fresh)
+        fresh.replace(path)
+        if sync:
+            wait_for_disk(path.parent)
+    except BaseException:
+        fresh.unlink(missing_ok=True)
+        raise
+
+
+def wait_for_disk(path: Path) -> None:
+    """Wait until a file, or the names in a folder, would survive a power failure."""
+    if os.name == "nt" and path.is_dir():
+        # Windows opens no folder; its file system has a journal of names.
+        return
+    opened = os.open(path, os.O_RDONLY if os.name != "nt" else os.O_RDWR)
+    try:
+        os.fsync(opened)
+    finally:
+        os.close(opened)
+
+
+def check_sealed(path: Path) -> None:
+    """Compare a file with its checksum.
+
+    Raises
+    ------
+    CaseError
+        If a byte of it is not what was written, it was cut short, or it has no
+        checksum.
+    OSError
+        If it cannot be read.
+    """
+    with path.open("rb") as file:
+        size = os.fstat(file.fileno()).st_size - _LENGTH
+        checksum = _checksum(file, size)
+        end = file.read()
+    if size < 0 or not end.startswith(_MARK):
+        raise CaseError(
+            f"{path} is not a whole tribo file: it was cut short, or another program has written "
+            "to it"
+        )
+    if end != _MARK + checksum:
+        raise CaseError(
+            f"{path} is damaged: its checksum does not match. It cannot be trusted; what other "
+            "programs still read of it, as xarray does, is checked field by field"
+        )
+
+
+def _checksum(file: BufferedReader, size: int) -> bytes:
+    digest = sha256()
+    while size > 0 and (block := file.read(min(size, _BLOCK))):
+        digest.update(block)
+        size -= len(block)
+    return digest.digest()
