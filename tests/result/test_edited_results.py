@@ -134,7 +134,9 @@ def test_what_does_not_fit_is_told(folder, edit):
 
 @pytest.mark.parametrize("command", COMMANDS.values(), ids=COMMANDS)
 @pytest.mark.parametrize(
-    "case", [{}, {"bodies": {"ball": {}}}, {"bodies": {**BODIES, "pin": {}}}, [1]]
+    "bodies",
+    [{}, {"ball": {}}, {**BODIES, "pin": {}}, [1]],
+    ids=["none", "one", "three", "list"],
 )
 def test_every_command_refuses_a_case_without_its_two_bodies(folder, command, bodies):
     assert "x.h5 is damaged: 'case" in refusal(folder, text("case", {"bodies": bodies}), *command)
