@@ -7,7 +7,7 @@ import pytest
 from made_results import made
 
 from tribo import CaseError
-from tribo.result.sealed import check_sealed, replacing
+from tribo.result.sealed import check_sealed, write_sealed
 
 
 @pytest.fixture(scope="module")
@@ -19,8 +19,7 @@ def sound(tmp_path_factory):
 
 
 def written(path, data):
-    with replacing(path, sync=False) as fresh:
-        fresh.write_bytes(data)
+    write_sealed(path, data, sync=False)
 
 
 def test_every_bit_counts(tmp_path):

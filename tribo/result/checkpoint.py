@@ -14,6 +14,7 @@ import warnings
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields
 from hashlib import sha256
+from io import BytesIO
 from pathlib import Path
 from typing import IO, Any
 from zipfile import BadZipFile
@@ -29,7 +30,7 @@ from tribo.core.measures import Invariants
 from tribo.core.notices import Notice
 from tribo.core.state import BodyState, State
 from tribo.result.hdf5 import Part
-from tribo.result.sealed import check_sealed, replacing, wait_for_disk
+from tribo.result.sealed import check_sealed, wait_for_disk, write_sealed
 
 _ARRAY = "array number"
 
@@ -210,8 +211,9 @@ def _store(path: Path, data: object, *, sync: bool) -> None:
 
     # json writes floats so that they read back to the same bits.
     text = json.dumps(data, default=plain)
-    with replacing(path, sync=sync) as fresh, fresh.open("wb") as file:
-        np.savez(file, np.frombuffer(text.encode(), np.uint8), *arrays)
+    image = BytesIO()
+    np.savez(image, np.frombuffer(text.encode(), np.uint8), *arrays)
+    write_sealed(path, image.getbuffer(), sync=sync)
 
 
 def _load(path: Path) -> dict[str, Any]:

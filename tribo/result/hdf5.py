@@ -63,13 +63,11 @@ class Frame:
         return replace(self, header=self.header.model_copy(update=changes))
 
 
-def write_hdf5(target: Path | BytesIO, frame: Frame, parts: Iterable[Part]) -> None:
-    """Write a result.
+def hdf5_image(frame: Frame, parts: Iterable[Part]) -> BytesIO:
+    """Return a whole file in memory: HDF5 may crash where it meets a full disk.
 
     Parameters
     ----------
-    target : Path or BytesIO
-        Where to.
     frame : Frame
         What does not grow.
     parts : iterable of Mapping
@@ -78,7 +76,8 @@ def write_hdf5(target: Path | BytesIO, frame: Frame, parts: Iterable[Part]) -> N
     import h5netcdf
 
     bodies = list(frame.header.case["bodies"])
-    with h5netcdf.File(target, "w") as file:
+    image = BytesIO()
+    with h5netcdf.File(image, "w") as file:
         file.attrs.update(frame.header.attributes())
         nx, ny = frame.arrays["height"].shape[1:]
         file.dimensions = {"time": None, "step": None, "body": len(bodies), "x": nx, "y": ny}
@@ -97,6 +96,7 @@ def write_hdf5(target: Path | BytesIO, frame: Frame, parts: Iterable[Part]) -> N
                 dim = frame.variables[name].dims[0]
                 file.variables[name][filled[dim] : ends[dim]] = rows
             filled = ends
+    return image
 
 
 def _create(file: Any, name: str, variable: Variable, values: Array | None) -> None:

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
-from io import BytesIO
 from pathlib import Path
 
 from tribo.core.errors import CaseError
 from tribo.result.checkpoint import RunFolder, fingerprint
-from tribo.result.hdf5 import Contents, Frame, Part, write_hdf5
+from tribo.result.hdf5 import Contents, Frame, Part, hdf5_image
 from tribo.result.sealed import check_sealed
 
 
@@ -35,9 +34,8 @@ def contents_of(path: Path) -> Contents:
         return contents
     if checkpoint.case != fingerprint(contents.header.case):
         return contents
-    frame = contents.frame().with_header(
-        notices=[str(notice) for notice in checkpoint.state.notices]
-    )
+    notices = [str(notice) for notice in checkpoint.state.notices]
+    frame = contents.frame().with_header(notices=notices)
     contents.close()
     return contents_in_memory(frame, folder.parts(checkpoint.parts), str(path))
 
@@ -61,9 +59,7 @@ def contents_of_file(path: Path) -> Contents:
 
 def contents_in_memory(frame: Frame, parts: Iterable[Part], name: str) -> Contents:
     """Return the contents of a result that is in memory."""
-    image = BytesIO()
-    write_hdf5(image, frame, parts)
-    return Contents(image, name)
+    return Contents(hdf5_image(frame, parts), name)
 
 
 def _is_text(path: Path) -> bool:

@@ -17,10 +17,10 @@ from tribo.core.fields import Field
 from tribo.core.grid import Grid
 from tribo.result.body import BodyResult, checked_save
 from tribo.result.columns import BODY_COLUMNS, COLUMNS, INVARIANTS, labelled
-from tribo.result.hdf5 import Contents, write_hdf5
+from tribo.result.hdf5 import Contents, hdf5_image
 from tribo.result.layout import EFFECT, STATE
 from tribo.result.opening import contents_of
-from tribo.result.sealed import replacing
+from tribo.result.sealed import write_sealed
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -130,8 +130,8 @@ class Result:
         OSError
             If it cannot be written.
         """
-        with replacing(Path(path), sync=True) as fresh:
-            write_hdf5(fresh, self.contents.frame(), [self.contents.rows()])
+        image = hdf5_image(self.contents.frame(), [self.contents.rows()])
+        write_sealed(Path(path), image.getbuffer(), sync=True)
 
     @property
     def status(self) -> str:

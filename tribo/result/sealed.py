@@ -7,10 +7,7 @@ rest. HDF5 and zip readers ignore bytes behind their own data.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
-from contextlib import contextmanager
 from hashlib import sha256
-from io import BufferedReader
 from pathlib import Path
 
 from tribo.core.errors import CaseError
@@ -20,32 +17,28 @@ _LENGTH = len(_MARK) + 32
 _BLOCK = 1 << 20
 
 
-@contextmanager
-def replacing(path: Path, *, fresh: Path | None = None, sync: bool) -> Iterator[Path]:
-    """Replace a file by the one written inside, whole or not at all.
+def write_sealed(
+    path: Path, data: bytes | memoryview, *, fresh: Path | None = None, sync: bool
+) -> None:
+    """Replace a file, whole or not at all.
 
     Parameters
     ----------
     path : Path
         The file to replace, or to make.
+    data : bytes or memoryview
+        What it is to hold; the checksum is added.
     fresh : Path, optional
         Where to write in the meantime, in the same file system; beside `path`
         if left out.
     sync : bool
         Whether to wait until the new file would survive a power failure.
-
-    Yields
-    ------
-    Path
-        Where to write; the checksum is added at the end.
     """
     fresh = fresh or path.with_name(path.name + ".new")
     try:
-        yield fresh
-        with fresh.open("rb") as written:
-            checksum = _checksum(written, fresh.stat().st_size)
-        with fresh.open("ab") as file:
-            file.write(_MARK + checksum)
+        with fresh.open("wb") as file:
+            file.write(data)
+            file.write(_MARK + sha256(data).digest())
         if sync:
             wait_for_disk(fresh)
         fresh.replace(path)
@@ -81,23 +74,18 @@ def check_sealed(path: Path) -> None:
     """
     with path.open("rb") as file:
         size = os.fstat(file.fileno()).st_size - _LENGTH
-        checksum = _checksum(file, size)
+        digest, left = sha256(), size
+        while left > 0 and (block := file.read(min(left, _BLOCK))):
+            digest.update(block)
+            left -= len(block)
         end = file.read()
     if size < 0 or not end.startswith(_MARK):
         raise CaseError(
             f"{path} is not a whole tribo file: it was cut short, or another program has written "
             "to it"
         )
-    if end != _MARK + checksum:
+    if end != _MARK + digest.digest():
         raise CaseError(
             f"{path} is damaged: its checksum does not match. It cannot be trusted; what other "
             "programs still read of it, as xarray does, is checked field by field"
         )
-
-
-def _checksum(file: BufferedReader, size: int) -> bytes:
-    digest = sha256()
-    while size > 0 and (block := file.read(min(size, _BLOCK))):
-        digest.update(block)
-        size -= len(block)
-    return digest.digest()

@@ -13,11 +13,11 @@ from tribo.core.measures import Measures
 from tribo.core.notices import Notice
 from tribo.core.state import RunInfo, Snapshot, State
 from tribo.result.checkpoint import Checkpoint, RunFolder, fingerprint
-from tribo.result.hdf5 import Frame, Part, write_hdf5
+from tribo.result.hdf5 import Frame, Part, hdf5_image
 from tribo.result.layout import EFFECT, save_row, step_row
 from tribo.result.opening import contents_in_memory, contents_of_file
 from tribo.result.read import Result
-from tribo.result.sealed import replacing
+from tribo.result.sealed import write_sealed
 
 
 class ResultWriter:
@@ -147,8 +147,8 @@ class ResultWriter:
         if self._path is None or self._folder is None:
             return
         fresh = self._folder.path / "result.new"
-        with replacing(self._path, fresh=fresh, sync=True):
-            write_hdf5(fresh, self._frame, parts)
+        image = hdf5_image(self._frame, parts)
+        write_sealed(self._path, image.getbuffer(), fresh=fresh, sync=True)
 
 
 def _stacked(rows: Sequence[Part]) -> Part:
