@@ -85,6 +85,9 @@ def _one(path, chance, duration, undisturbed, kills):
         if code > 0:
             kills.not_resumed += 1
             return
+        if not RunFolder(path).path.exists():
+            # It was done.
+            break
         if chance.random() < 0.5:
             told, code = _killed(resume, path, chance, duration, kills.killed % 2)
         else:
