@@ -36,17 +36,17 @@ def pressure_overlay(results: Results, time: float) -> Figure:
     CaseError
         If one has no save then.
     """
-    fields = [result.pressure(result.save_at(time)) for result in results.values()]
+    pressures = [result.pressure(result.save_at(time)) for result in results.values()]
     grids = [result.grid for result in results.values()]
-    marked = [field > 0 for field in fields]
-    highest = max(float(np.max(field)) for field in fields)
+    fields = [(grid, field, field > 0) for grid, field in zip(grids, pressures, strict=True)]
+    highest = max(float(np.max(field)) for field in pressures)
     unit = fitting("Pa", highest)
     up = (0.0, 1.05 * highest or size(unit))
     with house_style():
         figure = new_figure(54.0, WIDE)
         panels = figure.subplots(1, 2, sharey=True)
         for axis, axes in enumerate(panels):
-            section = through_centre(axis, grids, fields, marked)
+            section = through_centre(axis, fields)
             curves = section.draw(axes, unit, overlay_looks(len(fields)), list(results), up)
         panels[0].set_ylabel(f"Pressure ({unit})")
         panels[0].set_title(f"t = {time:g} s", loc="left")
@@ -75,11 +75,12 @@ def profile_overlay(results: Results, name: str, time: float) -> Figure:
     """
     saves = [(result, result.save_at(time)) for result in results.values()]
     swept = all(result.body(name).swept for result, _ in saves)
-    grids = [result.grid for result, _ in saves]
-    surfaces = [result.body(name).surface(i) for result, i in saves]
-    marked = [scar_mask(removed(result, name)[i]) for result, i in saves]
+    fields = [
+        (result.grid, result.body(name).surface(i), scar_mask(removed(result, name)[i]))
+        for result, i in saves
+    ]
     return draw_profiles(
-        [through_centre(axis, grids, surfaces, marked) for axis in ((1,) if swept else (0, 1))],
+        [through_centre(axis, fields) for axis in ((1,) if swept else (0, 1))],
         overlay_looks(len(results)),
         list(results),
         f"{name}, t = {time:g} s",

@@ -101,10 +101,8 @@ def pressure_sections(result: Result) -> Figure:
     reach = _reach(hertz)
     fields = [result.pressure(i) for i in range(count)]
     touched = np.asarray(np.any([field > 0 for field in fields], axis=0))
-    sections = [
-        through_centre(axis, [grid] * count, fields, [touched] * count, reach[axis])
-        for axis in (0, 1)
-    ]
+    shown = [(grid, field, touched) for field in fields]
+    sections = [through_centre(axis, shown, reach[axis]) for axis in (0, 1)]
     peaks = [max(np.max(section.curves[i][1]) for section in sections) for i in range(count)]
     first, later = float(peaks[0]), float(max(peaks[1:], default=0.0))
     highest = max(first, later)

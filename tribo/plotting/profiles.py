@@ -51,12 +51,8 @@ def body_profiles(result: Result, name: str, axis: int) -> Figure:
         raise CaseError(f"a profile runs along axis 0 or across, axis 1; not {axis!r}")
     count = number_of_saves(result)
     body = result.body(name)
-    section = through_centre(
-        axis,
-        [result.grid] * count,
-        [body.surface(i) for i in range(count)],
-        [scar_mask(removed(result, name)[-1])] * count,
-    )
+    scar = scar_mask(removed(result, name)[-1])
+    section = through_centre(axis, [(result.grid, body.surface(i), scar) for i in range(count)])
     return draw_profiles([section], save_looks(count), time_labels(result.times), name)
 
 
@@ -117,12 +113,9 @@ def worn_section(result: Result) -> Figure:
             surfaces.append(surface)
             looks.append(look)
             labels.append(f"{body.name} unworn")
-    count = len(surfaces)
+    fields = [(result.grid, surface, marked) for surface in surfaces]
     figure = draw_profiles(
-        [
-            through_centre(axis, [result.grid] * count, surfaces, [marked] * count)
-            for axis in (0, 1)
-        ],
+        [through_centre(axis, fields) for axis in (0, 1)],
         looks,
         labels,
         f"t = {time_labels(result.times)[last]}, unloaded",

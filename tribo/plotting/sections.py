@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -62,25 +62,21 @@ class Section:
 
 
 def through_centre(
-    axis: int,
-    grids: Sequence[Grid],
-    fields: Sequence[Array],
-    marked: Sequence[Mask],
-    reach: float = 0.0,
+    axis: int, fields: Iterable[tuple[Grid, Array, Mask]], reach: float = 0.0
 ) -> Section:
-    """Return the section of fields, each on its grid, with limits around all that is marked.
+    """Return the section of fields, each on its grid, and limits around what is marked of each.
 
     `axis` is 0 along the sliding direction and 1 across it; `reach` is a
     distance from the centre to be shown as well, in m.
     """
-    positions = [(grid.x, grid.y)[axis] for grid in grids]
-    lows, highs = [], []
-    for x, grid, mask in zip(positions, grids, marked, strict=True):
-        low, high = limits(mask, grid, axis, reach)
+    curves, lows, highs = [], [], []
+    for grid, field, marked in fields:
+        x = (grid.x, grid.y)[axis]
+        low, high = limits(marked, grid, axis, reach)
         # The outermost cells' centres end a section.
         lows.append(max(low, float(x[0])))
         highs.append(min(high, float(x[-1])))
-    curves = [(x, profile(field, axis)) for x, field in zip(positions, fields, strict=True)]
+        curves.append((x, profile(field, axis)))
     return Section(axis, (min(lows), max(highs)), curves)
 
 
