@@ -23,35 +23,6 @@ LEGEND_ROWS = 4
 
 AXIS_LABELS = ("Along sliding, x", "Across sliding, y")
 
-_STYLE: dict[str, Any] = {
-    "font.family": "DejaVu Sans",
-    "mathtext.fontset": "dejavusans",
-    "font.size": 8.0,
-    "axes.titlesize": 8.0,
-    "axes.labelsize": 8.0,
-    "axes.linewidth": 0.6,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.formatter.limits": (-3, 5),
-    "xtick.labelsize": 7.0,
-    "ytick.labelsize": 7.0,
-    "xtick.major.width": 0.6,
-    "ytick.major.width": 0.6,
-    "xtick.direction": "in",
-    "ytick.direction": "in",
-    "lines.linewidth": 1.2,
-    "lines.scale_dashes": False,
-    "legend.fontsize": 7.0,
-    "legend.frameon": False,
-    "legend.handlelength": 2.8,
-    "legend.columnspacing": 1.4,
-    "figure.constrained_layout.use": True,
-    "figure.dpi": 200.0,
-    "savefig.dpi": "figure",
-    "pdf.fonttype": 42,
-    "svg.hashsalt": "tribo",
-}
-
 Look = Mapping[str, Any]
 """How a line looks: keywords of `Axes.plot`."""
 
@@ -80,9 +51,9 @@ _lock = threading.RLock()
 def house_style() -> Iterator[None]:
     """Draw in the house style inside the context, whatever the user's settings.
 
-    Threads take turns.
+    It is the style ``tribo.plotting.house`` of matplotlib. Threads take turns.
     """
-    with _lock, style.context(["default", _STYLE]):
+    with _lock, style.context(["default", "tribo.plotting.house"]):
         yield
 
 
