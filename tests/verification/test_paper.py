@@ -90,6 +90,7 @@ def test_the_pressure_is_a_plateau_along_and_rises_to_the_edges_across(result):
     assert rigid[1] / rigid[0] > 1.08
 
 
+@pytest.mark.filterwarnings("ignore:resolution")
 def test_explicit_steps_agree():
     implicit, explicit = (
         paper("1.3 mm", 32, stepping=stepping)
