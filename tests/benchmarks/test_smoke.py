@@ -37,6 +37,7 @@ def figures(name, folder, *options):
     return found["tables"]
 
 
+@pytest.mark.slow
 def test_contact_solve(tmp_path):
     tables = figures("contact_solve", tmp_path, "--cells", "32", "64", "--peers-up-to", "32")
     assert list(tables) == ["Cold solve", "Warm solve"]
@@ -54,6 +55,7 @@ def test_contact_solve(tmp_path):
                 assert row["growth"] > 0
 
 
+@pytest.mark.slow
 def test_hour(tmp_path):
     options = ("--cells", "32", "--duration", "200", "--time-step", "1", "--steps", "1")
     (rows,) = figures("hour", tmp_path, *options).values()
@@ -72,6 +74,7 @@ def test_hour(tmp_path):
             assert row["differs"] < 1e-3
 
 
+@pytest.mark.slow
 def test_fft_limit(tmp_path):
     (rows,) = figures("fft_limit", tmp_path, "--cells", "64", "--hour-cells", "32").values()
     assert set(rows[0]) == {
@@ -89,6 +92,7 @@ def test_fft_limit(tmp_path):
     assert rows[-1]["solves"] > 50
 
 
+@pytest.mark.slow
 def test_growth(tmp_path):
     cells = ("--cells", "32", "64", "--iteration-cells", "32", "64", "--run-cells", "32")
     options = (*cells, "--distances", "3.6", "7.2")
@@ -102,6 +106,7 @@ def test_growth(tmp_path):
         assert row["exponent"] == pytest.approx(row["steepest"])
 
 
+@pytest.mark.slow
 def test_plastic_and_rough(tmp_path):
     options = ("--plastic-cells", "32", "--rough-cells", "32")
     plastic, rough = figures("plastic_and_rough", tmp_path, *options).values()
@@ -112,6 +117,7 @@ def test_plastic_and_rough(tmp_path):
         assert 0.05 < row["contact_fraction"] < 0.3
 
 
+@pytest.mark.slow
 def test_profile_run(tmp_path):
     packages, modules = figures("profile_run", tmp_path, "--cells", "64").values()
     assert sum(row["percent"] for row in packages) == pytest.approx(100)
@@ -119,6 +125,7 @@ def test_profile_run(tmp_path):
     assert len(modules) <= 15
 
 
+@pytest.mark.slow
 def test_time_schemes(tmp_path):
     options = ("--cells", "32", "--duration", "200", "--growth", "0.4")
     (rows,) = figures("time_schemes", tmp_path, *options).values()
@@ -128,6 +135,7 @@ def test_time_schemes(tmp_path):
     assert second["depth_error_percent"] < 0.5 * euler["depth_error_percent"]
 
 
+@pytest.mark.slow
 def test_the_efficiency_of_a_sweep_is_measured():
     command = [sys.executable, BENCHMARKS / "sweep.py", "--runs", "2", "--cells", "32"]
     done = subprocess.run([*command, "--json"], capture_output=True, text=True, check=True)
@@ -137,6 +145,7 @@ def test_the_efficiency_of_a_sweep_is_measured():
     assert 0 < found["inside_runs"] < 1
 
 
+@pytest.mark.slow
 def test_moving_contact(tmp_path):
     options = ("--cells", "16", "--half-width", "2", "--passes", "1")
     tables = figures("moving_contact", tmp_path, *options)

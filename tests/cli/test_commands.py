@@ -34,6 +34,7 @@ def case(tmp_path, monkeypatch):
     return path
 
 
+@pytest.mark.slow
 def test_a_run_ends_with_a_lab_table(ran):
     folder, done = ran
     assert (folder / "my.h5").is_file()
@@ -101,6 +102,7 @@ def test_export_writes_csv_with_units_in_the_column_names(ran):
     assert {"time_s", "x_m", "pressure_Pa", "bodies.ball.wear_depth_m"} <= rows[0].keys()
 
 
+@pytest.mark.slow
 def test_plot_writes_pictures(ran):
     folder, _ = ran
     done = tribo("plot", "my.h5", "-d", "pictures", cwd=folder)
@@ -162,6 +164,7 @@ def test_check_ends_with_the_exit_code_of_the_run(case, settings, code):
     assert done.stdout.startswith("my.toml is valid")
 
 
+@pytest.mark.slow
 def test_check_predicts_what_the_stroke_average_costs_and_the_run_ends_with(case):
     coarse = ["--set", "grid.size=1.3 mm", "--set", "grid.cells=48"]
     (problem,) = json.loads(tribo("check", "my.toml", *coarse, "--json").stdout)["problems"]
@@ -173,6 +176,7 @@ def test_check_predicts_what_the_stroke_average_costs_and_the_run_ends_with(case
 
 
 @pytest.mark.parametrize("command", ["check", "run"])
+@pytest.mark.slow
 def test_a_stroke_under_one_half_width_is_refused_unless_asked_for(case, command):
     short = ["--set", "kinematics.stroke=0.1 mm"]
     done = tribo(command, "my.toml", *short)
@@ -267,6 +271,7 @@ def test_a_wrong_encoding_is_named(case):
     assert ": not UTF-8" in done.stderr
 
 
+@pytest.mark.slow
 def test_existing_output_needs_force(ran):
     folder, _ = ran
     done = tribo("run", "my.toml", *QUICK, cwd=folder)

@@ -40,6 +40,7 @@ def times_written(folder):
     return {path.name: path.stat().st_mtime_ns for path in folder.iterdir()}
 
 
+@pytest.mark.slow
 def test_the_table_has_a_column_a_variant(compared):
     assert compared.exit_code == 0
     text = compared.stdout
@@ -131,6 +132,7 @@ def test_names_of_files_are_shown_as_they_are_and_not_broken(tmp_path):
     assert max(map(len, lines)) <= 80
 
 
+@pytest.mark.slow
 def test_many_results_go_below_each_other(tmp_path):
     files = [written(tmp_path / f"{i}.h5") for i in range(5)]
     text = invoke(*files, "--no-plots").stdout
@@ -148,6 +150,7 @@ def test_another_comparison_does_not_overwrite_the_first_and_one_may_grow(folder
     assert invoke(folder / "my.toml", *more, *QUICK).stderr.count("done already") == 2
 
 
+@pytest.mark.slow
 def test_pictures_of_other_files_go_to_another_folder(tmp_path):
     first, *others = (written(tmp_path / f"{name}.h5") for name in "abc")
     for other in others:

@@ -86,6 +86,7 @@ def nobody():
     ],
     ids=lambda command: command[0],
 )
+@pytest.mark.slow
 def test_it_is_one_message_and_exit_code_3(given, nobody, monkeypatch, command):
     monkeypatch.chdir(given)
     done = invoke(*command)

@@ -55,6 +55,7 @@ def tribo(folder, *arguments, **streams):
 
 @needs_full
 @pytest.mark.parametrize("arguments", [["show", "my.h5"], ["show", "my.h5", "--json"], ["--help"]])
+@pytest.mark.slow
 def test_a_full_standard_output_is_one_line_and_exit_code_3(folder, full, arguments):
     done = tribo(folder, *arguments, stdout=full, stderr=subprocess.PIPE)
     assert done.returncode == 3
@@ -67,6 +68,7 @@ def test_a_pipe_that_nobody_reads_ends_quietly(folder, unread, arguments):
     assert (done.returncode, done.stderr) == (141, b"")
 
 
+@pytest.mark.slow
 def test_a_run_goes_on_without_a_reader_of_its_progress(folder, unread):
     done = tribo(folder, "run", "my.toml", "-o", "unread.h5", *QUICK, stdout=unread, stderr=unread)
     assert done.returncode == 141
@@ -75,6 +77,7 @@ def test_a_run_goes_on_without_a_reader_of_its_progress(folder, unread):
 
 
 @needs_full
+@pytest.mark.slow
 def test_a_run_goes_on_where_its_progress_cannot_be_written(folder, full):
     streams = {"stdout": subprocess.PIPE, "stderr": full}
     done = tribo(folder, "run", "my.toml", "-o", "untold.h5", *QUICK, **streams)
@@ -83,6 +86,7 @@ def test_a_run_goes_on_where_its_progress_cannot_be_written(folder, full):
 
 
 @needs_full
+@pytest.mark.slow
 def test_an_error_that_cannot_be_told_has_its_exit_code(folder, full):
     assert tribo(folder, "run", "none.toml", stderr=full).returncode == 2
 

@@ -96,6 +96,7 @@ def test_a_case_gets_an_uncertainty_for_each_result(case):
         assert word in shown
 
 
+@pytest.mark.slow
 def test_where_values_diverge_nothing_is_quoted(case):
     # Only the own cells resolve a peak at which the bodies yield.
     yields = [*SMALL, "--set", "grid.cells=48", "--set", "grid.size=0.6 mm"]
@@ -122,6 +123,7 @@ def test_a_share_has_five_characters_at_most():
     assert shown == ["0", "<0.01", "<0.01", "0.012", "1", "1.2", "100", "237"]
 
 
+@pytest.mark.slow
 def test_an_order_by_chance_is_marked(case):
     done = invoke(case, "--set", "grid.size=1.3 mm", "--set", "grid.cells=40")
     peak, *rest = done.stdout.splitlines()[1:]

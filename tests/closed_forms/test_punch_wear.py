@@ -12,6 +12,7 @@ def test_the_first_rates_are_the_known_ones():
     assert strip_rates(odd=True)[0] == pytest.approx(1.0031, abs=5e-5)
 
 
+@pytest.mark.slow
 def test_a_strip_of_cells_tends_to_the_rates():
     # Constant pressure on 400 equal cells, displaced at their centres, mean removed.
     n = 400

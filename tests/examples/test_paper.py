@@ -44,6 +44,7 @@ def test_the_case_gives_the_expected_table(paper):
             assert np.all(np.abs(got - known) <= part * known)
 
 
+@pytest.mark.slow
 def test_the_papers_explicit_steps_agree_with_implicit_ones(paper, implicit):
     explicit = paper.run(*paper.COARSE, *paper.EXPLICIT, *SHORT)
     assert explicit.totals()["steps"] == 2000

@@ -35,6 +35,7 @@ def at(errors, match, time):
     return found
 
 
+@pytest.mark.slow
 def test_the_first_contact_is_off_as_the_matching_says(errors):
     # By Hertz's theory; a pressure on a few cells is good to a part of a cell, an area to one.
     for match, pressure, width in (
@@ -63,6 +64,7 @@ def test_the_rule_of_the_page(errors):
     assert max(abs(e.depth) for e in errors if e.match != "peak_pressure") > 0.2
 
 
+@pytest.mark.slow
 def test_volumes_do_not_depend_on_what_bears_the_load(example):
     with example.run() as comparison:
         for time in comparison.times[1:]:

@@ -20,6 +20,7 @@ from tribo import CaseError, Result, Simulation
 from tribo.config.load import validate_case
 
 
+@pytest.mark.slow
 def test_two_hundred_cases_end_as_they_should():
     done = fuzzing.fuzz(200, seed=3)
     assert done.faults == {}
@@ -69,6 +70,7 @@ def test_half_of_the_plausible_cases_are_valid():
 @pytest.mark.parametrize(
     ("end", "words"), [(lambda *_: time.sleep(60), "hang"), (lambda *_: os._exit(1), "death")]
 )
+@pytest.mark.slow
 def test_a_hang_and_a_death_are_seen(monkeypatch, end, words):
     monkeypatch.setattr(trial, "_schema", end)
     monkeypatch.setattr(fuzzing, "HANG", 3.0)

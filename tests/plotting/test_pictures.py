@@ -256,6 +256,7 @@ def test_contact_history_is_the_history(result):
     assert all(axes.get_legend() for axes in (upper, lower))
 
 
+@pytest.mark.slow
 def test_half_widths_that_grow_by_cells_are_drawn_without_stairs():
     result = made(tuple(1.12 ** np.arange(60.0)))
     _, lower = contact_history(result).axes

@@ -86,6 +86,7 @@ def test_a_legend_reads_row_by_row_and_names_the_ends_of_many():
     assert {"0", "39", "mark"} <= set(many)
 
 
+@pytest.mark.slow
 def test_drawing_needs_no_pyplot():
     code = "import sys, tribo.plotting; sys.exit('matplotlib.pyplot' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

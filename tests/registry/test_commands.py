@@ -68,6 +68,7 @@ def test_a_check_of_a_configuration_without_a_schema_says_so(folder: Path) -> No
 
 
 @pytest.mark.parametrize(("kind", "status"), [("Path", 0), ("float", 3)])
+@pytest.mark.slow
 def test_what_needs_a_file_is_left_to_its_own_tests(folder: Path, kind: str, status: int) -> None:
     line = '    type = "odd.one"'
     needing = OBSERVER.format(name="odd.one", title="Odd").replace(

@@ -95,6 +95,7 @@ def test_a_run_stopped_twice_resumes_to_the_same_bits(tmp_path):
         np.testing.assert_array_equal(first[name], second[name], err_msg=name)
 
 
+@pytest.mark.slow
 def test_a_run_gone_on_with_changed_components_and_stopped_again_says_how_to_go_on(
     tmp_path, monkeypatch
 ):
@@ -123,6 +124,7 @@ def test_a_torn_checkpoint_falls_back_on_the_one_before(tmp_path):
         np.testing.assert_array_equal(first[name], second[name], err_msg=name)
 
 
+@pytest.mark.slow
 def test_only_a_stopped_run_of_the_same_case_is_resumed(tmp_path):
     path = tmp_path / "run.h5"
     with pytest.raises(Interrupted):
@@ -144,6 +146,7 @@ def test_an_existing_result_is_replaced_only_when_told(tmp_path):
     assert Result.open(path).status == "done"
 
 
+@pytest.mark.slow
 def test_watching_does_not_change_a_bit():
     plain, watched = (
         Simulation(case()).run(observers=observers) for observers in ([], [Stopper(after=10**9)])

@@ -58,6 +58,7 @@ def lost(kinematics, law=None, **changes):
 
 
 @pytest.mark.parametrize("time_step", ["0.002 s", "0.013 s", "0.2 s"])
+@pytest.mark.slow
 def test_short_and_long_steps_wear_the_closed_form(time_step):
     found = lost(motion(duration=0.4, **SINE), stepping=Explicit(time_step=time_step))
     needed = K * 100 * MEAN * 0.4 * OVER_PATH / MEAN

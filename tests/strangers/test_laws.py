@@ -73,6 +73,7 @@ def test_it_is_at_most_25_lines_imports_included(law):
 
 
 @LAWS
+@pytest.mark.slow
 def test_it_runs_implicit_with_stroke_averaging_and_both_bodies_lose_the_same(law, registry):
     with Simulation(case(law), registry=registry).run() as result:
         end = result.saves()[-1]["bodies"]
@@ -91,6 +92,7 @@ def result_is_averaged(body):
     return bool(np.all(body.wear_depth[-1] == body.wear_depth[-1][:1]))
 
 
+@pytest.mark.slow
 def test_a_law_that_is_not_linear_wears_more_where_pressure_is_high(registry):
     # ∫ p (1 + (p/p_severe)²) is more than the load, by less than the first peak allows.
     with Simulation(case(Transition), registry=registry).run() as result:
@@ -100,6 +102,7 @@ def test_a_law_that_is_not_linear_wears_more_where_pressure_is_high(registry):
     assert 1.1 * archard < end["bodies"]["ball"]["wear_volume_m3"] < most * archard
 
 
+@pytest.mark.slow
 def test_oxide_halves_the_wear_where_its_power_is_reached(registry):
     # Without bounds on the film, 1 − c tends to 1 for a power that is never reached.
     worn = []

@@ -71,6 +71,7 @@ def computed(result, body, quantity):
     return read(result, Reading(body, quantity))[0]
 
 
+@pytest.mark.slow
 def test_masses_give_each_coefficient_in_four_runs():
     runs = []
     found = calibrate(
@@ -100,6 +101,7 @@ def test_masses_give_each_coefficient_in_four_runs():
     assert found.singular_values == pytest.approx([20, 20])
 
 
+@pytest.mark.slow
 def test_without_fit_the_coefficients_of_what_was_measured_are_fitted():
     """And what was measured at the end is not predicted."""
     entry = {"time": 300.0, **measured("ball", "mass", mass(2 * BALL))}

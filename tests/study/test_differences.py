@@ -16,6 +16,7 @@ DATA["kinematics"]["duration"] = 300
 
 
 @pytest.mark.parametrize("varied", [{"grid.cells": (52, 26)}, {"grid.size": ("0.9 mm", "0.7 mm")}])
+@pytest.mark.slow
 def test_a_groove_does_not_end_with_the_cells(varied):
     with compare(DATA, varied) as comparison:
         first, other = comparison.results.values()

@@ -88,12 +88,14 @@ def invoke(*args):
 
 
 @pytest.mark.parametrize("first", BODIES)
+@pytest.mark.slow
 def test_any_files_are_compared_by_the_command(files, first):
     every = files(first, *(BODIES.keys() - {first}))
     assert invoke(*every, "--no-plots").exit_code == 0
     assert json.loads(invoke(*every, "--json", "--no-plots").stdout)["saves"]
 
 
+@pytest.mark.slow
 def test_pictures_of_matched_bodies_are_drawn(files, tmp_path):
     pair = files("ball and disk", "plate and pin")
     invoke(*pair, "--at", "200 s", "-o", tmp_path, "--match", "ball=pin")

@@ -157,6 +157,7 @@ def test_a_missing_base_case_is_named(tmp_path):
         plan(path, tmp_path / "out")
 
 
+@pytest.mark.slow
 def test_too_many_runs_must_be_meant(tmp_path):
     path = sweeps.study(tmp_path, sweeps.QUICK + RANGES.format(method="sobol", count=1024, seed=0))
     with pytest.raises(CaseError, match="asks for 1024 runs; if that is meant, give --yes"):

@@ -28,6 +28,7 @@ def swept(tmp_path_factory):
     return sweep(sweeps.study(tmp_path_factory.mktemp("sweep")), executor=sweeps.Inline())
 
 
+@pytest.mark.slow
 def test_a_result_has_the_bits_of_the_run_alone(swept):
     study, data = load_study(swept.folder.parent / "study.toml")
     data["load"]["normal"] = study.grid["load.normal"][2]
@@ -52,6 +53,7 @@ def test_the_tables_load_in_pandas_with_units_in_the_column_names(swept):
     assert list(saves["load.normal_N"].unique()) == [50, 60, 70, 80]
 
 
+@pytest.mark.slow
 def test_what_a_run_warned_of_is_in_the_table(tmp_path):
     path = sweeps.study(tmp_path, sweeps.QUICK + "[grid]\ngrid.cells = [12, 24]")
     with pytest.warns(TriboWarning, match="resolution"):
@@ -60,6 +62,7 @@ def test_what_a_run_warned_of_is_in_the_table(tmp_path):
     assert (coarse["status"], fine["message"]) == ("done", "")
 
 
+@pytest.mark.slow
 def test_tables_and_lists_that_vary_have_a_column_each_with_its_unit(tmp_path):
     text = """
     [[list]]
@@ -110,6 +113,7 @@ stop.distance = "1 m"
 """
 
 
+@pytest.mark.slow
 def test_a_failing_run_is_recorded_and_the_others_go_on(tmp_path):
     path = sweeps.study(tmp_path, sweeps.QUICK + FAILING)
     swept = sweep(path, executor=sweeps.Inline())

@@ -109,6 +109,7 @@ MEDDLERS.bad("forgets_the_case", Watcher, on_start=forgetting_the_case)
 
 
 @MEDDLERS.each
+@pytest.mark.slow
 def test_what_it_does_to_its_own_view_changes_no_bit(tmp_path, bad):
     results = []
     for name, classes in (("plain", ()), ("watched", (bad.cls,))):
@@ -123,6 +124,7 @@ def test_what_it_does_to_its_own_view_changes_no_bit(tmp_path, bad):
     assert len(watched.case["observers"]) == 1
 
 
+@pytest.mark.slow
 def test_a_stopped_run_resumes_though_an_observer_forgot_its_case(run, command):
     def stopping(self, snapshot):
         if snapshot.state.steps == 5:

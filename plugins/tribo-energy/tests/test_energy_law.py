@@ -78,6 +78,7 @@ def test_nothing_wears_below_the_threshold_traction():
     )
 
 
+@pytest.mark.slow
 def test_the_onset_of_wear_costs_exactly_the_threshold_energy():
     # Integrated over the energy of a point, depth/α is ΣE − E_th once the onset is over.
     threshold, pressure = 1e9, np.full((1, 1), 1e9)

@@ -82,6 +82,7 @@ def test_each_body_sees_all_the_energy_of_friction(energy):
         assert total == pytest.approx(MU * LOAD * last.state.distance, rel=1e-10)
 
 
+@pytest.mark.slow
 def test_wear_begins_at_the_threshold_energy():
     threshold = 1e8
     _, last, _ = run(case(200, threshold_energy=threshold))

@@ -74,6 +74,7 @@ def solver(**config):
         (1000, 1.2e-3, 64, 1e-11, 1e-8),
     ],
 )
+@pytest.mark.slow
 def test_it_finds_the_first_contact_that_dcfft_finds(load, width, cells, tolerance, difference):
     problem, theirs = first_contact("tamaas.half_space", load, width, cells, tolerance=tolerance)
     _, ours = first_contact("dcfft", load, width, cells, tolerance=tolerance)

@@ -134,6 +134,7 @@ def test_ten_to_one_needs_the_difference_that_it_says(ten_to_one):
     assert math.exp(50e3 / 8.314462618 * (1 / 363.15 - 1 / hotter)) == pytest.approx(10)
 
 
+@pytest.mark.slow
 def test_ten_to_one_says_what_the_readme_shows(ten_to_one, capsys):
     ten_to_one["main"]()
     printed = capsys.readouterr().out.rstrip()

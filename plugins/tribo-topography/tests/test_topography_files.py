@@ -28,6 +28,7 @@ def quiet(path, heights, **config):
 
 
 @pytest.mark.parametrize("kind", ["opd", "sur", "x3p", "asc", "npy"])
+@pytest.mark.slow
 def test_size_range_sq_and_every_pixel_come_back(write, heights, kind):
     path = write(kind)
     measured = quiet(path, heights)

@@ -112,6 +112,7 @@ def test_what_the_file_was_read_as_is_shown_by_check_and_kept_in_the_result(case
         assert result.provenance["components"]["bodies.ball.surface"]["facts"] == facts
 
 
+@pytest.mark.slow
 def test_check_and_show_print_it(case, tmp_path):
     data = case()
     surface = data["bodies"]["ball"]["surface"]
