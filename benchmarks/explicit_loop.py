@@ -63,7 +63,7 @@ def states(result: Result, gap: Array) -> list[State]:
     """Return the states of a run at its saves; `gap` is that of the unworn bodies."""
     bodies = [result.body(name) for name in result.body_names]
     return [
-        State(gap + sum(body.wear_depth[save] for body in bodies), result.pressure(save))
+        State(gap + sum(body.wear_depth[save] for body in bodies), result.field("pressure", save))
         for save in range(len(result.times))
     ]
 

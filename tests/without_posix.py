@@ -48,7 +48,7 @@ if __name__ == "__main__":
         Simulation(case).run("stopped.h5", observers=[StopAt()])
     except Interrupted:
         resumed = Simulation(case).resume("stopped.h5")
-    assert resumed.pressure(-1).tobytes() == whole.pressure(-1).tobytes()
+    assert resumed.field("pressure", -1).tobytes() == whole.field("pressure", -1).tobytes()
     assert list(sweep("study.toml", jobs=1).table["status"]) == ["done", "done"]
     print("run, resumed, swept")
 """

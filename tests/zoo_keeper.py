@@ -126,7 +126,9 @@ def expect_one_message(ended: Ended, bad: Bad) -> None:
         with Result.open(ended.path) as result:
             assert result.status == "failed"
             assert result.times[0] == 0
-            assert all(np.isfinite(result.pressure(i)).all() for i in range(len(result.times)))
+            assert all(
+                np.isfinite(result.field("pressure", i)).all() for i in range(len(result.times))
+            )
             assert line.removeprefix("error: ") in result.notices[-1]
 
 

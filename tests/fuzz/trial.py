@@ -221,8 +221,11 @@ def broken(path, code):
         if worst["chattering"] > CHATTERING and not told:
             return f"chattering is {worst['chattering']:g}"
         for save in range(len(result.times)):
-            carried = float(result.pressure(save).sum()) * system.grid.cell_area
-            if not abs(carried / system.load - 1) <= LOAD or result.pressure(save).min() < 0:
+            carried = float(result.field("pressure", save).sum()) * system.grid.cell_area
+            if (
+                not abs(carried / system.load - 1) <= LOAD
+                or result.field("pressure", save).min() < 0
+            ):
                 return f"the pressure of save {save} carries {carried:g} N of {system.load:g} N"
         for name in result.body_names:
             body = result.body(name)
@@ -240,7 +243,7 @@ def same(first, second):
     for path in (first, second):
         with Result.open(path) as result:
             history = result.table("history")
-            fields = [result.pressure(i) for i in range(len(result.times))]
+            fields = [result.field("pressure", i) for i in range(len(result.times))]
             for name in result.body_names:
                 body = result.body(name)
                 fields += [body.wear_depth, body.plastic_depth, *body.state.values()]

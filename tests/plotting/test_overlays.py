@@ -29,10 +29,12 @@ def test_pressures_lie_over_each_other(results):
         for line, result in zip(axes.lines, results.values(), strict=True):
             x, p = line.get_xydata().T
             np.testing.assert_allclose(x, 1e3 * (GRID.x, GRID.y)[axis])
-            np.testing.assert_allclose(p, 1e-6 * profile(result.pressure(1), axis))
+            np.testing.assert_allclose(p, 1e-6 * profile(result.field("pressure", 1), axis))
     assert figure.axes[0].get_ylabel() == "Pressure (MPa)"
     assert figure.axes[0].get_title("left") == "t = 200 s"
-    assert figure.axes[0].get_ylim()[1] > 1e-6 * max(r.pressure(1).max() for r in results.values())
+    assert figure.axes[0].get_ylim()[1] > 1e-6 * max(
+        r.field("pressure", 1).max() for r in results.values()
+    )
 
 
 @pytest.mark.parametrize(("body", "sections"), [("ball", 2), ("disk", 1)])
@@ -53,7 +55,9 @@ def test_a_map_is_the_result_less_the_first(results):
     images = [axes.images[0] for axes in figure.axes if axes.images]
     pressure, wear = (np.asarray(image.get_array()).T for image in images)
     one, three = results["one"], results["three"]
-    np.testing.assert_allclose(pressure, 1e-6 * (three.pressure(-1) - one.pressure(-1)))
+    np.testing.assert_allclose(
+        pressure, 1e-6 * (three.field("pressure", -1) - one.field("pressure", -1))
+    )
     depth = three.body("ball").wear_depth[-1] - one.body("ball").wear_depth[-1]
     assert np.argmax(wear) == np.argmax(depth)
     for image in images:

@@ -86,7 +86,7 @@ def test_sections_hold_every_save_and_hertz(result):
         shown = curves(axes)
         assert len(shown) == len(TIMES) + 1
         for save, label in enumerate(list(shown)[:-1]):
-            expected = 1e-6 * profile(result.pressure(save), axis)
+            expected = 1e-6 * profile(result.field("pressure", save), axis)
             np.testing.assert_allclose(shown[label][1], expected)
         x, y = shown["Hertz, 0 s"]
         assert y.max() == pytest.approx(1e-6 * hertz.peak_pressure, rel=1e-3)
@@ -98,12 +98,12 @@ def test_a_first_pressure_that_dwarfs_the_later_ones_stands_whole_in_its_own_pan
     whole, along, across = pressure_sections(result).axes
     shown = curves(whole)
     assert set(shown) == {"0 s", "Hertz, 0 s"}
-    np.testing.assert_allclose(shown["0 s"][1], 1e-6 * profile(result.pressure(0), 0))
-    later = 1e-6 * profile(result.pressure(1), 0).max()
+    np.testing.assert_allclose(shown["0 s"][1], 1e-6 * profile(result.field("pressure", 0), 0))
+    later = 1e-6 * profile(result.field("pressure", 1), 0).max()
     for axes in (along, across):
         assert later < axes.get_ylim()[1] < 1.2 * later
     others = pressure_sections(made((0.0, 1.0))).axes
-    highest = 1e-6 * result.pressure(0).max()
+    highest = 1e-6 * result.field("pressure", 0).max()
     assert all(axes.get_ylim()[1] >= highest for axes in (whole, *others))
     assert len(others) == 2
 
@@ -133,7 +133,7 @@ def test_sections_show_where_a_line_contact_ends():
 def test_the_map_is_the_pressure_from_zero_to_the_largest(result):
     (axes,) = pressure_map(result, 1).axes
     (image,) = axes.images
-    pressure = 1e-6 * result.pressure(1).T
+    pressure = 1e-6 * result.field("pressure", 1).T
     shown = np.asarray(image.get_array())
     np.testing.assert_allclose(shown[pressure > 0], pressure[pressure > 0])
     np.testing.assert_allclose(image.get_extent(), [-1.0, 1.0, -0.8, 0.8])
@@ -143,7 +143,7 @@ def test_the_map_is_the_pressure_from_zero_to_the_largest(result):
 
 
 def test_a_map_is_white_outside_a_smooth_edge_of_the_contact(result):
-    pressure = result.pressure(4)
+    pressure = result.field("pressure", 4)
     (axes,) = pressure_map(result).axes
     x, y = (1e3 * position for position in np.broadcast_arrays(*GRID.mesh))
     points = np.column_stack([x.ravel(), y.ravel()])

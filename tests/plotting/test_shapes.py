@@ -26,7 +26,7 @@ def case(request):
 
 def half_width(result, axis, save=-1):
     """Largest distance of a cell's edge in contact from the centre, in mm."""
-    pressure = result.pressure(save % len(result.times))
+    pressure = result.field("pressure", save % len(result.times))
     index = np.flatnonzero((pressure > 0).any(axis=1 - axis))
     x = (result.grid.x, result.grid.y)[axis][index]
     return 1e3 * (np.max(np.abs(x)) + 0.5 * result.grid.spacing[axis])

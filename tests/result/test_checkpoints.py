@@ -75,7 +75,7 @@ def test_a_killed_run_is_shown_as_far_as_it_came_and_goes_on_to_the_same_bits(ki
         assert (result.status, result.wall_time) == ("running", None)
         np.testing.assert_array_equal(result.times, [0, 5])
         assert len(result.table("history")["time_s"]) == 14
-        assert float(result.dataset.pressure.sel(time=5).max()) > 0
+        assert float(result.pressure.sel(time=5).max()) > 0
     with simulation().resume(killed) as result:
         assert everything(result) == undisturbed
     assert list(killed.parent.iterdir()) == [killed]

@@ -44,7 +44,7 @@ def test_each_save_has_the_field_of_its_own_pressure(path):
             assert kept.shape == (4, 48, 48)
             for save in range(4):
                 np.testing.assert_allclose(
-                    kept[save], expected(result.pressure(save)), rtol=1e-9, atol=0
+                    kept[save], expected(result.field("pressure", save)), rtol=1e-9, atol=0
                 )
 
 
@@ -88,7 +88,10 @@ def test_a_resumed_run_keeps_the_same_bits(path, tmp_path):
         Simulation(model().case).run(stopped, observers=[StopAt()])
     with Result.open(stopped) as result:
         np.testing.assert_allclose(
-            result.body("disk").effects[OXIDE][-1], expected(result.pressure(-1)), rtol=1e-9, atol=0
+            result.body("disk").effects[OXIDE][-1],
+            expected(result.field("pressure", -1)),
+            rtol=1e-9,
+            atol=0,
         )
     with Simulation(model().case).resume(stopped) as resumed, Result.open(path) as whole:
         for name in ("ball", "disk"):
@@ -106,7 +109,7 @@ def test_where_an_effect_fails_the_rest_of_the_save_stays(tmp_path):
     with pytest.raises(TriboError, match="too hot"):
         Simulation(model(Fails(power=POWER))).run(path)
     with Result.open(path) as result:
-        assert np.isfinite(result.pressure(0)).all()
+        assert np.isfinite(result.field("pressure", 0)).all()
         assert np.isnan(result.body("ball").effects[OXIDE]).all()
         (save,) = result.summary()["saves"]
     assert save["bodies"]["ball"]["effects"][OXIDE] == {"min": None, "max": None}

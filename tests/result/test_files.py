@@ -38,7 +38,7 @@ def test_it_is_a_dataset_that_xarray_reads_without_tribo(path):
         for name, variable in data.variables.items():
             if name != "body":
                 assert {"units", "long_name"} <= variable.attrs.keys()
-        worn = result.dataset.wear_depth.sel(body="disk").sel(time=19, method="nearest")
+        worn = result.wear_depth.sel(body="disk").sel(time=19, method="nearest")
         assert float(worn.max()) > 0
 
 
@@ -107,9 +107,9 @@ def test_many_saves_are_not_all_listed():
 def test_a_save_out_of_range_is_refused_with_how_many_there_are(path, save):
     with Result.open(path) as result:
         with pytest.raises(CaseError, match=f"no save {save}: it has 3 saves, 0 to 2"):
-            result.pressure(save)
+            result.field("pressure", save)
         with pytest.raises(CaseError, match=f"no save {save}: it has 3 saves, 0 to 2"):
-            result.wear_depth("ball", save)
+            result.field("wear_depth", save, "ball")
         ball = result.body("ball")
     with pytest.raises(CaseError, match=f"'ball' has no save {save}: it has 3 saves, 0 to 2"):
         ball.surface(save)
@@ -117,8 +117,8 @@ def test_a_save_out_of_range_is_refused_with_how_many_there_are(path, save):
 
 def test_saves_count_from_either_end(path):
     with Result.open(path) as result:
-        np.testing.assert_array_equal(result.pressure(-1), result.pressure(2))
-        np.testing.assert_array_equal(result.pressure(-3), result.pressure(0))
+        np.testing.assert_array_equal(result.field("pressure", -1), result.field("pressure", 2))
+        np.testing.assert_array_equal(result.field("pressure", -3), result.field("pressure", 0))
 
 
 def test_the_wear_depth_of_a_save_is_that_of_the_body(path):
@@ -126,9 +126,9 @@ def test_the_wear_depth_of_a_save_is_that_of_the_body(path):
         for name in ("ball", "disk"):
             for save in (0, 2, -1):
                 expected = result.body(name).wear_depth[save]
-                np.testing.assert_array_equal(result.wear_depth(name, save), expected)
+                np.testing.assert_array_equal(result.field("wear_depth", save, name), expected)
         with pytest.raises(CaseError, match="has no body 'bal'; its bodies are ball, disk"):
-            result.wear_depth("bal", 0)
+            result.field("wear_depth", 0, "bal")
 
 
 def test_a_save_is_found_by_its_time_within_rounding():

@@ -20,7 +20,7 @@ def model(**changes):
 
 def told(path):
     with Result.open(path) as result:
-        fields = [result.pressure(i) for i in range(len(result.times))]
+        fields = [result.field("pressure", i) for i in range(len(result.times))]
         return result.status, list(result.notices), list(result.times), fields
 
 

@@ -151,7 +151,7 @@ def test_watching_does_not_change_a_bit():
     plain, watched = (
         Simulation(case()).run(observers=observers) for observers in ([], [Stopper(after=10**9)])
     )
-    np.testing.assert_array_equal(plain.pressure(-1), watched.pressure(-1))
+    np.testing.assert_array_equal(plain.field("pressure", -1), watched.field("pressure", -1))
 
 
 def test_a_run_may_end_at_a_distance():
@@ -177,7 +177,7 @@ def test_a_contact_that_reaches_the_edge_stops_the_run_with_what_was_saved(tmp_p
     with Result.open(path) as result:
         assert result.status == "failed"
         assert list(result.times[:2]) == [0, 5]
-        assert np.all(np.isfinite(result.pressure(-1)))
+        assert np.all(np.isfinite(result.field("pressure", -1)))
 
 
 @pytest.mark.parametrize(

@@ -108,4 +108,4 @@ def test_a_wave_worn_flat_goes_on_without_noise():
             kinematics=motion(duration=7200),
         )
     ).run()
-    assert np.ptp(result.pressure(-1)) < 1e-6 * result.pressure(-1).mean()
+    assert np.ptp(result.field("pressure", -1)) < 1e-6 * result.field("pressure", -1).mean()

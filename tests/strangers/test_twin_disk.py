@@ -65,7 +65,7 @@ def test_the_longer_way_round_is_worn_less_deep(result):
 
 
 def test_the_groove_is_as_wide_as_the_contact_has_been(result):
-    touched = np.any(result.pressure(-1) > 0, axis=0)
+    touched = np.any(result.field("pressure", -1) > 0, axis=0)
     depth = result.body("lower").wear_depth[-1][0]
     assert np.all(depth[touched] > 0)
     assert np.all(depth[[0, -1]] == 0)

@@ -52,7 +52,9 @@ def test_a_user_says_which_body_is_which(files):
     with compare(paths, match={"ball": "plate"}) as comparison:
         assert own(comparison) == {"ball": "plate", "disk": "pin"}
         reference, result = comparison.results.values()
-        assert np.array_equal(result.wear_depth("ball", -1), reference.wear_depth("disk", -1))
+        assert np.array_equal(
+            result.field("wear_depth", -1, "ball"), reference.field("wear_depth", -1, "disk")
+        )
 
 
 def test_matched_bodies_are_compared_and_told(files):

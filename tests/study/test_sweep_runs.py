@@ -33,7 +33,7 @@ def test_a_result_has_the_bits_of_the_run_alone(swept):
     study, data = load_study(swept.folder.parent / "study.toml")
     data["load"]["normal"] = study.grid["load.normal"][2]
     with Simulation(data).run() as alone, Result.open(swept.runs[2].path) as result:
-        assert np.array_equal(alone.pressure(-1), result.pressure(-1))
+        assert np.array_equal(alone.field("pressure", -1), result.field("pressure", -1))
         assert np.array_equal(alone.body("disk").wear_depth, result.body("disk").wear_depth)
 
 
@@ -203,7 +203,9 @@ def test_a_stopped_run_goes_on_from_its_checkpoint(tmp_path, monkeypatch):
         patch.delattr(Simulation, "run")
         assert statuses(sweep(path, executor=sweeps.Inline())) == ["done"]
     with Result.open(folder / "results" / table["file"][0]) as result:
-        assert np.array_equal(Simulation(result.case).run().pressure(-1), result.pressure(-1))
+        assert np.array_equal(
+            Simulation(result.case).run().field("pressure", -1), result.field("pressure", -1)
+        )
 
 
 @pytest.mark.slow

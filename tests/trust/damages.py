@@ -123,7 +123,7 @@ def everything(path):
     """All that a result gives, read through tribo."""
     with Result.open(path) as result:
         lab = lab_report(result).as_json()
-        fields = [result.pressure(i).tobytes() for i in range(len(result.times))]
+        fields = [result.field("pressure", i).tobytes() for i in range(len(result.times))]
         for name in result.body_names:
             body = result.body(name)
             fields += [body.height, body.wear_depth, body.plastic_depth, *body.state.values()]

@@ -16,6 +16,8 @@ from tribo.result import opening
 from tribo.result.checkpoint import RunFolder
 from tribo.result.store import ResultWriter
 
+pytestmark = pytest.mark.slow
+
 
 # Some are cut off from power, which tears a checkpoint.
 @pytest.mark.filterwarnings("ignore:.*going on from synced")

@@ -72,7 +72,7 @@ def test_the_ball_is_flat_along_and_curved_across(result):
 
 
 def test_the_pressure_is_a_plateau_along_and_rises_to_the_edges_across(result):
-    p = result.pressure(-1)
+    p = result.field("pressure", -1)
     n = p.shape[0] // 2
     at = round(0.4e-3 / result.grid.spacing[0])
     assert p[n + at, n] == pytest.approx(p[n, n], rel=0.05)

@@ -206,5 +206,5 @@ def _first_contact(result: Result, save: Mapping[str, Any]) -> FirstContact:
         yields=words,
         computed=computed,
         comparable=result.case.get("contact", {}).get("type") == HALF_SPACE
-        and not reaches_border(result.pressure(0)),
+        and not reaches_border(result.field("pressure", 0)),
     )

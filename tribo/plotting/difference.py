@@ -48,13 +48,14 @@ def difference_map(results: Mapping[str, Result], label: str, time: float) -> Fi
             "difference"
         )
     i, j = result.save_at(time), first.save_at(time)
-    pressure, other = result.pressure(i), first.pressure(j)
+    pressure, other = result.field("pressure", i), first.field("pressure", j)
     marked = (pressure > 0) | (other > 0)
     fields = {"Pressure": np.asarray(pressure - other)}
     units = {"Pressure": fitting("Pa", _largest(fields["Pressure"]))}
     for name in result.body_names:
         if name in first.body_names and not result.body(name).swept:
-            worn, other = result.wear_depth(name, i), first.wear_depth(name, j)
+            worn = result.field("wear_depth", i, name)
+            other = first.field("wear_depth", j, name)
             marked |= scar_mask(worn) | scar_mask(other)
             if np.any(worn != other):
                 what = f"Wear depth of {name}"

@@ -36,7 +36,7 @@ def pressure_overlay(results: Results, time: float) -> Figure:
     CaseError
         If one has no save then.
     """
-    pressures = [result.pressure(result.save_at(time)) for result in results.values()]
+    pressures = [result.field("pressure", result.save_at(time)) for result in results.values()]
     grids = [result.grid for result in results.values()]
     fields = [(grid, field, field > 0) for grid, field in zip(grids, pressures, strict=True)]
     highest = max(float(np.max(field)) for field in pressures)
@@ -133,11 +133,11 @@ def _pictures(results: Results, time: float) -> dict[str, Callable[[], Figure]]:
             np.any(removed(result, name)[result.save_at(time)] > 0) for result in results.values()
         ):
             pictures[f"{name}_{time:g}s"] = partial(profile_overlay, results, name, time)
-    pressure = first.pressure(first.save_at(time))
+    pressure = first.field("pressure", first.save_at(time))
     for number, (label, result) in enumerate(results.items(), start=1):
         if (result.grid.size, result.grid.cells) != (first.grid.size, first.grid.cells):
             continue
-        if np.any(result.pressure(result.save_at(time)) != pressure):
+        if np.any(result.field("pressure", result.save_at(time)) != pressure):
             pictures[f"difference_{number}_{time:g}s"] = partial(
                 difference_map, results, label, time
             )

@@ -57,7 +57,7 @@ def pressure_map(result: Result, save: int = -1) -> Figure:
     CaseError
         If there is no such save.
     """
-    pressure, hertz = result.pressure(save), hertz_contact(result.system)
+    pressure, hertz = result.field("pressure", save), hertz_contact(result.system)
     highest = float(np.max(pressure))
     unit = fitting("Pa", highest)
     title = f"t = {time_labels(result.times)[save]}"
@@ -99,7 +99,7 @@ def pressure_sections(result: Result) -> Figure:
     count = number_of_saves(result)
     grid, hertz, cap = result.grid, hertz_contact(result.system), result.system.cap
     reach = _reach(hertz)
-    fields = [result.pressure(i) for i in range(count)]
+    fields = [result.field("pressure", i) for i in range(count)]
     touched = np.asarray(np.any([field > 0 for field in fields], axis=0))
     shown = [(grid, field, touched) for field in fields]
     sections = [through_centre(axis, shown, reach[axis]) for axis in (0, 1)]

@@ -103,7 +103,7 @@ def worn_section(result: Result) -> Figure:
         if not body.swept:
             marked |= scar_mask(depth)
     if not marked.any():
-        marked = result.pressure(last) > 0
+        marked = result.field("pressure", last) > 0
     top, bottom = upper.surface(last), lower.surface(last)
     lift = float(np.max(top + bottom))
     surfaces, looks, labels = [lift - top, bottom], [WORN, WORN], ["worn", ""]

@@ -68,7 +68,9 @@ def _profiles(result: Result, axis: int) -> dict[str, Array]:
     columns: dict[str, Array] = {
         "time_s": np.repeat(times, len(position)),
         f"{'xy'[axis]}_m": np.tile(position, len(times)),
-        "pressure_Pa": _stacked(profile(result.pressure(i), axis) for i in range(len(times))),
+        "pressure_Pa": _stacked(
+            profile(result.field("pressure", i), axis) for i in range(len(times))
+        ),
     }
     for name in result.body_names:
         body = result.body(name)

@@ -188,32 +188,26 @@ class Result:
         """Names of the bodies in the order of the case."""
         return tuple(self.case["bodies"])
 
-    def pressure(self, save: int) -> Array:
-        """Return the contact pressure at a save, shape (nx, ny), in Pa.
+    def field(self, name: str, save: int, body: str | None = None) -> Array:
+        """Return a field at a save as a NumPy array, shape (nx, ny).
 
-        Saves count from 0; -1 is the last.
-
-        Raises
-        ------
-        CaseError
-            If there is no such save.
-        """
-        return self.contents.read("pressure", checked_save(save, len(self.times), self.name))
-
-    def wear_depth(self, body: str, save: int) -> Array:
-        """Return the worn depth of a body at a save, shape (nx, ny), in m.
-
-        Saves count from 0; -1 is the last.
+        Parameters
+        ----------
+        name : str
+            The variable, as ``"pressure"`` or ``"wear_depth"``.
+        save : int
+            Saves count from 0; -1 is the last.
+        body : str, optional
+            Whose, of a variable that each body has.
 
         Raises
         ------
         CaseError
             If there is no such body or save.
         """
-        index = self._index(body)
-        return self.contents.read(
-            "wear_depth", checked_save(save, len(self.times), self.name), index
-        )
+        bodies = () if body is None else (self._index(body),)
+        save = checked_save(save, len(self.times), self.name)
+        return self.contents.read(name, save, *bodies)
 
     def save_at(self, time: float) -> int:
         """Return the index of the save at `time`.

@@ -71,11 +71,11 @@ def differences(result: Result, reference: Result, time: float) -> list[Differen
     """
     whole = same_grid(result, reference)
     save, of_reference = result.save_at(time), reference.save_at(time)
-    fields = {PRESSURE: (result.pressure(save), reference.pressure(of_reference))}
+    fields = {PRESSURE: (result.field("pressure", save), reference.field("pressure", of_reference))}
     for name in reference.body_names:
         fields[f"bodies.{name}.wear_depth"] = (
-            result.wear_depth(name, save),
-            reference.wear_depth(name, of_reference),
+            result.field("wear_depth", save, name),
+            reference.field("wear_depth", of_reference, name),
         )
     found = []
     for field, (values, expected) in fields.items():

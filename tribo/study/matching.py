@@ -24,10 +24,12 @@ class Renamed(Result):
         """Names that the bodies go by."""
         return tuple(self.names)
 
-    def wear_depth(self, body: str, save: int) -> Array:
-        """Return the worn depth of a body; see `Result.wear_depth`."""
-        self._check_body(body)
-        return self.result.wear_depth(self.names[body], save)
+    def field(self, name: str, save: int, body: str | None = None) -> Array:
+        """Return a field at a save; see `Result.field`."""
+        if body is not None:
+            self._check_body(body)
+            body = self.names[body]
+        return self.result.field(name, save, body)
 
     def body(self, name: str) -> BodyResult:
         """Return what is kept of a body; see `Result.body`."""

@@ -44,7 +44,7 @@ def test_bodies_that_share_a_temperature_lose_the_same_volume():
 def faster(data, save):
     """By what Arrhenius multiplies the rate at a save, for the ball."""
     with Simulation(data).run() as result:
-        pressure = result.pressure(save)
+        pressure = result.field("pressure", save)
     model = Simulation(data).model
     conditions = ContactConditions(
         grid=model.grid,
