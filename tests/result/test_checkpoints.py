@@ -112,6 +112,26 @@ def test_where_nothing_is_sound_resume_says_what_is_damaged(killed, names):
     assert "tribo run --force" in str(raised.value)
 
 
+def test_what_a_killed_run_has_saved_is_not_shown_where_it_is_damaged(killed):
+    flip(RunFolder(killed).part(0), 2000)
+    with pytest.raises(CaseError, match=r"saved cannot be read: .*000000\.part is d"):
+        Result.open(killed)
+
+
+def test_a_run_that_ends_while_it_is_opened_is_read_whole(killed, monkeypatch, undisturbed):
+    read = RunFolder.read_checkpoint
+
+    def ends(folder):
+        monkeypatch.setattr(RunFolder, "read_checkpoint", read)
+        kept = read(folder)
+        simulation().resume(killed).close()
+        return kept
+
+    monkeypatch.setattr(RunFolder, "read_checkpoint", ends)
+    with Result.open(killed) as result:
+        assert everything(result) == undisturbed
+
+
 def test_a_damaged_result_is_not_resumed(killed):
     flip(killed, 5000)
     with pytest.raises(CaseError, match="is damaged"):
@@ -124,7 +144,7 @@ def test_a_checkpoint_of_another_version_of_tribo_is_refused(killed):
     data = _load(folder.synced)
     data["state"]["invariants"]["unheard_of"] = 1.0
     _store(folder.synced, data, sync=False)
-    with pytest.raises(CaseError, match=r"no checkpoint.*another version.*unheard_of"):
+    with pytest.raises(CaseError, match=r"cannot be read.*another version.*unheard_of"):
         simulation().resume(killed)
 
 
@@ -132,7 +152,7 @@ def test_parts_that_do_not_fit_their_checkpoint_are_refused(killed):
     folder = RunFolder(killed)
     folder.last.unlink()
     shutil.copy(folder.part(1), folder.part(0))
-    with pytest.raises(CaseError, match="parts are those of another run"):
+    with pytest.raises(CaseError, match=r"parts are those of another run"):
         simulation().resume(killed)
 
 

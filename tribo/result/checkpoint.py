@@ -124,6 +124,11 @@ class RunFolder:
         # An open file cannot be removed everywhere.
         shutil.rmtree(self.path, ignore_errors=True)
 
+    @property
+    def has_checkpoint(self) -> bool:
+        """Whether there is a checkpoint, sound or not."""
+        return self.last.exists() or self.synced.exists()
+
     def parts(self, count: int) -> Iterator[Part]:
         """Read the first parts, one after the other."""
         return (_load(self.part(number)) for number in range(count))

@@ -24,20 +24,25 @@ def contents_of(path: Path) -> Contents:
     if contents.header.status != "running":
         return contents
     folder = RunFolder(path.resolve())
-    if not folder.path.is_dir():
-        # The run may have ended since.
-        contents.close()
-        return contents_of_file(path)
     try:
         checkpoint = folder.read_checkpoint()
-    except CaseError:
+        if checkpoint.case != fingerprint(contents.header.case):
+            return contents
+        notices = [str(notice) for notice in checkpoint.state.notices]
+        frame = contents.frame().with_header(notices=notices)
+        so_far = contents_in_memory(frame, folder.parts(checkpoint.parts), str(path))
+    except (CaseError, OSError) as error:
+        contents.close()
+        # The run may have ended since, and taken its folder with it.
+        contents = contents_of_file(path)
+        if contents.header.status == "running" and folder.has_checkpoint:
+            raise CaseError(
+                f"{path}: what its run has saved cannot be read: {error}; start again with "
+                "'tribo run --force'"
+            ) from error
         return contents
-    if checkpoint.case != fingerprint(contents.header.case):
-        return contents
-    notices = [str(notice) for notice in checkpoint.state.notices]
-    frame = contents.frame().with_header(notices=notices)
     contents.close()
-    return contents_in_memory(frame, folder.parts(checkpoint.parts), str(path))
+    return so_far
 
 
 def contents_of_file(path: Path) -> Contents:
