@@ -25,6 +25,8 @@ from tribo.result.sealed import write_sealed
 if TYPE_CHECKING:
     import xarray as xr
 
+    from tribo.lab.report import LabReport
+
 SAME_TIME = 1e-9
 """How far a time may be off that of a save, relative to the last one."""
 _LISTED = 8
@@ -302,6 +304,24 @@ class Result:
             "invariants": dict(self.worst()),
             "saves": self._saves_with_ranges(),
         }
+
+    def report(self) -> LabReport:
+        """Return what a laboratory would measure of the result."""
+        from tribo.lab.report import lab_report
+
+        return lab_report(self)
+
+    def plot(self, folder: str | Path, suffix: str = "png") -> list[Path]:
+        """Write every picture that makes sense for the result, as ``tribo plot`` does."""
+        from tribo.plotting.figures import save_figures
+
+        return save_figures(self, Path(folder), suffix)
+
+    def _repr_html_(self) -> str:
+        """Show the lab table and the pressure in a notebook."""
+        from tribo.cli.notebook import html
+
+        return html(self)
 
     def _saves_with_ranges(self) -> list[dict[str, Any]]:
         rows = self.saves()

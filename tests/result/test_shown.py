@@ -1,0 +1,19 @@
+"""What a result shows of itself."""
+
+import made_results
+
+
+def test_measures_and_plots_are_a_method_away(tmp_path):
+    result = made_results.made()
+    assert set(result.report().bodies) == {"ball", "disk"}
+    assert {path.name for path in result.plot(tmp_path)} >= {"pressure_map.png", "wear_history.png"}
+
+
+def test_a_notebook_shows_the_lab_table_and_a_picture():
+    shown = made_results.made()._repr_html_()
+    assert "specific wear rate" in shown
+    assert '<img src="data:image/png;base64,' in shown
+
+
+def test_a_result_without_a_save_shows_what_it_is():
+    assert "Result" in made_results.made(times=())._repr_html_()

@@ -1,0 +1,24 @@
+"""A result as a notebook shows it."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from html import escape
+from io import BytesIO, StringIO
+
+from tribo.cli.console import Console
+from tribo.cli.report import print_report
+from tribo.plotting.pressure import pressure_sections
+from tribo.result.read import Result
+
+
+def html(result: Result) -> str:
+    """Return the lab table of a result and a picture of its pressure, as HTML."""
+    if not len(result.times):
+        return f"<pre>{escape(repr(result))}</pre>"
+    console = Console(record=True, file=StringIO(), width=80, force_jupyter=False)
+    print_report(result, console)
+    table = console.export_html(inline_styles=True, code_format="<pre>{code}</pre>")
+    picture = BytesIO()
+    pressure_sections(result).savefig(picture, format="png")
+    return f'{table}<img src="data:image/png;base64,{b64encode(picture.getvalue()).decode()}">'
