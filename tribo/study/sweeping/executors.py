@@ -14,7 +14,7 @@ from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from functools import partial
 from multiprocessing import get_context
-from multiprocessing.connection import Connection, wait
+from multiprocessing.connection import wait
 from typing import Any, ParamSpec, TypeVar
 
 from tribo.core.errors import CaseError, TriboWarning
@@ -93,7 +93,7 @@ def on_scheduler(address: str, patience: float = PATIENCE) -> Iterator[Executor]
 class _Processes(ThreadPoolExecutor):
     """Threads with a process each, so that the death of one costs only its own call."""
 
-    def __init__(self, count: int, lifeline: Connection) -> None:
+    def __init__(self, count: int, lifeline: Any) -> None:
         super().__init__(count)
         self._mine = threading.local()
         self._pools: list[ProcessPoolExecutor] = []
@@ -123,7 +123,9 @@ class _Processes(ThreadPoolExecutor):
 
 
 def _cores() -> int:
-    return len(os.sched_getaffinity(0)) if sys.platform == "linux" else os.cpu_count() or 1
+    if sys.platform == "linux":
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
 
 
 @contextmanager
@@ -144,7 +146,7 @@ def _environment() -> Iterator[None]:
         os.environ.update(before)
 
 
-def _begin(lifeline: Connection) -> None:
+def _begin(lifeline: Any) -> None:
     """Prepare a process: its parent hears Ctrl-C, and it does not outlive its parent."""
 
     def end() -> None:
