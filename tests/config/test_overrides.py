@@ -104,3 +104,7 @@ def test_a_malformed_override_is_refused(override: str, message: str) -> None:
     with pytest.raises(CaseError) as caught:
         changed(override)
     assert message in str(caught.value)
+
+
+def test_one_text_stands_for_a_list_of_one():
+    assert apply_settings({}, "load.normal=50") == {"load": {"normal": 50}}

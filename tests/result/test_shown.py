@@ -1,6 +1,9 @@
 """What a result shows of itself."""
 
 import made_results
+import pytest
+
+from tribo import CaseError
 
 
 def test_measures_and_plots_are_a_method_away(tmp_path):
@@ -17,3 +20,11 @@ def test_a_notebook_shows_the_lab_table_and_a_picture():
 
 def test_a_result_without_a_save_shows_what_it_is():
     assert "Result" in made_results.made(times=())._repr_html_()
+
+
+def test_a_misspelt_variable_is_not_called_damage():
+    result = made_results.made()
+    with pytest.raises(CaseError, match="did you mean 'pressure'"):
+        result.field("presure", -1)
+    with pytest.raises(AttributeError, match="did you mean 'pressure'"):
+        result.presure  # noqa: B018

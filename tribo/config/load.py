@@ -28,7 +28,7 @@ _DEFAULT_TYPES = {"contact": "dcfft", "stepping": "implicit"}
 
 
 def load_case(
-    path: str | Path, *, overrides: Sequence[str] = (), registry: Registry | None = None
+    path: str | Path, *, overrides: Sequence[str] | str = (), registry: Registry | None = None
 ) -> Case:
     """Read a case from a TOML file.
 
@@ -36,7 +36,7 @@ def load_case(
     ----------
     path : str or Path
         The file.
-    overrides : sequence of str
+    overrides : sequence of str, or str
         Changes to it, as ``"load.normal=50"``; see `apply_settings`.
     registry : Registry, optional
         Where to look components up; the installed plugins if left out.

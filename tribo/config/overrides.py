@@ -17,7 +17,7 @@ from tribo.core.words import shown
 
 
 def apply_settings(
-    data: Mapping[str, Any], settings: Mapping[str, Any] | Sequence[str]
+    data: Mapping[str, Any], settings: Mapping[str, Any] | Sequence[str] | str
 ) -> dict[str, Any]:
     """Return `data` with values replaced.
 
@@ -29,9 +29,10 @@ def apply_settings(
     ----------
     data : Mapping
         Tables as read from TOML; left unchanged.
-    settings : Mapping or sequence of str
+    settings : Mapping, sequence of str or str
         Values by path, as TOML would give them, or texts ``"path=value"``, as
-        ``"effects.0.rate=2"``, whose value is read as TOML or else as text.
+        ``"effects.0.rate=2"``, whose value is read as TOML or else as text;
+        one text stands for a list of one.
         Missing tables are added; unknown keys are left to the validation.
 
     Raises
@@ -41,6 +42,8 @@ def apply_settings(
         not a table.
     """
     check_depth(data, "the case")
+    if isinstance(settings, str):
+        settings = [settings]
     pairs = settings.items() if isinstance(settings, Mapping) else map(_pair, settings)
     changes = [(path_keys(path), value) for path, value in pairs]
     for keys, value in changes:

@@ -15,6 +15,7 @@ from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError
 from tribo.core.fields import Field
 from tribo.core.grid import Grid
+from tribo.core.words import did_you_mean, suggestion
 from tribo.result.body import BodyResult, checked_save
 from tribo.result.columns import BODY_COLUMNS, COLUMNS, INVARIANTS, labelled
 from tribo.result.hdf5 import Contents, hdf5_image
@@ -118,7 +119,8 @@ class Result:
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_") or name not in self._variables:
-            raise AttributeError(f"a result has no {name!r}")
+            meant = suggestion(did_you_mean(name, dir(self)))
+            raise AttributeError(f"a result has no {name!r}{meant}")
         return self.dataset[name]
 
     def __dir__(self) -> list[str]:
@@ -205,8 +207,11 @@ class Result:
         Raises
         ------
         CaseError
-            If there is no such body or save.
+            If there is no such variable, body or save.
         """
+        if name not in self._variables:
+            meant = suggestion(did_you_mean(name, self._variables))
+            raise CaseError(f"a result has no variable {name!r}{meant}")
         bodies = () if body is None else (self._index(body),)
         save = checked_save(save, len(self.times), self.name)
         return self.contents.read(name, save, *bodies)
