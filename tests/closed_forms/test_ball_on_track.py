@@ -1,14 +1,11 @@
-"""The rigid-limit ball on a track: known figures, rows integrated in time, a run on springs."""
+"""The rigid-limit ball on a track: known figures, and rows integrated in time."""
 
 import numpy as np
 import pytest
-from paper_models import archard, flat, foundation, last, motion, named, paraboloid, small, steel
 from scipy.integrate import solve_ivp
 
-from tribo import Grid
 from tribo.closed_forms import ball_wear
 from tribo.closed_forms.ball_on_track import ball_on_track, track_profile
-from tribo.core.measures import half_widths
 
 EQUAL = {
     "load": 100.0,
@@ -90,32 +87,6 @@ def test_against_the_rows_integrated_in_time(case):
     # 3e-6 is what is left by rows of 0.65 µm, cut by the contact's border.
     assert end[1] == pytest.approx(worn.flat_depth[0], rel=2e-5)
     assert end[0] - end[1] == pytest.approx(worn.ball_depth[0], rel=2e-5)
-
-
-@pytest.mark.slow
-def test_against_a_run_on_stiff_springs():
-    """Nothing assumed about the pressure's shape; springs give by 4e-5 of the depth at the end."""
-    bodies = [
-        named("ball", paraboloid(), steel(), archard()),
-        named("disk", flat(), steel(), archard()),
-    ]
-    grid = Grid((1.32e-3, 1.32e-3), (120, 120))
-    hour = motion(duration=3600)
-    model = small(grid=grid, bodies=bodies, contact=foundation(modulus=1e17), kinematics=hour)
-    state = last(model)
-    worn = ball_on_track([360.0], **EQUAL)
-    ball, groove = state.bodies["ball"].wear, state.bodies["disk"].wear
-    # Cells of 11 µm leave 2e-4 in the shape.
-    assert ball.max() == pytest.approx(worn.ball_depth[0], rel=1e-3, abs=0)
-    assert groove.max() == pytest.approx(worn.flat_depth[0], rel=1e-3, abs=0)
-    along, across = half_widths(state.contact, grid)
-    assert along == pytest.approx(worn.half_width_along[0], abs=grid.spacing[0])
-    assert across == pytest.approx(worn.half_width_across[0], abs=grid.spacing[0])
-    pressure = state.contact.pressure[:, 60]
-    inner = pressure[pressure > 0][8:-8]
-    # Uniform along x where the contact has not just grown; backward Euler lags a little.
-    assert np.ptp(inner) < 1e-3 * inner.mean()
-    assert inner.mean() == pytest.approx(worn.centre_pressure[0], rel=0.02)
 
 
 def test_order_and_shape_of_the_distances():

@@ -1,12 +1,10 @@
-"""Punch, cone, disc, wave and yield: closed forms against integrals of themselves."""
+"""Punch, cone and wave: closed forms against integrals of themselves."""
 
 import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from tribo.closed_forms import cone, disc, punch, sinusoid
-from tribo.contact.operator import HalfSpace
-from tribo.core.grid import Grid
+from tribo.closed_forms import cone, punch, sinusoid
 
 MODULUS = 113.736e9
 
@@ -42,40 +40,12 @@ def test_cone_pressure_carries_the_load_and_bends_the_surface():
     assert contact.mean_pressure == pytest.approx(50.0 / (np.pi * a**2), rel=1e-12)
 
 
-def test_disc_displacement_is_the_sum_of_loves_over_its_cells():
-    n, p = 201, 1e9
-    grid = Grid((4e-4, 4e-4), (n, n))
-    r = np.hypot(*grid.mesh)
-    inside = r < 1e-4
-    drawn = np.sqrt(np.count_nonzero(inside) * grid.cell_area / np.pi)
-    u = HalfSpace(grid.cells, grid.spacing, MODULUS).apply(np.where(inside, p, 0.0))
-    for cell in ((100, 100), (100, 130), (100, 190), (190, 190)):
-        # Half a cell of staircase around the disc averages out.
-        assert u[cell] == pytest.approx(disc.displacement(r[cell], p, drawn, MODULUS), rel=2e-4)
-
-
-def test_disc_displacement_has_its_known_mean_and_is_continuous():
-    p, a = 1e9, 1e-4
-    edge = disc.displacement([a, a * (1 + 1e-12)], p, a, MODULUS)
-    assert edge[1] == pytest.approx(edge[0], rel=1e-9, abs=0)
-    mean, _ = quad(
-        lambda r: 2 * r / a**2 * float(disc.displacement(r, p, a, MODULUS)), 0, a, epsabs=0
-    )
-    # Mean displacement of a uniformly loaded disc, 16pa/3πE* (Johnson 1985, section 3.4).
-    assert mean == pytest.approx(16 * p * a / (3 * np.pi * MODULUS), rel=1e-9, abs=0)
-
-
 def test_sinusoid_wears_as_its_equation_says():
     q = 2 * np.pi / 1e-4
     compliance = sinusoid.compliance(q, MODULUS)
     k, s = 3.11e-16, 2.0
     left = sinusoid.worn_amplitude(s, k, compliance)
     assert left == pytest.approx(np.exp(-k * MODULUS * q * s / 2), rel=1e-12, abs=0)
-    steps = 20_000
-    for factor in (sinusoid.explicit_euler_factor, sinusoid.implicit_euler_factor):
-        # First order: the relative error is (ks/K̂)²/2n.
-        bound = 0.6 * (k * s / float(compliance)) ** 2 / steps
-        assert float(factor(s / steps, k, compliance)) ** steps == pytest.approx(left, rel=bound)
 
 
 def test_westergaard_at_0_4_of_complete_contact():
@@ -86,7 +56,7 @@ def test_westergaard_at_0_4_of_complete_contact():
     assert contact.peak_pressure / contact.complete == pytest.approx(1.2649, abs=5e-5)
 
 
-@pytest.mark.parametrize("ratio", [0.05, 0.4, 0.99, 1.5])
+@pytest.mark.parametrize("ratio", [0.4, 1.5])
 def test_westergaard_pressure_carries_the_load(ratio):
     complete = np.pi * MODULUS * 1e-6 / 1e-4
     contact = sinusoid.westergaard(ratio * complete, 1e-6, 1e-4, MODULUS)

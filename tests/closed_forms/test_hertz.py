@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from contact_problems import HARDNESS, MODULUS, RADIUS, problem, solver
+from contact_problems import HARDNESS, MODULUS, RADIUS
 
 from tribo.closed_forms import hertz
-from tribo.core.grid import Grid
 
 
 def test_ball_of_the_paper() -> None:
@@ -48,20 +47,7 @@ def test_load_at_which_the_peak_reaches_the_hardness() -> None:
     assert hertz.first_yield_pressure(HARDNESS) == pytest.approx(2.2857e9, rel=1e-4)
 
 
-@pytest.mark.parametrize("curvature", [0.0, -1.0, float("nan")])
+@pytest.mark.parametrize("curvature", [0.0, float("nan")])
 def test_point_contact_needs_convex_gaps(curvature: float) -> None:
     with pytest.raises(ValueError, match="curvature_y"):
         hertz.point(MODULUS, 100.0, 200.0, curvature)
-
-
-def test_middle_of_a_long_cylinder_is_a_line_contact() -> None:
-    # The window ends the cylinder, where pressure rises; the middle section, twenty
-    # half-widths away, is judged by the line load it carries itself.
-    size, cells = (0.3e-3, 3e-3), (96, 120)
-    x, y = Grid(size, cells).mesh
-    pressure = solver().solve(problem(x**2 / (2 * RADIUS) + 0 * y, size, 300.0)).pressure
-    middle = pressure[:, 59]
-    exact = hertz.line(MODULUS, middle.sum() * size[0] / cells[0], 1 / RADIUS)
-    extent = 0.5 * np.count_nonzero(middle) * size[0] / cells[0]
-    assert middle.max() == pytest.approx(exact.peak_pressure, rel=2e-3)
-    assert extent == pytest.approx(exact.half_width, abs=size[0] / cells[0])

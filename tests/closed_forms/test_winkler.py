@@ -10,14 +10,6 @@ STIFFNESS = 1.2973e15  # 16E*/3πa of the steel case, to five digits
 CASE = {"load": 100.0, "radius": 5e-3, "stiffness": STIFFNESS, "wear_coefficient": 3.11e-16}
 
 
-def test_the_unworn_line_carries_its_load():
-    contact = winkler.line(1e5, 5e-3, STIFFNESS)
-    a = contact.half_width
-    carried, _ = quad(lambda x: STIFFNESS * (contact.approach - x**2 / 1e-2), -a, a)
-    assert carried == pytest.approx(1e5, rel=1e-10)
-    assert contact.pressure == pytest.approx(0.75 * 1e5 / a, rel=1e-12)
-
-
 def test_worn_radius_has_the_known_values():
     a = winkler.worn_sphere_half_width([1.0, 20.0, 360.0], **CASE)
     # K_w is given to five digits, and enters the first radius to the power 1/4.
@@ -64,11 +56,3 @@ def test_worn_pressure_survives_long_sliding():
     a = winkler.worn_sphere_half_width(1e7, **CASE)
     # All of the load is then on a flat face; what is left of the start fades as 1/s.
     assert p == pytest.approx(100.0 / (np.pi * a**2), rel=1e-6)
-
-
-def test_worn_line_starts_from_the_unworn_one_and_wears_its_section():
-    kwargs = {"line_load": 1e5, "radius": 5e-3, "stiffness": STIFFNESS, "wear_coefficient": 3e-16}
-    start, late = winkler.worn_line_half_width([0.0, 1e5], **kwargs)
-    assert start == pytest.approx(winkler.line(1e5, 5e-3, STIFFNESS).half_width, rel=1e-12, abs=0)
-    # The elastic part is 1/(k K_w s) = 3e-5 of the section, a third of it in the width.
-    assert 2 * late**3 / (3 * 5e-3) == pytest.approx(3e-16 * 1e5 * 1e5, rel=5e-5)

@@ -1,8 +1,8 @@
-"""A ball, a cylinder or a cone that alone wears against a hard flat, by Archard's law.
+"""A ball that alone wears against a hard flat, by Archard's law.
 
 In the rigid limit elastic displacement is small beside the worn depth, the
-worn face is flat, and its shape follows from the worn volume V = kFs. Profiles
-are parabolic: half-widths must stay small beside the radius.
+worn face is flat, and its radius follows from the worn volume V = kFs. The
+profile is parabolic: the contact must stay small beside the radius.
 
 References
 ----------
@@ -27,7 +27,7 @@ class WornFace:
     Parameters
     ----------
     half_width : ndarray
-        Radius of the face, or its half-width on a cylinder, in m.
+        Radius of the face, in m.
     depth : ndarray
         Worn depth at the centre, in m.
     pressure : ndarray
@@ -57,7 +57,9 @@ def ball(distance: ArrayLike, *, load: float, radius: float, wear_coefficient: f
     """
     given = {"load": load, "radius": radius, "wear_coefficient": wear_coefficient}
     a = elastic_ball_half_width(distance, **given, initial_half_width=0.0)
-    return WornFace(a, a**2 / (2.0 * radius), _over(load, np.pi * a**2))
+    with np.errstate(divide="ignore"):
+        pressure = np.asarray(load / (np.pi * a**2))
+    return WornFace(a, a**2 / (2.0 * radius), pressure)
 
 
 def elastic_ball_half_width(
@@ -87,35 +89,3 @@ def elastic_ball_half_width(
     """
     volume = wear_coefficient * load * np.asarray(distance, dtype=float)
     return np.asarray((initial_half_width**4 + 4.0 * radius * volume / np.pi) ** 0.25)
-
-
-def cylinder(
-    distance: ArrayLike, *, line_load: float, radius: float, wear_coefficient: float
-) -> WornFace:
-    """Wear a cylinder along a generator, rigid limit.
-
-    a = (3RkF's/2)^⅓, h = a²/2R, p = F'/2a, with the load per length F', in N/m; other
-    parameters as for `ball`.
-    """
-    area = wear_coefficient * line_load * np.asarray(distance, dtype=float)
-    a = np.asarray((1.5 * radius * area) ** (1.0 / 3.0))
-    return WornFace(a, a**2 / (2.0 * radius), _over(line_load, 2.0 * a))
-
-
-def cone(
-    distance: ArrayLike, *, load: float, semi_angle: float, wear_coefficient: float
-) -> WornFace:
-    """Wear the tip of a cone, rigid limit.
-
-    a = (3kFs tan α/π)^⅓, h = a cot α, p = F/πa², with the angle α between axis and flank,
-    in rad; other parameters as for `ball`.
-    """
-    volume = wear_coefficient * load * np.asarray(distance, dtype=float)
-    tan = np.tan(semi_angle)
-    a = np.asarray((3.0 * volume * tan / np.pi) ** (1.0 / 3.0))
-    return WornFace(a, a / tan, _over(load, np.pi * a**2))
-
-
-def _over(load: float, area: Array) -> Array:
-    with np.errstate(divide="ignore"):
-        return np.asarray(load / area)

@@ -63,29 +63,6 @@ def worn_amplitude(distance: ArrayLike, wear_coefficient: float, compliance: Arr
     return np.asarray(np.exp(-wear_coefficient * np.asarray(distance) / np.asarray(compliance)))
 
 
-def explicit_euler_factor(step: float, wear_coefficient: float, compliance: ArrayLike) -> Array:
-    """Factor of a pressure mode in one explicit Euler step, 1 − kΔs/K̂.
-
-    The step is stable as long as Δs < 2K̂/k for the smallest K̂.
-
-    Parameters
-    ----------
-    step : float
-        Sliding distance Δs of the step, in m.
-    wear_coefficient, compliance
-        As for `worn_amplitude`.
-    """
-    return np.asarray(1.0 - wear_coefficient * step / np.asarray(compliance, dtype=float))
-
-
-def implicit_euler_factor(step: float, wear_coefficient: float, compliance: ArrayLike) -> Array:
-    """Factor of a pressure mode in one implicit Euler step, 1/(1 + kΔs/K̂).
-
-    Parameters are those of `explicit_euler_factor`.
-    """
-    return np.asarray(1.0 / (1.0 + wear_coefficient * step / np.asarray(compliance, dtype=float)))
-
-
 @dataclass(frozen=True)
 class Westergaard:
     """A rigid wavy surface, Δ cos(2πx/λ), pressed on a half-space.

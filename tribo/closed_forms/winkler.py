@@ -1,7 +1,7 @@
-"""A sphere and a cylinder on a Winkler foundation, unworn and worn.
+"""A sphere on a Winkler foundation, unworn and worn.
 
 The foundation answers an overlap u with the pressure p = K_w u, point by
-point. Profiles are parabolic, h = r²/2R, so half-widths must stay small
+point. The profile is parabolic, h = r²/2R, so the contact must stay small
 beside the radius. A sphere on K_w = 16E*/3πa has the contact radius a of Hertz,
 4/3 of his peak pressure and half of his approach.
 
@@ -30,7 +30,7 @@ class WinklerContact:
     Parameters
     ----------
     half_width : float
-        Contact radius, or half-width of a line contact, in m.
+        Contact radius, in m.
     pressure : float
         Pressure at the centre, in Pa.
     approach : float
@@ -57,25 +57,6 @@ def sphere(load: float, radius: float, stiffness: float) -> WinklerContact:
     WinklerContact
     """
     a = (4.0 * radius * load / (np.pi * stiffness)) ** 0.25
-    approach = a**2 / (2.0 * radius)
-    return WinklerContact(a, stiffness * approach, approach)
-
-
-def line(line_load: float, radius: float, stiffness: float) -> WinklerContact:
-    """Press a rigid cylinder on a Winkler foundation.
-
-    F' = 2 K_w a³/3R, p0 = K_w a²/2R = 3F'/4a, δ = a²/2R.
-
-    Parameters
-    ----------
-    line_load, radius, stiffness : float
-        Load per length F', in N/m; radius R, in m; foundation stiffness K_w, in Pa/m.
-
-    Returns
-    -------
-    WinklerContact
-    """
-    a = (1.5 * radius * line_load / stiffness) ** (1.0 / 3.0)
     approach = a**2 / (2.0 * radius)
     return WinklerContact(a, stiffness * approach, approach)
 
@@ -108,23 +89,6 @@ def worn_sphere_half_width(
     """
     compliance = wear_coefficient * np.asarray(distance, dtype=float) + 1.0 / stiffness
     return np.asarray((4.0 * radius * load * compliance / np.pi) ** 0.25)
-
-
-def worn_line_half_width(
-    distance: ArrayLike,
-    *,
-    line_load: float,
-    radius: float,
-    stiffness: float,
-    wear_coefficient: float,
-) -> Array:
-    """Half-width of a line contact whose cylinder alone wears, by Archard's law.
-
-    a = [3RF'(ks + 1/K_w)/2]^⅓, by the argument of `worn_sphere_half_width`, whose
-    other parameters it has; `line_load` is F', in N/m.
-    """
-    compliance = wear_coefficient * np.asarray(distance, dtype=float) + 1.0 / stiffness
-    return np.asarray((1.5 * radius * line_load * compliance) ** (1.0 / 3.0))
 
 
 def worn_sphere_pressure(

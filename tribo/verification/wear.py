@@ -128,8 +128,9 @@ def _full_contact(steps: int, placement: float, *, explicit: bool) -> list[Row]:
     model = on_flat(Shape(heights=_wave), grid, periodic(1e-12), load=5.0)
     _, state = slide(model, distance, steps, explicit=explicit)
     left = float(np.ptp(_wave(grid) - state.bodies["ball"].wear)) / float(np.ptp(_wave(grid)))
-    factor = sinusoid.explicit_euler_factor if explicit else sinusoid.implicit_euler_factor
-    stepwise = float(factor(distance / steps, K, compliance)) ** steps
+    # What one step of Euler's leaves, with k Δs/K of it worn.
+    part = K * distance / steps / compliance
+    stepwise = (1 - part if explicit else 1 / (1 + part)) ** steps
     exact, by_factor = float(sinusoid.worn_amplitude(distance, K, compliance)), "by Euler's factor"
     return [
         Row("amplitude left", "1", exact, left, 1e-2, 1.0),
