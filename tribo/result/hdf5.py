@@ -63,7 +63,7 @@ class Frame:
         return replace(self, header=self.header.model_copy(update=changes))
 
 
-def hdf5_image(frame: Frame, parts: Iterable[Part]) -> BytesIO:
+def hdf5_image(frame: Frame, parts: Iterable[Part], saves: int, steps: int) -> BytesIO:
     """Return a whole file in memory: HDF5 may crash where it meets a full disk.
 
     Parameters
@@ -72,44 +72,50 @@ def hdf5_image(frame: Frame, parts: Iterable[Part]) -> BytesIO:
         What does not grow.
     parts : iterable of Mapping
         What does, in order.
+    saves, steps : int
+        How many rows all parts have.
     """
-    import h5netcdf
-
     bodies = list(frame.header.case["bodies"])
+    nx, ny = frame.arrays["height"].shape[1:]
+    sizes = {"body": len(bodies), "time": saves, "step": steps, "x": nx, "y": ny}
+    arrays = {**frame.arrays, "step": np.arange(float(steps))}
     image = BytesIO()
-    with h5netcdf.File(image, "w") as file:
+    with h5py.File(image, "w") as file:
         file.attrs.update(frame.header.attributes())
-        nx, ny = frame.arrays["height"].shape[1:]
-        file.dimensions = {"time": None, "step": None, "body": len(bodies), "x": nx, "y": ny}
-        names = np.array(bodies, object)
-        file.create_variable("body", ("body",), dtype=h5py.string_dtype(), data=names)
+        file["body"] = bodies
         for name, variable in frame.variables.items():
-            _create(file, name, variable, frame.arrays.get(name))
+            _create(file, name, variable, [sizes[dim] for dim in variable.dims], arrays.get(name))
+        # What netCDF takes for the names of the dimensions.
+        for dim in sizes:
+            file[dim].make_scale(dim)
+        for name, variable in frame.variables.items():
+            if name not in sizes:
+                for axis, dim in enumerate(variable.dims):
+                    file[name].dims[axis].attach_scale(file[dim])
         filled = {"time": 0, "step": 0}
         for part in parts:
-            ends = dict(filled)
-            for dim, clock in (("time", "time"), ("step", "history_time")):
-                ends[dim] += len(part.get(clock, ()))
-                if ends[dim] > filled[dim]:
-                    file.resize_dimension(dim, ends[dim])
+            begin = dict(filled)
+            filled["time"] += len(part.get("time", ()))
+            filled["step"] += len(part.get("history_time", ()))
             for name, rows in part.items():
                 dim = frame.variables[name].dims[0]
-                file.variables[name][filled[dim] : ends[dim]] = rows
-            filled = ends
+                file[name][begin[dim] : filled[dim]] = rows
     return image
 
 
-def _create(file: Any, name: str, variable: Variable, values: Array | None) -> None:
-    sizes = [file.dimensions[dim].size for dim in variable.dims]
-    chunks = [_ROWS if variable.grows else sizes[0], *sizes[1:]]
-    if len(sizes) > 2:
+def _create(
+    file: h5py.File, name: str, variable: Variable, shape: list[int], values: Array | None
+) -> None:
+    chunks = [_ROWS if variable.grows else shape[0], *shape[1:]]
+    if len(shape) > 2:
         # One body at one time.
-        chunks[:-2] = [1] * (len(sizes) - 2)
-    created = file.create_variable(
+        chunks[:-2] = [1] * (len(shape) - 2)
+    created = file.create_dataset(
         name,
-        variable.dims,
-        dtype=np.dtype("f8") if values is None else values.dtype,
-        data=values,
+        shape,
+        "f8",
+        values,
+        maxshape=[None if variable.grows else shape[0], *shape[1:]],
         chunks=tuple(chunks),
         fletcher32=True,
         shuffle=True,
@@ -208,7 +214,7 @@ def _variables(file: h5py.File, size: int) -> dict[str, Variable]:
             variables[name] = field_variable(kind, field, map(str, dataset.attrs["bodies"]))
     sizes = {
         dim: file[name].shape[0]
-        for dim, name in (("time", "time"), ("step", "history_time"), ("x", "x"), ("y", "y"))
+        for dim, name in (("time", "time"), ("step", "step"), ("x", "x"), ("y", "y"))
     }
     sizes["body"] = 2
     if not sizes["x"] * sizes["y"]:

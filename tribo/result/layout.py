@@ -63,6 +63,7 @@ def _fixed() -> dict[str, Variable]:
     table = {
         "x": Variable(("x",), "m", "Position along the sliding direction"),
         "y": Variable(("y",), "m", "Position across the sliding direction"),
+        "step": Variable(("step",), "1", "Number of the step"),
         "swept": Variable(("body",), "1", "Whether its points pass through the contact"),
         "density": Variable(("body",), "kg/m^3", "Density", least=0, gaps=True),
         "height": Variable(("body", "x", "y"), "m", "Initial height, outward"),
@@ -95,7 +96,7 @@ def run_variables(run: RunInfo) -> dict[str, Variable]:
     table = dict(FIXED)
     for (kind, field), bodies in fields.items():
         name = field.name
-        while name in table or name in ("body", "step"):
+        while name in table or name == "body":
             name = f"{kind}_{name}"
         table[name] = field_variable(kind, field, bodies)
     return table

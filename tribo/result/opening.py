@@ -30,7 +30,9 @@ def contents_of(path: Path) -> Contents:
             return contents
         notices = [str(notice) for notice in checkpoint.state.notices]
         frame = contents.frame().with_header(notices=notices)
-        so_far = contents_in_memory(frame, folder.parts(checkpoint.parts), str(path))
+        so_far = contents_in_memory(
+            frame, folder.parts(checkpoint.parts), checkpoint.saves, checkpoint.rows, str(path)
+        )
     except (CaseError, OSError) as error:
         contents.close()
         # The run may have ended since, and taken its folder with it.
@@ -62,9 +64,11 @@ def contents_of_file(path: Path) -> Contents:
     return Contents(path, str(path))
 
 
-def contents_in_memory(frame: Frame, parts: Iterable[Part], name: str) -> Contents:
+def contents_in_memory(
+    frame: Frame, parts: Iterable[Part], saves: int, steps: int, name: str
+) -> Contents:
     """Return the contents of a result that is in memory."""
-    return Contents(hdf5_image(frame, parts), name)
+    return Contents(hdf5_image(frame, parts, saves, steps), name)
 
 
 def _is_text(path: Path) -> bool:

@@ -134,7 +134,8 @@ class Result:
         OSError
             If it cannot be written.
         """
-        image = hdf5_image(self.contents.frame(), [self.contents.rows()])
+        rows = self.contents.rows()
+        image = hdf5_image(self.contents.frame(), [rows], len(self.times), len(rows["step"]))
         write_sealed(Path(path), image.getbuffer(), sync=True)
 
     @property

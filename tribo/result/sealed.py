@@ -86,6 +86,6 @@ def check_sealed(path: Path) -> None:
         )
     if end != _MARK + digest.digest():
         raise CaseError(
-            f"{path} is damaged: its checksum does not match. It cannot be trusted; what other "
-            "programs still read of it, as xarray does, is checked field by field"
+            f"{path} is damaged: its checksum does not match. xarray can still read the fields "
+            "whose own checksums match"
         )

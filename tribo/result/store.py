@@ -127,7 +127,9 @@ class ResultWriter:
         """Return the result."""
         if self._path is not None:
             return Result.open(self._path)
-        return Result(contents_in_memory(self._frame, self._parts(), "the result"))
+        return Result(
+            contents_in_memory(self._frame, self._parts(), self.saves, self.rows, "the result")
+        )
 
     def _finish_part(self) -> None:
         part = {**_stacked(self._steps), **_stacked(self._saves)}
@@ -147,7 +149,7 @@ class ResultWriter:
         if self._path is None or self._folder is None:
             return
         fresh = self._folder.path / "result.new"
-        image = hdf5_image(self._frame, parts)
+        image = hdf5_image(self._frame, parts, self.saves, self.rows)
         write_sealed(self._path, image.getbuffer(), fresh=fresh, sync=True)
 
 
