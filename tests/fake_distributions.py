@@ -18,6 +18,23 @@ def tribo_components():
     return [{title}]
 """
 
+LAW = """
+from tribo import Effect, Field, WearLaw, WearRate, hookimpl
+
+WARMTH = Field("warmth", "K", "How warm.")
+
+class Hot(WearLaw):
+    type = "{name}"
+    requires = ()
+
+    def rate(self, local):
+        return WearRate(3e-16 * local.pressure)
+
+@hookimpl
+def tribo_components():
+    return [Hot]
+"""
+
 
 def observer(name: str) -> str:
     """Return the code of a plugin with one observer of this name."""

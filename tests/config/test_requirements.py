@@ -1,10 +1,28 @@
-"""What counts as meeting the requirement of a case."""
+"""What a case requires is installed, in that version and usable, or reading it is refused."""
 
 import pytest
 
+from tribo import CaseError
 from tribo.config.requirements import check_requirements
-from tribo.core.errors import CaseError
 from tribo.registry.plugins import Plugin
+
+
+@pytest.mark.parametrize(
+    ("required", "told"),
+    [
+        ("pytest>=1", ""),
+        ("no-such-thing; python_version < '3'", ""),
+        ("no-such-thing; python_version >= '3'", "no-such-thing is not installed"),
+        ("pytest<1", "pytest is installed in version"),
+    ],
+)
+def test_a_distribution_is_needed_in_its_version_where_its_marker_holds(required, told):
+    if not told:
+        check_requirements([required])
+        return
+    with pytest.raises(CaseError, match=told) as caught:
+        check_requirements([required])
+    assert caught.value.path == "requires"
 
 
 def plugin(module, status, reason=""):

@@ -1,9 +1,5 @@
-from __future__ import annotations
-
 import os
 import sys
-from collections.abc import Iterator
-from pathlib import Path
 from unittest.mock import patch
 
 import pytest
@@ -12,7 +8,7 @@ from tribo.registry.registry import default_registry
 
 
 @pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+def folder(tmp_path, monkeypatch):
     """A folder of distributions that are found as if installed; none stays imported."""
     monkeypatch.syspath_prepend(str(tmp_path))
     default_registry.cache_clear()

@@ -1,19 +1,178 @@
-"""The commands on plugins answer whatever is installed, and keep stdout clean."""
-
-from __future__ import annotations
+"""Commands with plugins installed: sound, broken, deadly, in conflict or turned off."""
 
 import json
+import os
+import subprocess
+import sys
 from importlib import import_module
-from pathlib import Path
 
 import pytest
 from command_line import tribo
-from fake_distributions import OBSERVER, distribute
+from fake_distributions import LAW, OBSERVER, distribute
 
-from tribo.case import Case
+from tribo import Case, Registry, Result
 from tribo.config.schema import json_schema
 from tribo.core.errors import TriboWarning
-from tribo.registry.registry import Registry
+from tribo.registry.registry import default_registry
+from tribo.result import provenance
+from tribo.templates import template
+
+GOOD = LAW.format(name="odd.one")
+CASE = template("ball_on_disk")
+SHORT = ("kinematics.duration=0.1", "output.save_times=[]", "grid.size=0.7 mm", "grid.cells=32")
+SHORT = tuple(word for change in SHORT for word in ("--set", change))
+
+
+def install(folder, distribution="odd", code=GOOD, requires=(), name="odd.one"):
+    module = distribution.replace("-", "_")
+    distribute(folder, distribution, "1.0", {name: module}, requires, **{module: code})
+
+
+def cases(folder):
+    (folder / "plain.toml").write_text(CASE)
+    named = CASE.replace('{ type = "archard", k = "3.11e-16 1/Pa" }', '"odd.one"', 1)
+    assert named != CASE
+    (folder / "named.toml").write_text(named)
+
+
+def asked(folder, *args):
+    """Run a command in the folder with the plugins that are there now."""
+    for kept in (
+        default_registry,
+        provenance._code,
+        provenance._distribution,
+        provenance._named_modules,
+    ):
+        kept.cache_clear()
+    for name in [name for name in sys.modules if (folder / f"{name}.py").exists()]:
+        del sys.modules[name]
+    return tribo(*args, cwd=folder)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("code", ["raise SystemExit(0)", "from numpy import no_such_name"])
+def test_a_broken_plugin_costs_one_line_where_it_is_named_and_nothing_elsewhere(folder, code):
+    cases(folder)
+    install(folder, code=code)
+    plain = asked(folder, "run", "plain.toml", *SHORT)
+    assert (plain.returncode, plain.stderr.count("odd")) == (0, 0)
+    named = asked(folder, "run", "named.toml")
+    assert named.returncode == 2
+    (line,) = named.stderr.splitlines()
+    assert line.startswith("error: bodies.ball.wear: wear law 'odd.one' cannot be used: odd")
+    schema = asked(folder, "schema")
+    assert schema.returncode == 0
+    assert "odd.one" not in schema.stdout
+    assert "odd 1.0 is left out" in schema.stderr
+
+
+@pytest.mark.slow
+def test_the_doctor_tells_of_every_fault_and_none_hurts_a_list_or_a_check(folder, monkeypatch):
+    monkeypatch.setenv("TRIBO_PLUGIN_TIME_LIMIT", "3")
+    install(folder, "endless", "while True: pass", name="odd.endless")
+    install(folder, "needy", requires=["tribo<0.0.1"], name="odd.needy")
+    install(folder, "left", name="odd.both")
+    install(folder, "right", name="odd.both")
+    distribute(folder, "to_be", "1.0", {}, ["tribo>=0.1"])
+    hint, conflict = "to_be 1.0 requires tribo but", "'odd.both' is offered by left 1.0 and right"
+    listed = asked(folder, "plugins", "list", "--json")
+    statuses = {row["name"]: row["status"] for row in json.loads(listed.stdout)}
+    assert statuses["odd.endless"] == "available"
+    assert statuses["odd.both"] == "conflict"
+    assert f"hint: {hint}" in listed.stderr
+    checked = asked(folder, "plugins", "check", "odd.endless")
+    assert checked.returncode == 2
+    assert "endless 1.0, which is broken: its import did not end" in checked.stderr
+    for verb in ("show", "check"):
+        done = asked(folder, "plugins", verb, "odd.both")
+        assert done.returncode == 2
+        assert conflict in done.stderr
+    doctor = asked(folder, "doctor")
+    assert doctor.returncode == 3
+    assert "broken: its import did not end" in doctor.stdout
+    assert "incompatible: it requires tribo<0.0.1" in doctor.stdout
+    assert conflict in doctor.stdout
+    assert f"hint  {hint}" in doctor.stdout
+
+
+@pytest.mark.parametrize(
+    "choice", [["--no-plugin", "odd"], ["--no-plugin", "odd-tribo"], ["--plugins", "none"]]
+)
+def test_a_plugin_turned_off_on_the_command_line_cannot_be_used(folder, choice):
+    cases(folder)
+    install(folder, "odd-tribo")
+    off = asked(folder, *choice, "check", "named.toml")
+    assert off.returncode == 2
+    assert "'odd.one' cannot be used: odd-tribo 1.0 is disabled: " in off.stderr
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("fault", ["entry points", "no metadata", "odd value"])
+def test_a_malformed_distribution_harms_no_other(folder, fault):
+    cases(folder)
+    install(folder)
+    info = folder / "malformed-1.0.dist-info"
+    info.mkdir()
+    if fault != "no metadata":
+        (info / "METADATA").write_text("Metadata-Version: 2.1\nName: malformed\nVersion: 1.0\n")
+    lines = {
+        "entry points": "[console_scripts]\nno equals sign\n",
+        "no metadata": "[tribo]\nmalformed.law = malformed\n",
+        "odd value": "[console_scripts]\nmalformed = not a module !!\n",
+    }
+    (info / "entry_points.txt").write_text(lines[fault])
+    assert asked(folder, "plugins", "list").returncode == 0
+    done = asked(folder, "run", "named.toml", *SHORT)
+    assert done.returncode == 0, done.stderr
+    with Result.open(folder / "named.h5") as result:
+        made = result.provenance["components"]["bodies.ball.wear"]
+        plugins = {(p["distribution"], p["status"]) for p in result.provenance["plugins"]}
+    assert (made["distribution"], made["version"]) == ("odd", "1.0")
+    assert ("odd", "loaded") in plugins
+
+
+@pytest.mark.slow
+def test_another_version_of_a_plugin_is_refused_on_resume_unless_allowed(folder):
+    cases(folder)
+    stopping = "        CALLS.append(1)\n        if len(CALLS) > 5: raise KeyboardInterrupt\n"
+    code = GOOD.replace("        return", f"{stopping}        return")
+    install(folder, code=code.replace("WARMTH", "CALLS = []\nWARMTH"))
+    begun = asked(folder, "run", "named.toml", *SHORT)
+    assert begun.returncode == 130, begun.stderr
+    info = folder / "odd-1.0.dist-info" / "METADATA"
+    info.write_text(info.read_text().replace("Version: 1.0", "Version: 1.1"))
+    # A new version may have a new key.
+    newer = GOOD.replace("    requires", "    extra: float = 1.0\n    requires")
+    (folder / "odd.py").write_text(newer)
+    refused = asked(folder, "resume", "named.h5")
+    assert refused.returncode == 2
+    assert "odd 1.0" in refused.stderr
+    assert "odd 1.1" in refused.stderr
+    allowed = asked(folder, "resume", "named.h5", "--allow-changed")
+    assert allowed.returncode == 0, allowed.stderr
+    with Result.open(folder / "named.h5") as result:
+        assert result.status == "done"
+        (later,) = result.provenance["resumed_with"]
+    assert later["components"]["bodies.ball.wear"]["version"] == "1.1"
+
+
+@pytest.mark.slow
+def test_a_plugin_is_not_tried_with_the_modules_of_the_folder_one_is_in(folder, tmp_path_factory):
+    install(folder)
+    elsewhere = tmp_path_factory.mktemp("elsewhere")
+    (elsewhere / "pluggy.py").write_text("raise SystemExit('a stranger in the folder')")
+    done = subprocess.run(
+        [sys.executable, "-P", "-m", "tribo", "plugins", "check", "odd.one"],
+        cwd=elsewhere,
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
+        capture_output=True,
+        text=True,
+        timeout=100,
+        check=False,
+    )
+    assert "a stranger in the folder" not in done.stderr
+    assert "broken" not in done.stderr
+
 
 SCHEMAS = {
     "raises": "raise RuntimeError('no schema today')",
@@ -24,7 +183,7 @@ SCHEMAS = {
 }
 
 
-def code(schema: str = "return handler(source)") -> str:
+def with_schema(schema="return handler(source)"):
     made = OBSERVER.format(name="odd.one", title="Odd").replace(
         '= "odd.one"\n',
         '= "odd.one"\n'
@@ -35,23 +194,17 @@ def code(schema: str = "return handler(source)") -> str:
     return f"print('imported')\n{made}"
 
 
-def install(folder: Path, distribution: str, code: str) -> None:
-    distribute(folder, distribution, "1.0", {"odd.one": distribution}, **{distribution: code})
-
-
-def test_what_a_plugin_prints_does_not_spoil_the_schema(folder: Path) -> None:
-    install(folder, "loud", code())
-    done = tribo("--plugins", "odd", "schema")
+def test_what_a_plugin_prints_does_not_spoil_the_schema(folder):
+    install(folder, code=with_schema())
+    done = asked(folder, "--plugins", "odd", "schema")
     assert '"odd.one"' in json.dumps(json.loads(done.stdout))
     assert "imported" in done.stderr
     assert "a schema is made" in done.stderr
 
 
 @pytest.mark.parametrize("fault", SCHEMAS)
-def test_a_configuration_without_a_schema_is_left_out_with_one_line(
-    folder: Path, fault: str
-) -> None:
-    install(folder, "odd_one", code(SCHEMAS[fault]))
+def test_a_configuration_without_a_schema_is_left_out_with_one_line(folder, fault):
+    install(folder, "odd_one", with_schema(SCHEMAS[fault]))
     registry = Registry.with_plugins(import_module("odd_one"))
     with pytest.warns(TriboWarning, match=r"^observer 'odd\.one' of odd_one is left out") as caught:
         schema = json_schema(Case, registry)
@@ -60,39 +213,14 @@ def test_a_configuration_without_a_schema_is_left_out_with_one_line(
     assert "progress" in json.dumps(schema)
 
 
-def test_a_check_of_a_configuration_without_a_schema_says_so(folder: Path) -> None:
-    install(folder, "unchecked", code(SCHEMAS["raises"]))
-    done = tribo("plugins", "check", "odd.one")
-    assert done.returncode == 3
-    assert "'odd.one': making the schema of Odd raised RuntimeError: no schema" in done.stderr
-
-
-@pytest.mark.parametrize(("kind", "status"), [("Path", 0), ("float", 3)])
 @pytest.mark.slow
-def test_what_needs_a_file_is_left_to_its_own_tests(folder: Path, kind: str, status: int) -> None:
+@pytest.mark.parametrize(("kind", "status"), [("Path", 0), ("float", 3)])
+def test_what_needs_a_file_is_left_to_its_own_tests(folder, kind, status):
     line = '    type = "odd.one"'
     needing = OBSERVER.format(name="odd.one", title="Odd").replace(
         line, f"    path: {kind}\n{line}"
     )
     install(folder, "reader", f"from pathlib import Path\n{needing}")
-    done = tribo("plugins", "check", "reader")
+    done = asked(folder, "plugins", "check", "reader")
     assert done.returncode == status, done.stderr
     assert ("odd.one: not checked, for want of a file as its path" in done.stdout) == (status == 0)
-
-
-@pytest.mark.slow
-def test_a_conflict_and_a_plugin_to_be_are_told_of_by_each_command(folder: Path) -> None:
-    distribute(folder, "to_be", "1.0", {}, ["tribo>=0.1"])
-    for name in ("left", "right"):
-        install(folder, name, code())
-    for verb in ("show", "check"):
-        done = tribo("plugins", verb, "odd.one")
-        assert done.returncode == 2
-        assert "component 'odd.one' is offered by left 1.0 and right 1.0" in done.stderr
-    listed = tribo("plugins", "list", "--json")
-    assert "conflict" in [row["status"] for row in json.loads(listed.stdout)]
-    assert "hint: to_be 1.0 requires tribo but declares no plugin" in listed.stderr
-    doctor = tribo("doctor")
-    assert doctor.returncode == 3
-    assert "'odd.one' is offered by left 1.0 and right 1.0" in doctor.stdout
-    assert "hint  to_be 1.0 requires tribo" in doctor.stdout

@@ -1,7 +1,5 @@
 """Plugins add rows, pictures, formats and templates; several at once."""
 
-from __future__ import annotations
-
 import json
 import os
 from pathlib import Path
@@ -42,7 +40,7 @@ CHANGES = ("grid.cells=32", "grid.size=0.7 mm", "kinematics.duration=0.1", "outp
 
 
 @pytest.fixture(autouse=True)
-def installed(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def installed(folder, monkeypatch):
     """Three plugins that add everything; nothing else is installed."""
     for name in ("adds_a", "adds_b", "adds_c"):
         code = observer(f"{name}.calm") + HOOKS.format(name)
@@ -51,25 +49,25 @@ def installed(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(folder)
 
 
-def told(*args: str) -> str:
+def told(*args):
     done = tribo(*args)
     assert done.returncode == 0, done.stderr
     return done.stdout + done.stderr
 
 
-def refused(*args: str) -> str:
+def refused(*args):
     done = tribo(*args)
     assert done.returncode in (2, 3)
     return done.stderr
 
 
-def run(*observers: str) -> None:
+def run(*observers):
     Path("case.toml").write_text(f"observers = {json.dumps(observers)}\n{template('ball_on_disk')}")
     told("run", "case.toml", *(word for change in CHANGES for word in ("--set", change)))
 
 
 @pytest.mark.slow
-def test_the_plugins_of_a_case_add_rows_and_pictures_and_no_others_do() -> None:
+def test_the_plugins_of_a_case_add_rows_and_pictures_and_no_others_do():
     run("adds_b.calm", "adds_a.calm")
     default_registry.cache_clear()
     rows = json.loads(told("show", "case.h5", "--json"))["lab"]["plugins"]
@@ -84,7 +82,7 @@ def test_the_plugins_of_a_case_add_rows_and_pictures_and_no_others_do() -> None:
 
 
 @pytest.mark.slow
-def test_formats_and_templates_come_from_every_plugin() -> None:
+def test_formats_and_templates_come_from_every_plugin():
     run()
     assert "loads.txt" in told("export", "case.h5", "--format", "adds_b.txt")
     assert Path("case-adds_b.txt/loads.txt").read_text() == "100.0"
@@ -99,20 +97,18 @@ def test_formats_and_templates_come_from_every_plugin() -> None:
         (("new", "adds_b.cas", "new.toml"), "adds_b.case", "adds_a.case"),
     ],
 )
-def test_an_unknown_format_or_template_lists_what_there_is(
-    args: tuple[str, ...], meant: str, other: str
-) -> None:
+def test_an_unknown_format_or_template_lists_what_there_is(args, meant, other):
     message = refused(*args)
     assert f"did you mean '{meant}'?" in message
     assert other in message
 
 
-def test_a_broken_plugin_is_left_out_of_the_formats(folder: Path) -> None:
+def test_a_broken_plugin_is_left_out_of_the_formats(folder):
     (folder / "adds_c.py").write_text("1/0")
     assert "adds_c 1.0 is left out: ZeroDivisionError" in told("new", "adds_a.case", "new.toml")
 
 
-def test_a_hook_that_raises_is_named_by_file_and_line(folder: Path) -> None:
+def test_a_hook_that_raises_is_named_by_file_and_line(folder):
     file = folder / "adds_b.py"
     file.write_text(file.read_text().replace("return [CaseT", "1 / 0; return [CaseT"))
     message = refused("new", "adds_a.case", "new.toml")

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from zoo.components import GROOVES, UNCHECKED, ZOO, Ball, Heat, Watcher, raising
+from zoo.components import GROOVES, UNCHECKED, ZOO, Ball, Heat, Law, Watcher, raising
 from zoo.motions import Slide
 from zoo_keeper import Zoo, case_of, expect_harmless, expect_one_message
 
@@ -37,6 +37,17 @@ def test_a_check_ends_with_it_too(tmp_path, command, bad):
 
 def test_none_harms_a_case_that_names_another(run):
     expect_harmless(run(ZOO))
+
+
+def test_the_last_good_state_is_kept(run):
+    zoo = Zoo()
+    cls = zoo.bad("tires", Law, spoilt=lambda self, good, local: good if self._calls < 26 else None)
+    assert run(zoo, cls).code == 3
+    with Result.open("case.h5") as result:
+        last = result.saves()[-1]
+    assert 0 < last["distance_m"] < 2
+    volume = last["bodies"]["ball"]["wear_volume_m3"]
+    assert volume == pytest.approx(3e-16 * 100 * last["distance_m"], rel=1e-10, abs=0)
 
 
 def test_python_is_told_the_same(tmp_path):

@@ -32,12 +32,11 @@ def doctor(as_json: bool, time_limit: float | None) -> None:
     from tribo.registry.plugins import installed, undeclared
     from tribo.registry.probe import probe
     from tribo.registry.registry import Registry
-    from tribo.registry.selection import selected
     from tribo.result.provenance import environment
     from tribo.simulation.selftest import self_test
 
     with ThreadPoolExecutor(2) as pool:
-        registry = Registry(selected(installed()))
+        registry = Registry(installed())
         records = list(pool.map(lambda plugin: probe(plugin, time_limit), registry.plugins))
     checks = self_test()
     conflicts = registry.conflicts

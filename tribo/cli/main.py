@@ -83,12 +83,15 @@ def tribo(no_plugin: tuple[str, ...], only: str | None) -> None:
     Exit codes: 0 done, 2 bad input, 3 numerical failure, a failing plugin or
     output that cannot be written, 130 interrupted, 141 standard output closed.
     """
-    if no_plugin or only is not None:
-        from tribo.registry.selection import keep_only, turn_off
+    if not no_plugin and only is None:
+        return
+    from tribo.registry.plugins import DISABLED, ONLY
 
-        turn_off(no_plugin)
-        if only is not None:
-            keep_only(only.split(","))
+    # In the environment, so that processes started from here make the same choice.
+    if no_plugin:
+        os.environ[DISABLED] = ",".join([os.environ.get(DISABLED, ""), *no_plugin])
+    if only is not None:
+        os.environ[ONLY] = only
 
 
 def main() -> None:

@@ -35,6 +35,9 @@ class Field:
     at_most: float | None = None
     typical: float | None = None
 
+    def __str__(self) -> str:
+        return f"{self.name} [{self.unit}] {self.description}"
+
     def outside(self, low: float, high: float) -> str:
         """Return which limit values from `low` to `high` pass, in words; empty if none."""
         if self.at_least is not None and low < self.at_least:

@@ -5,21 +5,27 @@ from __future__ import annotations
 import inspect
 from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import replace
-from typing import Any
 
 from pydantic import BaseModel
-from pydantic.fields import FieldInfo
 
 from tribo.component import Component
 from tribo.core.distributions import unmet
 from tribo.core.errors import CaseError
-from tribo.core.fields import Field
-from tribo.core.units import parts, quantities
+from tribo.core.units import Quantity, parts
 from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.kinds import KINDS
 from tribo.registry.plugins import Plugin
 from tribo.registry.registry import Registry
+
+FACTS = {
+    "requires": "Requires",
+    "provides": "Provides",
+    "state_fields": "Keeps per point",
+    "accepts_wear_compliance": "Takes a wear compliance (implicit steps)",
+    "honours_cap": "Limits the pressure to a hardness",
+    "periodic": "Repeats with the window",
+}
+"""What a class says of itself, and the words for it."""
 
 
 def catalogue(registry: Registry) -> list[dict[str, str]]:
@@ -37,13 +43,13 @@ def catalogue(registry: Registry) -> list[dict[str, str]]:
     """
     known = registry.components
     names = [name for kind in KINDS for name in registry.names(kind)] + registry.waiting
-    rows = [_row(name, known.get(name), registry.claimants(name)[0]) for name in names]
+    rows = [_row(name, registry.claimants(name)[0], known.get(name)) for name in names]
     rows += [
-        _row(name, None, replace(plugin, status="conflict", reason=reason))
+        {**_row(name, plugin), "status": "conflict", "reason": reason}
         for name, reason in registry.conflicts.items()
         for plugin in registry.claimants(name)
     ]
-    return rows + [_row("", None, plugin) for plugin in registry.plugins if not plugin.usable]
+    return rows + [_row("", plugin) for plugin in registry.plugins if not plugin.usable]
 
 
 def find(registry: Registry, name: str) -> list[str]:
@@ -73,12 +79,16 @@ def find(registry: Registry, name: str) -> list[str]:
 
 def describe(cls: type[Component], plugin: Plugin) -> str:
     """Return the description of a component: its docstring, parameters and fields."""
-    lines = [f"{cls.type}: {_words(cls)} from {plugin}", ""]
-    lines += [_description(cls) or "(it has no description)", ""]
-    parameters = list(_parameters(cls))
-    if parameters:
-        lines += ["Parameters", "----------", *parameters, ""]
-    lines += _facts(cls)
+    lines = [f"{cls.type}: {_words(cls)} from {plugin}", "", _doc(cls) or "(it has no description)"]
+    if parameters := list(_parameters(cls)):
+        lines += ["", "Parameters", "----------", *parameters]
+    lines.append("")
+    for attribute, words in FACTS.items():
+        value = getattr(cls, attribute, ())
+        if isinstance(value, bool):
+            lines.append(f"{words}: {'yes' if value else 'no'}")
+        elif value:
+            lines.append(f"{words}: {'; '.join(map(str, value))}")
     lines.append(f"Class: {cls.__module__}.{cls.__qualname__}")
     with suppress(TypeError, OSError):
         lines.append(f"File: {inspect.getfile(cls)}")
@@ -89,19 +99,18 @@ def _words(cls: type[Component]) -> str:
     return cls.kind().replace("_", " ")
 
 
-def _description(cls: type[Component]) -> str:
+def _doc(cls: type[Component]) -> str:
     """Return the docstring of a class; empty if it has none, or it is not text."""
     return inspect.cleandoc(cls.__doc__) if isinstance(cls.__doc__, str) else ""
 
 
-def _row(name: str, cls: type[Component] | None, plugin: Plugin) -> dict[str, str]:
-    if plugin.status == "available" and (lacks := unmet(plugin.distribution)):
-        plugin = replace(plugin, status="incompatible", reason=lacks)
+def _row(name: str, plugin: Plugin, cls: type[Component] | None = None) -> dict[str, str]:
     facts = {key: plugin.facts[key] for key in ("distribution", "version", "status", "reason")}
+    if plugin.status == "available" and (lacks := unmet(plugin.distribution)):
+        facts |= {"status": "incompatible", "reason": lacks}
+    kind, summary = "", f"(all of {plugin.distribution}) {plugin.summary}".rstrip()
     if cls is not None:
-        kind, summary = _words(cls), _description(cls).partition("\n")[0]
-    else:
-        kind, summary = "", f"(all of {plugin.distribution}) {plugin.summary}".rstrip()
+        kind, summary = _words(cls), _doc(cls).partition("\n")[0]
     return {"name": name, "kind": kind, **facts, "summary": summary}
 
 
@@ -109,42 +118,12 @@ def _parameters(table: type[BaseModel], within: tuple[type[BaseModel], ...] = ()
     """Yield a line for each key of a table; those of tables inside follow, indented."""
     within = (*within, table)
     for name, field in table.model_fields.items():
-        yield _parameter(name, field)
-        for part in parts(field.annotation):
+        found = list(parts((field.annotation, *field.metadata)))
+        unit = next((f" [{mark.unit}]" for mark in found if isinstance(mark, Quantity)), "")
+        needed = "needed" if field.is_required() else f"default {field.default!r}"
+        if field.default is None or field.default_factory is not None:
+            needed = "optional"
+        yield f"{name}{unit} ({needed}): {field.description or 'no description'}"
+        for part in found:
             if inspect.isclass(part) and issubclass(part, BaseModel) and part not in within:
                 yield from (f"    {line}" for line in _parameters(part, within))
-
-
-def _parameter(name: str, field: FieldInfo) -> str:
-    marks = quantities((field.annotation, *field.metadata))
-    unit = next((f" [{mark.unit}]" for mark in marks), "")
-    needed = "needed" if field.is_required() else f"default {field.default!r}"
-    if field.default is None or field.default_factory is not None:
-        needed = "optional"
-    return f"{name}{unit} ({needed}): {field.description or 'no description'}"
-
-
-def _facts(cls: type[Any]) -> list[str]:
-    facts = []
-    for attribute, words in (
-        ("requires", "Requires"),
-        ("provides", "Provides"),
-        ("state_fields", "Keeps per point"),
-    ):
-        values = getattr(cls, attribute, ())
-        if values:
-            facts.append(f"{words}: " + "; ".join(map(_field, values)))
-    for attribute, words in (
-        ("accepts_wear_compliance", "Takes a wear compliance (implicit steps)"),
-        ("honours_cap", "Limits the pressure to a hardness"),
-        ("periodic", "Repeats with the window"),
-    ):
-        if hasattr(cls, attribute):
-            facts.append(f"{words}: {'yes' if getattr(cls, attribute) else 'no'}")
-    return facts
-
-
-def _field(field: Field | str) -> str:
-    if isinstance(field, str):
-        return field
-    return f"{field.name} [{field.unit}] {field.description}"

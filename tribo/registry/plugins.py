@@ -2,30 +2,36 @@
 
 from __future__ import annotations
 
+import os
+import warnings
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from importlib import metadata
 from typing import Literal
 
 from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
 
 from tribo.core.distributions import applies, entry_points
+from tribo.core.errors import TriboWarning
 from tribo.registry.hookspecs import PROJECT
+from tribo.registry.kinds import Classes
+
+DISABLED = "TRIBO_DISABLE_PLUGINS"
+ONLY = "TRIBO_PLUGINS"
 
 Status = Literal["available", "loaded", "disabled", "broken", "incompatible", "conflict"]
 
 
-@dataclass(frozen=True)
+@dataclass(eq=False)
 class Plugin:
     """What is known about a plugin.
 
     Parameters
     ----------
-    distribution : str
-        The distribution it came with.
-    version : str
-        Version of the distribution; empty if it states none.
+    distribution, version : str
+        The distribution it came with, and its version; empty if it states none.
     entry_point : str
         The module it lies in, as ``"acme_tribo.plugin"``.
     origin : str
@@ -38,9 +44,11 @@ class Plugin:
     reason : str
         Why it cannot be used; empty if it can.
     names : tuple of str
-        The names that its entry points declare.
+        The names of its components: those that its entry points declare.
     load : callable
         Imports it and returns the object that carries the hooks.
+    classes : dict
+        Its components by name; empty until it is imported.
     """
 
     distribution: str
@@ -51,6 +59,7 @@ class Plugin:
     reason: str = ""
     names: tuple[str, ...] = ()
     load: Callable[[], object] = field(default=lambda: None, repr=False)
+    classes: Classes = field(default_factory=dict, repr=False)
 
     def __str__(self) -> str:
         return f"{self.distribution} {self.version}".rstrip()
@@ -58,12 +67,13 @@ class Plugin:
     @property
     def usable(self) -> bool:
         """Whether it can be used, as far as is known."""
-        return self.status not in ("disabled", "broken", "incompatible")
+        return self.status in ("available", "loaded")
 
     @property
     def facts(self) -> dict[str, str]:
-        """All but its names, as plain data."""
-        return {key: value for key, value in vars(self).items() if key not in ("names", "load")}
+        """All but its components, as plain data."""
+        left_out = ("names", "load", "classes")
+        return {key: value for key, value in vars(self).items() if key not in left_out}
 
     @property
     def summary(self) -> str:
@@ -96,18 +106,48 @@ def installed() -> list[Plugin]:
     An entry point ``acme.fretting = "acme_tribo"`` in the group ``tribo``
     declares that the module ``acme_tribo`` offers a component of that name.
     The entry points of one module make one plugin.
+
+    ``TRIBO_DISABLE_PLUGINS`` lists distributions, or names or prefixes of
+    components, to leave out, separated by commas; ``*`` stands for all.
+    ``TRIBO_PLUGINS`` lists the only ones that may take part.
     """
     found: dict[tuple[str, str], Plugin] = {}
     for distribution, point in entry_points(PROJECT):
-        key = distribution.name, point.value
-        plugin = found.get(key) or Plugin(
-            distribution.name, distribution.version, point.value, "installed", load=point.load
+        plugin = found.setdefault(
+            (distribution.name, point.value),
+            Plugin(
+                distribution.name, distribution.version, point.value, "installed", load=point.load
+            ),
         )
+        plugin.names += (point.name,)
         if "." not in point.name:
-            reason = f"{point.name!r} needs a prefix, as in 'acme.fretting'; others are tribo's own"
-            plugin = replace(plugin, status="broken", reason=plugin.reason or reason)
-        found[key] = replace(plugin, names=(*plugin.names, point.name))
-    return [found[key] for key in sorted(found)]
+            plugin.status = "broken"
+            plugin.reason = (
+                f"{point.name!r} needs a prefix, as in 'acme.fretting'; others are tribo's own"
+            )
+    plugins = [found[key] for key in sorted(found)]
+    _choose(plugins)
+    return plugins
+
+
+def _choose(plugins: list[Plugin]) -> None:
+    """Disable the plugins that the environment turns off, and warn of names that none has."""
+    off, only = (
+        {canonicalize_name(part.strip()) for part in os.environ.get(variable, "").split(",")}
+        for variable in (DISABLED, ONLY)
+    )
+    known = {"*", ""}
+    for plugin in plugins:
+        prefixes = [name.split(".")[0] for name in plugin.names]
+        own = set(map(canonicalize_name, (plugin.distribution, *plugin.names, *prefixes)))
+        known |= own
+        if off & {*own, "*"}:
+            plugin.status, plugin.reason = "disabled", f"turned off by --no-plugin or {DISABLED}"
+        elif ONLY in os.environ and not only & own:
+            reason = f"not among those that --plugins or {ONLY} names"
+            plugin.status, plugin.reason = "disabled", reason
+    for name in sorted((off | only) - known):
+        warnings.warn(f"no plugin is called {name!r}", TriboWarning, stacklevel=3)
 
 
 def undeclared() -> list[str]:

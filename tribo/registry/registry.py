@@ -9,7 +9,6 @@ import warnings
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from contextlib import ExitStack, contextmanager, redirect_stdout, suppress
-from dataclasses import replace
 from functools import cache
 from traceback import walk_tb
 from typing import Any
@@ -24,7 +23,6 @@ from tribo.core.words import did_you_mean, said, suggestion
 from tribo.registry import hookspecs
 from tribo.registry.kinds import Classes, offered
 from tribo.registry.plugins import Plugin, builtin, given, installed
-from tribo.registry.selection import selected
 
 
 class Registry:
@@ -45,20 +43,16 @@ class Registry:
     """
 
     def __init__(self, plugins: Iterable[Plugin]) -> None:
+        self.plugins = tuple(plugins)
         self._manager = pluggy.PluginManager(hookspecs.PROJECT)
         self._manager.add_hookspecs(hookspecs)
-        self._plugins = {f"{p.distribution}:{p.entry_point}:{i}": p for i, p in enumerate(plugins)}
-        self._classes: dict[str, Classes] = {}
-        self._claims: defaultdict[str, list[str]] = defaultdict(list)
-        for key, plugin in self._plugins.items():
+        self._owners: defaultdict[str, list[Plugin]] = defaultdict(list)
+        for plugin in self.plugins:
             if plugin.origin != "installed":
-                self._classes[key] = self._register(key)
-            if plugin.status == "disabled":
-                self._manager.set_blocked(key)
-            elif plugin.usable:
-                for name in plugin.names or self._classes[key]:
-                    self._claims[name].append(key)
-        self._conflicts = {name: keys for name, keys in self._claims.items() if len(keys) > 1}
+                self._register(plugin)
+            if plugin.usable:
+                for name in plugin.names:
+                    self._owners[name].append(plugin)
 
     @classmethod
     def with_plugins(cls, *plugins: object) -> Registry:
@@ -72,33 +66,29 @@ class Registry:
         return cls([builtin(), *map(given, plugins)])
 
     @property
-    def plugins(self) -> tuple[Plugin, ...]:
-        """Every plugin that was found, with its present status."""
-        return tuple(self._plugins.values())
-
-    @property
     def components(self) -> Classes:
         """The usable classes of the plugins that were imported, by name."""
         return {
             name: cls
-            for classes in self._classes.values()
-            for name, cls in sorted(classes.items())
-            if name not in self._conflicts
+            for plugin in self.plugins
+            for name, cls in sorted(plugin.classes.items())
+            if len(self._owners[name]) == 1
         }
 
     @property
     def waiting(self) -> list[str]:
         """The usable names of the plugins not imported yet, sorted; their kinds are unknown."""
-        claims = sorted(self._claims.items())
-        return [n for n, keys in claims if len(keys) == 1 and keys[0] not in self._classes]
+        owned = sorted(self._owners.items())
+        return [name for name, own in owned if [p.status for p in own] == ["available"]]
 
     @property
     def conflicts(self) -> dict[str, str]:
         """The names that more than one plugin claims, and what to do about each."""
         return {
-            name: f"{name!r} is offered by {' and '.join(map(str, self.claimants(name)))}, so that "
-            "it is not clear which is meant; uninstall or disable one of them"
-            for name in self._conflicts
+            name: f"{name!r} is offered by {' and '.join(map(str, owners))}, so that it is not "
+            "clear which is meant; uninstall or disable one of them"
+            for name, owners in self._owners.items()
+            if len(owners) > 1
         }
 
     def names(self, kind: str) -> list[str]:
@@ -107,7 +97,7 @@ class Registry:
 
     def claimants(self, name: str) -> list[Plugin]:
         """Return the plugins that claim a name; imports nothing."""
-        return [self._plugins[key] for key in self._claims.get(name, ())]
+        return self._owners.get(name, [])
 
     def lookup(self, kind: str, name: str) -> type[Component]:
         """Return the class that `name` stands for, importing its plugin if need be.
@@ -133,8 +123,7 @@ class Registry:
             raise CaseError(f"unknown {words} {name!r}{meant} Installed: {self.choices(kind)}")
         if cls.kind() != kind:
             other = cls.kind().replace("_", " ")
-            article = "an" if other[0] in "aeiou" else "a"
-            raise CaseError(f"unknown {words} {name!r}: it is {article} {other}")
+            raise CaseError(f"unknown {words} {name!r}: its kind is {other}")
         return cls
 
     def find(self, name: str, words: str = "component") -> type[Component] | None:
@@ -145,19 +134,25 @@ class Registry:
         CaseError
             If more than one plugin offers it, or the one that does cannot be used.
         """
-        if name in self._conflicts:
+        owners = self.claimants(name)
+        if len(owners) > 1:
             raise CaseError(f"{words} {self.conflicts[name]}")
-        cls = self._load(self._claims[name][0]).get(name) if name in self._claims else None
+        for plugin in owners:
+            self._load(plugin)
+            if name in plugin.classes:
+                return plugin.classes[name]
         refused = [p for p in self.plugins if name in p.names and not p.usable]
-        if cls is None and refused:
+        if refused:
             why = "; ".join(f"{plugin} is {plugin.status}: {plugin.reason}" for plugin in refused)
             raise CaseError(f"{words} {name!r} cannot be used: {why}")
-        return cls
+        return None
 
     def load_all(self) -> list[Plugin]:
         """Import every plugin that is not disabled, and return those that cannot be used."""
-        usable = [key for key, plugin in self._plugins.items() if plugin.usable]
-        return [self._plugins[key] for key in usable if not self._load(key)]
+        usable = [plugin for plugin in self.plugins if plugin.usable]
+        for plugin in usable:
+            self._load(plugin)
+        return [plugin for plugin in usable if not plugin.usable]
 
     def providers(self, fields: Iterable[str]) -> list[str]:
         """Return the effects of imported plugins that provide any of `fields`, as text."""
@@ -199,46 +194,47 @@ class Registry:
             by_plugin[str(self.claimants(name)[0])].append(name)
         return "; ".join(f"{', '.join(own)} ({plugin})" for plugin, own in by_plugin.items())
 
-    def _load(self, key: str) -> Classes:
-        """Import a plugin once, and return its classes; none if that fails."""
-        if key in self._classes:
-            return self._classes[key]
-        plugin, self._classes[key] = self._plugins[key], {}
+    def _load(self, plugin: Plugin) -> None:
+        """Import a plugin once; its status says whether that succeeded."""
+        if plugin.status != "available":
+            return
+        plugin.status = "loaded"
         try:
             if lacks := unmet(plugin.distribution):
-                self._plugins[key] = replace(plugin, status="incompatible", reason=lacks)
-                return {}
+                plugin.status, plugin.reason = "incompatible", lacks
+                return
             with _process_kept():
-                self._classes[key] = self._register(key)
-            self._plugins[key] = replace(plugin, status="loaded")
+                self._register(plugin)
         except KeyboardInterrupt:
             raise
         except BaseException as error:
-            self._manager.unregister(name=key)
-            reason = said(error) + _place(error, plugin.entry_point)
-            self._plugins[key] = replace(plugin, status="broken", reason=reason)
-        return self._classes[key]
+            plugin.status = "broken"
+            plugin.reason = said(error) + _place(error, plugin.entry_point)
 
-    def _register(self, key: str) -> Classes:
-        """Register a plugin with the plugin manager, and return the classes that it offers."""
-        plugin = self._plugins[key].load()
-        self._manager.register(plugin, key)
-        self._manager.check_pending()
-        others = [other for other in self._manager.get_plugins() if other is not plugin]
-        classes = offered(self._manager.subset_hook_caller("tribo_components", others)())
-        names = self._plugins[key].names
-        if names and set(names) != set(classes):
-            raise ValueError(
-                f"its entry points declare {', '.join(names)}, but its hook tribo_components, "
-                f"marked with @hookimpl, returns {', '.join(classes) or 'nothing'}"
-            )
-        return classes
+    def _register(self, plugin: Plugin) -> None:
+        """Register a plugin with the plugin manager, and ask it for its components."""
+        module = plugin.load()
+        self._manager.register(module)
+        try:
+            self._manager.check_pending()
+            others = self._manager.get_plugins() - {module}
+            classes = offered(self._manager.subset_hook_caller("tribo_components", others)())
+            if plugin.names and set(plugin.names) != set(classes):
+                raise ValueError(
+                    f"its entry points declare {', '.join(plugin.names)}, but its hook "
+                    "tribo_components, marked with @hookimpl, returns "
+                    f"{', '.join(classes) or 'nothing'}"
+                )
+        except BaseException:
+            self._manager.unregister(module)
+            raise
+        plugin.names, plugin.classes = tuple(classes), classes
 
 
 @cache
 def default_registry() -> Registry:
     """Return the registry of the built-in and the installed plugins."""
-    return Registry([builtin(), *selected(installed())])
+    return Registry([builtin(), *installed()])
 
 
 def _place(error: BaseException, *entry_points: str) -> str:
