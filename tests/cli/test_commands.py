@@ -12,8 +12,17 @@ from tribo.cli.main import COMMANDS
 from tribo.templates import TEMPLATES, template
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
-QUICK = ["--set", "grid.cells=32", "--set", "grid.size=0.7 mm", "--set", "kinematics.duration=60"]
-QUICK += ["--set", "output.save_times=[0, 20]"]
+CASE = template("ball_on_disk")
+
+
+def setting(*settings):
+    return [part for each in settings for part in ("--set", each)]
+
+
+QUICK = setting("grid.cells=32", "grid.size=0.7 mm", "kinematics.duration=60")
+QUICK += setting("output.save_times=[0, 20]")
+EXPLICIT = setting("stepping.type=explicit", "stepping.time_step=50")
+LARGE_STROKE = setting("kinematics.stroke=20 mm", "kinematics.frequency=2.5")
 
 
 @pytest.fixture(scope="module")
@@ -34,57 +43,40 @@ def case(tmp_path, monkeypatch):
     return path
 
 
-@pytest.mark.slow
 def test_a_run_ends_with_a_lab_table(ran):
     folder, done = ran
     assert (folder / "my.h5").is_file()
     for words in ("volume, mm³", "mass, mg", "mm³/(N·m)", "scar across, mm", "Hertz", "yield"):
         assert words in done.stdout
     assert "warning" not in done.stderr
+    assert not any(line.endswith(" ") for line in done.stdout.splitlines())
 
 
 def test_show_json_has_the_documented_shape(ran):
     folder, _ = ran
-    shown = tribo("show", "my.h5", "--json", cwd=folder)
-    data = json.loads(shown.stdout)
+    data = json.loads(tribo("show", "my.h5", "--json", cwd=folder).stdout)
     assert {"case", "provenance", "totals", "saves"} <= data.keys()
     assert {"contact_solves", "solver_iterations", "wall_time_s"} <= data["totals"].keys()
     assert [save["time_s"] for save in data["saves"]] == [0, 20, 60]
     last = data["saves"][-1]
-    assert {
-        "distance_m",
-        "max_pressure_Pa",
-        "centre_pressure_Pa",
-        "contact_half_width_x_m",
-        "contact_half_width_y_m",
-        "contact_area_m2",
-        "approach_m",
-        "force_error",
-    } <= last.keys()
-    assert last["bodies"].keys() == {"ball", "disk"}
-    assert {
-        "max_wear_depth_m",
-        "centre_wear_depth_m",
-        "wear_volume_m3",
-        "max_plastic_depth_m",
-    } <= last["bodies"]["ball"].keys()
-    assert last["bodies"]["ball"]["wear_volume_m3"] == pytest.approx(
-        3.11e-16 * 100 * 6, rel=1e-6, abs=0
-    )
-    assert data["lab"]["bodies"].keys() == {"ball", "disk"}
+    keys = "distance_m max_pressure_Pa centre_pressure_Pa contact_half_width_x_m approach_m"
+    assert {*keys.split(), "contact_half_width_y_m", "contact_area_m2", "force_error"} <= {*last}
+    assert last["bodies"].keys() == {"ball", "disk"} == data["lab"]["bodies"].keys()
+    worn = "max_wear_depth_m centre_wear_depth_m wear_volume_m3 max_plastic_depth_m"
+    assert {*worn.split()} <= {*last["bodies"]["ball"]}
+    volume = last["bodies"]["ball"]["wear_volume_m3"]
+    assert volume == pytest.approx(3.11e-16 * 100 * 6, rel=1e-6, abs=0)
     ball = data["lab"]["bodies"]["ball"]
     assert ball["specific_wear_rate_mm3_per_Nm"] == pytest.approx(3.11e-7, rel=1e-6, abs=0)
-    assert {"mass_kg", "scar_along_m", "scar_across_m"} <= ball.keys()
+    assert {"mass_kg", "scar_along_m", "scar_across_m"} <= {*ball}
     first = data["lab"]["first_contact"]
     assert first["max_pressure_Pa"] == data["saves"][0]["max_pressure_Pa"]
-    assert {"hertz_peak_pressure_Pa", "yield_ratio"} <= first.keys()
+    assert {"hertz_peak_pressure_Pa", "yield_ratio"} <= {*first}
 
 
 def test_show_prints_the_table_again(ran):
     folder, done = ran
-    shown = tribo("show", "my.h5", cwd=folder)
-    assert shown.returncode == 0
-    table, provenance = shown.stdout.split("\nMade with ")
+    table, provenance = tribo("show", "my.h5", cwd=folder).stdout.split("\nMade with ")
     assert table in done.stdout
     assert "bodies.ball.wear: archard, tribo.wear.archard.Archard of tribo" in provenance
 
@@ -92,33 +84,29 @@ def test_show_prints_the_table_again(ran):
 def test_export_writes_csv_with_units_in_the_column_names(ran):
     folder, _ = ran
     assert tribo("export", "my.h5", "-d", "csv", cwd=folder).returncode == 0
-    with (folder / "csv" / "history.csv").open() as file:
-        rows = list(csv.DictReader(file))
-    assert float(rows[-1]["time_s"]) == 60
-    assert "bodies.ball.wear_volume_m3" in rows[0]
-    with (folder / "csv" / "profiles_x.csv").open() as file:
-        rows = list(csv.DictReader(file))
-    assert len(rows) == 3 * 32
-    assert {"time_s", "x_m", "pressure_Pa", "bodies.ball.wear_depth_m"} <= rows[0].keys()
+    history, profiles = (
+        list(csv.DictReader((folder / "csv" / f"{name}.csv").read_text().splitlines()))
+        for name in ("history", "profiles_x")
+    )
+    assert float(history[-1]["time_s"]) == 60
+    assert "bodies.ball.wear_volume_m3" in history[0]
+    assert len(profiles) == 3 * 32
+    assert {"time_s", "x_m", "pressure_Pa", "bodies.ball.wear_depth_m"} <= {*profiles[0]}
 
 
-@pytest.mark.slow
-def test_plot_writes_pictures(ran):
+def test_existing_output_needs_force(ran):
     folder, _ = ran
-    done = tribo("plot", "my.h5", "-d", "pictures", cwd=folder)
-    assert done.returncode == 0, done.stderr
-    assert len(list((folder / "pictures").glob("*.png"))) >= 6
-
-
-def test_schema_is_json(tmp_path):
-    data = json.loads(tribo("schema", cwd=tmp_path).stdout)
-    assert "bodies" in data["properties"]
+    done = tribo("run", "my.toml", *QUICK, cwd=folder)
+    assert done.returncode == 2
+    assert "--force" in done.stderr
+    assert tribo("run", "my.toml", *QUICK, "--force", cwd=folder).returncode == 0
 
 
 @pytest.mark.parametrize("name", list(TEMPLATES))
-def test_every_template_is_valid_and_predicted(tmp_path, name):
+def test_every_template_is_an_example_and_predicted(tmp_path, name):
     assert tribo("new", name, "case.toml", cwd=tmp_path).returncode == 0
-    done = tribo("check", "case.toml", cwd=tmp_path)
+    assert (EXAMPLES / f"{name}.toml").read_text() == (tmp_path / "case.toml").read_text()
+    done = tribo("check", "case.toml", *setting("grid.cells=96"), cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     for words in ("Hertz half-widths", "p0/H", "cells across", "window", "memory", "result file"):
         assert words in done.stdout
@@ -127,46 +115,40 @@ def test_every_template_is_valid_and_predicted(tmp_path, name):
 
 
 def test_check_begins_with_its_verdict(case):
-    long = ["--set", "kinematics.stroke=20 mm", "--set", "kinematics.frequency=2.5"]
-    done = tribo("check", "my.toml", *long)
+    done = tribo("check", "my.toml", *LARGE_STROKE)
     assert done.stdout.startswith("my.toml is valid.\n")
     # As the report of the run words it.
     assert "94 % of the pressure at which the softer body first" in done.stdout
     assert max(map(len, done.stdout.splitlines())) <= 80
-    small = [*long, "--set", "grid.size=0.9 mm", "--set", "grid.cells=64"]
+    small = [*LARGE_STROKE, *setting("grid.size=0.9 mm", "grid.cells=64")]
     done = tribo("check", "my.toml", *small)
-    assert done.returncode == 3
-    assert done.stderr == "error: a run of my.toml would stop on its way\n"
+    assert (done.returncode, done.stderr) == (3, "error: a run of my.toml would stop on its way\n")
     verdict, first, *_ = done.stdout.splitlines()
-    assert verdict == "my.toml is valid, but:"
+    assert verdict == "my.toml would stop on its way:"
     assert first.startswith("  - the contact outgrows the window of 0.9 × 0.9 mm")
-    data = json.loads(tribo("check", "my.toml", *small, "--json").stdout)
-    (problem,) = data["problems"]
+    (problem,) = json.loads(tribo("check", "my.toml", *small, "--json").stdout)["problems"]
     assert problem in " ".join(done.stdout.split())
 
 
-EXPLICIT = ["stepping.type=explicit", "stepping.time_step=50"]
-
-
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("settings", "code"),
     [
-        (["grid.size=0.36 mm"], 3),
+        (setting("grid.size=0.36 mm"), 3),
         (EXPLICIT, 2),
-        ([*EXPLICIT, "stepping.allow_unstable=true"], 0),
+        ([*EXPLICIT, *setting("stepping.allow_unstable=true")], 0),
         ([], 0),
     ],
 )
 def test_check_ends_with_the_exit_code_of_the_run(case, settings, code):
-    options = [*QUICK, *(part for text in settings for part in ("--set", text))]
-    done = tribo("check", "my.toml", *options)
-    assert done.returncode == tribo("run", "my.toml", *options).returncode == code
-    assert done.stdout.startswith("my.toml is valid")
+    done = tribo("check", "my.toml", *QUICK, *settings)
+    assert done.returncode == tribo("run", "my.toml", *QUICK, *settings).returncode == code
+    assert done.stdout.startswith("my.toml would stop" if code else "my.toml is valid")
 
 
 @pytest.mark.slow
 def test_check_predicts_what_the_stroke_average_costs_and_the_run_ends_with(case):
-    coarse = ["--set", "grid.size=1.3 mm", "--set", "grid.cells=48"]
+    coarse = setting("grid.size=1.3 mm", "grid.cells=48")
     (problem,) = json.loads(tribo("check", "my.toml", *coarse, "--json").stdout)["problems"]
     ran = tribo("run", "my.toml", *coarse).stderr.splitlines()
     end = [line for line in ran if "averaging: at 3600 s" in line]
@@ -175,20 +157,15 @@ def test_check_predicts_what_the_stroke_average_costs_and_the_run_ends_with(case
     assert int(found) == pytest.approx(17.7, abs=1.5)
 
 
-@pytest.mark.parametrize("command", ["check", "run"])
 @pytest.mark.slow
+@pytest.mark.parametrize("command", ["check", "run"])
 def test_a_stroke_under_one_half_width_is_refused_unless_asked_for(case, command):
-    short = ["--set", "kinematics.stroke=0.1 mm"]
+    short = [*QUICK, *setting("kinematics.stroke=0.1 mm")]
     done = tribo(command, "my.toml", *short)
     assert done.returncode == 2
     assert "error: kinematics.stroke: 0.1 mm is shorter than the half-width" in done.stderr
-    allowed = ["--set", "kinematics.allow_short_stroke=true"]
+    allowed = setting("kinematics.allow_short_stroke=true")
     assert tribo(command, "my.toml", *short, *allowed).returncode == 0
-
-
-@pytest.mark.parametrize("name", list(TEMPLATES))
-def test_examples_are_the_templates(name):
-    assert (EXAMPLES / f"{name}.toml").read_text() == template(name)
 
 
 @pytest.mark.parametrize("command", ["", *COMMANDS])
@@ -198,52 +175,29 @@ def test_every_command_has_help_with_an_example(command):
     assert "Example" in done.stdout
 
 
-CASE = template("ball_on_disk")
+# What is wrong, where it is said to be, and a word of the remedy.
 BAD = {
     "unknown key": ("young = ", "yuong = ", "bodies.ball.material.yuong", "young"),
     "unknown table": ("[load]", "[laod]", "laod", "load"),
     "unknown type": ('"archard"', '"archrad"', "bodies.ball.wear.type", "archard"),
-    "unknown contact": ('"dcfft"', '"dcftt"', "contact.type", "dcfft"),
     "wrong dimension": ('"100 N"', '"100 mm"', "load.normal", "force"),
     "negative modulus": ('"207 GPa"', '"-207 GPa"', "bodies.ball.material.young", "greater"),
-    "zero modulus": ('"207 GPa"', "0", "bodies.ball.material.young", "greater"),
     "NaN modulus": ('"207 GPa"', "nan", "bodies.ball.material.young", "finite"),
-    "negative radius": ('"5 mm"', '"-5 mm"', "bodies.ball.surface.radius", "greater"),
-    "zero load": ('"100 N"', "0", "load.normal", "greater"),
-    "negative load": ('"100 N"', '"-1 N"', "load.normal", "greater"),
-    "negative stroke": ('stroke = "2 mm"', "stroke = -1", "kinematics.stroke", "greater"),
-    "zero stroke": ('stroke = "2 mm"', "stroke = 0", "kinematics.stroke", "greater"),
-    "Poisson's ratio of 0.5": (
-        "poisson = 0.3",
-        "poisson = 0.5",
-        "bodies.ball.material.poisson",
-        "0.5",
-    ),
-    "Poisson's ratio of -1": (
-        "poisson = 0.3",
-        "poisson = -1",
-        "bodies.ball.material.poisson",
-        "-1",
-    ),
     "window too small": ('["2 mm", "2 mm"]', '"0.2 mm"', "grid.size", "larger"),
     "swept ball": ('swept = "disk"', 'swept = "ball"', "bodies.ball.surface", "kinematics.swept"),
     "unknown body": ('swept = "disk"', 'swept = "dsik"', "kinematics.swept", "disk"),
     "save times out of order": ("500, 1500", "1500, 500", "output.save_times", "increase"),
     "save times beyond the end": ("1500, 3600", "1500, 3601", "output.save_times", "end"),
     "not TOML": ("[grid]", "[grid", "line", "TOML"),
+    "not UTF-8": ("[grid]", "# B\udce4ll\n[grid]", "my.toml", "not UTF-8"),
 }
 
 
-@pytest.mark.parametrize(
-    ("command", "mistake"), [*(("run", mistake) for mistake in BAD), ("check", "unknown key")]
-)
-def test_bad_input_is_one_line_with_path_and_remedy(case, command, mistake):
-    old, new, where, remedy = BAD[mistake]
-    assert old in CASE
-    case.write_text(CASE.replace(old, new, 1))
-    done = tribo(command, "my.toml")
-    assert done.returncode == 2
-    assert done.stdout == ""
+@pytest.mark.parametrize(("old", "new", "where", "remedy"), BAD.values(), ids=BAD)
+def test_bad_input_is_one_line_with_path_and_remedy(case, old, new, where, remedy):
+    case.write_text(CASE.replace(old, new, 1), encoding="utf-8", errors="surrogateescape")
+    done = tribo("run", "my.toml")
+    assert (done.returncode, done.stdout) == (2, "")
     first = done.stderr.splitlines()[0]
     assert first.startswith("error: ")
     assert where in first
@@ -252,8 +206,8 @@ def test_bad_input_is_one_line_with_path_and_remedy(case, command, mistake):
 
 
 @pytest.mark.parametrize("option", ["--no-plugin", "--plugins"])
-def test_an_option_of_all_commands_stands_before_them(tmp_path, option):
-    done = tribo("run", "case.toml", option, "acme", cwd=tmp_path)
+def test_an_option_of_all_commands_stands_before_them(case, option):
+    done = tribo("run", "case.toml", option, "acme")
     assert done.returncode == 2
     assert f"Error: '{option}' stands before the command." in done.stderr
 
@@ -264,24 +218,8 @@ def test_the_nearest_command_is_suggested():
     assert "did you mean 'check'?" in done.stderr
 
 
-def test_a_wrong_encoding_is_named(case):
-    case.write_text(CASE + "# Bäll", encoding="latin-1")
-    done = tribo("run", case)
-    assert done.returncode == 2
-    assert ": not UTF-8" in done.stderr
-
-
-@pytest.mark.slow
-def test_existing_output_needs_force(ran):
-    folder, _ = ran
-    done = tribo("run", "my.toml", *QUICK, cwd=folder)
-    assert done.returncode == 2
-    assert "--force" in done.stderr
-    assert tribo("run", "my.toml", *QUICK, "--force", cwd=folder).returncode == 0
-
-
-def test_a_contact_that_outgrows_the_window_exits_with_3(case):
-    settings = [*QUICK, "--set", "grid.size=0.36 mm"]
+def test_a_contact_that_outgrows_the_window_exits_with_3_and_keeps_what_was_saved(case):
+    settings = [*QUICK, *setting("grid.size=0.36 mm")]
     done = tribo("run", "my.toml", *settings)
     assert done.returncode == 3
     assert "grid.size" in done.stderr
@@ -293,61 +231,43 @@ def test_a_contact_that_outgrows_the_window_exits_with_3(case):
 
 
 def test_a_solve_that_does_not_converge_exits_with_3(case):
-    settings = [*QUICK, "--set", "contact.max_iterations=2"]
-    done = tribo("run", "my.toml", *settings)
+    done = tribo("run", "my.toml", *QUICK, *setting("contact.max_iterations=2"))
     assert done.returncode == 3
     assert "max_iterations" in done.stderr
     assert "residual" in done.stderr
 
 
-LINE = """
-[grid]
-size = "1 mm"
-cells = 48
-ends_at_window = true
-[load]
-normal = 100
-[bodies.roller]
-surface = { type = "cylinder", radius = "5 mm" }
-wear = { type = "archard", k = 3e-16 }
-material = { young = "207 GPa", poisson = 0.3 }
-[bodies.disk]
-surface = "flat"
-material = { young = "207 GPa", poisson = 0.3 }
-[kinematics]
-type = "reciprocating"
-stroke = "2 mm"
-frequency = 25
-distance = "2 m"
-"""
-
-
-def test_a_line_contact_is_checked_in_its_own_window_and_told_in_plain_json(tmp_path):
-    (tmp_path / "line.toml").write_text(LINE)
-    told = tribo("check", "line.toml", cwd=tmp_path)
-    assert "74.82 µm of a line contact" in told.stdout
-    assert "inf" not in told.stdout
-    hard = tribo(
-        "check", "line.toml", "--set", "bodies.disk.material.hardness='4 GPa'", cwd=tmp_path
+def test_a_line_contact_is_checked_in_its_own_window_and_told_in_plain_json(case):
+    roller = CASE.replace('"sphere", radius', '"cylinder", radius').replace(
+        'size = ["2 mm", "2 mm"]', 'size = "1 mm"\nends_at_window = true'
     )
-    assert "(1.79 H/2.8)" in hard.stdout
-    done = tribo("check", "line.toml", "--json", cwd=tmp_path)
+    assert "ends_at_window" in roller
+    assert "cylinder" in roller
+    case.write_text(roller)
+    short = setting("grid.cells=48", "kinematics.duration=20", "output.save_times=[]")
+    told = tribo("check", "my.toml", *short).stdout
+    assert "74.82 µm of a line contact" in told
+    assert "(1.79 H/2.8)" in told
+    assert "inf" not in told
+    done = tribo("check", "my.toml", *short, "--json")
     data = json.loads(done.stdout, parse_constant=lambda name: pytest.fail(name))
     assert data["hertz"]["half_width_y"] is None
     # The roller ends where the window does: 1 mm, not the wider one of the estimate.
     assert data["last"]["half_width_y"] == pytest.approx(0.5e-3)
 
 
-def test_a_run_does_not_write_over_its_own_case(case):
-    done = tribo("run", "my.toml", "-o", "my.toml", "--force")
+@pytest.mark.parametrize(
+    ("command", "words"),
+    [
+        ("run my.toml -o my.toml --force", "the case itself"),
+        ("new ball_on_disk my.toml", "--force"),
+        ("demo -d .", "--force"),
+    ],
+)
+def test_a_case_is_not_written_over_unasked(case, command, words):
+    other = Path("ball_on_disk.toml")
+    other.write_text("mine")
+    done = tribo(*command.split())
     assert done.returncode == 2
-    assert "the case itself" in done.stderr
-    assert case.read_text() == CASE
-
-
-def test_the_demo_does_not_write_over_a_case_unasked(tmp_path):
-    (tmp_path / "ball_on_disk.toml").write_text("mine")
-    done = tribo("demo", "-d", ".", cwd=tmp_path)
-    assert done.returncode == 2
-    assert "--force" in done.stderr
-    assert (tmp_path / "ball_on_disk.toml").read_text() == "mine"
+    assert words in done.stderr
+    assert (case.read_text(), other.read_text()) == (CASE, "mine")

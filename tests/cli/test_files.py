@@ -66,9 +66,17 @@ def test_a_case_given_for_a_result_is_told(monkeypatch, folder, command):
     assert "tribo run case.toml" in text
 
 
-def test_a_unit_without_quotes_is_told_to_take_them(monkeypatch, folder):
-    (folder / "bare.toml").write_text('a = "b"\nyoung = 207 GPa\n')
-    assert told(monkeypatch, folder, "check {}", "bare.toml").endswith("young = '207 GPa'")
+@pytest.mark.parametrize(
+    ("line", "hint"),
+    [
+        ("young = 207 GPa", "young = '207 GPa'"),
+        ("material = { poisson = 0.3, young = 207 GPa }", "young = '207 GPa'"),
+        ("poisson = 0,3", "decimals follow a point: 0.3"),
+    ],
+)
+def test_a_value_that_is_no_toml_is_mended(monkeypatch, folder, line, hint):
+    (folder / "bare.toml").write_text(f'a = "b"\n{line}\n')
+    assert told(monkeypatch, folder, "check {}", "bare.toml").endswith(hint)
 
 
 @pytest.mark.parametrize("name", ["out.csv", "out.toml"])

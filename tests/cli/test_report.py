@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from made_results import made
 from paper_models import archard, case, flat, foundation, named, sphere, steel
-from rich.console import Console
 
 from tribo import Effect, Field, Grid, Simulation
+from tribo.cli.console import Console
 from tribo.cli.report import print_report
 from tribo.motion.reciprocating import Reciprocating
 

@@ -7,7 +7,8 @@ from paper_models import archard, case, flat, motion, named, steel
 
 from tribo import Grid, Simulation
 from tribo.closed_forms.hertz import first_yield_pressure
-from tribo.lab.report import lab_report, yield_words
+from tribo.lab.first_contact import yield_words
+from tribo.lab.report import lab_report
 from tribo.surfaces.cylinder import Cylinder
 
 H = 4e9
@@ -21,10 +22,9 @@ def test_the_lab_block_is_that_of_the_worn_bodies():
     assert ball["mass_kg"] == pytest.approx(7850 * 3.11e-14 * 360, rel=1e-6, abs=0)
     # To a twentieth of a cell of 40 µm.
     assert ball["scar_along_m"] == pytest.approx(2 * half_width(3600), abs=2e-6)
-    assert ball["scar_across_m"] == pytest.approx(2.2 * half_width(3600), abs=2e-6)
-    assert disk["mass_kg"] is None
-    assert disk["scar_along_m"] is None
-    assert disk["scar_across_m"] == pytest.approx(2.2 * half_width(3600), abs=2e-6)
+    assert disk["mass_kg"] is disk["scar_along_m"] is None
+    for body in (ball, disk):
+        assert body["scar_across_m"] == pytest.approx(2.2 * half_width(3600), abs=2e-6)
 
 
 def test_the_first_contact_is_the_computed_one_beside_hertz():
@@ -35,26 +35,17 @@ def test_the_first_contact_is_the_computed_one_beside_hertz():
     assert first["yield_ratio"] == first["max_pressure_Pa"] / first_yield_pressure(H)
 
 
-@pytest.mark.parametrize(
-    ("changes", "hertz", "ratio"),
-    [({"cap": None}, True, False), ({"cap": H, "curvature": None}, False, False)],
-)
-def test_what_is_not_known_is_null(changes, hertz, ratio):
-    first = lab_report(made(**changes)).as_json()["first_contact"]
-    assert (first["hertz_peak_pressure_Pa"] is not None) == hertz
-    assert (first["yield_ratio"] is not None) == ratio
-
-
-def test_nothing_slid_has_no_wear_rate():
-    lab = lab_report(made(times=(0.0,))).as_json()
+def test_what_is_not_known_is_null():
+    lab = lab_report(made(times=(0.0,), cap=None)).as_json()
     assert lab["bodies"]["ball"]["specific_wear_rate_mm3_per_Nm"] is None
     assert lab["bodies"]["ball"]["scar_across_m"] == 0
+    assert lab["first_contact"]["yield_ratio"] is None
+    first = lab_report(made(cap=H, curvature=None)).first_contact
+    assert first.hertz_peak_pressure_Pa is first.yield_ratio is None
 
 
 def test_yield_is_said_in_three_stages():
-    assert first_yield_pressure(H) == pytest.approx(1.6 * H / 2.8)
     assert yield_words(0.5 * H, H).startswith("88 % of the pressure at which")
-    assert yield_words(0.5 * H, H).endswith("(1.6 H/2.8)")
     assert yield_words(0.8 * H, H).startswith("the softer body yields beneath the surface at first")
     assert "yields from the start" in yield_words(H, H)
 
@@ -71,11 +62,12 @@ def test_the_ends_of_a_line_contact_do_not_count_towards_its_yield(across):
         ],
         kinematics=motion(stroke="4 mm", duration=0.1),
     )
-    first = lab_report(Simulation(roller).run()).first_contact
+    lab = lab_report(Simulation(roller).run())
+    first = lab.first_contact
     # The half-space bears more near the ends than Hertz's even load per length.
     assert first.yield_ratio == pytest.approx(0.31, abs=0.01)
-    assert first.max_pressure > 1.4 * first.hertz_peak_pressure
-    assert "MPa at the ends (grows as the grid is refined)" in first.computed
+    assert first.max_pressure_Pa > 1.4 * first.hertz_peak_pressure_Pa
+    assert "MPa at the ends (grows as the grid is refined)" in lab.first_contact_words
 
 
 def test_a_line_contact_yields_at_its_own_factor():

@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import asdict
 from pathlib import Path
 
 import click
-from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
 from tribo.cli.console import Console
 from tribo.cli.options import CASE, JSON, SET, echo_json
 from tribo.core.errors import CaseError, NumericalError
-from tribo.lab.first_contact import computed_pressure
-from tribo.lab.report import yield_words
+from tribo.lab.first_contact import computed_pressure, yield_words
 from tribo.simulation.model import Model
 from tribo.simulation.predict import Prediction
 
@@ -53,68 +51,57 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
 
 
 def _print(case: Path, model: Model, prediction: Prediction) -> None:
-    console = Console(highlight=False)
-    verdict = f"{case} is valid{', but:' if prediction.problems else '.'}"
-    console.print(verdict, markup=False, soft_wrap=True)
-    console.print(_rows(("-", problem) for problem in prediction.problems))
-    console.print(_rows(_lines(model, prediction)))
+    console = Console()
+    verdict = "is valid, but:" if prediction.problems else "is valid."
+    if prediction.exit_code:
+        verdict = "would stop on its way:"
+    console.print(f"{case} {verdict}", markup=False, soft_wrap=True)
+    console.print(_rows(("  -", problem) for problem in prediction.problems))
+    console.print(_rows((f"  {name}", text) for name, text in _facts(model, prediction)))
     for place, facts in prediction.facts.items():
         console.print(f"  {place}:", markup=False)
-        console.print(_rows((f"  {name}", text) for name, text in facts.items()))
+        console.print(_rows((f"    {name}", text) for name, text in facts.items()))
 
 
-def _rows(rows: Iterable[tuple[str, str]]) -> Padding:
+def _rows(rows: Iterable[tuple[str, str]]) -> Table:
     """Return names and texts in two columns, wrapped to the width."""
     table = Table.grid(padding=(0, 1))
     for row in rows:
         table.add_row(*map(Text, row))
-    return Padding(table, (0, 0, 0, 2))
+    return table
 
 
-def _lines(model: Model, prediction: Prediction) -> list[tuple[str, str]]:
-    return [*_first(model, prediction), *_end(model, prediction), *_size(prediction)]
-
-
-def _first(model: Model, prediction: Prediction) -> list[tuple[str, str]]:
-    hertz, first = prediction.hertz, prediction.first
+def _facts(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
+    """Yield the first contact, the end and the size of the run, each with its name."""
+    hertz, first, last = prediction.hertz, prediction.first, prediction.last
     if hertz is None or prediction.cells_across is None:
-        return [("first contact", "no Hertz solution for these surfaces")]
-    a, b = hertz.half_width_x, hertz.half_width_y
-    widths = f"{1e6 * a:.4g} × {1e6 * b:.4g} µm along × across"
-    if hertz.is_line:
-        widths = f"{1e6 * min(a, b):.4g} µm of a line contact"
-    pressure, computed = computed_pressure(model.system, first.max_pressure, first.centre_pressure)
-    p0 = f"{1e-6 * hertz.peak_pressure:.1f} MPa, computed {computed}"
-    lines = [("Hertz half-widths", widths), ("Hertz peak pressure p0", p0)]
-    hardness = model.system.cap
-    if hardness is not None:
-        lines.append(("p0/H", f"{hertz.peak_pressure / hardness:.3f}"))
-        lines.append(("yield", yield_words(pressure, hardness, line=hertz.is_line)))
-    across = [f"{n:.0f}" for n in prediction.cells_across if math.isfinite(n)]
-    return [*lines, ("cells across the contact", " × ".join(across))]
-
-
-def _end(model: Model, prediction: Prediction) -> list[tuple[str, str]]:
-    last = prediction.last
+        yield "first contact", "no Hertz solution for these surfaces"
+    else:
+        a, b, p0 = hertz.half_width_x, hertz.half_width_y, hertz.peak_pressure
+        widths = f"{1e6 * a:.4g} × {1e6 * b:.4g} µm along × across"
+        if hertz.is_line:
+            widths = f"{1e6 * min(a, b):.4g} µm of a line contact"
+        yield "Hertz half-widths", widths
+        pressure, computed = computed_pressure(
+            model.system, first.max_pressure, first.centre_pressure
+        )
+        yield "Hertz peak pressure p0", f"{1e-6 * p0:.1f} MPa, computed {computed}"
+        hardness = model.system.cap
+        if hardness is not None:
+            yield "p0/H", f"{p0 / hardness:.3f}"
+            yield "yield", yield_words(pressure, hardness, line=hertz.is_line)
+        across = [f"{n:.0f}" for n in prediction.cells_across if math.isfinite(n)]
+        yield "cells across the contact", " × ".join(across)
     if last is None:
-        return [("final scar", "not estimated")]
-    size = f"{2e3 * last.half_width_x:.2f} × {2e3 * last.half_width_y:.2f} mm"
-    window = " × ".join(f"{1e3 * edge:.4g}" for edge in model.grid.size)
-    return [
-        ("contact at the end, about", size),
-        (f"window of {window} mm", "holds it" if prediction.window_holds else "TOO SMALL"),
-        *(
-            (
-                f"wear of {name}, about",
-                f"{1e6 * body.max_wear_depth:.3g} µm, {1e9 * body.wear_volume:.3g} mm³",
-            )
-            for name, body in last.bodies.items()
-        ),
-    ]
-
-
-def _size(prediction: Prediction) -> list[tuple[str, str]]:
-    return [
-        ("memory, at most", f"{prediction.memory / 2**20:.0f} MiB"),
-        ("result file, at most", f"{prediction.file_size / 2**20:.1f} MiB"),
-    ]
+        yield "final scar", "not estimated"
+    else:
+        size = f"{2e3 * last.half_width_x:.2f} × {2e3 * last.half_width_y:.2f} mm"
+        yield "contact at the end, about", size
+        window = " × ".join(f"{1e3 * edge:.4g}" for edge in model.grid.size)
+        holds = "holds it" if prediction.window_holds else "TOO SMALL"
+        yield f"window of {window} mm", holds
+        for name, body in last.bodies.items():
+            worn = f"{1e6 * body.max_wear_depth:.3g} µm, {1e9 * body.wear_volume:.3g} mm³"
+            yield f"wear of {name}, about", worn
+    yield "memory, at most", f"{prediction.memory / 2**20:.0f} MiB"
+    yield "result file, at most", f"{prediction.file_size / 2**20:.1f} MiB"

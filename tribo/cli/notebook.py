@@ -16,9 +16,9 @@ def html(result: Result) -> str:
     """Return the lab table of a result and a picture of its pressure, as HTML."""
     if not len(result.times):
         return f"<pre>{escape(repr(result))}</pre>"
-    console = Console(record=True, file=StringIO(), width=80, force_jupyter=False)
-    print_report(result, console)
-    table = console.export_html(inline_styles=True, code_format="<pre>{code}</pre>")
+    table = StringIO()
+    print_report(result, Console(file=table, width=80, force_jupyter=False))
     picture = BytesIO()
     pressure_sections(result).savefig(picture, format="png")
-    return f'{table}<img src="data:image/png;base64,{b64encode(picture.getvalue()).decode()}">'
+    data = b64encode(picture.getvalue()).decode()
+    return f'<pre>{escape(table.getvalue())}</pre><img src="data:image/png;base64,{data}">'

@@ -12,7 +12,7 @@ from rich.text import Text
 
 from tribo.cli.console import Console, titled
 from tribo.lab.inferred import InferredVolume
-from tribo.lab.report import BodyReport, FirstContact, lab_report
+from tribo.lab.report import BodyReport, lab_report
 from tribo.result.read import Result
 
 COLUMNS = (
@@ -36,18 +36,16 @@ def print_report(result: Result, console: Console | None = None) -> None:
     """Print the saves, the worn bodies and the first contact of `result`."""
     console = console or Console()
     lab = lab_report(result)
-    for part in _saves(result, console):
-        console.print(part)
+    _print_saves(result, console)
     console.print(_bodies(result, lab.bodies))
     if lab.inferred:
         console.print(_inferred(lab.inferred))
-    console.print(_first_contact(lab.first_contact))
+    console.print(lab.first_contact_words, markup=False)
     for row in lab.rows:
-        console.print(f"{escape(row.label)}: {row.value:.4g} {escape(row.unit)}".rstrip())
+        console.print(f"{row.label}: {row.value:.4g} {row.unit}".rstrip(), markup=False)
     for line in _effects(result):
         console.print(line, markup=False)
-    totals = result.totals()
-    worst = result.worst()
+    totals, worst = result.totals(), result.worst()
     took = "" if result.wall_time is None else f", {result.wall_time:.1f} s"
     console.print(f"{totals['steps']} steps, {totals['contact_solves']} contact solves{took}.")
     console.print(
@@ -68,9 +66,10 @@ def print_provenance(result: Result, console: Console | None = None) -> None:
     console.print()
     for again in (made, *made.get("resumed_with", ())):
         packages = ", ".join(f"{name} {version}" for name, version in again["packages"].items())
-        with_what = "Made with" if again is made else "Gone on with"
         console.print(
-            f"{with_what} Python {again['python']}, {packages}; models, in SI units:", markup=False
+            f"{'Made' if again is made else 'Gone on'} with Python {again['python']}, {packages}; "
+            "models, in SI units:",
+            markup=False,
         )
         for place, origin in again["components"].items():
             for line in _origin(place, origin):
@@ -100,21 +99,22 @@ def _origin(place: str, origin: Mapping[str, Any]) -> Iterator[str]:
         yield f"      {name}: {text}"
 
 
-def _saves(result: Result, console: Console) -> Iterator[Table | str]:
-    """Yield the table of saves, and what had to be left out of it to fit the width."""
+def _print_saves(result: Result, console: Console) -> None:
+    """Print the table of saves, and what had to be left out of it to fit the width."""
     left_out: list[str] = []
     unbounded = console.options.update(width=WIDE)
-    for name in (*DISPENSABLE, None):
-        table = _saves_table(result, left_out)
-        if name is None or console.measure(table, options=unbounded).minimum <= console.width:
+    table = _saves(result, left_out)
+    for name in DISPENSABLE:
+        if console.measure(table, options=unbounded).minimum <= console.width:
             break
         left_out.append(name)
-    yield table
+        table = _saves(result, left_out)
+    console.print(table)
     if left_out:
-        yield f"Left out for want of width: {', '.join(left_out)}."
+        console.print(f"Left out for want of width: {', '.join(left_out)}.")
 
 
-def _saves_table(result: Result, left_out: Sequence[str]) -> Table:
+def _saves(result: Result, left_out: Sequence[str]) -> Table:
     table = titled("Contact, along and across the sliding direction; wear depth of each body")
     saves = result.saves()
     columns = []
@@ -134,29 +134,11 @@ def _saves_table(result: Result, left_out: Sequence[str]) -> Table:
     return table
 
 
-def _first_contact(first: FirstContact) -> str:
-    """Return the line that sets the first contact against Hertz and the onset of yield."""
-    if first.hertz_peak_pressure is None:
-        return (
-            f"First contact: {first.computed}; no closed form to compare: the surfaces "
-            "state no curvature, or the contact is flat."
-        )
-    p0 = first.hertz_peak_pressure
-    line = f"First contact: {first.computed}, Hertz {1e-6 * p0:.1f} MPa"
-    if first.comparable:
-        line += f" ({100 * (first.max_pressure / p0 - 1):+.2f} %)"
-    if first.yields is not None:
-        line += f"; {first.yields}"
-    return line + "."
-
-
 def _bodies(result: Result, bodies: Mapping[str, BodyReport]) -> Table:
-    table = titled(f"Wear after {result.distances[-1]:.4g} m")
-    table.add_column("")
-    for name, body in bodies.items():
-        heading = f"{name} (track)" if body.scar_along is None else name
-        table.add_column(escape(heading), justify="right", overflow="fold")
-    worn = [_worn(body) for body in bodies.values()]
+    last = result.saves()[-1]
+    tracks = [f"{n} (track)" if body.scar_along_m is None else n for n, body in bodies.items()]
+    table = titled(f"Wear after {last['distance_m']:.4g} m", *tracks)
+    worn = [_worn(body, last["bodies"][name]) for name, body in bodies.items()]
     for row in worn[0]:
         cells = [body[row] for body in worn]
         if any(cell != NOTHING for cell in cells):
@@ -164,17 +146,36 @@ def _bodies(result: Result, bodies: Mapping[str, BodyReport]) -> Table:
     return table
 
 
+def _worn(body: BodyReport, save: Mapping[str, float]) -> dict[str, str]:
+    """Return a body's cells by their row."""
+    scarred = body.scar_across_m > 0
+    rows: dict[str, tuple[float | None, float, str]] = {
+        "volume, mm³": (save["wear_volume_m3"], 1e9, ".3g"),
+        "mass, mg": (body.mass_kg, 1e6, ".3g"),
+        "specific wear rate, mm³/(N·m)": (body.specific_wear_rate_mm3_per_Nm, 1, ".3g"),
+        "scar along sliding, mm": (body.scar_along_m if scarred else None, 1e3, ".3f"),
+        "scar across, mm": (body.scar_across_m or None, 1e3, ".3f"),
+        "section of the track, mm²": (body.track_section_m2 if scarred else None, 1e6, ".3g"),
+        "largest depth, µm": (save["max_wear_depth_m"], 1e6, ".3g"),
+        "largest plastic depth, µm": (save["max_plastic_depth_m"], 1e6, ".3g"),
+    }
+    cells = {
+        row: NOTHING if value is None else f"{factor * value:{digits}}"
+        for row, (value, factor, digits) in rows.items()
+    }
+    if scarred and body.scar_along_m is None:
+        cells["scar along sliding, mm"] = "whole track"
+    return cells
+
+
 def _inferred(volumes: Sequence[InferredVolume]) -> Table:
     """Set what a lab would infer from the scars against what was worn."""
-    table = titled("Volume by a lab's formulas, and how far that is off")
-    table.add_column("")
-    for unit in ("mm³", "%"):
-        table.add_column(unit, justify="right", no_wrap=True)
+    table = titled("Volume by a lab's formulas, and how far that is off", "mm³", "%")
     for each in volumes:
         table.add_row(
             f"{escape(each.body)}: {each.method}"
             + (f" ({each.standard})" if each.standard else ""),
-            f"{1e9 * each.volume:.3g}",
+            f"{1e9 * each.volume_m3:.3g}",
             f"{100 * each.relative_error:+.0f}",
         )
     return table
@@ -186,25 +187,3 @@ def _effects(result: Result) -> Iterator[str]:
         for name, ends in values.get("effects", {}).items():
             low, high = (NOTHING if end is None else f"{end:.4g}" for end in ends.values())
             yield f"{body} {name}: {low} to {high} at the end."
-
-
-def _worn(body: BodyReport) -> dict[str, str]:
-    """Return a body's cells by their row."""
-    scarred = body.scar_across > 0
-    rows: dict[str, tuple[float | None, float, str]] = {
-        "volume, mm³": (body.volume, 1e9, ".3g"),
-        "mass, mg": (body.mass, 1e6, ".3g"),
-        "specific wear rate, mm³/(N·m)": (body.specific_wear_rate, 1, ".3g"),
-        "scar along sliding, mm": (body.scar_along if scarred else None, 1e3, ".3f"),
-        "scar across, mm": (body.scar_across or None, 1e3, ".3f"),
-        "section of the track, mm²": (body.track_section if scarred else None, 1e6, ".3g"),
-        "largest depth, µm": (body.max_wear_depth, 1e6, ".3g"),
-        "largest plastic depth, µm": (body.max_plastic_depth, 1e6, ".3g"),
-    }
-    cells = {
-        row: NOTHING if value is None else f"{factor * value:{digits}}"
-        for row, (value, factor, digits) in rows.items()
-    }
-    if scarred and body.scar_along is None:
-        cells["scar along sliding, mm"] = "whole track"
-    return cells

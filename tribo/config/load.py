@@ -93,11 +93,13 @@ def _with_default_types(data: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _quotes(content: bytes, error: ValueError) -> str:
-    """Return a hint if the line of a TOML error has a value with a unit but no quotes."""
+    """Return a hint if the line of a TOML error has a bare unit, or a comma for a point."""
     at = re.search(r"at line (\d+)", str(error))
     line = content.splitlines()[int(at[1]) - 1].decode() if at else ""
-    bare = re.fullmatch(r"([\w.-]+ *= *)([\d.e+-]+ *[A-Za-zµ°][^\"'#]*)", line.strip())
-    return f"; a value with a unit is quoted: {bare[1]}'{bare[2]}'" if bare else ""
+    if comma := re.search(r"= *([+-]?\d+),(\d+)", line):
+        return f"; decimals follow a point: {comma[1]}.{comma[2]}"
+    bare = re.search(r"([\w.-]+ *= *)([\d.e+-]+ *[A-Za-zµ°][^\"'#,}]*)", line)
+    return f"; a value with a unit is quoted: {bare[1]}'{bare[2].strip()}'" if bare else ""
 
 
 def case_tables(case: Case | Mapping[str, Any] | str | Path) -> Mapping[str, Any]:

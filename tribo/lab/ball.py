@@ -1,9 +1,9 @@
 """What a ball has lost, by the size of its scar.
 
-R is the ball's radius and d the diameter of the scar, d∥ and d⊥ along and across
-the sliding direction; all in m, volumes in m³. The formulas are those of the
-standards named, derived again from the geometry; the tests integrate the shapes
-they stand for.
+All lengths in m, volumes in m³: `radius` R of the ball; `diameter` d of its scar,
+at most 2R, `along` d∥ and `across` d⊥ the sliding direction; `groove` R', the
+radius of a groove's section. The formulas are those of the standards named,
+derived again from the geometry; the tests integrate the shapes they stand for.
 
 References
 ----------
@@ -17,13 +17,7 @@ import math
 
 
 def ball_cap_depth(diameter: float, radius: float) -> float:
-    """Height of the cap that a flat scar takes off a ball, R − √(R² − d²/4) (ASTM G99).
-
-    Parameters
-    ----------
-    diameter, radius : float
-        Of the scar, at most 2R, and of the ball.
-    """
+    """Height of the cap that a flat scar takes off a ball, R − √(R² − d²/4) (ASTM G99)."""
     half = 0.5 * diameter
     # The textbook difference loses its digits for small scars.
     return half**2 / (radius + math.sqrt(radius**2 - half**2))
@@ -34,11 +28,6 @@ def ball_cap_volume(diameter: float, radius: float) -> float:
 
     V = πh(3d²/4 + h²)/6 with `ball_cap_depth` h. Only right for a flat scar: one
     that conforms to a groove has lost less, see `conforming_ball_volume`.
-
-    Parameters
-    ----------
-    diameter, radius : float
-        Of the scar and the ball.
     """
     h = ball_cap_depth(diameter, radius)
     return math.pi * h * (0.75 * diameter**2 + h**2) / 6.0
@@ -48,11 +37,6 @@ def shallow_cap_volume(diameter: float, radius: float) -> float:
     """Volume of a flat scar's cap, small scars, V = πd⁴/64R (ASTM G99).
 
     It is low by a part d²/12R²: 0.33 % at d = R/5, 1.35 % at d = 2R/5.
-
-    Parameters
-    ----------
-    diameter, radius : float
-        Of the scar and the ball.
     """
     return math.pi * diameter**4 / (64.0 * radius)
 
@@ -61,11 +45,6 @@ def cap_diameter(volume: float, radius: float) -> float:
     """Diameter of the flat scar that has lost this volume, exact.
 
     Inverse of `ball_cap_volume`, V = πh²(3R − h)/3, for caps up to half the ball.
-
-    Parameters
-    ----------
-    volume, radius : float
-        Volume lost, and radius of the ball.
 
     Notes
     -----
@@ -80,15 +59,8 @@ def cap_diameter(volume: float, radius: float) -> float:
 def conforming_ball_volume(along: float, across: float, radius: float, groove: float) -> float:
     """Volume off a ball whose scar conforms to a groove (ASTM D7755, DIN 51834).
 
-    V = (π/64) d∥² d⊥² (1/R − 1/R'). The flat cap is the limit R' → ∞.
-
-    Parameters
-    ----------
-    along, across, radius : float
-        Scar diameters, and radius of the ball.
-    groove : float
-        Radius R' of the groove's section, larger than R; see
-        `tribo.lab.track.groove_radius`.
+    V = (π/64) d∥² d⊥² (1/R − 1/R'), R' > R; see `tribo.lab.track.groove_radius`.
+    The flat cap is the limit R' → ∞.
 
     Notes
     -----
@@ -107,10 +79,5 @@ def flat_along_ball_volume(along: float, across: float, radius: float) -> float:
     ellipse where the ball wears most, and fuller where the track does: then the
     formula is low, by 3 % where a track of 2 mm loses as much as the ball, and
     by 1 − 9π/32 = 12 % at most.
-
-    Parameters
-    ----------
-    along, across, radius : float
-        Scar diameters, and radius of the ball.
     """
     return math.pi / 64.0 * along**3 * across / radius

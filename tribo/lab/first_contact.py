@@ -48,23 +48,20 @@ def hertz_contact(system: ContactSystem) -> HertzContact | None:
     None where the surfaces state no curvature, or neither axis is curved. A
     line contact bears its load evenly over the window's length.
     """
-    if system.curvature is None:
-        return None
-    cx, cy = system.curvature
+    cx, cy = system.curvature or (0.0, 0.0)
     if cx < 0 or cy < 0 or cx + cy == 0:
         return None
-    if cx == 0 or cy == 0:
-        length = system.grid.size[0] if cx == 0 else system.grid.size[1]
+    is_line = cx == 0 or cy == 0
+    if is_line:
+        length = system.grid.size[0 if cx == 0 else 1]
         line = hertz.line(system.modulus, system.load / length, max(cx, cy))
         a, b = (inf, line.half_width) if cx == 0 else (line.half_width, inf)
-        p0, approach, is_line = line.peak_pressure, None, True
+        p0, approach = line.peak_pressure, None
     else:
         point = hertz.point(system.modulus, system.load, cx, cy)
         (a, b), p0, approach = point.semi_axes, point.peak_pressure, point.approach
-        is_line = False
-    ratio = None
-    if system.cap is not None:
-        ratio = p0 / hertz.first_yield_pressure(system.cap, line=is_line)
+    cap = system.cap
+    ratio = None if cap is None else p0 / hertz.first_yield_pressure(cap, line=is_line)
     return HertzContact(a, b, p0, approach, ratio)
 
 
@@ -92,3 +89,30 @@ def computed_pressure(
         why = "the hardness" if capped else "grows as the grid is refined"
         words += f" and {1e-6 * max_pressure:.1f} MPa at the ends ({why})"
     return centre_pressure, words
+
+
+def yield_words(pressure: float, hardness: float, *, line: bool = False) -> str:
+    """Say whether the softer body yields under a peak pressure of a Hertz contact.
+
+    Parameters
+    ----------
+    pressure : float
+        In Pa; see `computed_pressure`.
+    hardness : float
+        Of the softer body, in Pa; see `tribo.closed_forms.hertz.first_yield_pressure`.
+    line : bool, optional
+        Whether it is a line contact.
+    """
+    if pressure >= AT_THE_CAP * hardness:
+        return "the softer body yields from the start: the pressure is its hardness"
+    onset = f"{'1.79' if line else '1.6'} H/2.8"
+    percent = f"{100 * pressure / hertz.first_yield_pressure(hardness, line=line):.0f} %"
+    if pressure > hertz.first_yield_pressure(hardness, line=line):
+        return (
+            f"the softer body yields beneath the surface at first (at {percent} of {onset}), "
+            "which this model leaves out"
+        )
+    return (
+        f"{percent} of the pressure at which the softer body first yields beneath the surface "
+        f"({onset})"
+    )

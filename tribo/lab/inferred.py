@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
-from tribo.lab.ball import (
-    ball_cap_volume,
-    conforming_ball_volume,
-    flat_along_ball_volume,
-)
+from tribo.lab.ball import ball_cap_volume, conforming_ball_volume, flat_along_ball_volume
 from tribo.lab.scar import scar
 from tribo.lab.track import circular_groove_area, groove_radius, planimetric_area
 from tribo.result.body import BodyResult
@@ -19,8 +15,7 @@ from tribo.result.read import Result
 _ROUND = 1e-9
 
 
-@dataclass(frozen=True)
-class InferredVolume:
+class InferredVolume(NamedTuple):
     """A body's worn volume by a formula of a lab.
 
     Parameters
@@ -31,7 +26,7 @@ class InferredVolume:
         What the formula takes the scar for.
     standard : str or None
         Where the formula is used, as ``"ASTM G99"``; None for one derived here.
-    volume : float
+    volume_m3 : float
         In m³.
     relative_error : float
         How far it is off the volume worn.
@@ -40,7 +35,7 @@ class InferredVolume:
     body: str
     method: str
     standard: str | None
-    volume: float
+    volume_m3: float
     relative_error: float
 
 
@@ -54,13 +49,6 @@ def inferred_volumes(result: Result, save: int = -1) -> list[InferredVolume]:
     it. The scars are measured by `scar`, and the lab knows the length of the
     track. Plastic indentation is left out.
 
-    Parameters
-    ----------
-    result : Result
-        What to measure.
-    save : int, optional
-        The save; the last one if left out.
-
     Returns
     -------
     list of InferredVolume
@@ -70,27 +58,28 @@ def inferred_volumes(result: Result, save: int = -1) -> list[InferredVolume]:
     if pair is None:
         return []
     ball, flat, radius = pair
-    widths = {b.name: scar(b.wear_depth[save], result.grid) for b in (ball, flat)}
+    worn = {name: body["wear_volume_m3"] for name, body in result.saves()[save]["bodies"].items()}
+    along, across = seen = scar(ball.wear_depth[save], result.grid)
+    width = scar(flat.wear_depth[save], result.grid).across
     section = track_section(result, flat, save)
-    bodies = result.saves()[save]["bodies"]
-    worn = {name: body["wear_volume_m3"] for name, body in bodies.items()}
-    found: list[tuple[str, str, str | None, float]] = []
-    seen = widths[ball.name]
+    found: list[InferredVolume] = []
+
+    def infer(body: BodyResult, method: str, standard: str | None, volume: float) -> None:
+        off = volume / worn[body.name] - 1.0
+        found.append(InferredVolume(body.name, method, standard, volume, off))
+
     if not ball.swept and 0 < seen.mean_diameter < 2 * radius:
-        volume = ball_cap_volume(seen.mean_diameter, radius)
-        found.append((ball.name, "flat scar", "ASTM G99", volume))
-        groove = groove_radius(seen.across, section) if section else np.inf
-        if section and groove > radius:
-            volume = conforming_ball_volume(seen.along, seen.across, radius, groove)
-            found.append((ball.name, "scar in a groove", "ASTM D7755", volume))
-        volume = flat_along_ball_volume(seen.along, seen.across, radius)
-        found.append((ball.name, "scar flat along sliding only", None, volume))
-    width = widths[flat.name].across
+        infer(ball, "flat scar", "ASTM G99", ball_cap_volume(seen.mean_diameter, radius))
+        if section and (groove := groove_radius(across, section)) > radius:
+            volume = conforming_ball_volume(along, across, radius, groove)
+            infer(ball, "scar in a groove", "ASTM D7755", volume)
+        volume = flat_along_ball_volume(along, across, radius)
+        infer(ball, "scar flat along sliding only", None, volume)
     if section and 0 < width < 2 * radius:
         length = worn[flat.name] / section
         volume = length * circular_groove_area(width, radius)
-        found.append((flat.name, "groove of an unworn ball", "ASTM G99", volume))
-    return [InferredVolume(*entry, entry[3] / worn[entry[0]] - 1.0) for entry in found]
+        infer(flat, "groove of an unworn ball", "ASTM G99", volume)
+    return found
 
 
 def track_section(result: Result, body: BodyResult, save: int = -1) -> float | None:
@@ -103,11 +92,10 @@ def track_section(result: Result, body: BodyResult, save: int = -1) -> float | N
 def _ball_and_flat(result: Result) -> tuple[BodyResult, BodyResult, float] | None:
     """Return a round body, the plane one and the radius, if they are that."""
     curvature = result.system.curvature
-    bodies = [result.body(name) for name in result.body_names]
-    flats = [body for body in bodies if np.ptp(body.height) == 0]
-    if curvature is None or len(flats) != 1 or curvature[0] <= 0:
+    bodies = sorted(map(result.body, result.body_names), key=lambda body: np.ptp(body.height))
+    flat, ball = bodies
+    if np.ptp(flat.height) > 0 or np.ptp(ball.height) == 0 or curvature is None:
         return None
-    if abs(curvature[1] / curvature[0] - 1) > _ROUND:
+    if curvature[0] <= 0 or abs(curvature[1] / curvature[0] - 1) > _ROUND:
         return None
-    (ball,) = (body for body in bodies if body is not flats[0])
-    return ball, flats[0], 1 / curvature[0]
+    return ball, flat, 1 / curvature[0]

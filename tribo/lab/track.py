@@ -1,8 +1,9 @@
 """What a track or the block on a ring has lost, by width and section.
 
-R is the ball's radius and d the width of the track; all in m, sections in m²,
-volumes in m³. The formulas are those of the standards named, derived again from
-the geometry; the tests integrate the shapes they stand for.
+All lengths in m, sections in m², volumes in m³: `radius` R of the ball; `width` d
+of the track, at most 2R; `area` W_q of its section. The formulas are those of the
+standards named, derived again from the geometry; the tests integrate the shapes
+they stand for.
 
 References
 ----------
@@ -21,14 +22,9 @@ from tribo.lab.ball import ball_cap_volume
 
 
 def groove_radius(width: float, area: float) -> float:
-    """Radius of a groove from its width and its section, R' = d⊥³/12W_q (ASTM D7755).
+    """Radius of a groove from its width and its section, R' = d³/12W_q (ASTM D7755).
 
-    It takes the groove for a parabola of width d⊥ and section W_q.
-
-    Parameters
-    ----------
-    width, area : float
-        Width d⊥ of the track, and its section W_q; see `planimetric_area`.
+    It takes the groove for a parabola.
     """
     return width**3 / (12.0 * area)
 
@@ -54,12 +50,8 @@ def planimetric_area(depth: ArrayLike, spacing: float) -> float:
 def planimetric_volume(area: float, track_length: float) -> float:
     """Volume of a track from one section, V = W_q ℓ (ASTM G133, D7755).
 
-    The rounded ends of a reciprocating track are not part of it.
-
-    Parameters
-    ----------
-    area, track_length : float
-        Section W_q, and the stroke, or 2πr of a circular track.
+    The length ℓ is the stroke, or 2πr of a circular track. The rounded ends of
+    a reciprocating track are not part of it.
     """
     return area * track_length
 
@@ -69,25 +61,15 @@ def circular_groove_area(width: float, radius: float) -> float:
 
     A = R² asin(d/2R) − (d/4)√(4R² − d²), a segment of the ball's section. Where the
     ball wears too the track is shallower than that.
-
-    Parameters
-    ----------
-    width, radius : float
-        Of the track, at most 2R, and of the ball.
     """
     half_angle = math.asin(width / (2.0 * radius))
     return radius**2 * half_angle - 0.25 * width * math.sqrt(4.0 * radius**2 - width**2)
 
 
 def disk_track_volume(width: float, radius: float, track_radius: float) -> float:
-    """Volume of a circular track with the shape of an unworn ball (ASTM G99).
+    """Volume of a track of radius r with the shape of an unworn ball, V = 2πr A (ASTM G99).
 
-    V = 2πr A with `circular_groove_area` A.
-
-    Parameters
-    ----------
-    width, radius, track_radius : float
-        Width of the track, radius of the ball, radius r of the track.
+    A is `circular_groove_area`.
     """
     return 2.0 * math.pi * track_radius * circular_groove_area(width, radius)
 
@@ -97,11 +79,6 @@ def reciprocating_track_volume(width: float, radius: float, stroke: float) -> fl
 
     `circular_groove_area` times the stroke, and half a ball cap at each end
     (after ASTM G133).
-
-    Parameters
-    ----------
-    width, radius, stroke : float
-        Width of the track, radius of the ball, stroke.
     """
     return stroke * circular_groove_area(width, radius) + ball_cap_volume(width, radius)
 
@@ -109,12 +86,8 @@ def reciprocating_track_volume(width: float, radius: float, stroke: float) -> fl
 def block_on_ring_volume(scar_width: float, ring_diameter: float, block_width: float) -> float:
     """Volume off the block of a block-on-ring test (ASTM G77).
 
-    V = (D²t/8)(2θ − sin 2θ), θ = asin(b/D).
-
-    Parameters
-    ----------
-    scar_width, ring_diameter, block_width : float
-        Mean scar width b, at most D; ring diameter D; block width t.
+    V = (D²t/8)(2θ − sin 2θ), θ = asin(b/D), with the mean scar width b, at most
+    the ring's diameter D, and the width t of the block.
     """
     twice = 2.0 * math.asin(scar_width / ring_diameter)
     return ring_diameter**2 * block_width / 8.0 * (twice - math.sin(twice))

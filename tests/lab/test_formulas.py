@@ -1,16 +1,16 @@
-"""What a ball has lost by its scar; the formulas' shapes are summed up in `tribo verify`."""
+"""A lab's formulas; `tribo verify` sums up the shapes that they stand for."""
 
 import numpy as np
 import pytest
 from scipy.integrate import quad
 
 from tribo.closed_forms.ball_on_track import ball_on_track
-from tribo.lab import ball
+from tribo.lab import ball, conversion, track
 
 R = 5e-3
 
 
-@pytest.mark.parametrize("d", [1e-6, 1e-3, 2e-3, 9e-3])
+@pytest.mark.parametrize("d", [1e-6, 2e-3, 9e-3])
 def test_cap_volume_is_that_of_a_body_of_revolution(d):
     h = ball.ball_cap_depth(d, R)
     # z runs down from the pole; the section there has radius² z(2R − z).
@@ -20,25 +20,25 @@ def test_cap_volume_is_that_of_a_body_of_revolution(d):
     assert ball.cap_diameter(volume, R) == pytest.approx(d, rel=1e-9, abs=0)
 
 
-def test_shallow_form_falls_short_by_its_next_term():
-    for d, part in ((1e-3, 0.0033), (2e-3, 0.0133)):
-        shortfall = 1 - ball.shallow_cap_volume(d, R) / ball.ball_cap_volume(d, R)
-        assert shortfall == pytest.approx(part, abs=2e-4)
-
-
 @pytest.mark.parametrize(
     ("k_flat", "low", "within"),
     [(0.0, 0.0, 1e-9), (3.11e-16, 0.03, 5e-3), (1e-10, 1 - 9 * np.pi / 32, 1e-3)],
 )
 def test_volume_of_a_scar_flat_along_the_track_in_the_rigid_limit(k_flat, low, within):
-    worn = ball_on_track(
-        [360.0],
-        load=100.0,
-        radius=R,
-        track_length=2e-3,
-        ball_wear_coefficient=3.11e-16,
-        flat_wear_coefficient=k_flat,
-    )
+    coefficients = {"ball_wear_coefficient": 3.11e-16, "flat_wear_coefficient": k_flat}
+    worn = ball_on_track([360.0], load=100.0, radius=R, track_length=2e-3, **coefficients)
     along, across = 2 * worn.half_width_along[0], 2 * worn.half_width_across[0]
     volume = ball.flat_along_ball_volume(along, across, R)
     assert 1 - volume / worn.ball_volume[0] == pytest.approx(low, abs=within)
+
+
+def test_a_section_is_the_mean_of_its_profiles_and_leaves_piled_up_material_out():
+    profiles = [[-1e-6, 2e-6, 1e-6], [-9e-6, 3e-6, 0.0]]
+    assert track.planimetric_area(profiles, 1e-5) == pytest.approx(3e-11, rel=1e-6, abs=0)
+
+
+def test_wear_rate_of_the_weighed_volume():
+    volume = conversion.volume_from_mass(2.2e-6, 7850.0)
+    assert conversion.mass_from_volume(volume, 7850.0) == pytest.approx(2.2e-6, rel=1e-12, abs=0)
+    k = conversion.specific_wear_rate(volume, 100.0, 9000.0)
+    assert conversion.in_mm3_per_newton_metre(k) == pytest.approx(3.1139e-7, rel=1e-4)
