@@ -3,24 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import isfinite
 from typing import Any
 
 import numpy as np
 
 from tribo.config.stop import Stop
 from tribo.core.arrays import Array
-from tribo.core.contact import WearCompliance
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
-from tribo.motion.exposure import Exposure
+from tribo.simulation.guards import GuardedExposure, GuardedMotion
 from tribo.testing import samples
-from tribo.testing.checks import Checks, units_of
-from tribo.testing.compare import apply_if, expect_array, expect_close, require
+from tribo.testing.checks import Checks
+from tribo.testing.compare import apply_if, expect_close, require
 from tribo.testing.samples import BODIES, GRID
 
 _PARTS = np.linspace(0.0, 1.0, 201)
-_HALF_WIDTHS = np.geomspace(1e-6, 10.0, 50)
 
 
 class KinematicsChecks(Checks):
@@ -44,22 +41,21 @@ class KinematicsChecks(Checks):
             }
         return answers
 
-    def _exposures(self, grid: Grid = GRID) -> Mapping[str, Exposure]:
-        exposures: Mapping[str, Exposure] = self._make().exposures(grid, BODIES)
-        return exposures
+    def _exposures(self, grid: Grid = GRID) -> Mapping[str, GuardedExposure]:
+        return GuardedMotion(self._make()).exposures(grid, BODIES)
 
-    def motion_ends(self) -> None:
-        """The end time and the sliding distance by then are positive and finite."""
-        motion = self._make()
-        end = motion.end_time
-        for what, value in (("end_time", end), ("distance_at(end_time)", motion.distance_at(end))):
-            fine = value > 0 and isfinite(value)
-            require(fine, f"{what} is {value!r}; it must be positive and finite")
+    def answers_fit_a_run(self) -> None:
+        """It slides on from 0 to an end, and time and distance are inverses of each other."""
+        motion = GuardedMotion(self._make())
+        motion.check_distance(motion.end_time(None))
 
-    def path_begins_at_zero(self) -> None:
-        """Nothing has been slid at time 0."""
-        start = self._make().distance_at(0.0)
-        require(start == 0, f"distance_at(0) is {start!r} m; it must be 0")
+    def exposures_fit_a_run(self) -> None:
+        """Each body is exposed; averages have one value for all x where a body is swept."""
+        rate = samples.hertz_pressure(GRID)
+        for exposure in self._exposures().values():
+            exposure.volume(exposure.average(rate))
+            exposure.envelope(rate)
+            exposure.compliance(rate, rate)
 
     def path_never_shrinks(self) -> None:
         """The sliding distance never decreases, also where the motion turns round."""
@@ -74,79 +70,20 @@ class KinematicsChecks(Checks):
                 f"{_PARTS[at] * last:.6g} s and {_PARTS[at + 1] * last:.6g} s",
             )
 
-    def time_inverts_distance(self) -> None:
-        """By time_at(s) the motion has slid s."""
-        motion = self._make()
-        total = motion.distance_at(motion.end_time)
-        for needed in _PARTS * total:
-            time = motion.time_at(needed)
-            found = motion.distance_at(time)
-            require(
-                abs(found - needed) <= 1e-9 * total,
-                f"time_at({needed:.6g} m) is {time:.6g} s, by when {found:.6g} m are slid",
-            )
-
-    def cycles_add_up(self) -> None:
-        """N cycles slide N times as far as one, from wherever they begin."""
-        motion = self._make()
-        units = units_of(self._config)
-        frequencies = [getattr(self._config, name) for name in units if "Hz" in units[name]]
-        apply_if(len(frequencies) == 1, "its configuration has no frequency")
-        period = 1 / frequencies[0]
-        one = motion.distance_at(period)
-        for start in (0.0, 0.3 * period):
-            for count in (2, 7):
-                found = motion.distance_at(start + count * period) - motion.distance_at(start)
-                require(
-                    abs(found - count * one) <= 1e-9 * count * one,
-                    f"{count} cycles from {start:.4g} s slide {found:.9g} m, one {one:.9g} m",
-                )
-
     def speeds_share_the_path(self) -> None:
         """Speeds are positive, their shares add up to 1, and they need no longer than it runs."""
         motion = self._make()
-        speeds = motion.speeds()
+        speeds = GuardedMotion(motion).speeds
         apply_if(speeds is not None, "speeds() is None: the mean speed is taken")
-        for speed, share in speeds:
-            fine = speed > 0 and share > 0 and isfinite(speed)
-            require(fine, f"speeds() has {speed!r} m/s for {share!r} of the path")
-        total = sum(share for _, share in speeds)
-        require(abs(total - 1) <= 1e-9, f"the shares of the path add up to {total:.9g}, not to 1")
+        assert speeds is not None
+        slowest = min(speed for speed, _ in speeds)
+        require(slowest > 0, f"speeds() has {slowest!r} m/s; it must be positive")
         mean = motion.distance_at(motion.end_time) / motion.end_time
         stated = 1 / sum(share / speed for speed, share in speeds)
         require(
             stated >= 0.99 * mean,
             f"its speeds have a mean of {stated:.4g} m/s, but it slides at {mean:.4g} m/s",
         )
-
-    def every_body_is_exposed(self) -> None:
-        """There is one exposure for each body of the case, by its name, and no other."""
-        exposures = self._exposures()
-        fits = set(exposures) == set(BODIES)
-        require(fits, f"exposures of {sorted(exposures)} for the bodies {BODIES}")
-        for name, exposure in exposures.items():
-            require(isinstance(exposure, Exposure), f"{name!r} has {exposure!r}, no Exposure")
-
-    def body_fields_fit_the_window(self) -> None:
-        """Averages and envelopes have one shape, which broadcasts to the window's."""
-        rate = samples.hertz_pressure(GRID)
-        for name, exposure in self._exposures().items():
-            average = exposure.average(rate)
-            shape = np.shape(average)
-            fits = shape in (GRID.cells, (1, GRID.cells[1]), (GRID.cells[0], 1), (1, 1))
-            require(fits, f"{name!r}: average has shape {shape}, which does not fit {GRID.cells}")
-            expect_array(f"{name!r}: average", average, shape)
-            expect_array(f"{name!r}: envelope", exposure.envelope(rate), shape)
-
-    def what_passes_is_swept(self) -> None:
-        """A body whose points share the wear along x is swept; one that stays is not."""
-        rate = samples.hertz_pressure(GRID)
-        for name, exposure in self._exposures().items():
-            average = exposure.average(rate)
-            if np.shape(average) != GRID.cells:
-                require(exposure.swept, f"{name!r} has one average for all x; set swept = True")
-            elif np.array_equal(average, rate):
-                require(not exposure.swept, f"{name!r} keeps its own rate at each x, but is swept")
 
     def worn_volume_is_conserved(self) -> None:
         """The volume of an average is the integral of the rate over the contact."""
@@ -161,13 +98,12 @@ class KinematicsChecks(Checks):
                 )
 
     def averages_are_linear(self) -> None:
-        """The average of a sum is the sum of averages, and none is negative."""
+        """The average of a sum is the sum of averages."""
         one, other = samples.pattern(GRID.cells), samples.hertz_pressure(GRID) / samples.PEAK
         for name, exposure in self._exposures().items():
             both = exposure.average(2 * one + 3 * other)
             parts = 2 * exposure.average(one) + 3 * exposure.average(other)
             expect_close(f"{name!r}: average of a sum", both, parts, 1e-12)
-            require(np.min(both) >= 0, f"{name!r}: rates that are nowhere negative average to less")
 
     def finer_window_averages_the_same(self) -> None:
         """Cutting each cell in four changes no average."""
@@ -190,45 +126,30 @@ class KinematicsChecks(Checks):
             expect_close(f"{name!r}: envelope of an envelope", again, envelope, 0.0)
 
     def compliance_is_the_average_of_a_linear_law(self) -> None:
-        """For a law linear in pressure the compliance is exact, and it is never negative."""
+        """For a law linear in pressure the compliance is exact."""
         pressure, slope = samples.hertz_pressure(GRID), np.full(GRID.cells, 3e-16)
         exposures = self._exposures()
         asked = {name: e.compliance(slope, pressure) for name, e in exposures.items()}
         given = {name: compliance for name, compliance in asked.items() if compliance is not None}
         apply_if(given, "its exposures give no compliance")
         for name, compliance in given.items():
-            require(isinstance(compliance, WearCompliance), f"{name!r}: no WearCompliance is given")
-            expect_array(f"{name!r}: local compliance", compliance.local, GRID.cells)
-            expect_array(f"{name!r}: swept compliance", compliance.swept, GRID.cells[1:])
-            least = min(np.min(compliance.local), np.min(compliance.swept))
-            require(least >= 0, f"{name!r}: the compliance falls to {least:.3g}")
             needed = np.broadcast_to(exposures[name].average(slope * pressure), GRID.cells)
             found = compliance.depth(pressure, GRID.spacing[0])
             expect_close(f"{name!r}: depth of the compliance", found, needed, 1e-9)
 
-    def limitation_is_said_in_words(self) -> None:
-        """Up to some size of contact there is no limitation; beyond, there is one, in words."""
-        motion = self._make()
-        said = [
-            motion.limitation(float(half_width), 1e-5, 1e-6, 1.0) for half_width in _HALF_WIDTHS
-        ]
-        for text in said:
-            plain = text is None or (isinstance(text, str) and text.strip())
-            require(plain, f"limitation gave {text!r}; a sentence or None is needed")
-        first = next((number for number, text in enumerate(said) if text is not None), len(said))
-        require(None not in said[first:], "a larger contact is less limited than a smaller one")
-
-    def absurd_contacts_are_refused(self) -> None:
-        """A contact of a micrometre is accepted; beyond some size `CaseError` refuses all."""
-        motion = self._make()
-        refused = []
-        for half_width in _HALF_WIDTHS:
+    def larger_contacts_are_limited_no_less(self) -> None:
+        """Up to some size of contact there is no limitation, and up to some none is refused."""
+        motion = GuardedMotion(self._make())
+        said, refused = [], []
+        for half_width in map(float, np.geomspace(1e-6, 10.0, 50)):
+            said.append(motion.limitation(half_width, 1e-5, 1e-6, 1.0) is not None)
             try:
-                motion.check_contact(float(half_width))
+                motion.check_contact(half_width)
             except CaseError:
                 refused.append(True)
             else:
                 refused.append(False)
+        require(said == sorted(said), "a larger contact is less limited than a smaller one")
         require(not refused[0], "check_contact refuses a half-width of 1 µm")
         require(refused == sorted(refused), "check_contact accepts more than what it refuses")
 

@@ -72,17 +72,6 @@ def _same(one: object, other: object) -> bool:
     return bool(one == other) or bool(one != one and other != other)  # NaN is itself here
 
 
-def expect_array(name: str, value: object, shape: tuple[int, ...]) -> None:
-    """Fail unless `value` is a finite float64 array of the shape."""
-    kind = type(value).__name__
-    require(isinstance(value, np.ndarray), f"{name} is a {kind}; an array {shape} is needed")
-    array = np.asarray(value)
-    require(array.shape == shape, f"{name} has shape {array.shape}; {shape} is needed")
-    require(array.dtype == np.float64, f"{name} has dtype {array.dtype}; float64 is needed")
-    bad = int(np.count_nonzero(~np.isfinite(array)))
-    require(not bad, f"{name} is not finite in {bad} of {array.size} points")
-
-
 def expect_close(what: str, found: Array, needed: Array, tolerance: float) -> None:
     """Fail unless two arrays agree to `tolerance` times the largest of `needed`."""
     shapes = np.shape(found), np.shape(needed)

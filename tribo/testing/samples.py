@@ -16,6 +16,7 @@ from tribo.core.contact import ContactProblem, ContactSystem, WearCompliance
 from tribo.core.fields import FRICTION_COEFFICIENT, ContactConditions, Field
 from tribo.core.grid import Grid
 from tribo.core.material import Material, contact_modulus
+from tribo.core.state import Snapshot
 from tribo.effects.effect import Effect
 from tribo.motion.reciprocating import Reciprocating
 from tribo.observers.observer import Observer
@@ -24,7 +25,7 @@ from tribo.surfaces.cylinder import Cylinder
 from tribo.surfaces.flat import Flat
 from tribo.surfaces.sphere import Sphere
 from tribo.testing.checks import FieldValue
-from tribo.testing.compare import locked
+from tribo.testing.compare import locked, require
 from tribo.wear.archard import Archard
 
 # Neither square nor of square cells, so that swapped axes are noticed.
@@ -32,6 +33,8 @@ GRID = Grid((0.72e-3, 0.8e-3), (24, 20))
 BODIES = ("ball", "disk")
 LOAD = 100.0
 RADIUS = 5e-3
+STEPS = 2000
+"""Of a run, at most; most take fewer than a hundred."""
 SPEED = 0.1
 PEAK = 2e9
 STEEL = Material(
@@ -191,7 +194,7 @@ def run(
             name: Body(surface=surface, material=STEEL, wear=law)
             for name, surface in zip(BODIES, _shapes(kinematics), strict=True)
         },
-        contact=Winkler(plasticity=False),
+        contact=Winkler(),
         kinematics=kinematics,
         friction=_friction(given),
         effects=[*([_providing(needed, given)] if needed else []), *effects],
@@ -200,7 +203,16 @@ def run(
     )
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        Simulation(case).run(observers=[watcher] if watcher else []).close()
+        Simulation(case).run(observers=[_Limit(), *([watcher] if watcher else [])]).close()
+
+
+class _Limit(Observer):
+    """Ends a run that does not come to its end by itself."""
+
+    type = "tribo.testing.limit"
+
+    def on_step(self, snapshot: Snapshot) -> None:
+        require(snapshot.state.steps <= STEPS, f"a small run is not done after {STEPS} steps")
 
 
 def sliding(distance: float) -> Reciprocating:

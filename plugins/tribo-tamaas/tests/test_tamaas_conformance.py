@@ -9,4 +9,4 @@ pytest.importorskip(
     "tamaas", reason="tamaas is not installed: it has wheels for Linux on x86-64 only"
 )
 
-test_conformance = parametrize_checks(Tamaas, configs=[{}, {"plasticity": False}])
+test_conformance = parametrize_checks(Tamaas, configs=[{}])

@@ -27,8 +27,8 @@ test_archard = parametrize_checks(Archard, [{"k": "3e-16 1/Pa"}, {"K": 1e-6}])
 test_power = parametrize_checks(
     Power, [{**REFERENCE, "p_exponent": 1.5}, {**REFERENCE, "p_exponent": 3}]
 )
-test_dcfft = parametrize_checks(DcFft, [{}, {"plasticity": False, "tolerance": 1e-10}])
-test_periodic = parametrize_checks(Periodic, [{}, {"plasticity": False, "tolerance": 1e-10}])
+test_dcfft = parametrize_checks(DcFft, [{}, {"tolerance": 1e-10}])
+test_periodic = parametrize_checks(Periodic, [{}, {"tolerance": 1e-10}])
 test_winkler = parametrize_checks(
     Winkler,
     [{}, {"match": "peak_pressure"}, {"modulus": 1.3e15}, {"layer": LAYER}],
