@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
-from types import MappingProxyType, TracebackType
+from types import MappingProxyType
 from typing import Any, Self
+
+import numpy as np
 
 from tribo.case import Case
 from tribo.config.load import case_tables
@@ -16,8 +18,8 @@ from tribo.core.errors import CaseError
 from tribo.registry.registry import Registry
 from tribo.result.read import SAME_TIME, Result
 from tribo.simulation.run import Simulation
-from tribo.study.differences import common_times, differences, same_grid
-from tribo.study.matching import matched, own_names
+from tribo.study.differences import differences
+from tribo.study.matching import check_match, pairs, renamed
 from tribo.study.runs import Observers, run_variants
 from tribo.study.variation import grid, short_labels, variants
 
@@ -34,23 +36,19 @@ class Comparison:
     Parameters
     ----------
     results : Mapping
-        The open results by their labels; bodies go by their names in the first,
-        see `tribo.study.matching`.
+        The open results by their labels; bodies go by their names in the first.
     settings : Mapping
         What sets each apart, by label: values by path; empty where not known.
+    own_names : Mapping
+        What the bodies of each result are called in its file, by label: names
+        by those that they go by.
     """
 
     results: Mapping[str, Result]
-    settings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    settings: Mapping[str, Mapping[str, Any]]
+    own_names: Mapping[str, Mapping[str, str]]
 
     def __post_init__(self) -> None:
-        if len(self.results) < 2:
-            raise CaseError("one result alone has nothing to be compared with; give two or more")
-        if len(self.results) > MOST:
-            raise CaseError(
-                f"{len(self.results)} results are too many to read side by side; compare at most "
-                f"{MOST}"
-            )
         if not self.times:
             raise CaseError(
                 "the results have no time of a save in common: "
@@ -60,12 +58,7 @@ class Comparison:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self.close()
 
     def close(self) -> None:
@@ -81,7 +74,15 @@ class Comparison:
     @property
     def times(self) -> list[float]:
         """Times at which all results hold a save, in s."""
-        return common_times(list(self.results.values()))
+        first, *others = (result.times for result in self.results.values())
+        return [
+            float(time)
+            for time in first
+            if all(
+                np.any(np.abs(times - time) <= SAME_TIME * np.max(times, initial=0.0))
+                for times in others
+            )
+        ]
 
     @property
     def bodies(self) -> list[str]:
@@ -91,36 +92,31 @@ class Comparison:
     @property
     def notes(self) -> list[str]:
         """What a reader must know of the comparison."""
-        first = self.results[self.reference]
+        first, last = self.results[self.reference], self.times[-1]
+        apart = [label for label, result in self.results.items() if result.grid != first.grid]
         notes = []
-        apart = [label for label, result in self.results.items() if not same_grid(result, first)]
         if apart:
             notes.append(
                 f"{', '.join(apart)}: not on the grid of {self.reference}, so that only scalars "
                 "and sections are compared, the latter interpolated where both windows reach"
             )
-        for label, result in self.results.items():
-            other = {name: own for name, own in own_names(result).items() if own != name}
-            if other:
-                pairs = ", ".join(f"{own!r} with {name!r}" for name, own in other.items())
-                notes.append(f"{label}: compares {pairs}; --match NAME=NAME pairs them otherwise")
-        last = self.times[-1]
-        notes += [
-            f"{label} goes on to {result.times[-1]:g} s, beyond the last common save"
-            for label, result in self.results.items()
-            if result.save_at(last) != len(result.times) - 1
-        ]
-        notes += [
-            f"{label} is {result.status}, not done"
-            for label, result in self.results.items()
-            if result.status != "done"
-        ]
         warned: dict[str, list[str]] = {}
         for label, result in self.results.items():
+            names = self.own_names[label].items()
+            told = [f"{own!r} with {name!r}" for name, own in names if own != name]
+            if told:
+                notes.append(
+                    f"{label}: compares {', '.join(told)}; --match NAME=NAME pairs them otherwise"
+                )
+            if result.save_at(last) != len(result.times) - 1:
+                notes.append(
+                    f"{label} goes on to {result.times[-1]:g} s, beyond the last common save"
+                )
+            if result.status != "done":
+                notes.append(f"{label} is {result.status}, not done")
             for notice in result.notices:
                 warned.setdefault(notice, []).append(label)
-        notes += [f"{'; '.join(labels)}: {notice}" for notice, labels in warned.items()]
-        return notes
+        return notes + [f"{'; '.join(labels)}: {notice}" for notice, labels in warned.items()]
 
     def chosen_times(self, times: Sequence[float] = ()) -> list[float]:
         """Return the times to show: those given, else the first and the last common one.
@@ -159,7 +155,7 @@ class Comparison:
                     "file": result.name,
                     "settings": dict(self.settings.get(label, {})),
                     "status": result.status,
-                    "bodies": own_names(result),
+                    "bodies": dict(self.own_names[label]),
                     "totals": dict(result.totals()),
                 }
                 for label, result in self.results.items()
@@ -173,8 +169,8 @@ class Comparison:
                     },
                     "differences": {
                         label: {
-                            each.field: {"l2": each.l2, "largest": each.largest}
-                            for each in differences(result, first, time)
+                            name: each._asdict()
+                            for name, each in differences(result, first, time).items()
                         }
                         for label, result in self.results.items()
                         if label != self.reference
@@ -254,10 +250,7 @@ def compare(
             raise CaseError("a list of result files has nothing to vary; give one case")
         return _of_files([Path(path) for path in what], match)
     points = grid(vary) if isinstance(vary, Mapping) else [dict(point) for point in vary]
-    if not 2 <= len(points) <= MOST:
-        raise CaseError(
-            f"{len(points)} variant{'' if len(points) == 1 else 's'}; give 2 to {MOST} to compare"
-        )
+    _check_count(len(points), "variant")
     cases = variants(case_tables(what), points, registry)
     for label, case in cases.items():
         _check_saved(label, case, times, registry)
@@ -272,15 +265,19 @@ def compare(
         tell=tell,
         overwrite=overwrite,
     )
-    return Comparison(
-        matched(dict(zip(names, results, strict=True)), match),
-        dict(zip(names, points, strict=True)),
+    return _matched(
+        dict(zip(names, results, strict=True)), match, dict(zip(names, points, strict=True))
     )
 
 
+def _check_count(count: int, what: str) -> None:
+    if not 2 <= count <= MOST:
+        raise CaseError(f"{count} {what}{'s' * (count != 1)}; give 2 to {MOST} to compare")
+
+
 def _check_saved(label: str, case: Case, times: Sequence[float], registry: Registry | None) -> None:
-    """Check that a variant saves at times, in s; where a depth may end it, nobody knows before."""
-    if not times or case.stop.depth is not None:
+    """Check that a variant saves at times, in s; an end at some depth is no time known before."""
+    if not times:
         return
     end = Simulation(case, registry).model.end_time
     saved = sorted({0.0, *case.output.save_times, end})
@@ -293,6 +290,7 @@ def _check_saved(label: str, case: Case, times: Sequence[float], registry: Regis
 
 
 def _of_files(files: Sequence[Path], match: Mapping[str, str]) -> Comparison:
+    _check_count(len(files), "result")
     twice = [path for path, count in Counter(files).items() if count > 1]
     if twice:
         raise CaseError(f"{twice[0]} is given twice")
@@ -304,6 +302,26 @@ def _of_files(files: Sequence[Path], match: Mapping[str, str]) -> Comparison:
         }
         for result in results.values():
             result.check()
-        comparison = Comparison(matched(results, match))
+        comparison = _matched(results, match)
         unless_kept.pop_all()
     return comparison
+
+
+def _matched(
+    results: Mapping[str, Result],
+    match: Mapping[str, str],
+    settings: Mapping[str, Mapping[str, Any]] = MappingProxyType({}),
+) -> Comparison:
+    """Return the comparison of results, whose bodies then go by their names in the first."""
+    found, own_names = dict(results), {}
+    first, *others = results.values()
+    check_match(match, first, others)
+    for label, result in results.items():
+        names = {name: name for name in result.body_names}
+        if result is not first:
+            names = pairs(first, result, match)
+        if any(name != own for name, own in names.items()):
+            found[label] = renamed(result, names)
+            result.close()
+        own_names[label] = names
+    return Comparison(found, settings, own_names)

@@ -5,73 +5,19 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
-from tribo.result.body import BodyResult
+from tribo.result.opening import contents_in_memory
 from tribo.result.read import Result
 
 
-class Renamed(Result):
-    """A result whose bodies go by other names; `names` has its own by those."""
+def check_match(match: Mapping[str, str], first: Result, others: Sequence[Result]) -> None:
+    """Check that `match` pairs bodies of the first result with bodies of others, each once.
 
-    def __init__(self, result: Result, names: Mapping[str, str]) -> None:
-        self.__dict__.update(vars(result))
-        self.result = result
-        self.names = names
-
-    @property
-    def body_names(self) -> tuple[str, ...]:
-        """Names that the bodies go by."""
-        return tuple(self.names)
-
-    def field(self, name: str, save: int, body: str | None = None) -> Array:
-        """Return a field at a save; see `Result.field`."""
-        if body is not None:
-            self._check_body(body)
-            body = self.names[body]
-        return self.result.field(name, save, body)
-
-    def body(self, name: str) -> BodyResult:
-        """Return what is kept of a body; see `Result.body`."""
-        self._check_body(name)
-        return replace(self.result.body(self.names[name]), name=name)
-
-    def table(self, name: str) -> dict[str, Array]:
-        """Return a table as columns; see `Result.table`."""
-        shown = {own: name for name, own in self.names.items()}
-        columns = {}
-        for column, values in self.result.table(name).items():
-            of, *rest = column.split(".", 2)
-            if of == "bodies":
-                column = f"bodies.{shown[rest[0]]}.{rest[1]}"
-            columns[column] = values
-        return columns
-
-
-def own_names(result: Result) -> dict[str, str]:
-    """Return what the bodies of a result are called in its file, by the names they go by."""
-    return dict(result.names) if isinstance(result, Renamed) else {n: n for n in result.body_names}
-
-
-def matched(results: Mapping[str, Result], match: Mapping[str, str]) -> dict[str, Result]:
-    """Return results whose two bodies go by the names that they have in the first.
-
-    A body is that which `match` says, else that of the same name, else that of
-    the same role, swept or not, else the next in order. CaseError if `match`
-    names a body that there is not, or one twice.
+    Raises
+    ------
+    CaseError
+        If it does not.
     """
-    found = dict(results)
-    if len(results) > 1:
-        first, *others = results.values()
-        _check(match, first, others)
-        for label, result in list(results.items())[1:]:
-            names = _pairs(first, result, match)
-            if any(name != own for name, own in names.items()):
-                found[label] = Renamed(result, names)
-    return found
-
-
-def _check(match: Mapping[str, str], first: Result, others: Sequence[Result]) -> None:
     theirs = dict.fromkeys(name for result in others for name in result.body_names)
     for name, own in match.items():
         if name not in first.body_names:
@@ -86,16 +32,34 @@ def _check(match: Mapping[str, str], first: Result, others: Sequence[Result]) ->
             raise CaseError(f"{own!r} cannot be two bodies of the first result", "match")
 
 
-def _pairs(first: Result, result: Result, match: Mapping[str, str]) -> dict[str, str]:
-    """Return names in `result` by those in `first`."""
+def pairs(first: Result, other: Result, match: Mapping[str, str]) -> dict[str, str]:
+    """Return the names of another result's bodies by those of the first that they match.
 
-    def likeness(pairs: dict[str, str]) -> tuple[int, ...]:
-        roles = [first.body(name).swept == result.body(own).swept for name, own in pairs.items()]
-        said = [match.get(name) == own for name, own in pairs.items()]
-        return sum(said), sum(name == own for name, own in pairs.items()), sum(roles)
+    A body matches that which `match` says, else that of the same name, else
+    that of the same role, swept or not, else the next in order.
+    """
 
-    own = result.body_names
+    def likeness(names: dict[str, str]) -> tuple[int, ...]:
+        said = [match.get(name) == own for name, own in names.items()]
+        same = [name == own for name, own in names.items()]
+        roles = [first.body(name).swept == other.body(own).swept for name, own in names.items()]
+        return sum(said), sum(same), sum(roles)
+
+    own = other.body_names
     straight, crossed = (
         dict(zip(first.body_names, names, strict=True)) for names in (own, own[::-1])
     )
     return crossed if likeness(crossed) > likeness(straight) else straight
+
+
+def renamed(result: Result, names: Mapping[str, str]) -> Result:
+    """Return a copy in memory whose bodies go by other names; `names` has the old by the new."""
+    new = {own: name for name, own in names.items()}
+    frame = result.contents.frame()
+    bodies = {new[own]: body for own, body in result.case["bodies"].items()}
+    variables = {
+        key: replace(variable, bodies=tuple(new[own] for own in variable.bodies))
+        for key, variable in frame.variables.items()
+    }
+    frame = replace(frame, variables=variables).with_header(case={**result.case, "bodies": bodies})
+    return Result(contents_in_memory(frame, [result.contents.rows()], result.name))

@@ -80,15 +80,17 @@ def run_variants(
         What a run raises; the message names the variant.
     """
     simulations = {label: Simulation(case, registry) for label, case in cases.items()}
-    paths = dict(zip(cases, file_names(list(cases)), strict=True))
+    paths: dict[str, Path | None] = dict.fromkeys(cases)
     if folder is not None:
+        names = file_names(list(cases))
+        paths = {label: folder / name for label, name in zip(cases, names, strict=True)}
         if not overwrite:
-            _check_own(folder, {paths[label]: each for label, each in simulations.items()})
+            _check_own(folder, dict(zip(names, simulations.values(), strict=True)))
         with writing(folder):
             folder.mkdir(parents=True, exist_ok=True)
     results = []
     for number, (label, simulation) in enumerate(simulations.items(), start=1):
-        path = None if folder is None else folder / paths[label]
+        path = paths[label]
         done = path is not None and not overwrite and is_done(path, simulation)
         tell(f"{number} of {len(cases)}, {label}" + (f": done already, {path}" if done else ""))
         try:
@@ -105,29 +107,23 @@ def run_variants(
 
 def file_names(labels: Sequence[str]) -> list[str]:
     """Return a file name for each label, all different."""
-    names: list[str] = []
-    for label in labels:
-        stem = re.sub(r"[^\w.,=+-]+", "_", label)[:_LONGEST_NAME]
-        number = sum(name == stem or name.startswith(f"{stem}~") for name in names)
-        names.append(f"{stem}~{number}" if number else stem)
-    return [f"{name}.h5" for name in names]
+    stems = [re.sub(r"[^\w.,=+-]+", "_", label)[:_LONGEST_NAME] for label in labels]
+    before = [stems[:i].count(stem) for i, stem in enumerate(stems)]
+    return [f"{stem}~{n}.h5" if n else f"{stem}.h5" for stem, n in zip(stems, before, strict=True)]
 
 
 def _check_own(folder: Path, simulations: Mapping[str, Simulation]) -> None:
-    """Check that a folder holds no results but those of these simulations."""
-    for name, simulation in simulations.items():
-        path = folder / name
+    """Check that a folder holds no results but those of these simulations, by file name."""
+    for path in sorted(folder.glob("*.h5")):
+        if path.name not in simulations:
+            raise CaseError(f"{folder} holds another comparison, {path.name}; {_OTHERWISE}")
         # An empty file is what a killed run may leave.
-        if not os.path.exists(path) or path.stat().st_size == 0:
+        if not path.exists() or path.stat().st_size == 0:
             continue
         try:
             with Result.open(path) as result:
-                own = result.case == simulation.model.data
+                own = result.case == simulations[path.name].model.data
         except CaseError as error:
             raise CaseError(f"{error}; {_OTHERWISE}") from error
         if not own:
             raise CaseError(f"{path} is the result of another case; {_OTHERWISE}")
-    others = sorted(path.name for path in folder.glob("*.h5") if path.name not in simulations)
-    if others:
-        more = f" and {len(others) - 1} more" if len(others) > 1 else ""
-        raise CaseError(f"{folder} holds another comparison, {others[0]}{more}; {_OTHERWISE}")

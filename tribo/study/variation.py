@@ -86,17 +86,19 @@ def valid_case(data: Mapping[str, Any], point: Point, registry: Registry | None 
     """Return the validated case that follows from `data` with one point; CaseError if not valid."""
     bodies = data.get("bodies")
     for path in point:
-        match path_keys(path):
-            # A misspelt body would be read as a third one.
-            case ["bodies", name, *_] if isinstance(bodies, Mapping) and name not in bodies:
-                raise CaseError(
-                    f"there is no body {name!r}{suggestion(did_you_mean(name, bodies))} "
-                    f"The bodies are {', '.join(bodies)}",
-                    path,
-                )
+        key, *below = path_keys(path)
+        # A misspelt body would be read as a third one.
+        if key == "bodies" and below and isinstance(bodies, Mapping) and below[0] not in bodies:
+            raise unknown_body(below[0], bodies, path)
     case = validate_case(apply_settings(data, point), registry=registry)
     Simulation(case, registry)
     return case
+
+
+def unknown_body(name: str, bodies: Iterable[str], path: str) -> CaseError:
+    """Return the error of a body that a case does not have."""
+    meant = suggestion(did_you_mean(name, bodies))
+    return CaseError(f"there is no body {name!r}{meant} The bodies are {', '.join(bodies)}", path)
 
 
 def short_labels(points: Sequence[Point]) -> list[str]:
@@ -126,22 +128,15 @@ def _axis(text: str) -> tuple[str, tuple[Any, ...]]:
         raise CaseError(
             f"a value is missing; write the values with commas between them, as in {path}=1,2", path
         )
-    if not bracketed and len(values) == 1 and isinstance(values[0], str) and "," in values[0]:
-        raise CaseError(
-            f"its quotes make one value of {given}; leave them out, or give each value its own",
-            path,
-        )
     return path, values
 
 
 def _refusal(reasons: Mapping[str, Sequence[str]], count: int) -> str:
     failing = sum(map(len, reasons.values()))
-    which = "the only variant" if count == 1 else f"{failing} of {count} variants"
-    lines = [f"{which} cannot be run; nothing was started:"]
+    lines = [f"{failing} of {count} variants cannot be run; nothing was started:"]
     for reason, labels in reasons.items():
-        named = "; ".join(labels[:_NAMED])
         more = f"; and {len(labels) - _NAMED} more" if len(labels) > _NAMED else ""
-        lines.append(f"  with {named}{more}: " + reason.replace("\n", "\n    "))
+        lines.append(f"  with {'; '.join(labels[:_NAMED])}{more}: {reason}")
     return "\n".join(lines)
 
 
