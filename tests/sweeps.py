@@ -19,7 +19,7 @@ output.save_times = [1, 2]
 """
 LOADS = """
 [grid]
-load.normal = ["50 N", "60 N", "70 N", "80 N"]
+load.normal = ["50 N", "60 N"]
 """
 # Some seconds a run, with a checkpoint in between.
 SLOW = """

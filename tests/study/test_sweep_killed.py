@@ -88,10 +88,18 @@ def swept(folder, *options):
     return process, command
 
 
-def assert_ends_as(whole, folder, process):
-    code, _, err = finished(process)
+def assert_ends_as(whole, folder, command):
+    code, _, err = finished(sweeps.tribo(*command, cwd=folder))
     assert code == 0, err
     pandas.testing.assert_frame_equal(table(folder), whole)
+
+
+def assert_stopped(folder, process):
+    code, _, err = finished(process)
+    assert code == 130
+    assert err.endswith("error: stopped; the same command goes on\n")
+    assert set(table(folder)["status"]) >= {"interrupted", "waiting"}
+    assert not list(results(folder).glob("*.lock"))
 
 
 @pytest.fixture(scope="module")
@@ -103,8 +111,14 @@ def whole(tmp_path_factory):
     return table(folder)
 
 
-def test_a_killed_parent_takes_its_workers_along_and_the_command_goes_on(tmp_path, whole):
-    command = ("sweep", sweeps.study(tmp_path, sweeps.SLOW + LOADS), "--jobs", 2)
+def test_a_sweep_survives_a_killed_worker_ctrl_c_and_a_killed_parent(tmp_path, whole):
+    process, command = swept(tmp_path, "--jobs", 2)
+    first, second = workers(process)
+    os.kill(first, signal.SIGKILL)
+    until(lambda: set(workers(process)) - {first, second}, "worker in the place of the killed one")
+    # As a terminal does, to the parent and to its workers.
+    os.killpg(process.pid, signal.SIGINT)
+    assert_stopped(tmp_path, process)
     killed = sweeps.tribo(*command, cwd=tmp_path)
     until(lambda: done(tmp_path) and half_done(tmp_path), "run that is done, and one that is not")
     children = workers(killed)
@@ -117,25 +131,8 @@ def test_a_killed_parent_takes_its_workers_along_and_the_command_goes_on(tmp_pat
     # A worker may still have ended its run.
     assert 0 < len(before) < 4
     assert not (tmp_path / "study-sweep" / "runs.csv").exists()
-    assert_ends_as(whole, tmp_path, sweeps.tribo(*command, cwd=tmp_path))
+    assert_ends_as(whole, tmp_path, command)
     assert before.items() <= done(tmp_path).items()
-
-
-def test_a_killed_worker_is_replaced_and_its_run_goes_on(tmp_path, whole):
-    process, _ = swept(tmp_path, "--jobs", 2)
-    os.kill(workers(process)[0], signal.SIGKILL)
-    assert_ends_as(whole, tmp_path, process)
-
-
-def test_ctrl_c_stops_between_two_steps_and_the_command_goes_on(tmp_path, whole):
-    process, command = swept(tmp_path, "--jobs", 2)
-    # As a terminal does, to the parent and to its workers.
-    os.killpg(process.pid, signal.SIGINT)
-    code, _, err = finished(process)
-    assert code == 130
-    assert err.endswith("error: stopped; the same command goes on\n")
-    assert set(table(tmp_path)["status"]) >= {"interrupted", "waiting"}
-    assert_ends_as(whole, tmp_path, sweeps.tribo(*command, cwd=tmp_path))
 
 
 def test_the_death_of_a_worker_costs_no_other_run():
@@ -176,30 +173,21 @@ def cluster(tmp_path):
         process.communicate()
 
 
-def test_a_killed_worker_of_dask_costs_nothing(tmp_path, whole, cluster):
-    address, _, first, _ = cluster
-    process, _ = swept(tmp_path, "--scheduler", address)
+def test_a_sweep_survives_a_killed_worker_ctrl_c_and_the_end_of_dask(tmp_path, whole, cluster):
+    address, scheduler, first, _ = cluster
+    process, command = swept(tmp_path, "--scheduler", address)
     first.kill()
-    assert_ends_as(whole, tmp_path, process)
-
-
-def test_ctrl_c_also_stops_the_workers_of_dask(tmp_path, whole, cluster):
-    process, command = swept(tmp_path, "--scheduler", cluster[0])
+    until(lambda: done(tmp_path), "run of the other worker")
     process.send_signal(signal.SIGINT)
-    assert finished(process)[0] == 130
-    assert not list(results(tmp_path).glob("*.lock"))
-    assert set(table(tmp_path)["status"]) >= {"interrupted", "waiting"}
-    assert_ends_as(whole, tmp_path, sweeps.tribo(*command, cwd=tmp_path))
-
-
-def test_a_scheduler_that_ends_is_told_of_and_the_command_goes_on(tmp_path, whole, cluster):
-    address, scheduler, *_ = cluster
-    process, (*command, _, _) = swept(tmp_path, "--scheduler", address)
+    assert_stopped(tmp_path, process)
+    process = sweeps.tribo(*command, cwd=tmp_path)
+    count = len(done(tmp_path))
+    until(lambda: len(done(tmp_path)) > count, "run that is done")
     scheduler.kill()
     code, _, err = finished(process)
     assert code == 3
     assert "the same command goes on" in err
-    assert_ends_as(whole, tmp_path, sweeps.tribo(*command, cwd=tmp_path))
+    assert_ends_as(whole, tmp_path, command[:2])
 
 
 def test_a_cluster_of_its_own_does_not_print_what_runs_warn_of(tmp_path):
@@ -230,7 +218,7 @@ def test_an_address_without_a_scheduler_is_named_in_time(content):
         if content:
             answered_with(listener, content)
         with (
-            pytest.raises(CaseError, match=f"no scheduler answers at {address} within 2 s"),
-            on_scheduler(address, patience=2),
+            pytest.raises(CaseError, match=f"no scheduler answers at {address} within 1 s"),
+            on_scheduler(address, patience=1),
         ):
             pass

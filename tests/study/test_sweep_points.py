@@ -8,7 +8,7 @@ import pytest
 import sweeps
 
 from tribo.core.errors import CaseError, TriboWarning
-from tribo.study.sweeping.study_file import count, load_study, points, validate_study
+from tribo.study.sweeping.study_file import load_study, points, validate_study
 from tribo.study.sweeping.sweep import plan
 
 RANGES = """
@@ -25,9 +25,7 @@ load.normal = {{ low = "50 N", high = "0.2 kN" }}
 
 def made(tmp_path, text):
     study, data = load_study(sweeps.study(tmp_path, sweeps.QUICK + text))
-    found = points(study, data)
-    assert len(found) == count(study)
-    return found
+    return points(study, data)
 
 
 def sampled(tmp_path, method="latin_hypercube", count=16, seed=1):
@@ -60,18 +58,14 @@ def test_grid_zip_and_list_multiply(tmp_path):
 
 
 @pytest.mark.parametrize("method", ["latin_hypercube", "sobol"])
-def test_a_sample_has_one_point_in_every_slice_of_every_range(tmp_path, method):
+def test_a_sample_fills_every_slice_of_every_range_and_a_seed_gives_it_again(tmp_path, method):
     found = sampled(tmp_path, method)
     loads = (np.array([point["load.normal"] for point in found]) - 50) / 150
     logs = np.log10([point["bodies.ball.wear.k"] for point in found])
     for part in (loads, (logs + 17) / 2):
         assert sorted(np.floor(16 * part)) == list(range(16))
-
-
-@pytest.mark.parametrize("method", ["latin_hypercube", "sobol"])
-def test_a_seed_gives_the_same_points_again(tmp_path, method):
-    assert sampled(tmp_path, method) == sampled(tmp_path, method)
-    assert sampled(tmp_path, method) != sampled(tmp_path, method, seed=2)
+    assert found == sampled(tmp_path, method)
+    assert found != sampled(tmp_path, method, seed=2)
 
 
 def test_sobol_points_that_are_no_power_of_two_are_noted(tmp_path):
@@ -110,31 +104,22 @@ GRID, SAMPLE = "[grid]\n", '[sample]\nmethod = "sobol"\ncount = 2\n[sample.range
     [
         ("", "nothing varies; give [grid], [zip], [[list]] or [sample]"),
         (GRID + "load.normal = []", 'grid."load.normal": at least 1 needed'),
-        (GRID + "load.normal = 3", 'grid."load.normal": a list is needed, 3 was given'),
-        ("[gird]\nload.normal = [1]", "gird: unknown key 'gird'; did you mean 'grid'?"),
-        (GRID + "loda.normal = [1]", "loda: unknown key 'loda'; did you mean 'load'?"),
+        ("[gird]\nload.normal = [1]", "did you mean 'grid'?"),
+        (GRID + "loda.normal = [1]", "did you mean 'load'?"),
         (GRID + "load.normal=[1]\n'load.normal'=[2]", "grid: 'load.normal' is given twice"),
         (GRID + "load.normal = [1]\n[zip]\nload.normal = [2]", "load.normal: varies twice"),
         ("[zip]\nload.normal = [1, 2]\nkinematics.stroke = [1e-3]", "zip: values that go together"),
         (SAMPLE.replace("sobol", "sobl"), "did you mean 'sobol'?"),
         (SAMPLE, "sample.ranges: at least 1"),
         (SAMPLE + "load.normal = {low = 1}", 'sample.ranges."load.normal".high: missing'),
-        (
-            SAMPLE + "load.normal = {low = 0, high = 2}",
-            "sample.ranges: the low ends cannot be used: load.normal: 0 N: must be greater than 0",
-        ),
-        (
-            SAMPLE + "load.normal = {low = '2 N', high = 1}",
-            "sample.ranges.load.normal: low must be less than high; 2 N and 1 are given",
-        ),
-        (
-            SAMPLE + "grid.cells = {low = 16, high = 32}",
-            "grid.cells: is not a quantity to be sampled; list its values in [grid]",
-        ),
+        (SAMPLE + "load.normal = {low = 0, high = 2}", "sample.ranges: the low ends cannot be"),
+        (SAMPLE + "load.normal = {low = '2 N', high = 1}", "sample.ranges.load.normal: low must"),
+        (SAMPLE + "grid.cells = {low = 16, high = 32}", "grid.cells: is not a quantity"),
         (
             SAMPLE + "'friction.coefficient' = {low = 0, high = 1, scale = 'log'}",
-            "low must be greater than 0 on a log scale; 0 is given",
+            "sample.ranges.friction.coefficient: low must be greater than 0 on a log scale",
         ),
+        (SAMPLE.replace("= 2", "= 1024") + "load.normal = {low = 1, high = 2}", "1024 runs; if"),
     ],
 )
 def test_what_is_wrong_is_said_before_anything_runs(tmp_path, text, message):
@@ -157,11 +142,11 @@ def test_a_missing_base_case_is_named(tmp_path):
         plan(path, tmp_path / "out")
 
 
-@pytest.mark.slow
-def test_too_many_runs_must_be_meant(tmp_path):
-    path = sweeps.study(tmp_path, sweeps.QUICK + RANGES.format(method="sobol", count=1024, seed=0))
-    with pytest.raises(CaseError, match="asks for 1024 runs; if that is meant, give --yes"):
+def test_as_many_runs_as_are_meant_are_planned(tmp_path, monkeypatch):
+    monkeypatch.setattr("tribo.study.sweeping.sweep.MANY", 1)
+    path = sweeps.study(tmp_path)
+    with pytest.raises(CaseError, match="2 runs; if that is meant, give --yes"):
         plan(path, tmp_path / "out")
     runs, paths = plan(path, tmp_path / "out", many=True)
-    assert len(runs) == 1024
-    assert paths == ["load.normal", "bodies.ball.wear.k"]
+    assert len({run.path for run in runs}) == 2
+    assert paths == ["load.normal"]

@@ -95,13 +95,9 @@ class _Processes(ThreadPoolExecutor):
 
     def __init__(self, count: int, lifeline: Any) -> None:
         super().__init__(count)
+        self._lifeline = lifeline
         self._mine = threading.local()
         self._pools: list[ProcessPoolExecutor] = []
-        self._options: dict[str, Any] = {
-            "mp_context": get_context("spawn"),
-            "initializer": _begin,
-            "initargs": (lifeline,),
-        }
 
     def submit(self, fn: Callable[P, R], /, *args: P.args, **kwargs: P.kwargs) -> Future[R]:
         return super().submit(self._in_process, partial(fn, *args, **kwargs))
@@ -113,7 +109,8 @@ class _Processes(ThreadPoolExecutor):
 
     def _in_process(self, call: Callable[[], R]) -> R:
         if getattr(self._mine, "pool", None) is None:
-            self._mine.pool = ProcessPoolExecutor(1, **self._options)
+            spawned = get_context("spawn")
+            self._mine.pool = ProcessPoolExecutor(1, spawned, _begin, (self._lifeline,))
             self._pools.append(self._mine.pool)
         try:
             return self._mine.pool.submit(call).result()  # type: ignore[no-any-return]
@@ -134,15 +131,13 @@ def _environment() -> Iterator[None]:
 
     Python's helper that tidies up after this process, should it be killed, does so in silence.
     """
-    quiet = os.environ.get("PYTHONWARNINGS"), "ignore:::multiprocessing.resource_tracker"
-    changed = dict.fromkeys(THREADS, "1") | {"PYTHONWARNINGS": ",".join(filter(None, quiet))}
-    before = {name: os.environ[name] for name in changed if name in os.environ}
-    os.environ.update(changed)
+    before = dict(os.environ)
+    quiet = before.get("PYTHONWARNINGS"), "ignore:::multiprocessing.resource_tracker"
+    os.environ.update(dict.fromkeys(THREADS, "1"), PYTHONWARNINGS=",".join(filter(None, quiet)))
     try:
         yield
     finally:
-        for name in changed:
-            del os.environ[name]
+        os.environ.clear()
         os.environ.update(before)
 
 

@@ -16,7 +16,7 @@ from tribo.config.overrides import apply_settings, leaves_at
 from tribo.core.errors import CaseError, TriboWarning
 from tribo.core.explain import case_error
 from tribo.core.table import Table
-from tribo.study.variation import Point, check_distinct, grid, valid_case
+from tribo.study.variation import Point, check_distinct, valid_case
 
 Values = Annotated[tuple[Any, ...], Field(min_length=1)]
 _RANGE = frozenset({"low", "high"})
@@ -112,16 +112,7 @@ def validate_study(data: Mapping[str, Any]) -> Study:
     return study
 
 
-def count(study: Study) -> int:
-    """Return the number of runs."""
-    lengths = [len(values) for values in study.grid.values()]
-    lengths += [len(values) for values in study.zip.values()][:1]
-    lengths += [len(study.list)] if study.list else []
-    lengths += [study.sample.count] if study.sample else []
-    return math.prod(lengths)
-
-
-def points(study: Study, data: Mapping[str, Any]) -> list[Point]:
+def points(study: Study, data: Mapping[str, Any], most: float = math.inf) -> list[Point]:
     """Return the settings of every run; what is listed last varies first.
 
     Sampled quantities are read as the base case `data` has them.
@@ -129,12 +120,12 @@ def points(study: Study, data: Mapping[str, Any]) -> list[Point]:
     Raises
     ------
     CaseError
-        If a path is not one or varies twice, values that go together are not
-        equally many, or a range is wrong.
+        If there are more than `most`, a path is not one or varies twice, values
+        that go together are not equally many, or a range is wrong.
     """
+    sample = study.sample
     listed = dict.fromkeys(path for point in study.list for path in point)
-    ranges = study.sample.ranges if study.sample else {}
-    check_distinct([*listed, *study.zip, *study.grid, *ranges])
+    check_distinct([*listed, *study.zip, *study.grid, *(sample.ranges if sample else ())])
     lengths = {path: len(values) for path, values in study.zip.items()}
     if len(set(lengths.values())) > 1:
         given = ", ".join(f"{path} has {length}" for path, length in lengths.items())
@@ -142,9 +133,13 @@ def points(study: Study, data: Mapping[str, Any]) -> list[Point]:
     zipped = [
         dict(zip(study.zip, row, strict=True)) for row in zip(*study.zip.values(), strict=True)
     ]
-    blocks = [list(study.list) or [{}], zipped or [{}], grid(study.grid)]
-    if study.sample:
-        blocks.append(_sampled(study.sample, data, _merged(block[0] for block in blocks)))
+    axes = [[{path: value} for value in values] for path, values in study.grid.items()]
+    blocks = [block for block in (list(study.list), zipped, *axes) if block]
+    count = math.prod(map(len, blocks)) * (sample.count if sample else 1)
+    if count > most:
+        raise CaseError(f"the study asks for {count} runs; if that is meant, give --yes")
+    if sample:
+        blocks.append(_sampled(sample, data, _merged(block[0] for block in blocks)))
     return [_merged(parts) for parts in product(*blocks)]
 
 

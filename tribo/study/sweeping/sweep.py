@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
@@ -21,7 +22,7 @@ from tribo.study.runs import is_done
 from tribo.study.sweeping.carrying import carry
 from tribo.study.sweeping.executors import processes
 from tribo.study.sweeping.runs_table import Run, failed_before, tables
-from tribo.study.sweeping.study_file import count, load_study, points
+from tribo.study.sweeping.study_file import load_study, points
 from tribo.study.sweeping.worker import locked
 from tribo.study.variation import variants
 
@@ -156,10 +157,7 @@ def sweep(
 def plan(study: Path, folder: Path, *, many: bool = False) -> tuple[list[Run], list[str]]:
     """Return the runs of a study, all validated, and the paths of what varies."""
     asked, data = load_study(study)
-    number = count(asked)
-    if number > MANY and not many:
-        raise CaseError(f"{study} asks for {number} runs; if that is meant, give --yes")
-    settings = points(asked, data)
+    settings = points(asked, data, math.inf if many else MANY)
     runs = []
     for i, (label, case) in enumerate(variants(data, settings).items(), start=1):
         # The name stands for the case, so that a study may grow and nothing is done twice.

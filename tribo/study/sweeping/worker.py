@@ -50,39 +50,31 @@ def locked(path: Path) -> Iterator[None]:
     Raises
     ------
     BusyError
-        If another process, or thread, holds it.
+        If another process, or thread, holds it, or has just let it go.
     OSError
         If the file cannot be made.
     """
-    while True:
-        handle = os.open(path, os.O_RDWR | os.O_CREAT, 0o644)
+    with path.open("ab") as file:
+        if not lock(file.fileno()):
+            warnings.warn(
+                f"{path}: its file system has no locks, so nothing stops another sweep from "
+                "doing the same runs; see that none does",
+                TriboWarning,
+                stacklevel=3,
+            )
         try:
-            if not lock(handle):
-                warnings.warn(
-                    f"{path}: its file system has no locks, so nothing stops another sweep from "
-                    "doing the same runs; see that none does",
-                    TriboWarning,
-                    stacklevel=3,
-                )
-            # Its last holder may have removed the file after it was opened here.
-            if not _is_still(handle, path):
-                continue
-            try:
-                yield
-            finally:
-                # Windows does not remove a file that is open.
-                with suppress(PermissionError):
-                    path.unlink(missing_ok=True)
-            return
+            removed = not os.path.samestat(os.fstat(file.fileno()), path.stat())
+        except FileNotFoundError:
+            removed = True
+        if removed:
+            # Its last holder has just done so, after it was opened here.
+            raise BusyError
+        try:
+            yield
         finally:
-            os.close(handle)
-
-
-def _is_still(handle: int, path: Path) -> bool:
-    try:
-        return os.path.samestat(os.fstat(handle), path.stat())
-    except FileNotFoundError:
-        return False
+            # Windows does not remove a file that is open.
+            with suppress(PermissionError):
+                path.unlink(missing_ok=True)
 
 
 def _composed(case: dict[str, Any]) -> Simulation:
