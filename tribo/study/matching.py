@@ -62,4 +62,6 @@ def renamed(result: Result, names: Mapping[str, str]) -> Result:
         for key, variable in frame.variables.items()
     }
     frame = replace(frame, variables=variables).with_header(case={**result.case, "bodies": bodies})
-    return Result(contents_in_memory(frame, [result.contents.rows()], result.name))
+    rows = result.contents.rows()
+    saves, steps = len(rows["time"]), len(rows["step"])
+    return Result(contents_in_memory(frame, [rows], saves, steps, result.name))
