@@ -16,9 +16,9 @@ if TYPE_CHECKING:
     from tribo.case import Friction as Friction
     from tribo.case import Load as Load
     from tribo.case import Output as Output
+    from tribo.case import Stop as Stop
     from tribo.component import Component as Component
     from tribo.config.load import load_case as load_case
-    from tribo.config.stop import Stop as Stop
     from tribo.contact.bounded_cg import solve_bounded as solve_bounded
     from tribo.contact.dcfft import DcFft as DcFft
     from tribo.contact.love import nyquist_compliance as nyquist_compliance
@@ -106,10 +106,9 @@ if TYPE_CHECKING:
     from tribo.wear.power import Power as Power
 
 _NAMES = {
-    "tribo.case": "Body Case Friction Load Output",
+    "tribo.case": "Body Case Friction Load Output Stop",
     "tribo.component": "Component",
     "tribo.config.load": "load_case",
-    "tribo.config.stop": "Stop",
     "tribo.contact.bounded_cg": "solve_bounded",
     "tribo.contact.dcfft": "DcFft",
     "tribo.contact.love": "nyquist_compliance",

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Self
 
 from packaging.requirements import InvalidRequirement, Requirement
-from pydantic import Field, field_validator
+from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from tribo.component import Component
-from tribo.config.stop import Stop
 from tribo.contact.dcfft import DcFft
 from tribo.contact.solver import ContactSolver
 from tribo.core.grid import Grid
@@ -61,6 +60,23 @@ class Output(Table):
     """Times at which all fields are saved; t = 0 and the end always are."""
 
 
+class Stop(Table):
+    """Ends the run at the first condition that is met."""
+
+    distance: Annotated[float, Quantity("m", above=0)] | None = None
+    """Sliding distance."""
+    depth: Annotated[float, Quantity("m", above=0)] | None = None
+    """Largest wear depth."""
+    body: str | None = None
+    """Name of the body whose depth counts; either, if left out."""
+
+    @model_validator(mode="after")
+    def _body_needs_depth(self) -> Self:
+        if self.body is not None and self.depth is None:
+            raise ValueError("body says whose depth counts: give depth too")
+        return self
+
+
 class Case(Table):
     """A case: two bodies, a load, a motion, and how to compute."""
 
@@ -107,6 +123,14 @@ class Case(Table):
     @classmethod
     def _normal_load(cls, load: Any) -> Any:
         return {"normal": load} if isinstance(load, int | float | str) else load
+
+    @field_validator("contact", "stepping", mode="before")
+    @classmethod
+    def _default_type(cls, table: Any, info: ValidationInfo) -> Any:
+        if isinstance(table, Mapping) and "type" not in table:
+            default = cls.model_fields[str(info.field_name)].default
+            return {"type": default.type, **table}
+        return table
 
     @field_validator("friction", mode="before")
     @classmethod

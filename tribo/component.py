@@ -21,6 +21,7 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from tribo.core.errors import CaseError
 from tribo.core.explain import refused_at, told
+from tribo.core.fields import check_declared
 from tribo.core.table import Table
 from tribo.core.words import said
 
@@ -49,7 +50,8 @@ class Component(Table, ABC):
 
     @classmethod
     def __pydantic_init_subclass__(cls, **kwargs: Any) -> None:
-        """Name a class that does not name itself after itself, as in ``hot_wear``."""
+        """Check its fields, and name a class that has no name after itself, as ``hot_wear``."""
+        check_declared(cls)
         if Component not in cls.__bases__ and not hasattr(cls, "type"):
             cls.type = _snake_case(cls.__name__)
 

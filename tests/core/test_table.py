@@ -1,6 +1,8 @@
-"""What a table of a case shows of itself."""
+"""What a table of a case shows of itself, and how it is made."""
 
-from tribo import Archard, Body, Flat, Grid, Material
+import pytest
+
+from tribo import Archard, Body, Flat, Grid, Material, Sphere
 
 STEEL = Material(young="207 GPa", poisson=0.3)
 
@@ -24,3 +26,8 @@ def test_a_notebook_shows_keys_with_units():
 
 def test_a_notebook_shows_pairs():
     assert "0.002 × 0.001 m" in Grid(("2 mm", "1 mm"), 8)._repr_html_()
+
+
+def test_values_without_names_are_refused_in_plain_words():
+    with pytest.raises(TypeError, match=r"value of Sphere by its name, as Sphere\(radius=…\)"):
+        Sphere(5e-3)

@@ -7,7 +7,7 @@ import pytest
 from paper_models import motion, small
 
 from tribo import Grid, Result, Simulation, TriboError
-from tribo.config.stop import Stop
+from tribo.case import Stop
 from tribo.result.store import ResultWriter
 
 

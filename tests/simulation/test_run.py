@@ -11,8 +11,8 @@ import pytest
 from paper_models import K, archard, case, flat, motion, named, small, sphere, states, steel
 
 from tribo import CaseError, Grid, Interrupted, NumericalError, Result, Simulation
+from tribo.case import Stop
 from tribo.component import Component
-from tribo.config.stop import Stop
 from tribo.contact.periodic import Periodic
 from tribo.core.errors import OutputError, TriboWarning
 from tribo.observers.observer import Observer

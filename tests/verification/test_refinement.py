@@ -4,8 +4,8 @@ import pytest
 from paper_models import archard, flat, foundation, motion, named, paraboloid, small, sphere, steel
 
 from tribo import Grid, Simulation
+from tribo.case import Stop
 from tribo.config.load import load_case
-from tribo.config.stop import Stop
 from tribo.core.errors import CaseError, NumericalError
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit

@@ -15,7 +15,7 @@ from pydantic import ValidationError
 from tribo.case import Case
 from tribo.config.overrides import apply_settings
 from tribo.config.requirements import check_requirements
-from tribo.core.depth import check_depth, too_deep
+from tribo.core.depth import check_depth, nested_too_deeply
 from tribo.core.errors import CaseError
 from tribo.core.explain import case_error
 from tribo.registry.registry import Registry, default_registry
@@ -24,7 +24,6 @@ FEWEST, MOST = 4, 16384
 """Cells along an axis of a case."""
 _LARGEST = 10_000_000
 _HDF5 = b"\x89HDF\r\n\x1a\n"
-_DEFAULT_TYPES = {"contact": "dcfft", "stepping": "implicit"}
 
 
 def load_case(
@@ -46,7 +45,10 @@ def load_case(
     CaseError
         If the file cannot be read or the case is wrong; one line for each error.
     """
-    return validate_case(apply_settings(read_toml(path), overrides), registry=registry)
+    tables = read_toml(path)
+    if overrides:
+        tables = apply_settings(tables, overrides)
+    return validate_case(tables, registry=registry)
 
 
 def validate_case(data: Mapping[str, Any], *, registry: Registry | None = None) -> Case:
@@ -66,7 +68,6 @@ def validate_case(data: Mapping[str, Any], *, registry: Registry | None = None) 
     """
     check_depth(data, "the case")
     known = registry or default_registry()
-    data = _with_default_types(data)
     requires = data.get("requires")
     if isinstance(requires, list | tuple):
         # First, so that the message names the package to install; Case refuses malformed ones.
@@ -80,16 +81,6 @@ def validate_case(data: Mapping[str, Any], *, registry: Registry | None = None) 
         if not FEWEST <= cells <= MOST:
             raise CaseError(f"{cells}: must be from {FEWEST} to {MOST}", "grid.cells")
     return case
-
-
-def _with_default_types(data: Mapping[str, Any]) -> dict[str, Any]:
-    """Add the default type to [contact] and [stepping] that do not name one."""
-    completed = dict(data)
-    for key, name in _DEFAULT_TYPES.items():
-        table = completed.get(key)
-        if isinstance(table, Mapping) and "type" not in table:
-            completed[key] = {"type": name, **table}
-    return completed
 
 
 def _quotes(content: bytes, error: ValueError) -> str:
@@ -145,6 +136,6 @@ def read_toml(path: str | Path) -> dict[str, Any]:
     except ValueError as error:
         raise CaseError(f"{path} is not TOML: {error}{_quotes(content, error)}") from None
     except RecursionError:
-        raise too_deep(path) from None
+        raise nested_too_deeply(path) from None
     check_depth(data, path)
     return data

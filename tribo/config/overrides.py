@@ -10,7 +10,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from tribo.component import Component
-from tribo.core.depth import LEVELS, check_depth, too_deep
+from tribo.core.depth import LEVELS, check_depth, nested_too_deeply
 from tribo.core.errors import CaseError
 from tribo.core.units import Quantity, quantities
 from tribo.core.words import shown
@@ -49,7 +49,7 @@ def apply_settings(
     for keys, value in changes:
         path = shown(".".join(keys))
         if len(keys) > LEVELS:
-            raise too_deep(path)
+            raise nested_too_deeply(path)
         check_depth(value, path)
     changed = deepcopy(dict(data))
     types = sorted((c for c in changes if c[0][-1] == "type"), key=lambda c: len(c[0]))

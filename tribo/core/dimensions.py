@@ -56,45 +56,33 @@ def scale(unit: str) -> tuple[Fraction, Dimension]:
     ValueError
         If `unit` cannot be read.
     """
-    unit = _VICKERS_WITH_LOAD.sub("HV", unit)
-    head, *divisors = unit.replace("**", "^").translate(_PLAIN_SIGNS).split("/")
-    factor, dimension = _product(head)
-    for divisor in divisors:
-        if not divisor.strip().startswith("(") and len(_factors(divisor)) > 1:
-            raise ValueError("put the divisor in parentheses, as in 'mm^3/(N m)'")
-        by, per = _product(divisor)
-        factor /= by
-        dimension = _combine(dimension, per, -1)
-    return factor, dimension
-
-
-def _product(text: str) -> tuple[Fraction, Dimension]:
+    text = _VICKERS_WITH_LOAD.sub("HV", unit).replace("**", "^").translate(_PLAIN_SIGNS)
     size, dimension = Fraction(1), (0, 0, 0, 0, 0)
-    text = text.strip()
-    if text.startswith("(") and text.endswith(")"):
-        text = text[1:-1]
-    for factor in _factors(text):
-        match = _FACTOR.fullmatch(factor)
-        if match is None or (match[1] == "1" and match[2]):
-            raise ValueError(f"cannot read the unit {factor!r}" if factor else "a unit is missing")
-        exponent = int(match[2] or 1)
-        base, of = _symbol(match[1])
-        size *= base**exponent
-        dimension = _combine(dimension, of, exponent)
+    for place, part in enumerate(map(str.strip, text.split("/"))):
+        inside = part[1:-1] if part.startswith("(") and part.endswith(")") else part
+        factors = re.split(r"\s*\*\s*|\s+", inside.strip())
+        if place and inside == part and len(factors) > 1:
+            raise ValueError("put the divisor in parentheses, as in 'mm^3/(N m)'")
+        for factor in factors:
+            base, of, exponent = _power(factor)
+            exponent = -exponent if place else exponent
+            size *= base**exponent
+            m, kg, s, k, mol = (d + exponent * o for d, o in zip(dimension, of, strict=True))
+            dimension = m, kg, s, k, mol
     return size, dimension
 
 
-def _factors(text: str) -> list[str]:
-    return re.split(r"\s*\*\s*|\s+", text.strip())
-
-
-def _symbol(name: str) -> tuple[Fraction, Dimension]:
-    known = _SYMBOLS.get(name) or _UNPREFIXED.get(name)
-    if known:
-        return Fraction(known[0]), known[1]
+def _power(factor: str) -> tuple[Fraction, Dimension, int]:
+    """Return size and dimension of a symbol, and its exponent."""
+    match = _FACTOR.fullmatch(factor)
+    if match is None or (match[1] == "1" and match[2]):
+        raise ValueError(f"cannot read the unit {factor!r}" if factor else "a unit is missing")
+    name, exponent = match[1], int(match[2] or 1)
+    if known := _SYMBOLS.get(name) or _UNPREFIXED.get(name):
+        return Fraction(known[0]), known[1], exponent
     if name[0] in _PREFIXES and name[1:] in _SYMBOLS:
         size, dimension = _SYMBOLS[name[1:]]
-        return Fraction(size) * Fraction(10) ** _PREFIXES[name[0]], dimension
+        return Fraction(size) * Fraction(10) ** _PREFIXES[name[0]], dimension, exponent
     if name == "degC":
         raise ValueError("degC has an offset; use K in a compound unit")
     if name in ("rpm", "rev"):
@@ -102,8 +90,3 @@ def _symbol(name: str) -> tuple[Fraction, Dimension]:
     if _ROCKWELL.fullmatch(name):
         raise ValueError("Rockwell hardness has no fixed conversion; give GPa or HV (Vickers)")
     raise ValueError(f"unknown unit {name!r}")
-
-
-def _combine(left: Dimension, right: Dimension, power: int) -> Dimension:
-    m, kg, s, k, mol = (a + power * b for a, b in zip(left, right, strict=True))
-    return m, kg, s, k, mol

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from tribo.core.arrays import Array
@@ -47,42 +47,34 @@ class Field:
         return ""
 
 
-def name_fault(fields: Iterable[Field]) -> str:
-    """Return what is wrong with the names of `fields`; empty if they can."""
-    seen: set[str] = set()
-    for each in fields:
-        if not (isinstance(each.name, str) and each.name.isidentifier()):
-            return (
-                f"{each.name!r} cannot name a field; letters, digits and underscores are allowed, "
-                "no digit first"
-            )
-        if each.name in seen:
-            return f"the field {each.name!r} is declared twice"
-        seen.add(each.name)
-    return ""
-
-
-def check_declared(owner: type, attribute: str) -> None:
-    """Check the fields that a class declares, and the names of those that it requires.
+def check_declared(owner: type) -> None:
+    """Check the fields that a class provides or keeps, and the names of those that it requires.
 
     Raises
     ------
     TypeError
-        If `attribute`, where it is set, is not a tuple of `Field` with a name of its own each,
-        or `requires` not a tuple of names.
+        If they are not tuples of `Field`, each with a name of its own, and of names.
     """
-    fields, names = getattr(owner, attribute, ()), getattr(owner, "requires", ())
-    where = f"{owner.__qualname__}.{attribute}"
-    if not (isinstance(fields, tuple | list) and all(isinstance(f, Field) for f in fields)):
+    for attribute in ("provides", "state_fields"):
+        fields, where = getattr(owner, attribute, ()), f"{owner.__qualname__}.{attribute}"
+        if not (isinstance(fields, tuple | list) and all(isinstance(f, Field) for f in fields)):
+            raise TypeError(
+                f"{where} is {fields!r}; it must be a tuple of Field, as in "
+                '(Field("name", "m", "What it means."),)'
+            )
+        names = [field.name for field in fields]
+        for name in names:
+            if not (isinstance(name, str) and name.isidentifier()):
+                raise TypeError(
+                    f"{where}: {name!r} cannot name a field; letters, digits and underscores are "
+                    "allowed, no digit first"
+                )
+            if names.count(name) > 1:
+                raise TypeError(f"{where}: the field {name!r} is declared twice")
+    required = getattr(owner, "requires", ())
+    if not (isinstance(required, tuple | list) and all(isinstance(n, str) for n in required)):
         raise TypeError(
-            f"{where} is {fields!r}; it must be a tuple of Field, as in "
-            '(Field("name", "m", "What it means."),)'
-        )
-    if fault := name_fault(fields):
-        raise TypeError(f"{where}: {fault}")
-    if not (isinstance(names, tuple | list) and all(isinstance(name, str) for name in names)):
-        raise TypeError(
-            f"{owner.__qualname__}.requires is {names!r}; it must be a tuple of names, as in "
+            f"{owner.__qualname__}.requires is {required!r}; it must be a tuple of names, as in "
             '("temperature",)'
         )
 

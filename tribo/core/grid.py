@@ -78,7 +78,8 @@ class Grid(Table):
     @property
     def mesh(self) -> tuple[Array, Array]:
         """Coordinates x of shape (nx, 1) and y of shape (1, ny), in m."""
-        return self.x[:, None], self.y[None, :]
+        (nx, ny), (dx, dy) = self.cells, self.spacing
+        return _centres(nx, dx)[:, None], _centres(ny, dy)[None, :]
 
 
 def _centres(count: int, step: float) -> Array:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from html import escape
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 from pydantic import (
     BaseModel,
@@ -23,6 +23,15 @@ class Table(BaseModel):
     """A frozen table that refuses unknown keys, and explains errors in the words of a case."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
+
+    if not TYPE_CHECKING:
+
+        def __new__(cls, *values: Any, **named: Any) -> Self:
+            """Refuse values without their names, which pydantic does in words of its own."""
+            if values and cls.__init__ is BaseModel.__init__:
+                name, key = cls.__name__, next(iter(cls.model_fields), "key")
+                raise TypeError(f"give each value of {name} by its name, as {name}({key}=…)")
+            return super().__new__(cls)
 
     @model_validator(mode="wrap")
     @classmethod

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from tribo.component import Component
 from tribo.core.arrays import Array
-from tribo.core.fields import ContactConditions, Field, check_declared
+from tribo.core.fields import ContactConditions, Field
 from tribo.core.material import Material
 
 
@@ -24,12 +24,6 @@ class Effect(Component):
 
     requires: ClassVar[tuple[str, ...]] = ()
     """Names of the fields it needs from effects before it, or from the case."""
-
-    @classmethod
-    def __pydantic_init_subclass__(cls, **kwargs: Any) -> None:
-        """Check what a class declares of fields when it is made."""
-        super().__pydantic_init_subclass__(**kwargs)
-        check_declared(cls, "provides")
 
     def check(self, materials: Mapping[str, Material], swept: frozenset[str]) -> None:
         """Raise `CaseError` if the effect cannot serve these bodies.

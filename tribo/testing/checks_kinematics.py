@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from tribo.config.stop import Stop
+from tribo.case import Stop
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid

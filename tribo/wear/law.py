@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from tribo.component import Component
-from tribo.core.fields import Field, LocalConditions, WearRate, check_declared
+from tribo.core.fields import Field, LocalConditions, WearRate
 from tribo.core.material import Material
 
 
@@ -22,12 +22,6 @@ class WearLaw(Component):
 
     state_fields: ClassVar[tuple[Field, ...]] = ()
     """Fields it keeps per material point; each starts at `initial_state`."""
-
-    @classmethod
-    def __pydantic_init_subclass__(cls, **kwargs: Any) -> None:
-        """Check what a class declares of fields when it is made."""
-        super().__pydantic_init_subclass__(**kwargs)
-        check_declared(cls, "state_fields")
 
     def check(self, material: Material) -> None:
         """Raise `CaseError` if the law cannot serve a body of `material`."""
