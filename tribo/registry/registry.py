@@ -134,7 +134,7 @@ class Registry:
         CaseError
             If more than one plugin offers it, or the one that does cannot be used.
         """
-        owners = self.claimants(name)
+        owners = self._owners.get(name, [])
         if len(owners) > 1:
             raise CaseError(f"{words} {self.conflicts[name]}")
         for plugin in owners:
