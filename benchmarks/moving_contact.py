@@ -16,6 +16,7 @@ from common import Row, Tables, main
 from scipy.optimize import brentq
 
 from tribo.closed_forms.ball_on_track import ball_on_track
+from tribo.contact.dcfft import DcFft
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
 from tribo.core.grid import Grid
@@ -25,7 +26,8 @@ from tribo.motion.averaging import groove_excess
 from tribo.simulation.march import march
 from tribo.stepping.step import first_contact
 from tribo.verification.moving import to_and_fro
-from tribo.verification.problems import LOAD, RADIUS, WEAR_COEFFICIENT, ball, half_space, on_flat
+from tribo.verification.problems import BALL, LOAD, RADIUS, WEAR_COEFFICIENT, on_flat
+from tribo.wear.archard import Archard
 
 K = WEAR_COEFFICIENT
 STROKE = 2e-3
@@ -49,11 +51,11 @@ def compared(
     """Wear by the average and by the moving contact; compare them."""
     length = stroke * grid.spacing[0]
     model = on_flat(
-        ball(),
+        BALL,
         grid,
-        half_space(1e-7),
+        DcFft(tolerance=1e-7),
         load=load,
-        ball_k=ball_k,
+        ball_law=Archard(k=ball_k),
         flat_k=flat_k,
         track_length=length,
         distance=path,

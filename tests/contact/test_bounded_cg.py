@@ -62,19 +62,19 @@ def test_conditions_hold_with_the_dense_matrix(cap: float | None, worn: bool) ->
 @pytest.mark.parametrize(("load", "cap"), [(100.0, None), (2 * ONSET, HARDNESS)])
 def test_iterations_hardly_grow_with_the_grid(load: float, cap: float | None) -> None:
     iterations = {}
-    for cells in (128, 256, 512):
+    for cells in (64, 128, 256):
         case = ball(cells, load, cap, width=2e-3)
         iterations[cells] = _on_window(case).iterations
     # Cold and on the whole window: without preconditioner, fourfold cells cost 1.7 times.
     assert iterations[256] <= 20
-    assert iterations[512] <= 1.5 * iterations[128]
+    assert iterations[256] <= 1.5 * iterations[64]
 
 
 def test_a_similar_problem_starts_warm() -> None:
-    case = ball(256)
+    case = ball(128)
     first = _on_window(case)
     worn = case.gap + 1e-9 * first.pressure / first.pressure.max()
-    operator = HalfSpace((256, 256), case.system.grid.spacing, MODULUS)
+    operator = HalfSpace((128, 128), case.system.grid.spacing, MODULUS)
     warm = solve_bounded(operator, worn, case.load, start=first.pressure)
     cold = solve_bounded(operator, worn, case.load)
     assert warm.iterations <= 6 < cold.iterations

@@ -19,17 +19,6 @@ def solve(gap: Array, size: tuple[float, float], load: float) -> ContactSolution
     return Periodic().solve(problem(gap, size, load))
 
 
-def wave(ratio: float, cells: int) -> tuple[ContactSolution, sinusoid.Westergaard, Array]:
-    """Solve a wave along x at `ratio` of the pressure that closes its gap."""
-    contact = sinusoid.westergaard(
-        ratio * np.pi * MODULUS * AMPLITUDE / WAVELENGTH, AMPLITUDE, WAVELENGTH, MODULUS
-    )
-    size = (WAVELENGTH, 4 * WAVELENGTH / cells)
-    grid = Grid(size, (cells, 4))
-    height = AMPLITUDE * np.cos(2 * np.pi * grid.mesh[0] / WAVELENGTH) + 0 * grid.mesh[1]
-    return solve(-height, size, contact.mean_pressure * size[0] * size[1]), contact, grid.x
-
-
 def egg_box(ratio: float, cells: int) -> tuple[ContactSolution, sinusoid.WavyLimits]:
     mean = ratio * np.sqrt(2) * np.pi * MODULUS * AMPLITUDE / WAVELENGTH
     limits = sinusoid.johnson_greenwood_higginson(mean, AMPLITUDE, WAVELENGTH, MODULUS)
@@ -52,22 +41,6 @@ def test_each_mode_is_displaced_by_two_over_modulus_and_wavenumber(shape: tuple[
         assert operator.apply(pressure) == pytest.approx(expected, abs=1e-12 * expected.max())
     assert operator.apply(np.full(shape, 1e9)) == pytest.approx(0, abs=1e-20)
     assert (operator.symbol() > 0).all()
-
-
-@pytest.mark.parametrize("ratio", [0.05, 0.8])
-def test_a_wave_has_westergaards_contact(ratio: float) -> None:
-    # 0.4 of the closing pressure, with the order of convergence, is a row of `tribo verify`.
-    solution, exact, _ = wave(ratio, 1024)
-    touching = np.count_nonzero(solution.pressure[:, 0]) / 1024
-    # Symmetric about the crest, the contact grows by two cells at a time.
-    assert touching == pytest.approx(exact.contact_fraction, abs=1 / 1024)
-    assert solution.pressure.max() == pytest.approx(exact.peak_pressure, rel=5e-5)
-
-
-def test_a_wave_pressed_flat_has_the_pressure_of_its_mode() -> None:
-    solution, exact, x = wave(1.5, 32)
-    pressure = sinusoid.westergaard_pressure(x, exact, WAVELENGTH)
-    assert solution.pressure[:, 0] == pytest.approx(pressure, rel=1e-10)
 
 
 @pytest.mark.parametrize("amplitude", [1e-10, 1e-14, 1e-18])

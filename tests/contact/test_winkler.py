@@ -111,7 +111,7 @@ def test_two_sources_of_the_modulus_are_refused_by_name() -> None:
         Winkler(modulus=1e15, match="approach")
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", range(6))
 def test_conditions_hold_to_round_off(seed: int) -> None:
     rng = np.random.default_rng(seed)
     shape, size = (13, 9), (1e-3, 8e-4)
@@ -135,14 +135,6 @@ def test_conditions_hold_to_round_off(seed: int) -> None:
     assert np.abs(g[(p > 0) & ~full]).max(initial=0) < tiny
     assert (g[full] < tiny).all()
     assert solution.overlap == pytest.approx(np.where(full, -g, 0), abs=tiny)
-
-
-def test_start_changes_nothing_but_the_work() -> None:
-    case = ball(64)
-    cold = _fixed().solve(case)
-    warm = _fixed().solve(case, cold)
-    assert warm.iterations < cold.iterations
-    assert warm.pressure == pytest.approx(cold.pressure, rel=1e-12, abs=0)
 
 
 @pytest.mark.parametrize("load", [1e-320, 1e-300, 1e6])

@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
+from tribo.contact.dcfft import DcFft
 from tribo.verification import strokes
 from tribo.verification.moving import to_and_fro
-from tribo.verification.problems import WEAR_COEFFICIENT, ball, half_space, on_flat
+from tribo.verification.problems import BALL, WEAR_COEFFICIENT, on_flat
 
 K = WEAR_COEFFICIENT
 
@@ -18,7 +19,7 @@ def test_the_groove_on_the_ring_is_several_times_as_deep_as_the_elastic_approach
 
 def test_a_moved_contact_wears_what_archard_says_and_both_bodies_symmetrically():
     grid = strokes.STROKE_GRID
-    model = on_flat(ball(), grid, half_space(1e-6))
+    model = on_flat(BALL, grid, DcFft(tolerance=1e-6))
     moved = to_and_fro(model, K, 2 * K, stroke=20, distance=30.0, passes=4)
     volume = K * 100.0 * 30.0
     assert np.sum(moved.ball) * grid.cell_area == pytest.approx(volume, rel=1e-9, abs=0)

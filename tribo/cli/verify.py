@@ -56,15 +56,18 @@ def verify(case: Path | None, overrides: tuple[str, ...], only: str | None, as_j
 def _verify_installation(only: str | None, as_json: bool) -> None:
     from tribo.core.errors import CaseError, NumericalError
     from tribo.result.provenance import environment
-    from tribo.verification.suite import REFERENCES, run_suite
+    from tribo.verification.suite import REFERENCES
 
     wanted = (only or "").casefold()
     chosen = [known for known in REFERENCES if wanted in f"{known.case} {known.source}".casefold()]
     if not chosen:
         names = "; ".join(known.case for known in REFERENCES)
         raise CaseError(f"no check has {only!r} in its name or source; there are: {names}")
-    with _progress(sum(known.cost for known in chosen)) as tell:
-        rows = run_suite(chosen, lambda known: tell(known.case, known.cost))
+    rows = []
+    with _progress(len(chosen)) as tell:
+        for known in chosen:
+            tell(known.case)
+            rows += known.run()
     failed = [row for row in rows if row.verdict == "fails"]
     if as_json:
         found = {**environment(), "holds": not failed, "rows": [asdict(row) for row in rows]}
@@ -86,8 +89,8 @@ def _verify_case(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
     from tribo.verification.refinement import refine
 
     model = Simulation(load_case(case, overrides=overrides)).model
-    with _progress(5.0) as tell:
-        study = refine(model, lambda what: tell(what, 1.0))
+    with _progress(5) as tell:
+        study = refine(model, tell)
     if as_json:
         echo_json(asdict(study))
         return
@@ -95,26 +98,19 @@ def _verify_case(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
 
 
 @contextmanager
-def _progress(total: float) -> Iterator[Callable[[str, float], None]]:
-    """Show on stderr what runs now, and the time to go; yield what to tell of it."""
-    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+def _progress(total: int) -> Iterator[Callable[[str], None]]:
+    """Show on stderr what runs now, of how many; yield what to tell of each."""
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
     from tribo.cli.console import Console
 
-    columns = BarColumn(), TimeRemainingColumn(), TextColumn("{task.description}")
+    columns = BarColumn(), MofNCompleteColumn(), TextColumn("{task.description}")
     # Not what rich takes for a terminal: a pipe that colours are forced on is none to wipe.
     silent = not sys.stderr.isatty()
     console = Console(stderr=True)
     with Progress(*columns, console=console, transient=True, disable=silent) as progress:
-        task = progress.add_task("", total=total)
-        running = 0.0
-
-        def tell(what: str, cost: float) -> None:
-            nonlocal running
-            progress.update(task, advance=running, description=what)
-            running = cost
-
-        yield tell
+        task = progress.add_task("", total=total, completed=-1)
+        yield lambda what: progress.update(task, advance=1, description=what)
 
 
 def _print_suite(rows: Sequence[Row]) -> None:

@@ -31,7 +31,7 @@ def _segment(radius: float, cells: int) -> float:
     return float(np.sum(np.sqrt(radius**2 - y**2) - math.sqrt(radius**2 - WIDTH**2 / 4))) * spacing
 
 
-@reference("volume off a ball by the size of its scar", SOURCE, 500, cost=0.1)
+@reference("volume off a ball by the size of its scar", SOURCE, 500)
 def _ball(cells: int, placement: float) -> list[Row]:
     y, spacing = _middles(cells)
     x = y[:, None]
@@ -57,7 +57,7 @@ def _ball(cells: int, placement: float) -> list[Row]:
     ]
 
 
-@reference("section and volume of a track by its width", SOURCE, 500, cost=0.1)
+@reference("section and volume of a track by its width", SOURCE, 500)
 def _track(cells: int, placement: float) -> list[Row]:
     y, spacing = _middles(cells)
     parabola = (0.25 * WIDTH**2 - y**2) / (2 * GROOVE)
@@ -80,6 +80,3 @@ def _track(cells: int, placement: float) -> list[Row]:
         _row("straight track, G133", "m^3", straight, to_and_fro),
         _row("block on ring, G77", "m^3", on_ring, block),
     ]
-
-
-REFERENCES = (_ball, _track)

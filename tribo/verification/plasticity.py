@@ -13,14 +13,14 @@ from tribo.core.measures import contact_area
 from tribo.simulation.model import Model
 from tribo.stepping.step import first_contact, start_sliding
 from tribo.verification.problems import (
+    BALL,
+    HALF_SPACE,
     HARDNESS,
     MODULUS,
     ONSET,
     POISSON,
     RADIUS,
     YOUNG,
-    ball,
-    half_space,
     on_flat,
     paraboloid,
     press,
@@ -37,19 +37,19 @@ def _window(load: float, cells: int) -> Grid:
 
 def _soft(load: float, cells: int) -> Model:
     soft = Material(young=YOUNG, poisson=POISSON, hardness=HARDNESS)
-    return on_flat(ball(), _window(load, cells), half_space(), load=load, material=soft)
+    return on_flat(BALL, _window(load, cells), HALF_SPACE, load=load, material=soft)
 
 
 def _part(name: str, depth: Array, deepest: float, tolerance: float, note: str) -> Row:
     return Row(name, "1", 0.0, float(np.max(depth)) / deepest, tolerance, note=note)
 
 
-@reference("hardness, ball at 0.98 of the load of first yield", SOURCE, 95, cost=0.2)
+@reference("hardness, ball at 0.98 of the load of first yield", SOURCE, 95)
 def _below(cells: int, placement: float) -> list[Row]:
     load = 0.98 * ONSET
     grid = _window(load, cells)
-    capped = press(half_space(), paraboloid(grid), grid, load, HARDNESS)
-    elastic = press(half_space(), paraboloid(grid), grid, load).pressure
+    capped = press(HALF_SPACE, paraboloid(grid), grid, load, HARDNESS)
+    elastic = press(HALF_SPACE, paraboloid(grid), grid, load).pressure
     name, note = "sum |p - p_elastic| / sum p", "no effect below the cap"
     return [
         norm(name, capped.pressure, elastic, 1e-8, note=note),
@@ -83,7 +83,6 @@ def _above(factor: int, placement: float) -> list[Row]:
     "hardness, ball draws a groove as it begins to slide",
     "the envelope of the indentation along the track",
     33,
-    cost=0.1,
 )
 def _groove(cells: int, placement: float) -> list[Row]:
     model = _soft(3 * ONSET, cells)
@@ -101,15 +100,12 @@ def _again(cells: int, placement: float) -> list[Row]:
     load = 5 * ONSET
     grid = _window(load, cells)
     gap = paraboloid(grid)
-    first = press(half_space(), gap, grid, load, HARDNESS).overlap
+    first = press(HALF_SPACE, gap, grid, load, HARDNESS).overlap
     same, half = (
-        press(half_space(), gap + first, grid, part * load, HARDNESS).overlap for part in (1, 0.5)
+        press(HALF_SPACE, gap + first, grid, part * load, HARDNESS).overlap for part in (1, 0.5)
     )
     name, deepest = "further depth / depth", float(np.max(first))
     return [
         _part(f"{name}, same load", same, deepest, 1e-6, "at rest to tolerance"),
         _part(f"{name}, half the load", half, deepest, 0.0, "unloads elastically"),
     ]
-
-
-REFERENCES = (_below, _above, _groove, _again)

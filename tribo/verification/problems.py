@@ -41,6 +41,9 @@ ONSET = hertz.load_at_peak(MODULUS, HARDNESS, 1 / RADIUS)
 """Load at which the ball's peak pressure is the hardness, in N."""
 
 SPEED = 0.1
+ARCHARD = Archard(k=WEAR_COEFFICIENT)
+BALL = Paraboloid(radius=RADIUS)
+HALF_SPACE, PERIODIC = DcFft(tolerance=1e-10), Periodic(tolerance=1e-10)
 
 
 class Shape(Surface):
@@ -54,16 +57,6 @@ class Shape(Surface):
     def height(self, grid: Grid) -> Array:
         """Return the function's heights."""
         return self.heights(grid)
-
-
-def half_space(tolerance: float = 1e-10) -> DcFft:
-    """Return the half-space in free space."""
-    return DcFft(tolerance=tolerance)
-
-
-def periodic(tolerance: float = 1e-10) -> Periodic:
-    """Return the half-space that repeats."""
-    return Periodic(tolerance=tolerance)
 
 
 def square(width: float, cells: int, placement: float = 0.0, breadth: float | None = None) -> Grid:
@@ -94,20 +87,14 @@ def press(
     return contact.solve(ContactProblem(system, gap, load))
 
 
-def ball() -> Paraboloid:
-    """Return the ball of 5 mm radius, as a paraboloid."""
-    return Paraboloid(radius=RADIUS)
-
-
 def on_flat(
     surface: Surface,
     grid: Grid,
     contact: ContactSolver,
     *,
     load: float = LOAD,
-    ball_k: float = WEAR_COEFFICIENT,
+    ball_law: WearLaw = ARCHARD,
     flat_k: float | None = None,
-    ball_law: WearLaw | None = None,
     track_length: float = 2e-3,
     distance: float = 1.0,
     material: Material = STEEL,
@@ -115,17 +102,15 @@ def on_flat(
 ) -> Model:
     """Return the model of a body named "ball" that slides on a flat along a track.
 
-    The ball wears by Archard's law with `ball_k` if no other is given; the flat is of the ball's
-    material likewise.
+    The flat is of the ball's material if no other is given.
     """
-    ball_wear = ball_law or Archard(k=ball_k)
     flat_wear = None if flat_k is None else Archard(k=flat_k)
     return assemble(
         Case(
             grid=grid,
             load=load,
             bodies={
-                "ball": Body(surface=surface, material=material, wear=ball_wear),
+                "ball": Body(surface=surface, material=material, wear=ball_law),
                 "flat": Body(surface=Flat(), material=flat_material or material, wear=flat_wear),
             },
             contact=contact,

@@ -15,9 +15,7 @@ from tribo.verification.problems import (
     WEAR_COEFFICIENT,
     Shape,
     drawn_radius,
-    half_space,
     on_flat,
-    periodic,
     slide,
     square,
 )
@@ -57,16 +55,17 @@ def _row(prefix: str, exact: float, got: float) -> Row:
     return Row(f"{prefix}slowest rate, in kE*/a", "1", exact, got, 1e-3, order, note)
 
 
-@reference("flat round punch wears", SOURCE, 61, 121, 241, cost=1.5)
+@reference("flat round punch wears", SOURCE, 61, 121, 241)
 def _disc(cells: int, placement: float) -> list[Row]:
     grid = square(2.4 * RADIUS, cells, placement)
     x, y = grid.mesh
-    inside = np.hypot(x, y) < RADIUS
-    drawn, level = drawn_radius(inside, grid), np.zeros(grid.cells)
-    return [_row("", disc_rates()[0], _rate(inside, grid, drawn, half_space(1e-11), 100.0, level))]
+    inside, level = np.hypot(x, y) < RADIUS, np.zeros(grid.cells)
+    contact = DcFft(tolerance=1e-11)
+    rate = _rate(inside, grid, drawn_radius(inside, grid), contact, 100.0, level)
+    return [_row("", disc_rates()[0], rate)]
 
 
-@reference("flat strip wears (periodic, 400 half-widths apart)", SOURCE, 32, 64, 128, cost=2.0)
+@reference("flat strip wears (periodic, 400 half-widths apart)", SOURCE, 32, 64, 128)
 def _strip(cells: int, placement: float) -> list[Row]:
     # Images 400 half-widths away change the rate by less than a hundred-thousandth.
     size = (400 * RADIUS, 4 * RADIUS / cells)
@@ -75,13 +74,10 @@ def _strip(cells: int, placement: float) -> list[Row]:
     inside = (np.abs(x) < RADIUS) & (np.abs(y) < size[1])
     tilt = 1e-8 * np.broadcast_to(x / RADIUS, grid.cells)
     even, odd = (
-        _rate(inside, grid, RADIUS, periodic(1e-11), 1e6 * size[1], tilted)
+        _rate(inside, grid, RADIUS, Periodic(tolerance=1e-11), 1e6 * size[1], tilted)
         for tilted in (0 * tilt, tilt)
     )
     return [
         _row("even, ", strip_rates()[0], even),
         _row("odd, ", strip_rates(odd=True)[0], odd),
     ]
-
-
-REFERENCES = (_disc, _strip)

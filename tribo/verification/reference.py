@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from importlib.util import find_spec
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
@@ -93,10 +93,6 @@ class Reference:
         square over them, since the edge of a contact falls anywhere in a cell.
     needs : tuple of str, optional
         Modules of another code, without which nothing is computed.
-    unknown : tuple of Row, optional
-        What stands in the table where nothing could be computed.
-    cost : float, optional
-        About how long it takes, in s; for the time to go.
     """
 
     case: str
@@ -105,13 +101,12 @@ class Reference:
     levels: tuple[int, ...]
     placements: int = 1
     needs: tuple[str, ...] = ()
-    unknown: tuple[Row, ...] = (Row("everything", "1", None, None, 0.0),)
-    cost: float = 1.0
 
     def run(self) -> list[Row]:
         """Compute the rows at all levels and judge them."""
+        nothing = Row("everything", "1", None, None, 0.0, case=self.case, source=self.source)
         if any(find_spec(name) is None for name in self.needs):
-            return self._without_values("not installed")
+            return [replace(nothing, verdict="not installed")]
         try:
             found = [
                 [self.rows(level, k / self.placements) for k in range(self.placements)]
@@ -121,7 +116,7 @@ class Reference:
             # Another code may have changed, or be broken; tribo itself fails in its own ways only.
             if not self.needs and not isinstance(error, TriboError):
                 raise
-            return self._without_values("fails", str(error))
+            return [replace(nothing, note=str(error))]
         return [
             self._judged(row, [_error([rows[i] for rows in placed]) for placed in found])
             for i, row in enumerate(found[-1][0])
@@ -132,24 +127,21 @@ class Reference:
         if row.theory is not None:
             order = observed_order(self.levels, errors)
             holds = holds and order is not None and abs(order - row.theory) <= ORDER_MARGIN
-        return self._with(row, "holds" if holds else "fails", error=errors[-1], order=order)
-
-    def _without_values(self, verdict: Verdict, note: str = "") -> list[Row]:
-        return [self._with(row, verdict, note=note or row.note) for row in self.unknown]
-
-    def _with(self, row: Row, verdict: Verdict, **values: Any) -> Row:
-        return replace(row, case=self.case, source=self.source, verdict=verdict, **values)
+        return replace(
+            row,
+            case=self.case,
+            source=self.source,
+            error=errors[-1],
+            order=order,
+            verdict="holds" if holds else "fails",
+        )
 
 
 def reference(
-    case: str,
-    source: str,
-    *levels: int,
-    placements: int = 1,
-    cost: float = 1.0,
+    case: str, source: str, *levels: int, placements: int = 1
 ) -> Callable[[Callable[[int, float], Sequence[Row]]], Reference]:
     """Make a `Reference` of the function below; parameters as there."""
-    return lambda rows: Reference(case, source, rows, levels, placements, cost=cost)
+    return lambda rows: Reference(case, source, rows, levels, placements)
 
 
 def observed_order(levels: Sequence[int], errors: Sequence[float]) -> float | None:
@@ -160,11 +152,10 @@ def observed_order(levels: Sequence[int], errors: Sequence[float]) -> float | No
 
 
 def _error(placed: Sequence[Row]) -> float:
-    relative = [_relative(row.expected, row.got) for row in placed]
-    return float(np.sqrt(np.mean(np.square(relative))))
+    return float(np.sqrt(np.mean(np.square([_relative(row) for row in placed]))))
 
 
-def _relative(expected: float | None, got: float | None) -> float:
-    assert expected is not None
-    assert got is not None
-    return got if expected == 0 else got / expected - 1
+def _relative(row: Row) -> float:
+    assert row.expected is not None
+    assert row.got is not None
+    return row.got if row.expected == 0 else row.got / row.expected - 1

@@ -6,13 +6,14 @@ from functools import lru_cache
 
 import numpy as np
 
+from tribo.contact.dcfft import DcFft
 from tribo.core.grid import Grid
 from tribo.core.measures import half_widths
 from tribo.core.state import State
 from tribo.motion.averaging import groove_excess
 from tribo.simulation.model import Model
 from tribo.verification.moving import round_a_ring, to_and_fro
-from tribo.verification.problems import WEAR_COEFFICIENT, ball, half_space, on_flat, run_to_end
+from tribo.verification.problems import BALL, WEAR_COEFFICIENT, on_flat, run_to_end
 from tribo.verification.reference import Row, norm, reference
 
 K = WEAR_COEFFICIENT
@@ -28,8 +29,8 @@ STROKE_GRID = Grid((1.3e-3, 1.3e-3), (28, 28))
 
 def _model(grid: Grid, rows: int, load: float, path: float) -> Model:
     length = rows * grid.spacing[0]
-    contact = half_space(1e-6)
-    return on_flat(ball(), grid, contact, load=load, flat_k=K, track_length=length, distance=path)
+    contact = DcFft(tolerance=1e-6)
+    return on_flat(BALL, grid, contact, load=load, flat_k=K, track_length=length, distance=path)
 
 
 @lru_cache
@@ -42,7 +43,6 @@ def _ring_average() -> tuple[Model, State]:
     "track average against 8, 16, 32 passes of a ring, groove of 3.6 approaches",
     "every cell of every pass is solved",
     *(8, 16, 32),
-    cost=6.0,
 )
 def _ring(passes: int, placement: float) -> list[Row]:
     model, averaged = _ring_average()
@@ -75,7 +75,6 @@ def _hour(stroke: float, passes: int) -> tuple[float, float]:
     "stroke average, the paper's hour, against a contact moved to and fro",
     "every cell of a pass is solved; two other codes",
     32,
-    cost=6.0,
 )
 def _strokes(passes: int, placement: float) -> list[Row]:
     two, _ = _hour(2e-3, passes)
@@ -93,6 +92,3 @@ def _strokes(passes: int, placement: float) -> list[Row]:
             for stroke in (3, 5)
         ),
     ]
-
-
-REFERENCES = (_ring, _strokes)

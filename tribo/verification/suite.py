@@ -1,8 +1,6 @@
-"""All problems with a known answer, and a run through them."""
+"""All problems with a known answer."""
 
 from __future__ import annotations
-
-from collections.abc import Callable, Sequence
 
 from tribo.verification import (
     codes,
@@ -14,27 +12,9 @@ from tribo.verification import (
     waves,
     wear,
 )
-from tribo.verification.reference import Reference, Row
+from tribo.verification.reference import Reference
 
-REFERENCES: tuple[Reference, ...] = (
-    *contacts.REFERENCES,
-    *waves.REFERENCES,
-    *plasticity.REFERENCES,
-    *wear.REFERENCES,
-    *punches.REFERENCES,
-    *strokes.REFERENCES,
-    *formulas.REFERENCES,
-    *codes.REFERENCES,
-)
+_MODULES = (contacts, waves, plasticity, wear, punches, strokes, formulas)
+_FOUND = (value for module in _MODULES for value in vars(module).values())
 
-
-def run_suite(
-    references: Sequence[Reference] = REFERENCES,
-    started: Callable[[Reference], None] = lambda _: None,
-) -> list[Row]:
-    """Compute the rows of `references`; `started` is told of each before it runs."""
-    rows = []
-    for known in references:
-        started(known)
-        rows += known.run()
-    return rows
+REFERENCES = (*(known for known in _FOUND if isinstance(known, Reference)), *codes.REFERENCES)

@@ -9,7 +9,6 @@ from tribo import (
     ContactProblem,
     ContactSystem,
     Grid,
-    HalfSpace,
     NumericalError,
     Simulation,
     WearCompliance,
@@ -24,17 +23,17 @@ tamaas = pytest.importorskip(
 MODULUS = 207e9 / (2 * (1 - 0.3**2))
 
 
-def first_contact(contact, load, width, cells, hardness="4 GPa", tolerance=1e-8):
+def first_contact(contact, load, width):
     """The paper's first contact, solved by the contact solver of this name."""
-    material = {"young": "207 GPa", "poisson": 0.3, "hardness": hardness}
+    material = {"young": "207 GPa", "poisson": 0.3, "hardness": "4 GPa"}
     case = {
-        "grid": {"size": [width, width], "cells": [cells, cells]},
+        "grid": {"size": [width, width], "cells": [64, 64]},
         "load": {"normal": load},
         "bodies": {
             "ball": {"surface": {"type": "sphere", "radius": "5 mm"}, "material": material},
             "disk": {"surface": {"type": "flat"}, "material": material},
         },
-        "contact": {"type": contact, "tolerance": tolerance},
+        "contact": {"type": contact, "tolerance": 1e-11},
         "kinematics": {
             "type": "reciprocating",
             "stroke": "2 mm",
@@ -60,33 +59,20 @@ def solver(**config):
     return Tamaas(**config)
 
 
-# Both solvers stop at residuals of 1e-8 of energy, which leaves the pressure of a
-# cell uncertain by far more, most of all at the rim: 5.5e-7, 6.8e-7, 7.3e-7 and
-# 2.5e-6 of the largest pressure were measured. At 1e-11 of both it is 1e-8.
-@pytest.mark.parametrize(
-    ("load", "width", "cells", "tolerance", "difference"),
-    [
-        (100, 0.7e-3, 64, 1e-8, 2e-6),
-        (100, 0.7e-3, 128, 1e-8, 2e-6),
-        (1000, 1.2e-3, 64, 1e-8, 2e-6),
-        (1000, 1.2e-3, 128, 1e-8, 5e-6),
-        (100, 0.7e-3, 64, 1e-11, 1e-8),
-        (1000, 1.2e-3, 64, 1e-11, 1e-8),
-    ],
-)
+# At looser tolerances both leave the pressure of a cell at the rim uncertain by some 1e-6.
+@pytest.mark.parametrize(("load", "width"), [(100, 0.7e-3), (1000, 1.2e-3)])
 @pytest.mark.slow
-def test_it_finds_the_first_contact_that_dcfft_finds(load, width, cells, tolerance, difference):
-    problem, theirs = first_contact("tamaas.half_space", load, width, cells, tolerance=tolerance)
-    _, ours = first_contact("dcfft", load, width, cells, tolerance=tolerance)
-    np.testing.assert_allclose(
-        theirs.pressure, ours.pressure, rtol=0, atol=difference * ours.pressure.max()
-    )
+def test_it_finds_the_first_contact_that_dcfft_finds(load, width):
+    problem, theirs = first_contact("tamaas.half_space", load, width)
+    _, ours = first_contact("dcfft", load, width)
+    difference = 1e-8 * ours.pressure.max()
+    np.testing.assert_allclose(theirs.pressure, ours.pressure, rtol=0, atol=difference)
     np.testing.assert_array_equal(theirs.pressure == 4e9, ours.pressure == 4e9)
     assert theirs.approach == pytest.approx(ours.approach, rel=1e-8, abs=0)
     # The deepest indent of the capped case is 0.6 µm.
     np.testing.assert_allclose(theirs.overlap, ours.overlap, rtol=0, atol=2e-12)
     assert theirs.overlap.any() == (load == 1000)
-    assert theirs.residuals.worst <= tolerance
+    assert theirs.residuals.worst <= 1e-11
     assert theirs.iterations > 0
     assert theirs.pressure.sum() * problem.system.grid.cell_area == pytest.approx(load, rel=1e-12)
 
@@ -102,49 +88,6 @@ def test_window_and_cells_need_not_be_square_or_even(cells, size, cap):
     at_cap = np.count_nonzero(solution.pressure == 4e9) * problem.system.grid.cell_area
     # Converged on fine grids; cells are counted whole.
     assert at_cap == pytest.approx(0 if cap is None else 0.124e-6, rel=0.03, abs=0)
-
-
-@pytest.mark.parametrize("scale", [1e-3, 1e3])
-@pytest.mark.parametrize("cap", [None, 4e9])
-def test_lengths_and_moduli_of_any_size_give_the_same_contact(scale, cap):
-    reference = solver().solve(ball(size=(1.2e-3, 1.2e-3), load=1000.0, cap=cap))
-    problem = ball(size=(1.2e-3, 1.2e-3), load=1000.0, cap=cap)
-    grid = Grid((scale * 1.2e-3, scale * 1.2e-3), (48, 48))
-    soft = None if cap is None else cap / 1e6
-    system = ContactSystem(grid, MODULUS / 1e6, 1e-6 * scale**2 * 1000, soft)
-    scaled = solver().solve(ContactProblem(system, scale * problem.gap, system.load))
-    # Powers of ten round, and a different bit may end an iteration sooner.
-    tolerance = 1e-5 * reference.pressure.max()
-    np.testing.assert_allclose(1e6 * scaled.pressure, reference.pressure, atol=tolerance)
-
-
-def test_where_nothing_reaches_the_cap_it_changes_nothing():
-    capped, elastic = solver().solve(ball(cap=4e9)), solver().solve(ball())
-    np.testing.assert_array_equal(capped.pressure, elastic.pressure)
-    assert not capped.overlap.any()
-
-
-@pytest.mark.parametrize("cap", [None, 4e9])
-def test_warm_start_saves_iterations_and_finds_the_same(cap):
-    problem = ball(size=(1.2e-3, 1.2e-3), load=1000.0, cap=cap)
-    cold = solver().solve(problem)
-    worn = replace(problem, gap=problem.gap + 1e-9 * cold.pressure / cold.pressure.max())
-    again, afresh = solver().solve(worn, cold), solver().solve(worn)
-    assert again.iterations < 0.8 * afresh.iterations
-    tolerance = 5e-6 * afresh.pressure.max()
-    np.testing.assert_allclose(again.pressure, afresh.pressure, rtol=0, atol=tolerance)
-
-
-def test_it_repeats_to_the_bit_and_leaves_its_input_alone():
-    problem = ball(size=(1.2e-3, 1.2e-3), load=1000.0, cap=4e9)
-    gap = problem.gap.copy()
-    problem.gap.flags.writeable = False
-    first = solver().solve(problem)
-    pressure = first.pressure.copy()
-    np.testing.assert_array_equal(solver().solve(problem).pressure, pressure)
-    solver().solve(problem, first)
-    np.testing.assert_array_equal(first.pressure, pressure)
-    np.testing.assert_array_equal(problem.gap, gap)
 
 
 @pytest.mark.parametrize("cap", [None, 4e9])
@@ -187,16 +130,3 @@ def test_it_prints_nothing(capfd):
     with pytest.raises(NumericalError):
         solver(max_iterations=2).solve(ball())
     assert capfd.readouterr() == ("", "")
-
-
-@pytest.mark.parametrize("size", [(0.7e-3, 0.7e-3), (1.4e-3, 0.7e-3), (0.7e-3, 7e-3)])
-def test_smallest_compliance_is_that_of_the_chequerboard(size):
-    problem = ball((48, 48), size)
-    grid = problem.system.grid
-    i, j = np.indices(grid.cells)
-    sign = np.where((i + j) % 2 == 0, 1.0, -1.0)
-    displacement = HalfSpace(grid.cells, grid.spacing, MODULUS).apply(sign)
-    # In the middle, where the window's edge is felt least.
-    assert solver().smallest_compliance(problem.system) == pytest.approx(
-        displacement[24, 24], rel=0.02, abs=0
-    )
