@@ -52,23 +52,14 @@ def test_every_quantity_can_be_asked_for():
         ),
         ({"uncertainty": "0.1 mm"}, "[0].uncertainty", "is a length [m]"),
         ({"uncertainty": "-0.1 mg"}, "[0].uncertainty", "must be greater than 0"),
-        ({"uncertainty": 0}, "[0].uncertainty", "must be greater than 0"),
-        ({"value": "-2 mg"}, "[0].value", "must be at least"),
-        # Less than an atom.
-        ({"value": "1e-30 kg"}, "[0].value", "must be at least 1e-27 kg"),
-        ({"value": 1e-33, "quantity": "volume", "uncertainty": 1e-12}, "[0].value", "1e-30 m^3"),
-        ({"value": 3e-11, "quantity": "scar_along", "uncertainty": 1e-6}, "[0].value", "1e-10 m"),
+        ({"value": "-2 mg"}, "[0].value", "must be greater than 0"),
         # Exacter than any run, as with a unit forgotten.
         ({"uncertainty": 1e-13}, "[0]", "less than a millionth"),
-        ({"uncertainty": None, "resolution": 1e-13}, "[0]", "less than a millionth"),
-        ({"value": "some"}, "[0].value", "a mass [kg] is needed"),
         ({"quantity": "mas"}, "[0].quantity", "did you mean 'mass'?"),
-        ({"quantity": None}, "[0].quantity", "missing"),
         ({"boddy": "ball"}, "[0].boddy", "did you mean 'body'?"),
         ({"body": "bal"}, "[0].body", "did you mean 'ball'?"),
         ({"uncertainty": None}, "[0]", "uncertainty"),
         ({"value": None}, "[0]", "give value, or before and after"),
-        ({"before": "27 g"}, "[0]", "give value, or before and after"),
         ({"value": None, "before": "27 g"}, "[0]", "give value, or before and after"),
         ({"value": None, "before": "27.1 g", "after": "27.2 g"}, "[0]", "no loss was weighed"),
         ({"value": ["1 mg", "2 mg"]}, "[0]", "one value, without position"),
@@ -111,10 +102,7 @@ def test_a_wrong_value_is_told(changes, place, words):
     ("fit", "place", "words"),
     [
         ({"path": "bodies.bal.wear.k"}, "[0].path", f"did you mean '{K}'?"),
-        ({"path": "bodies.ball.wear.kk"}, "[0].path", f"did you mean '{K}'?"),
         ({"path": "load.normal.x"}, "[0].path", "not given in this case"),
-        ({"path": "bodies.ball.wear"}, "[0].path", "not given in this case"),
-        ({"path": "bodies.ball.wear.K"}, "[0].path", "not given in this case"),
         ({"path": "grid.cells.0"}, "[0].path", "is 16 in this case"),
         ({"path": "a..b"}, "[0].path", "'a..b' is not a path"),
         ({"path": K, "start": "1 Pa"}, "[0].start", "an inverse pressure [1/Pa] is needed"),
@@ -122,7 +110,6 @@ def test_a_wrong_value_is_told(changes, place, words):
         ({"path": K, "lower": 1e-15}, "[0]", "3.11e-16, must lie between lower, 1e-15, and upper"),
         ({"path": "bodies.ball.material.poisson", "upper": 0.6}, "[0].upper", "less than 0.5"),
         ({"path": K, "begin": 1}, "[0].begin", "Allowed: path, start, lower, upper"),
-        ({}, "[0].path", "missing"),
     ],
 )
 def test_a_wrong_parameter_is_told(fit, place, words):
@@ -131,23 +118,21 @@ def test_a_wrong_parameter_is_told(fit, place, words):
     assert words in text
 
 
-def test_a_parameter_given_twice_is_told():
-    fit = [{"path": "load.normal"}, {"path": 'load."normal"'}]
-    assert refused(GOOD, GOOD, fit=fit).startswith("fit[1].path: ")
-
-
-def test_fewer_data_than_parameters_are_told():
-    fit = [{"path": K}, {"path": "bodies.disk.wear.k"}]
-    assert refused(GOOD, fit=fit).startswith("2 parameters cannot be fitted to 1 measured value:")
+@pytest.mark.parametrize(
+    ("measured", "fit", "start"),
+    [
+        ([GOOD, GOOD], ["load.normal", 'load."normal"'], "fit[1].path: "),
+        ([GOOD], [K, "bodies.disk.wear.k"], "2 parameters cannot be fitted to 1 measured value:"),
+        ([], [K], "measured: "),
+    ],
+)
+def test_parameters_that_data_do_not_fit_are_told(measured, fit, start):
+    assert refused(*measured, fit=[{"path": path} for path in fit]).startswith(start)
 
 
 def test_a_case_in_the_place_of_measured_values_is_told():
     with pytest.raises(CaseError, match="this is a case, not measured values"):
         calibrate(CASE, CASE)
-
-
-def test_nothing_measured_is_told():
-    assert refused().startswith("measured: ")
 
 
 @pytest.mark.parametrize(
@@ -172,16 +157,6 @@ def test_a_case_that_lacks_what_is_needed_is_told(changes, remedy):
 def test_a_level_is_a_probability():
     with pytest.raises(CaseError, match="the level, 95, must lie between 0 and 1"):
         calibrate(CASE, {"measured": [GOOD]}, level=95)
-
-
-@pytest.mark.slow
-def test_a_parameter_that_changes_nothing_is_told():
-    """How stiff a body is does not change how much it loses."""
-    loss = changed(value="0.5 ug", uncertainty="0.05 ug")
-    data = {"measured": [loss], "fit": [{"path": "bodies.ball.material.young"}]}
-    case = apply_settings(CASE, {"kinematics.duration": 20, "output": {}})
-    with pytest.raises(CaseError, match=r"^bodies.ball.material.young changes none of the"):
-        calibrate(case, data)
 
 
 def test_a_profile_that_noise_makes_negative_is_taken():

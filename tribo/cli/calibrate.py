@@ -74,20 +74,11 @@ def _tell(run: int, misfit: float) -> None:
 
 
 def _table(title: str, names: list[str], *columns: str) -> Table:
-    """Return a table that breaks intervals between words, but no values.
-
-    Names are broken between words, and only very long words within.
-    """
+    """Return a table that breaks names and intervals between words, but no values."""
     table = titled(title)
     table.pad_edge, table.collapse_padding = False, True
     longest = max((len(word) for name in names for word in name.split()), default=0)
-    one_word = not any(" " in name for name in names)
-    table.add_column(
-        "",
-        overflow="fold",
-        no_wrap=one_word and longest <= LONGEST_NAME,
-        min_width=None if one_word else min(longest, LONGEST_NAME),
-    )
+    table.add_column("", overflow="fold", min_width=min(longest, LONGEST_NAME))
     for column in columns:
         is_interval = column == "" or column.endswith("interval")
         table.add_column(column, justify="right", overflow="fold", no_wrap=not is_interval)
@@ -95,8 +86,7 @@ def _table(title: str, names: list[str], *columns: str) -> Table:
 
 
 def _estimates(found: Calibration) -> Table:
-    names = list(found.parameters["path"])
-    level = f"{100 * found.level:g} % interval"
+    names, level = list(found.parameters["path"]), f"{100 * found.level:g} % interval"
     table = _table(f"Fitted in {found.runs} runs", names, "estimate", level, "", "resolution")
     for each in found.parameters.itertuples():
         ends, relative = _interval(each, f"{each.lower:.3g}", f"{each.upper:.3g}")
@@ -110,10 +100,9 @@ def _estimates(found: Calibration) -> Table:
 
 
 def _data(found: Calibration) -> Table:
-    rows = list(found.data.itertuples())
-    names = [_name(each) for each in rows]
+    names = [_name(each) for each in found.data.itertuples()]
     table = _table("Measured", names, "value", "uncertainty", "computed", "residual")
-    for each, name in zip(rows, names, strict=True):
+    for name, each in zip(names, found.data.itertuples(), strict=True):
         values = (each.measured, each.sigma, each.computed)
         shown = [in_words(each.quantity, value) for value in values]
         table.add_row(name, *shown, f"{round(each.residual, 1) + 0.0:+.1f}")
@@ -121,11 +110,10 @@ def _data(found: Calibration) -> Table:
 
 
 def _predictions(found: Calibration) -> Table:
-    rows = list(found.predictions.itertuples())
-    names = [_name(each) for each in rows]
+    names = [_name(each) for each in found.predictions.itertuples()]
     level = f"{100 * found.level:g} % interval"
     table = _table("Not measured, at the end", names, "computed", level, "")
-    for each, name in zip(rows, names, strict=True):
+    for name, each in zip(names, found.predictions.itertuples(), strict=True):
         value, low, high = (
             in_words(each.quantity, value) for value in (each.value, each.lower, each.upper)
         )

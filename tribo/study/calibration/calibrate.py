@@ -15,7 +15,6 @@ from tribo.config.load import case_tables, validate_case
 from tribo.config.overrides import apply_settings
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, NumericalError, TriboWarning
-from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.registry import Registry
 from tribo.simulation.model import Model
 from tribo.simulation.run import Simulation
@@ -32,9 +31,10 @@ from tribo.study.calibration.quantities import (
     read,
     unavailable,
 )
+from tribo.study.variation import unknown_body
 
-NOTABLE, FAR, TOO_FAR = 5.0, 100.0, 300.0
-"""Factors between measured and computed: may be why a run fails, is told, is refused.
+NOTABLE, TOO_FAR = 5.0, 300.0
+"""Factors between measured and computed: may be why a run fails, is refused.
 
 A prefix is a factor of 1000; a start may be off by a few on top of it.
 """
@@ -90,7 +90,6 @@ def calibrate(
         _check_entry(model, entry, f"measured[{i}]")
     parameters = find_parameters(base, asked.fit, asked.measured)
     data = [reading for entry in asked.measured for reading in entry.readings]
-    places = [f"measured[{i}]" for i, entry in enumerate(asked.measured) for _ in entry.values]
     if len(data) < len(parameters):
         raise CaseError(
             f"{len(parameters)} parameters cannot be fitted to {len(data)} measured "
@@ -102,40 +101,35 @@ def calibrate(
     runs: dict[bytes, Run] = {}
 
     def run(values: Array) -> Run:
-        found = make_run(
-            tables, parameters, values, [*data, *predicted], registry, f"run {len(runs) + 1}"
-        )
-        for place, each, value in zip(places, data, found.responses, strict=False):
-            if value <= 0 and each.position is None:
-                raise CaseError(
-                    f"the {each.quantity} of {each.body!r} comes out as 0 in the case; begin with "
-                    "more wear: give start in fit",
-                    place,
-                )
-        runs[values.tobytes()] = found
-        return found
+        key = values.tobytes()
+        if key not in runs:
+            name = f"run {len(runs) + 1}"
+            runs[key] = make_run(tables, parameters, values, [*data, *predicted], registry, name)
+            _check_positive(asked.measured, runs[key].responses)
+        return runs[key]
 
-    start = np.array([p.start for p in parameters])
-    first = run(np.exp(np.log(start)))
+    # With the rounding that the fit, which works with logarithms, has.
+    start = np.exp(np.log([p.start for p in parameters]))
+    first = run(start)
     far = far_off(asked.measured, first.responses, parameters)
-    sigma = np.concatenate([np.full(len(entry.values), entry.sigma) for entry in asked.measured])
     problem = Problem(
         names=tuple(p.path for p in parameters),
         observed=np.concatenate([entry.values for entry in asked.measured]),
-        sigma=np.hypot(sigma, first.read_off[: len(data)]),
+        sigma=np.hypot([e.sigma for e in asked.entries], first.read_off[: len(data)]),
         logged=np.array([each.quantity not in PROFILES for each in (*data, *predicted)]),
         lower=np.array([math.log(p.lower) if p.lower > 0 else -math.inf for p in parameters]),
         upper=np.array([math.log(p.upper) for p in parameters]),
     )
 
-    def responses(made: Run) -> Array:
+    def responses(values: Array) -> Array:
+        found = run(values).responses
         if on_run is not None:
-            on_run(len(runs), float(np.sum(problem.residuals(made.responses) ** 2)))
+            on_run(len(runs), float(np.sum(problem.residuals(found) ** 2)))
         # A prediction may be 0, and is left out then.
-        return np.where(problem.logged & (made.responses <= 0), 1.0, made.responses)
+        return np.where(problem.logged & (found <= 0), 1.0, found)
 
     try:
-        fitted = fit(lambda values: responses(run(values)), problem, start, responses(first))
+        fitted = fit(responses, problem, start)
     except (CaseError, NumericalError) as error:
         if not far:
             raise
@@ -145,7 +139,7 @@ def calibrate(
     return outcome(
         fitted,
         parameters,
-        asked.measured,
+        asked,
         {i: each for i, each in enumerate(predicted, len(data)) if positive[i]},
         grid=model.grid,
         read_off=last.read_off,
@@ -196,15 +190,13 @@ def far_off(
 ) -> list[str]:
     """Return what is measured several times above or below what the first run gives, in words.
 
-    `computed` begins with the data as that run gives them. Warns of what is a
-    factor of 100 off; raises CaseError, one line a value, from a factor of 300.
+    `computed` begins with the data as that run gives them. Raises CaseError,
+    one line a value, from a factor of 300.
     """
     given = ", ".join(f"{p.path} = {in_si(p.start, p.unit)}" for p in parameters)
-    found, refused, start = [], [], 0
-    for i, entry in enumerate(measured):
-        count, value = len(entry.values), entry.largest
-        own = float(np.max(np.abs(computed[start : start + count])))
-        start += count
+    found, refused = [], []
+    for i, (entry, own) in enumerate(zip(measured, _largest(measured, computed), strict=True)):
+        value = entry.largest
         # Of less than its uncertainty, as a null result, no more is known than that it is as small.
         factor = max(value / own, own / max(value, entry.sigma)) if own > 0 < value else 1.0
         unit = QUANTITIES[entry.quantity].unit
@@ -216,26 +208,33 @@ def far_off(
             refused.append(
                 f"{text}: check the value and its unit, or give a start in fit that is nearer to it"
             )
-        elif factor > FAR:
-            warnings.warn(
-                f"{text}: is that the value, and the unit, that was meant?",
-                TriboWarning,
-                stacklevel=3,
-            )
-        if factor > NOTABLE:
+        elif factor > NOTABLE:
             found.append(text)
     if refused:
         raise CaseError("\n".join(refused))
     return found
 
 
+def _largest(measured: Sequence[Measured], computed: Array) -> list[float]:
+    """Return the largest magnitude that a run computes of each entry."""
+    ends = np.cumsum([len(entry.values) for entry in measured])
+    parts = np.split(computed[: ends[-1]], ends[:-1])
+    return [float(np.max(np.abs(part))) for part in parts]
+
+
+def _check_positive(measured: Sequence[Measured], computed: Array) -> None:
+    for i, (entry, own) in enumerate(zip(measured, _largest(measured, computed), strict=True)):
+        if own == 0 and entry.quantity not in PROFILES:
+            raise CaseError(
+                f"the {entry.quantity} of {entry.body!r} comes out as 0 in the case; begin with "
+                "more wear: give start in fit",
+                f"measured[{i}]",
+            )
+
+
 def _check_entry(model: Model, entry: Measured, place: str) -> None:
     if entry.body not in model.bodies:
-        raise CaseError(
-            f"there is no body {entry.body!r}{suggestion(did_you_mean(entry.body, model.bodies))} "
-            f"The bodies are {', '.join(model.bodies)}",
-            f"{place}.body",
-        )
+        raise unknown_body(entry.body, model.bodies, f"{place}.body")
     reason = unavailable(model, entry.body, entry.quantity)
     if reason:
         raise CaseError(reason, f"{place}.quantity")

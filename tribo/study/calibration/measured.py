@@ -61,10 +61,9 @@ class Measured(Table):
         name = info.data.get("quantity")
         if value is None or name is None:
             return None
-        mark = Quantity(QUANTITIES[name].unit, above=0)
-        if info.field_name == "value":
-            least = None if name in PROFILES else QUANTITIES[name].atom
-            mark = Quantity(mark.unit, at_least=least)
+        # The depths of a profile may be 0, or below it by noise.
+        signed = info.field_name == "value" and name in PROFILES
+        mark = Quantity(QUANTITIES[name].unit, above=None if signed else 0)
         try:
             if isinstance(value, list | tuple):
                 return tuple(mark.read(part) for part in value)
@@ -170,6 +169,11 @@ class Measurements(Table):
     """The parameters; if left out, the k of each body that something was measured of."""
     measured: tuple[Measured, ...]
     """The measured values."""
+
+    @property
+    def entries(self) -> list[Measured]:
+        """The entry of each measured number; of a profile the same for all its depths."""
+        return [entry for entry in self.measured for _ in entry.values]
 
     @field_validator("measured")
     @classmethod

@@ -11,7 +11,7 @@ from scipy.special import chdtrc
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
-from tribo.study.calibration.measured import Measured
+from tribo.study.calibration.measured import Measured, Measurements
 from tribo.study.calibration.quantities import AXES, EDGES, PROFILES, in_si, in_words, percent
 
 UNLIKELY = 0.01
@@ -25,7 +25,7 @@ _MOST = 0.5
 def notes(
     estimates: pd.DataFrame,
     data: pd.DataFrame,
-    measured: Sequence[Measured],
+    asked: Measurements,
     jacobian: Array,
     grid: Grid,
     spare: int,
@@ -37,18 +37,17 @@ def notes(
     `spare` the degrees of freedom of χ².
     """
     return [
-        *_on_parameters(estimates, data, measured, jacobian),
+        *_on_parameters(estimates, data, asked.entries, jacobian),
         *_entangled(list(estimates["path"]), jacobian),
         *_on_misfit(data, spare),
-        *_on_instruments(measured, grid),
+        *_on_instruments(asked.measured, grid),
     ]
 
 
 def _on_parameters(
-    estimates: pd.DataFrame, data: pd.DataFrame, measured: Sequence[Measured], jacobian: Array
+    estimates: pd.DataFrame, data: pd.DataFrame, owners: Sequence[Measured], jacobian: Array
 ) -> Iterator[str]:
     """Say where a better instrument would help most, and what bounds a parameter has."""
-    owners = [entry for entry in measured for _ in entry.values]
     parts = np.array([entry.from_resolution[0] for entry in owners]) / data["sigma"].to_numpy()
     for each, effect in zip(estimates.itertuples(), np.linalg.pinv(jacobian), strict=True):
         is_open = {"below": each.lower == 0, "above": math.isinf(each.upper)}

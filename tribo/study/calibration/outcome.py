@@ -14,7 +14,7 @@ from scipy.special import chdtrc, chdtri
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
 from tribo.study.calibration.fit import NOTABLE, Surrogate, interval, root_covariance
-from tribo.study.calibration.measured import Measured
+from tribo.study.calibration.measured import Measurements
 from tribo.study.calibration.notes import notes
 from tribo.study.calibration.parameters import Parameter
 from tribo.study.calibration.quantities import QUANTITIES, Reading
@@ -108,7 +108,7 @@ class Calibration:
 def outcome(
     fitted: Surrogate,
     parameters: Sequence[Parameter],
-    measured: Sequence[Measured],
+    asked: Measurements,
     predicted: Mapping[int, Reading],
     *,
     grid: Grid,
@@ -125,77 +125,61 @@ def outcome(
     jacobian = fitted.jacobian(fitted.point)
     root = root_covariance(jacobian)
     deviations = np.sqrt(np.sum(root**2, axis=1))
-    estimates = _estimates(fitted, parameters, measured, level)
+    estimates = _estimates(fitted, parameters, asked, level)
     held = estimates["held"].to_numpy()
-    data = _data(fitted, measured)
-    chi_square = float(np.sum(data["residual"] ** 2))
+    residuals = fitted.problem.residuals(fitted.responses)
+    readings = [reading for entry in asked.measured for reading in entry.readings]
+    data = pd.DataFrame(readings).assign(
+        unit=[QUANTITIES[each.quantity].unit for each in readings],
+        measured=fitted.problem.observed,
+        sigma=fitted.problem.sigma,
+        computed=fitted.responses[: len(readings)],
+        residual=residuals,
+    )
     spare = len(data) - int(np.sum(~held))
     rows = []
-    for i, asked in predicted.items():
+    for i, each in predicted.items():
         value, ends = float(fitted.responses[i]), (0.0, math.inf)
         if not np.any(np.abs(fitted.slopes[i][held]) > NOTABLE):
-            low, high = _ends(fitted, fitted.slopes[i], value, level)
+            below, above = value - value * np.exp(interval(fitted, fitted.slopes[i], level))
             by = math.sqrt(chdtri(1, 1 - level)) * float(read_off[i])
-            ends = (
-                max(value - math.hypot(value - low, by), 0.0),
-                value + math.hypot(high - value, by),
-            )
-        rows.append((asked.body, asked.quantity, QUANTITIES[asked.quantity].unit, value, *ends))
+            ends = max(value - math.hypot(below, by), 0.0), value + math.hypot(above, by)
+        rows.append((each.body, each.quantity, QUANTITIES[each.quantity].unit, value, *ends))
+    columns = ["body", "quantity", "unit", "value", "lower", "upper"]
     return Calibration(
         level=level,
         runs=runs,
         parameters=estimates,
         data=data,
-        predictions=pd.DataFrame(
-            rows, columns=["body", "quantity", "unit", "value", "lower", "upper"]
-        ),
-        chi_square=chi_square,
+        predictions=pd.DataFrame(rows, columns=columns),
+        chi_square=float(np.sum(residuals**2)),
         degrees_of_freedom=spare,
         correlation=root @ root.T / np.outer(deviations, deviations),
         singular_values=np.asarray(np.linalg.svd(jacobian, compute_uv=False), dtype=np.float64),
-        notes=(*notes(estimates, data, measured, jacobian, grid, spare), *notices),
+        notes=(*notes(estimates, data, asked, jacobian, grid, spare), *notices),
     )
-
-
-def _ends(fitted: Surrogate, direction: Array, value: float, level: float) -> tuple[float, float]:
-    low, high = interval(fitted, direction, level)
-    return value * math.exp(low), value * math.exp(high)
 
 
 def _estimates(
-    fitted: Surrogate, parameters: Sequence[Parameter], measured: Sequence[Measured], level: float
+    fitted: Surrogate, parameters: Sequence[Parameter], asked: Measurements, level: float
 ) -> pd.DataFrame:
+    table = pd.DataFrame(parameters).drop(columns="start")
     values = np.exp(fitted.point)
-    lower, upper = np.array([(p.lower, p.upper) for p in parameters]).T
+    lower, upper = table[["lower", "upper"]].to_numpy(float, copy=True).T
     held = (values - lower <= AT_BOUND * values) | (upper - values <= AT_BOUND * values)
     for i in np.flatnonzero(~held):
-        low, high = _ends(fitted, np.eye(len(values))[i], float(values[i]), level)
+        low, high = values[i] * np.exp(interval(fitted, np.eye(len(values))[i], level))
         lower[i], upper[i] = max(low, lower[i]), min(high, upper[i])
     effect = np.linalg.pinv(fitted.jacobian(fitted.point))
-    of_steps = np.array([entry.from_resolution for entry in measured for _ in entry.values])
-    deviation, most = of_steps.T / fitted.problem.sigma
-    return pd.DataFrame(
-        {
-            "path": [p.path for p in parameters],
-            "unit": [p.unit for p in parameters],
-            "value": values,
-            "lower": lower,
-            "upper": upper,
-            "resolution_share": np.sum((effect * deviation) ** 2, axis=1)
-            / np.sum(effect**2, axis=1),
-            "resolution_limit": np.sum(np.abs(effect) * most, axis=1),
-            "held": held,
-        }
+    deviation, most = (
+        np.transpose([entry.from_resolution for entry in asked.entries]) / fitted.problem.sigma
     )
-
-
-def _data(fitted: Surrogate, measured: Sequence[Measured]) -> pd.DataFrame:
-    readings = [reading for entry in measured for reading in entry.readings]
-    table = pd.DataFrame(readings).rename(columns={"time": "time_s", "position": "position_m"})
-    return table.assign(
-        unit=[QUANTITIES[each.quantity].unit for each in readings],
-        measured=fitted.problem.observed,
-        sigma=fitted.problem.sigma,
-        computed=fitted.responses[: len(readings)],
-        residual=fitted.problem.residuals(fitted.responses),
+    share = np.sum((effect * deviation) ** 2, axis=1) / np.sum(effect**2, axis=1)
+    return table[["path", "unit"]].assign(
+        value=values,
+        lower=lower,
+        upper=upper,
+        resolution_share=share,
+        resolution_limit=np.sum(np.abs(effect) * most, axis=1),
+        held=held,
     )

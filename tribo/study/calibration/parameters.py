@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from tribo.case import Case
 from tribo.config.overrides import leaves, path_keys
@@ -17,8 +17,7 @@ WITHIN = 1e-9
 """How far within an open bound a parameter stays, relative."""
 
 
-@dataclass(frozen=True)
-class Parameter:
+class Parameter(NamedTuple):
     """A positive number of a case that is fitted.
 
     Parameters

@@ -30,8 +30,6 @@ class WornQuantity(NamedTuple):
         The unit it is shown in.
     per_unit : float
         How many of those make one in SI.
-    atom : float
-        That of an atom: no worn body has less to measure.
     of : str
         Which bodies have it: those that stay in the contact, those swept
         through it, or both.
@@ -40,19 +38,18 @@ class WornQuantity(NamedTuple):
     unit: str
     shown: str
     per_unit: float
-    atom: float
     of: Literal["both", "stationary", "swept"] = "both"
 
 
-_DEPTH = WornQuantity("m", "µm", 1e6, 1e-10)
+_DEPTH = WornQuantity("m", "µm", 1e6)
 QUANTITIES = {
-    "mass": WornQuantity("kg", "mg", 1e6, 1e-27),
-    "volume": WornQuantity("m^3", "mm³", 1e9, 1e-30),
-    "scar_along": WornQuantity("m", "mm", 1e3, 1e-10, "stationary"),
-    "scar_across": WornQuantity("m", "mm", 1e3, 1e-10),
+    "mass": WornQuantity("kg", "mg", 1e6),
+    "volume": WornQuantity("m^3", "mm³", 1e9),
+    "scar_along": WornQuantity("m", "mm", 1e3, "stationary"),
+    "scar_across": WornQuantity("m", "mm", 1e3),
     "depth": _DEPTH,
     "crown": _DEPTH._replace(of="stationary"),
-    "section": WornQuantity("m^2", "mm²", 1e6, 1e-20, "swept"),
+    "section": WornQuantity("m^2", "mm²", 1e6, "swept"),
     "profile_along": _DEPTH._replace(of="stationary"),
     "profile_across": _DEPTH,
 }
@@ -68,8 +65,8 @@ class Reading(NamedTuple):
 
     body: str
     quantity: str
-    time: float | None = None
-    position: float | None = None
+    time_s: float | None = None
+    position_m: float | None = None
 
 
 def in_words(name: str, value: float) -> str:
@@ -90,7 +87,7 @@ def percent(part: float) -> str:
 def read(result: Result, asked: Reading) -> tuple[float, float]:
     """Return what a run gives, and the standard deviation with which its grid gives it."""
     body = result.body(asked.body)
-    save = -1 if asked.time is None else result.save_at(asked.time)
+    save = -1 if asked.time_s is None else result.save_at(asked.time_s)
     depth, spacing, name = body.wear_depth[save], result.grid.spacing, asked.quantity
     if name in ("scar_along", "scar_across"):
         axis = AXES[name]
@@ -105,7 +102,7 @@ def read(result: Result, asked: Reading) -> tuple[float, float]:
     if name in PROFILES:
         axis = AXES[name]
         known = (result.grid.x, result.grid.y)[axis]
-        value = float(np.interp(asked.position or 0.0, known, profile(depth, axis)))
+        value = float(np.interp(asked.position_m or 0.0, known, profile(depth, axis)))
         return value, DEPTHS * float(np.max(depth))
     volume = float(result.table("saves")[f"bodies.{body.name}.wear_volume_m3"][save])
     return mass_from_volume(volume, body.density or 0.0) if name == "mass" else volume, 0.0
