@@ -3,8 +3,14 @@
 import json
 from pathlib import Path
 
+import numpy as np
+import pandas as pd
 import pytest
 from command_line import tribo
+from rich.console import Console
+
+from tribo.cli.calibrate import _estimates
+from tribo.study.calibration.outcome import Calibration
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 QUICK = ["--set", "grid.cells=24", "--set", "contact.type=winkler"]
@@ -36,6 +42,20 @@ def test_it_prints_estimates_with_intervals_and_what_to_run(done):
 
 def test_it_tells_of_each_run_on_stderr(done):
     assert [line.split(":")[0] for line in done.stderr.splitlines()[:2]] == ["run 1", "run 2"]
+
+
+def test_wide_tables_break_no_value_at_80_columns(capsys):
+    """Intervals are broken around "to"."""
+    estimate = {"path": "bodies.second_ball.wear.factor", "unit": "1/Pa", "value": 1.234e-15}
+    estimate |= {"lower": 1.111e-16, "upper": 1.357e-14, "resolution_limit": 1.34, "held": False}
+    table = pd.DataFrame([estimate])
+    none = pd.DataFrame()
+    found = Calibration(0.95, 5, table, none, none, 0.1, 1, np.eye(1), np.ones(1), ())
+    Console(width=80).print(_estimates(found))
+    text = capsys.readouterr().out
+    assert max(map(len, text.splitlines())) <= 80
+    for whole in (estimate["path"], "1.23e-15 1/Pa", "1.36e-14", "±134 %", "resolution"):
+        assert whole in text
 
 
 def test_json_is_finite_and_in_si_units():

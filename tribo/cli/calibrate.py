@@ -78,7 +78,9 @@ def _table(title: str, names: list[str], *columns: str) -> Table:
     table = titled(title)
     table.pad_edge, table.collapse_padding = False, True
     longest = max((len(word) for name in names for word in name.split()), default=0)
-    table.add_column("", overflow="fold", min_width=min(longest, LONGEST_NAME))
+    whole = longest <= LONGEST_NAME and not any(" " in name for name in names)
+    width = None if whole else min(longest, LONGEST_NAME)
+    table.add_column("", overflow="fold", no_wrap=whole, min_width=width)
     for column in columns:
         is_interval = column == "" or column.endswith("interval")
         table.add_column(column, justify="right", overflow="fold", no_wrap=not is_interval)
