@@ -5,6 +5,7 @@ import shutil
 
 import pytest
 from click.testing import CliRunner
+from edited import edited
 from made_results import GRID, written
 
 from tribo.cli.main import tribo
@@ -102,7 +103,9 @@ def made(tmp_path_factory):
     names = ["[m]", "steel_on_steel_in_oil", "steel_on_bronze_in_oil"]
     fine = Grid(GRID.size, (60, 48))
     files = {n: written(folder / f"{n}.h5", grid=fine if n == names[1] else GRID) for n in names}
-    files["killed"] = written(folder / "killed.h5", status="running")
+    files["killed"] = written(folder / "killed.h5", status="killed")
+    with edited(files["killed"]) as file:
+        del file.attrs["wall_time_s"]
     return files
 
 

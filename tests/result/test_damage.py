@@ -4,10 +4,11 @@ import subprocess
 import sys
 
 import pytest
+from edited import edited
 from made_results import made
 
-from tribo import CaseError
-from tribo.result.sealed import check_sealed, write_sealed
+from tribo import CaseError, Result
+from tribo.result.sealed import open_sealed, write_sealed
 
 
 @pytest.fixture(scope="module")
@@ -35,9 +36,9 @@ def test_every_bit_counts(tmp_path):
     for damage in damages:
         path.write_bytes(damage)
         with pytest.raises(CaseError, match=r"damaged|not a whole"):
-            check_sealed(path)
+            open_sealed(path)
     path.write_bytes(sound)
-    check_sealed(path)
+    open_sealed(path).close()
 
 
 def test_what_fails_to_be_written_leaves_the_file_as_it_was(tmp_path):
@@ -45,7 +46,7 @@ def test_what_fails_to_be_written_leaves_the_file_as_it_was(tmp_path):
     written(path, b"first")
     with pytest.raises(TypeError):
         written(path, "no bytes")
-    check_sealed(path)
+    open_sealed(path).close()
     assert path.read_bytes().startswith(b"first")
     assert list(tmp_path.iterdir()) == [path]
 
@@ -53,25 +54,37 @@ def test_what_fails_to_be_written_leaves_the_file_as_it_was(tmp_path):
 @pytest.mark.parametrize(
     ("damage", "words"),
     [
-        (lambda data: b"", "is not a whole tribo file"),
-        (lambda data: b"not a result", "is not a whole tribo file but text"),
+        (lambda data: b"", "is no result of tribo"),
+        (lambda data: b"not a result", "is no result of tribo"),
+        (lambda data: b"\x89PNG" + data, "is no result of tribo"),
         (lambda data: data[:-1], "is not a whole tribo file"),
         (lambda data: data[:-40], "is not a whole tribo file"),
-        (lambda data: b"\x89HDF\r\n\x1a\n" + bytes(500), "is not a whole tribo file"),
-        (lambda data: bytes([data[0] ^ 1]) + data[1:], "is damaged: its checksum"),
+        (lambda data: bytes([data[0] ^ 1]) + data[1:], "is no result of tribo"),
         (lambda data: data[:5000] + bytes([data[5000] ^ 1]) + data[5001:], "is damaged: its check"),
     ],
-    ids=["empty", "text", "cut", "no checksum", "other HDF5", "first bit", "a bit"],
+    ids=["empty", "text", "picture", "cut", "no checksum", "first bit", "a bit"],
 )
-def test_show_refuses_it_in_one_line(sound, tmp_path, damage, words):
+def test_it_is_refused(sound, tmp_path, damage, words):
     path = tmp_path / "damaged.h5"
     path.write_bytes(damage(sound.read_bytes()))
-    done = subprocess.run(
-        [sys.executable, "-m", "tribo", "show", str(path)], capture_output=True, text=True
-    )
-    assert (done.returncode, done.stdout) == (2, "")
-    (line,) = done.stderr.splitlines()
-    assert f"damaged.h5 {words}" in line
+    with pytest.raises(CaseError, match=f"damaged.h5 {words}"):
+        Result.open(path)
+
+
+def test_a_case_is_named_as_such(tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text("[grid]")
+    with pytest.raises(CaseError, match=r"tribo run .*case\.toml"):
+        Result.open(path)
+
+
+def test_another_format_is_refused_with_both_numbers(sound, tmp_path):
+    path = tmp_path / "old.h5"
+    path.write_bytes(sound.read_bytes())
+    with edited(path) as file:
+        file.attrs["tribo_format"] = 1
+    with pytest.raises(CaseError, match="has format 1, and this tribo reads format 2"):
+        Result.open(path)
 
 
 def test_a_result_left_open_does_no_harm_at_the_end(sound):

@@ -187,11 +187,10 @@ def test_an_empty_result_is_made_anew(done):
     path = done / "contact.type=dcfft.h5"
     path.write_bytes(b"")
     told = []
-    with pytest.warns(TriboWarning, match=r"dcfft\.h5 is begun anew: .* cut short"):
+    with pytest.warns(TriboWarning, match=r"dcfft\.h5 is begun anew: .* no result of tribo"):
         compare(CASE, CONTACTS, done, tell=told.append).close()
     assert ["done already" in line for line in told] == [False, True]
-    with Result.open(path) as result:
-        result.check()
+    Result.open(path).close()
 
 
 @pytest.mark.slow

@@ -68,7 +68,6 @@ def _one(folder, room, tmpfs, undisturbed, disks):
             return
         disks.stopped += 1
         with Result.open(path) as result:
-            result.check()
             disks.lost_saves += len(set(told) - set(result.times))
         if tmpfs:
             subprocess.run(["mount", "-o", "remount,size=64m", str(place)], check=True)

@@ -128,8 +128,7 @@ def _times(path):
 
 def _readable(path):
     try:
-        with Result.open(path) as result:
-            result.check()
+        Result.open(path).dataset.load()
     except CaseError as error:
         print(error, file=sys.stderr)
         return False

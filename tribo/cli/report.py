@@ -54,7 +54,9 @@ def print_report(result: Result, console: Console | None = None) -> None:
         f"overlap {worst['penetration_error']:.0e}, chattering {worst['chattering']:.0e}."
     )
     if result.status != "done":
-        console.print(f"[yellow]This run is {result.status}, not done.[/]")
+        stopped = result.status in ("killed", "interrupted")
+        remedy = f" To go on with it: tribo resume {escape(result.name)}" if stopped else ""
+        console.print(f"[yellow]This run is {result.status}, not done.{remedy}[/]")
     for notice in result.notices:
         console.print(f"[yellow]Note:[/] {escape(notice)}")
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -26,7 +27,48 @@ def write_whole(path: Path, text: str) -> None:
     OutputError
         If it cannot be written; what was there before stays.
     """
-    fresh = path.with_name(path.name + ".new")
     with writing(path):
-        fresh.write_text(text, encoding="utf-8", newline="")
+        replace_file(path, text.encode())
+
+
+def replace_file(
+    path: Path, *parts: bytes | memoryview, fresh: Path | None = None, sync: bool = False
+) -> None:
+    """Replace a file, whole or not at all.
+
+    Parameters
+    ----------
+    path : Path
+        The file to replace, or to make.
+    *parts : bytes or memoryview
+        What it is to hold.
+    fresh : Path, optional
+        Where to write in the meantime, in the same file system; beside `path`
+        if left out.
+    sync : bool, optional
+        Whether to wait until the new file would survive a power failure.
+    """
+    fresh = fresh or path.with_name(path.name + ".new")
+    try:
+        with fresh.open("wb") as file:
+            file.writelines(parts)
+        if sync:
+            wait_for_disk(fresh)
         fresh.replace(path)
+        if sync:
+            wait_for_disk(path.parent)
+    except BaseException:
+        fresh.unlink(missing_ok=True)
+        raise
+
+
+def wait_for_disk(path: Path) -> None:
+    """Wait until a file, or the names in a folder, would survive a power failure."""
+    if os.name == "nt" and path.is_dir():
+        # Windows opens no folder; its file system has a journal of names.
+        return
+    opened = os.open(path, os.O_RDONLY if os.name != "nt" else os.O_RDWR)
+    try:
+        os.fsync(opened)
+    finally:
+        os.close(opened)

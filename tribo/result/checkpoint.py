@@ -17,7 +17,6 @@ from hashlib import sha256
 from io import BytesIO
 from pathlib import Path
 from typing import IO, Any
-from zipfile import BadZipFile
 
 import numpy as np
 
@@ -25,12 +24,13 @@ from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution, Residuals
 from tribo.core.errors import CaseError, TriboWarning
 from tribo.core.fields import WearRate
+from tribo.core.files import wait_for_disk
 from tribo.core.locks import BusyError, lock
 from tribo.core.measures import Invariants
 from tribo.core.notices import Notice
 from tribo.core.state import BodyState, State
-from tribo.result.hdf5 import Part
-from tribo.result.sealed import check_sealed, wait_for_disk, write_sealed
+from tribo.result.layout import Rows
+from tribo.result.sealed import open_sealed, write_sealed
 
 _ARRAY = "array number"
 
@@ -110,12 +110,20 @@ class RunFolder:
         if self._lock is not None:
             self._lock.close()
 
+    def busy(self) -> bool:
+        """Whether a process is writing the result, as far as can be told."""
+        try:
+            with (self.path / "lock").open("rb") as file:
+                return not lock(file.fileno())
+        except FileNotFoundError:
+            return False
+        except (OSError, BusyError):
+            return True
+
     def clear(self) -> None:
         """Remove checkpoints and parts."""
-        for path in (self.last, self.synced):
+        for path in (self.last, self.synced, *self.path.glob("*.part")):
             path.unlink(missing_ok=True)
-        for path in self.path.glob("*.part"):
-            path.unlink()
 
     def remove(self) -> None:
         """Remove the folder of a run that is done, and end the lock."""
@@ -129,7 +137,7 @@ class RunFolder:
         """Whether there is a checkpoint, sound or not."""
         return self.last.exists() or self.synced.exists()
 
-    def parts(self, count: int) -> Iterator[Part]:
+    def parts(self, count: int) -> Iterator[Rows]:
         """Read the first parts, one after the other."""
         return (_load(self.part(number)) for number in range(count))
 
@@ -137,9 +145,9 @@ class RunFolder:
         """Return the file of a part."""
         return self.path / f"{number:06}.part"
 
-    def write_part(self, number: int, rows: Part) -> None:
+    def write_part(self, number: int, rows: Rows) -> None:
         """Write a part; `write_checkpoint` waits for the disk if need be."""
-        _store(self.part(number), dict(rows), sync=False)
+        _store(self.part(number), rows, sync=False)
         self._waiting.append(self.part(number))
 
     def write_checkpoint(self, checkpoint: Checkpoint, *, sync: bool) -> None:
@@ -153,8 +161,8 @@ class RunFolder:
         _store(self.synced, checkpoint, sync=True)
         self.last.unlink(missing_ok=True)
 
-    def read_checkpoint(self) -> Checkpoint:
-        """Return the latest checkpoint that is sound, as its parts are.
+    def read_checkpoint(self, case: Mapping[str, object]) -> Checkpoint:
+        """Return the latest checkpoint of a case that is sound, as its parts are.
 
         A warning says which were damaged.
 
@@ -172,6 +180,8 @@ class RunFolder:
             except CaseError as error:
                 reasons.append(str(error))
         for checkpoint, name in sorted(found, key=lambda pair: -pair[0].rows):
+            if checkpoint.case != fingerprint(case):
+                raise CaseError("it belongs to another case")
             try:
                 self._check_parts(checkpoint)
             except (OSError, CaseError) as error:
@@ -222,17 +232,13 @@ def _store(path: Path, data: object, *, sync: bool) -> None:
 
 
 def _load(path: Path) -> dict[str, Any]:
-    check_sealed(path)
-    try:
-        with np.load(path) as data:
+    with open_sealed(path) as file, np.load(file) as data:
 
-            def whole(table: dict[str, Any]) -> object:
-                return data[f"arr_{table[_ARRAY] + 1}"] if _ARRAY in table else table
+        def whole(table: dict[str, Any]) -> object:
+            return data[f"arr_{table[_ARRAY] + 1}"] if _ARRAY in table else table
 
-            loaded: dict[str, Any] = json.loads(data["arr_0"].tobytes(), object_hook=whole)
-            return loaded
-    except (OSError, LookupError, ValueError, TypeError, BadZipFile) as error:
-        raise CaseError(f"{path} cannot be read: {error}") from error
+        loaded: dict[str, Any] = json.loads(data["arr_0"].tobytes(), object_hook=whole)
+        return loaded
 
 
 def _checkpoint(data: dict[str, Any]) -> Checkpoint:
@@ -269,12 +275,16 @@ def read_checkpoint(result: Path, case: Mapping[str, object]) -> tuple[State, fl
     Raises
     ------
     CaseError
-        If there is no good checkpoint, or it belongs to another case.
+        If another process is writing it, there is no good checkpoint, or it
+        belongs to another case.
     """
+    folder = RunFolder(result.resolve())
+    if folder.path.is_dir():
+        # What a run that goes on has saved changes as it is read.
+        folder.lock()
+        folder.unlock()
     try:
-        checkpoint = RunFolder(result.resolve()).read_checkpoint()
-        if checkpoint.case != fingerprint(case):
-            raise CaseError("it belongs to another case")
+        checkpoint = folder.read_checkpoint(case)
     except CaseError as error:
         raise CaseError(
             f"{result} has no checkpoint to resume from: {error}; start again with "

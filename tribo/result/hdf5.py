@@ -2,111 +2,94 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
-from dataclasses import dataclass, replace
+import json
+from collections.abc import Iterable, Mapping
 from io import BytesIO
-from pathlib import Path
 from typing import Any
 
 import h5py
 import numpy as np
 
-from tribo.core.arrays import Array
-from tribo.core.errors import CaseError
-from tribo.core.fields import Field
 from tribo.core.state import RunInfo
-from tribo.result.header import LARGEST, Header
-from tribo.result.layout import FIXED, Variable, field_variable, run_variables
-
-Part = Mapping[str, Array]
-"""Rows that a run has added, by variable."""
+from tribo.result.layout import Rows, Variable, attributes, variables
 
 _ROWS = 256
-_MOST_PACKED = 1100
-"""Bytes that a byte of a file may stand for; deflate comes to 1032."""
 
 
-@dataclass(frozen=True)
-class Frame:
-    """What of a result does not grow with the run.
-
-    Parameters
-    ----------
-    header : Header
-        The attributes.
-    variables : Mapping[str, Variable]
-        All variables, those that grow too.
-    arrays : Mapping[str, ndarray]
-        The values of those that do not.
-    """
-
-    header: Header
-    variables: Mapping[str, Variable]
-    arrays: Mapping[str, Array]
-
-    @classmethod
-    def of_run(cls, run: RunInfo) -> Frame:
-        """Return the frame of a run that begins."""
-        densities = [np.nan if body.density is None else body.density for body in run.bodies]
-        arrays: dict[str, Array] = {
-            "x": run.system.grid.x,
-            "y": run.system.grid.y,
-            "swept": np.array([float(body.swept) for body in run.bodies]),
-            "density": np.array(densities),
-            "height": np.stack([body.height for body in run.bodies]),
-        }
-        return cls(Header.of_run(run), run_variables(run), arrays)
-
-    def with_header(self, **changes: Any) -> Frame:
-        """Return a frame with other attributes."""
-        return replace(self, header=self.header.model_copy(update=changes))
+def empty_image(run: RunInfo, **changed: Any) -> bytes:
+    """Return the file of a run that has not yet made a step, with some attributes changed."""
+    image = BytesIO()
+    with h5py.File(image, "w") as file:
+        file.attrs.update(attributes(run) | changed)
+        file["body"] = [body.name for body in run.bodies]
+        nx, ny = run.system.grid.cells
+        sizes = {"body": len(run.bodies), "time": 0, "step": 0, "x": nx, "y": ny}
+        table = variables(run)
+        for name, variable in table.items():
+            _create(file, name, variable, [sizes[dim] for dim in variable.dims])
+        # netCDF takes the dimensions from these.
+        for dim in sizes:
+            file[dim].make_scale(dim)
+        for name in table.keys() - sizes.keys():
+            for axis, dim in enumerate(table[name].dims):
+                file[name].dims[axis].attach_scale(file[dim])
+    return image.getvalue()
 
 
-def hdf5_image(frame: Frame, parts: Iterable[Part], saves: int, steps: int) -> BytesIO:
+def filled_image(
+    empty: bytes, parts: Iterable[Rows], saves: int, steps: int, **changed: Any
+) -> BytesIO:
     """Return a whole file in memory: HDF5 may crash where it meets a full disk.
 
     Parameters
     ----------
-    frame : Frame
-        What does not grow.
-    parts : iterable of Mapping
-        What does, in order.
+    empty : bytes
+        The file as `empty_image` returned it.
+    parts : iterable of dict
+        What the run has added, in order, as `tribo.result.layout.part_of` makes it.
     saves, steps : int
-        How many rows all parts have.
+        How many rows these have in all.
+    **changed
+        Attributes that change.
     """
-    bodies = list(frame.header.case["bodies"])
-    nx, ny = frame.arrays["height"].shape[1:]
-    sizes = {"body": len(bodies), "time": saves, "step": steps, "x": nx, "y": ny}
-    arrays = {**frame.arrays, "step": np.arange(float(steps))}
-    image = BytesIO()
-    with h5py.File(image, "w") as file:
-        file.attrs.update(frame.header.attributes())
-        file["body"] = bodies
-        for name, variable in frame.variables.items():
-            _create(file, name, variable, [sizes[dim] for dim in variable.dims], arrays.get(name))
-        # What netCDF takes for the names of the dimensions.
-        for dim in sizes:
-            file[dim].make_scale(dim)
-        for name, variable in frame.variables.items():
-            if name not in sizes:
-                for axis, dim in enumerate(variable.dims):
-                    file[name].dims[axis].attach_scale(file[dim])
-        filled = {"time": 0, "step": 0}
+    image = BytesIO(empty)
+    with h5py.File(image, "r+") as file:
+        file.attrs.update(changed)
+        for dataset in file.values():
+            if dataset.maxshape[0] is None:
+                scale = dataset if dataset.is_scale else dataset.dims[0][0]
+                dataset.resize(saves if scale.name == "/time" else steps, axis=0)
+        file["step"][...] = np.arange(steps)
+        scalars: dict[str, list[Any]] = {}
+        saved = 0
         for part in parts:
-            begin = dict(filled)
-            filled["time"] += len(part.get("time", ()))
-            filled["step"] += len(part.get("history_time", ()))
             for name, rows in part.items():
-                dim = frame.variables[name].dims[0]
-                file[name][begin[dim] : filled[dim]] = rows
+                if isinstance(rows, np.ndarray):
+                    file[name][saved : saved + len(rows)] = rows
+                else:
+                    scalars.setdefault(name, []).extend(rows)
+            saved += len(part.get("time", ()))
+        for name, values in scalars.items():
+            file[name][...] = values
     return image
 
 
-def _create(
-    file: h5py.File, name: str, variable: Variable, shape: list[int], values: Array | None
-) -> None:
-    chunks = [_ROWS if variable.grows else shape[0], *shape[1:]]
+def renamed_image(image: BytesIO, names: Mapping[str, str]) -> BytesIO:
+    """Return a file in which the bodies have other names; `names` has the new by the old."""
+    with h5py.File(image, "r+") as file:
+        case = json.loads(file.attrs["case"])
+        case["bodies"] = {names[name]: body for name, body in case["bodies"].items()}
+        file.attrs["case"] = json.dumps(case)
+        file["body"][...] = list(case["bodies"])
+        for dataset in file.values():
+            if "bodies" in dataset.attrs:
+                dataset.attrs["bodies"] = [names[name] for name in dataset.attrs["bodies"]]
+    return image
+
+
+def _create(file: h5py.File, name: str, variable: Variable, shape: list[int]) -> None:
+    grows = variable.dims[0] in ("time", "step")
+    chunks = [_ROWS if grows else shape[0], *shape[1:]]
     if len(shape) > 2:
         # One body at one time.
         chunks[:-2] = [1] * (len(shape) - 2)
@@ -114,8 +97,8 @@ def _create(
         name,
         shape,
         "f8",
-        values,
-        maxshape=[None if variable.grows else shape[0], *shape[1:]],
+        variable.values,
+        maxshape=[None if grows else shape[0], *shape[1:]],
         chunks=tuple(chunks),
         fletcher32=True,
         shuffle=True,
@@ -128,117 +111,3 @@ def _create(
         created.attrs["kind"] = variable.kind
         created.attrs["field"] = variable.field
         created.attrs["bodies"] = list(variable.bodies)
-
-
-class Contents:
-    """The contents of a result file; each number is checked as it is read.
-
-    Parameters
-    ----------
-    source : Path or BytesIO
-        The file.
-    name : str
-        What to call it in messages.
-
-    Raises
-    ------
-    CaseError
-        If it is damaged, which is all that any method raises.
-    """
-
-    def __init__(self, source: Path | BytesIO, name: str) -> None:
-        self.source = source
-        self.name = name
-        size = source.stat().st_size if isinstance(source, Path) else source.getbuffer().nbytes
-        with self._reading():
-            self.file = h5py.File(source, "r")
-        try:
-            with self._reading():
-                self.header = Header.read(dict(self.file.attrs))
-                self.variables = _variables(self.file, size)
-                bodies = self.file["body"].asstr()[:].tolist()
-                if bodies != list(self.header.case["bodies"]):
-                    raise ValueError(f"it holds the bodies {bodies}, but its case has others")
-            self.fields = [name for name, v in self.variables.items() if v.dims[-2:] == ("x", "y")]
-            scalars = self.variables.keys() - set(self.fields)
-            self.scalars = {name: self.read(name) for name in scalars}
-        except BaseException:
-            self.file.close()
-            raise
-
-    def read(self, name: str, *index: int | slice) -> Array:
-        """Return a variable, or a part of it."""
-        with self._reading():
-            values: Array = self.file[name][(*index, ...)]
-            _check(name, self.variables[name], values)
-            return values
-
-    def check(self) -> None:
-        """Read all there is, one save at a time."""
-        for name in self.fields:
-            for save in range(len(self.file[name])):
-                self.read(name, save)
-
-    def close(self) -> None:
-        """Close the file."""
-        self.file.close()
-
-    def frame(self) -> Frame:
-        """Return what does not grow with the run."""
-        fixed = [name for name, variable in self.variables.items() if not variable.grows]
-        return Frame(self.header, self.variables, {name: self.read(name) for name in fixed})
-
-    def rows(self) -> Part:
-        """Return what does."""
-        grown = [name for name, variable in self.variables.items() if variable.grows]
-        return {name: self.read(name) for name in grown}
-
-    @contextmanager
-    def _reading(self) -> Iterator[None]:
-        """Name the file in whatever HDF5 raises about it."""
-        try:
-            yield
-        except (OSError, LookupError, RuntimeError, ValueError, TypeError, AttributeError) as error:
-            raise CaseError(f"{self.name} is damaged: {error}") from error
-
-
-def _variables(file: h5py.File, size: int) -> dict[str, Variable]:
-    """Return the variables of a file of so many bytes; ValueError if their shapes do not fit."""
-    variables = dict(FIXED)
-    for name, dataset in file.items():
-        if "kind" in dataset.attrs:
-            keys = ("field", "units", "long_name")
-            name_in_model, unit, meaning = (str(dataset.attrs[key]) for key in keys)
-            field = Field(name_in_model, unit, meaning)
-            kind = str(dataset.attrs["kind"])
-            variables[name] = field_variable(kind, field, map(str, dataset.attrs["bodies"]))
-    sizes = {
-        dim: file[name].shape[0]
-        for dim, name in (("time", "time"), ("step", "step"), ("x", "x"), ("y", "y"))
-    }
-    sizes["body"] = 2
-    if not sizes["x"] * sizes["y"]:
-        raise ValueError("it has no cells")
-    for name, variable in variables.items():
-        dataset = file[name]
-        if dataset.dtype.kind not in "fiu":
-            raise ValueError(f"{name!r} holds no real numbers")
-        needed = tuple(sizes[dim] for dim in variable.dims)
-        if dataset.shape != needed:
-            raise ValueError(f"the shape of {name!r} is {dataset.shape} instead of {needed}")
-        if dataset.nbytes > _MOST_PACKED * size:
-            raise ValueError(f"{name!r} claims {dataset.nbytes:.3g} bytes, more than the file has")
-    return variables
-
-
-def _check(name: str, variable: Variable, values: Array) -> None:
-    """Raise ValueError if a value is not finite, or out of range."""
-    sound = np.abs(values) < LARGEST
-    if variable.gaps:
-        sound |= np.isnan(values)
-    if not sound.all():
-        raise ValueError(f"{name!r} is not finite, or above {LARGEST:g}")
-    if (values < variable.least).any():
-        raise ValueError(f"{name!r} is below {variable.least:g}")
-    if name in ("x", "y", "time", "history_time") and (np.diff(values) <= 0).any():
-        raise ValueError(f"{name!r} does not grow")

@@ -1,20 +1,24 @@
-"""The variables of a result: their dimensions, units and meanings."""
+"""What a result file has: attributes, variables, and the rows that steps and saves add."""
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from math import inf
+from typing import Any
 
 import numpy as np
 
 from tribo.core.arrays import Array
-from tribo.core.fields import Field
 from tribo.core.measures import Measures
 from tribo.core.state import RunInfo, Snapshot
 from tribo.result.columns import BODY_COLUMNS, COLUMNS
 
+FORMAT = 2
 STATE, EFFECT = "state", "effect"
+
+Rows = dict[str, Any]
+"""What is added, by variable: numbers, or for a field an array."""
 
 
 @dataclass(frozen=True)
@@ -27,10 +31,8 @@ class Variable:
         Its dimensions.
     unit, meaning : str
         Unit, and what it means.
-    least : float, optional
-        No value may be smaller.
-    gaps : bool, optional
-        Whether values may be NaN.
+    values : ndarray, optional
+        Its values; None of one that grows with the run.
     kind : str, optional
         ``"state"`` for a field that a wear law keeps, ``"effect"`` for one
         that an effect provides.
@@ -43,32 +45,54 @@ class Variable:
     dims: tuple[str, ...]
     unit: str
     meaning: str
-    least: float = -inf
-    gaps: bool = False
+    values: Array | None = None
     kind: str = ""
     field: str = ""
     bodies: tuple[str, ...] = ()
-
-    @property
-    def grows(self) -> bool:
-        """Whether a run adds to it as it goes on."""
-        return self.dims[0] in ("time", "step")
 
 
 _ON_WINDOW = ("time", "x", "y")
 _ON_BODY = ("time", "body", "x", "y")
 
 
-def _fixed() -> dict[str, Variable]:
+def attributes(run: RunInfo) -> dict[str, Any]:
+    """Return the attributes of a run that begins: numbers, lists and text, some of it JSON."""
+    system = run.system
+    values = {
+        "Conventions": "CF-1.11",
+        "title": "tribo wear simulation",
+        "tribo_format": FORMAT,
+        "status": "running",
+        "load_N": system.load,
+        "window_m": list(system.grid.size),
+        "modulus_Pa": system.modulus,
+        "cap_Pa": system.cap,
+        "curvature_1_m": None if system.curvature is None else list(system.curvature),
+        "case": json.dumps(run.case),
+        "provenance": json.dumps(run.provenance),
+        "notices": "[]",
+    }
+    return {name: value for name, value in values.items() if value is not None}
+
+
+def variables(run: RunInfo) -> dict[str, Variable]:
+    """Return the variables of a run by name, the fields of its models among them.
+
+    A field whose name is taken has ``effect_`` or ``state_`` before it.
+    """
+    grid, bodies = run.system.grid, run.bodies
+    swept = np.array([float(body.swept) for body in bodies])
+    density = np.array([np.nan if b.density is None else b.density for b in bodies])
+    height = np.stack([body.height for body in bodies])
     table = {
-        "x": Variable(("x",), "m", "Position along the sliding direction"),
-        "y": Variable(("y",), "m", "Position across the sliding direction"),
+        "x": Variable(("x",), "m", "Position along the sliding direction", grid.x),
+        "y": Variable(("y",), "m", "Position across the sliding direction", grid.y),
         "step": Variable(("step",), "1", "Number of the step"),
-        "swept": Variable(("body",), "1", "Whether its points pass through the contact"),
-        "density": Variable(("body",), "kg/m^3", "Density", least=0, gaps=True),
-        "height": Variable(("body", "x", "y"), "m", "Initial height, outward"),
-        "pressure": Variable(_ON_WINDOW, "Pa", "Contact pressure", least=0),
-        "wear_depth": Variable(_ON_BODY, "m", "Depth worn away", least=0),
+        "swept": Variable(("body",), "1", "Whether its points pass through the contact", swept),
+        "density": Variable(("body",), "kg/m^3", "Density", density),
+        "height": Variable(("body", "x", "y"), "m", "Initial height, outward", height),
+        "pressure": Variable(_ON_WINDOW, "Pa", "Contact pressure"),
+        "wear_depth": Variable(_ON_BODY, "m", "Depth worn away"),
         "plastic_depth": Variable(_ON_BODY, "m", "Permanent displacement"),
     }
     for prefix, dim in (("", "time"), ("history_", "step")):
@@ -76,60 +100,36 @@ def _fixed() -> dict[str, Variable]:
             table[prefix + column.name] = Variable((dim,), column.unit, column.description)
         for part in BODY_COLUMNS:
             table[prefix + part.name] = Variable((dim, "body"), part.unit, part.description)
-    return table
-
-
-FIXED = _fixed()
-"""What every result has, by name."""
-
-
-def run_variables(run: RunInfo) -> dict[str, Variable]:
-    """Return the variables of a run by name, the fields of its models among them.
-
-    A field whose name is taken has ``effect_`` or ``state_`` before it.
-    """
-    everybody = tuple(body.name for body in run.bodies)
+    everybody = tuple(body.name for body in bodies)
     fields = {(EFFECT, field): everybody for field in run.effect_fields}
-    for body in run.bodies:
+    for body in bodies:
         for field in body.state_fields:
             fields[STATE, field] = (*fields.get((STATE, field), ()), body.name)
-    table = dict(FIXED)
-    for (kind, field), bodies in fields.items():
+    for (kind, field), owners in fields.items():
         name = field.name
         while name in table or name == "body":
             name = f"{kind}_{name}"
-        table[name] = field_variable(kind, field, bodies)
+        table[name] = Variable(
+            _ON_BODY, field.unit, field.description, None, kind, field.name, owners
+        )
     return table
 
 
-def field_variable(kind: str, field: Field, bodies: Iterable[str]) -> Variable:
-    """Return the variable of a field that a model keeps or provides."""
-    return Variable(
-        _ON_BODY,
-        field.unit,
-        field.description,
-        gaps=True,
-        kind=kind,
-        field=field.name,
-        bodies=tuple(bodies),
-    )
-
-
-def step_row(measures: Measures) -> dict[str, Array]:
-    """Return what a step adds to the history, by variable."""
+def step_row(measures: Measures) -> Rows:
+    """Return what a step adds to the history."""
     return {f"history_{name}": value for name, value in _scalars(measures).items()}
 
 
-def save_row(snapshot: Snapshot, variables: Mapping[str, Variable]) -> dict[str, Array]:
-    """Return what a save adds, by variable."""
+def save_row(snapshot: Snapshot, table: Mapping[str, Variable]) -> Rows:
+    """Return what a save adds."""
     state, shape = snapshot.state, snapshot.state.contact.pressure.shape
-    row = {
+    row: Rows = {
         **_scalars(snapshot.measures),
         "pressure": state.contact.pressure,
         "wear_depth": _stacked(shape, {n: b.wear for n, b in state.bodies.items()}, state.bodies),
         "plastic_depth": np.stack([body.plastic for body in state.bodies.values()]),
     }
-    for name, variable in variables.items():
+    for name, variable in table.items():
         if variable.kind == STATE:
             of_bodies = {n: state.bodies[n].law[variable.field] for n in variable.bodies}
         elif variable.kind == EFFECT:
@@ -141,15 +141,27 @@ def save_row(snapshot: Snapshot, variables: Mapping[str, Variable]) -> dict[str,
     return row
 
 
+def part_of(rows: Iterable[Rows]) -> Rows:
+    """Return rows as columns: lists of numbers, and an array for each field."""
+    columns: Rows = {}
+    for row in rows:
+        for name, value in row.items():
+            columns.setdefault(name, []).append(value)
+    return {
+        name: np.stack(values) if isinstance(values[0], np.ndarray) else values
+        for name, values in columns.items()
+    }
+
+
 def _stacked(
     shape: tuple[int, ...], of_bodies: Mapping[str, Array], bodies: Iterable[str]
 ) -> Array:
     return np.stack([np.broadcast_to(of_bodies.get(name, np.nan), shape) for name in bodies])
 
 
-def _scalars(measures: Measures) -> dict[str, Array]:
+def _scalars(measures: Measures) -> Rows:
     bodies = measures.bodies.values()
     return {
-        **{column.name: np.array(column.read(measures), float) for column in COLUMNS},
-        **{part.name: np.array([part.read(b) for b in bodies], float) for part in BODY_COLUMNS},
+        **{column.name: float(column.read(measures)) for column in COLUMNS},
+        **{part.name: [float(part.read(body)) for body in bodies] for part in BODY_COLUMNS},
     }

@@ -2,77 +2,81 @@
 
 from __future__ import annotations
 
+import json
 import os
-from collections.abc import Iterable
+from io import BytesIO
 from pathlib import Path
 
+import h5py
+
 from tribo.core.errors import CaseError
-from tribo.result.checkpoint import RunFolder, fingerprint
-from tribo.result.hdf5 import Contents, Frame, Part, hdf5_image
-from tribo.result.sealed import check_sealed
+from tribo.result.checkpoint import RunFolder
+from tribo.result.hdf5 import filled_image
+from tribo.result.layout import FORMAT
+from tribo.result.sealed import open_sealed
 
 
-def contents_of(path: Path) -> Contents:
-    """Return the contents of a result file, or of all that its run has saved so far.
+def source_of(path: Path) -> Path | BytesIO:
+    """Return a result file, or for a run that is not done all that it has saved so far.
 
     Raises
     ------
     CaseError
         If there is no such file, it is not a tribo result, or it is damaged.
     """
-    contents = contents_of_file(path)
-    if contents.header.status != "running":
-        return contents
+    if not is_unfinished(path):
+        return path
     folder = RunFolder(path.resolve())
     try:
-        checkpoint = folder.read_checkpoint()
-        if checkpoint.case != fingerprint(contents.header.case):
-            return contents
-        notices = [str(notice) for notice in checkpoint.state.notices]
-        frame = contents.frame().with_header(notices=notices)
-        so_far = contents_in_memory(
-            frame, folder.parts(checkpoint.parts), checkpoint.saves, checkpoint.rows, str(path)
-        )
+        return _saved_so_far(path, folder)
     except (CaseError, OSError) as error:
-        contents.close()
         # The run may have ended since, and taken its folder with it.
-        contents = contents_of_file(path)
-        if contents.header.status == "running" and folder.has_checkpoint:
-            raise CaseError(
-                f"{path}: what its run has saved cannot be read: {error}; start again with "
-                "'tribo run --force'"
-            ) from error
-        return contents
-    contents.close()
-    return so_far
+        if not is_unfinished(path):
+            return path
+        remedy = (
+            "try again, for another process is writing it"
+            if folder.busy()
+            else "start again with 'tribo run --force'"
+        )
+        raise CaseError(
+            f"{path}: what its run has saved cannot be read: {error}; {remedy}"
+        ) from error
 
 
-def contents_of_file(path: Path) -> Contents:
-    """Return the contents of a file, without what its run has saved beside it."""
+def is_unfinished(path: Path) -> bool:
+    """Whether a result file is that of a run that goes on, or was killed."""
     if not os.path.isfile(path):
         raise CaseError(f"{path} is not a file; give the .h5 file that 'tribo run' wrote")
     try:
-        check_sealed(path)
+        open_sealed(path).close()
     except OSError as error:
         raise CaseError(f"{path} cannot be read: {error.strerror}") from error
     except CaseError as error:
-        if _is_text(path):
+        if not h5py.is_hdf5(path):
+            hint = f"; if it is a case: tribo run {path}" if path.suffix == ".toml" else ""
             raise CaseError(
-                f"{path} is not a whole tribo file but text; if it is a case: tribo run {path}"
+                f"{path} is no result of tribo, or its beginning is damaged{hint}"
             ) from error
         raise
-    return Contents(path, str(path))
+    with h5py.File(path) as file:
+        written = file.attrs.get("tribo_format")
+        if written != FORMAT:
+            raise CaseError(
+                f"{path} has format {written}, and this tribo reads format {FORMAT}: read it with "
+                "the tribo that wrote it, or run its case again"
+            )
+        return bool(file.attrs["status"] == "running")
 
 
-def contents_in_memory(
-    frame: Frame, parts: Iterable[Part], saves: int, steps: int, name: str
-) -> Contents:
-    """Return the contents of a result that is in memory."""
-    return Contents(hdf5_image(frame, parts, saves, steps), name)
-
-
-def _is_text(path: Path) -> bool:
-    """Whether a file is text, which has no zeros, as an HDF5 file has from its first bytes on."""
-    with path.open("rb") as file:
-        head = file.read(1000)
-    return bool(head) and b"\0" not in head
+def _saved_so_far(path: Path, folder: RunFolder) -> BytesIO:
+    """Return the file that the run would write now, with who writes it as its status."""
+    status = "running" if folder.busy() else "killed"
+    empty = path.read_bytes()
+    if not folder.has_checkpoint:
+        return filled_image(empty, (), 0, 0, status=status)
+    with h5py.File(BytesIO(empty)) as file:
+        case = json.loads(file.attrs["case"])
+    kept = folder.read_checkpoint(case)
+    notices = json.dumps([str(notice) for notice in kept.state.notices])
+    parts = folder.parts(kept.parts)
+    return filled_image(empty, parts, kept.saves, kept.rows, status=status, notices=notices)

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Mapping
+from io import BytesIO
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
+import h5py
 import numpy as np
 
 from tribo.core.arrays import Array
@@ -18,9 +21,8 @@ from tribo.core.grid import Grid
 from tribo.core.words import did_you_mean, suggestion
 from tribo.result.body import BodyResult, checked_save
 from tribo.result.columns import BODY_COLUMNS, COLUMNS, INVARIANTS, labelled
-from tribo.result.hdf5 import Contents, hdf5_image
 from tribo.result.layout import EFFECT, STATE
-from tribo.result.opening import contents_of
+from tribo.result.opening import source_of
 from tribo.result.sealed import write_sealed
 
 if TYPE_CHECKING:
@@ -42,16 +44,30 @@ class Result:
 
     Parameters
     ----------
-    contents : Contents
-        What its file holds; most users call `tribo.open`.
+    source : Path or BytesIO
+        The file; most users call `tribo.open`.
+    name : str
+        What to call it in messages.
     """
 
-    def __init__(self, contents: Contents) -> None:
-        self.name = contents.name
-        self.contents = contents
-        self._header = contents.header
-        self._variables = contents.variables
-        self._scalars = contents.scalars
+    def __init__(self, source: Path | BytesIO, name: str) -> None:
+        self.name = name
+        self._source = source
+        self._file = h5py.File(source)
+        self._header = dict(self._file.attrs)
+        self._case = json.loads(self._header["case"])
+        self._provenance = json.loads(self._header["provenance"])
+        self._variables = list(self._file)
+        self._scalars: dict[str, Array] = {
+            name: values[()]
+            for name, values in self._file.items()
+            if values.ndim <= 2 and name != "body"
+        }
+        self._kept = {
+            name: (str(values.attrs["kind"]), _field(values.attrs), list(values.attrs["bodies"]))
+            for name, values in self._file.items()
+            if "kind" in values.attrs
+        }
         self._dataset: xr.Dataset | None = None
 
     @classmethod
@@ -67,10 +83,10 @@ class Result:
             If there is no such file, it is not a tribo result, or it is
             damaged.
         """
-        return cls(contents_of(Path(path)))
+        return cls(source_of(Path(path)), str(path))
 
     def __repr__(self) -> str:
-        if not self.contents.file:
+        if not self._file:
             return f"<Result {self.name}: closed>"
         times = self.times
         listed = [f"{time:g}" for time in times]
@@ -95,17 +111,7 @@ class Result:
         """Close the file."""
         if self._dataset is not None:
             self._dataset.close()
-        self.contents.file.close()
-
-    def check(self) -> None:
-        """Check every number of every field.
-
-        Raises
-        ------
-        CaseError
-            If one is not finite, or out of range.
-        """
-        self.contents.check()
+        self._file.close()
 
     @property
     def dataset(self) -> xr.Dataset:
@@ -113,8 +119,7 @@ class Result:
         if self._dataset is None:
             import xarray as xr
 
-            self.check()
-            self._dataset = xr.open_dataset(self.contents.source, engine="h5netcdf")
+            self._dataset = xr.open_dataset(self._source, engine="h5netcdf")
         return self._dataset
 
     def __getattr__(self, name: str) -> Any:
@@ -134,44 +139,53 @@ class Result:
         OSError
             If it cannot be written.
         """
-        rows = self.contents.rows()
-        image = hdf5_image(self.contents.frame(), [rows], len(self.times), len(rows["step"]))
-        write_sealed(Path(path), image.getbuffer(), sync=True)
+        write_sealed(Path(path), self.image().getbuffer(), sync=True)
+
+    def image(self) -> BytesIO:
+        """Return a copy of the file, in memory."""
+        source = self._source
+        return BytesIO(source.read_bytes() if isinstance(source, Path) else source.getvalue())
 
     @property
     def status(self) -> str:
-        """``"done"``, ``"running"``, ``"interrupted"`` or ``"failed"``."""
-        return self._header.status
+        """``"done"``, ``"running"``, ``"killed"``, ``"interrupted"`` or ``"failed"``."""
+        return str(self._header["status"])
 
     @property
     def wall_time(self) -> float | None:
         """Time the run took, in s; None of one that is still running, or was killed."""
-        return None if self.status == "running" else self._header.wall_time_s
+        spent = self._header.get("wall_time_s")
+        return None if spent is None else float(spent)
 
     @property
     def case(self) -> dict[str, Any]:
         """The full configuration, as plain data."""
-        return self._header.case
+        return dict(self._case)
 
     @property
     def provenance(self) -> dict[str, Any]:
         """Versions and classes that made the result."""
-        return self._header.provenance
+        return dict(self._provenance)
 
     @property
     def notices(self) -> tuple[str, ...]:
         """Warnings given during the run."""
-        return tuple(self._header.notices)
+        return tuple(json.loads(self._header["notices"]))
 
     @property
     def system(self) -> ContactSystem:
         """Window, load, contact modulus, pressure cap and initial curvature."""
         header = self._header
-        (lx, ly), curved = header.window_m, header.curvature_1_m
-        cells = len(self._scalars["x"]), len(self._scalars["y"])
-        curvature = None if curved is None else (curved[0], curved[1])
-        grid = Grid((lx, ly), cells)
-        return ContactSystem(grid, header.modulus_Pa, header.load_N, header.cap_Pa, curvature)
+        lx, ly = map(float, header["window_m"])
+        grid = Grid((lx, ly), (len(self._scalars["x"]), len(self._scalars["y"])))
+        cap, curved = header.get("cap_Pa"), header.get("curvature_1_m")
+        return ContactSystem(
+            grid,
+            float(header["modulus_Pa"]),
+            float(header["load_N"]),
+            None if cap is None else float(cap),
+            None if curved is None else (float(curved[0]), float(curved[1])),
+        )
 
     @property
     def grid(self) -> Grid:
@@ -215,7 +229,7 @@ class Result:
             raise CaseError(f"a result has no variable {name!r}{meant}")
         bodies = () if body is None else (self._index(body),)
         save = checked_save(save, len(self.times), self.name)
-        return self.contents.read(name, save, *bodies)
+        return self._read(name, save, *bodies)
 
     def save_at(self, time: float) -> int:
         """Return the index of the save at `time`.
@@ -247,8 +261,8 @@ class Result:
             If there is no body of that name.
         """
         index, density = self._index(name), self._scalars["density"]
-        kept = {kind: self._fields(name, kind) for kind in (STATE, EFFECT)}
-        read, every = self.contents.read, slice(None)
+        kept = {kind: self.fields_of(kind, name) for kind in (STATE, EFFECT)}
+        read, every = self._read, slice(None)
         values = {
             kind: {field.name: read(key, every, index) for key, field in found.items()}
             for kind, found in kept.items()
@@ -332,9 +346,9 @@ class Result:
     def _saves_with_ranges(self) -> list[dict[str, Any]]:
         rows = self.saves()
         for index, body in enumerate(self.body_names):
-            for key, field in self._fields(body, EFFECT).items():
+            for key, field in self.fields_of(EFFECT, body).items():
                 for i, row in enumerate(rows):
-                    values = self.contents.read(key, i, index)
+                    values = self._read(key, i, index)
                     low, high = float(np.min(values)), float(np.max(values))
                     ranges = row["bodies"][body].setdefault("effects", {})
                     failed = math.isnan(low)
@@ -364,13 +378,16 @@ class Result:
             if column.name in INVARIANTS
         }
 
-    def _fields(self, body: str, kind: str) -> dict[str, Field]:
-        """Return the fields of a kind that a body has, by variable."""
+    def fields_of(self, kind: str, body: str | None = None) -> dict[str, Field]:
+        """Return the fields of a kind, ``"state"`` or ``"effect"``, by variable; of one body."""
         return {
-            name: Field(variable.field, variable.unit, variable.meaning)
-            for name, variable in self._variables.items()
-            if variable.kind == kind and body in variable.bodies
+            name: field
+            for name, (its, field, bodies) in self._kept.items()
+            if its == kind and (body is None or body in bodies)
         }
+
+    def _read(self, name: str, *index: int | slice) -> Array:
+        return np.asarray(self._file[name][index])
 
     def _check_body(self, body: str) -> None:
         if body not in self.body_names:
@@ -381,6 +398,11 @@ class Result:
     def _index(self, body: str) -> int:
         self._check_body(body)
         return self.body_names.index(body)
+
+
+def _field(attributes: Mapping[str, Any]) -> Field:
+    name, unit, meaning = (str(attributes[key]) for key in ("field", "units", "long_name"))
+    return Field(name, unit, meaning)
 
 
 open = Result.open

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable, Sequence
-from contextlib import closing
+from io import BytesIO
 from pathlib import Path
-
-import numpy as np
+from typing import Any
 
 from tribo.core.errors import CaseError
 from tribo.core.measures import Measures
 from tribo.core.notices import Notice
 from tribo.core.state import RunInfo, Snapshot, State
 from tribo.result.checkpoint import Checkpoint, RunFolder, fingerprint
-from tribo.result.hdf5 import Frame, Part, hdf5_image
-from tribo.result.layout import EFFECT, save_row, step_row
-from tribo.result.opening import contents_in_memory, contents_of_file
+from tribo.result.hdf5 import empty_image, filled_image
+from tribo.result.layout import EFFECT, Rows, part_of, save_row, step_row, variables
 from tribo.result.read import Result
 from tribo.result.sealed import write_sealed
 
@@ -32,11 +31,13 @@ class ResultWriter:
     def __init__(self, path: Path | None = None) -> None:
         self._path = None if path is None else path.resolve()
         self._folder = None if self._path is None else RunFolder(self._path)
-        self._frame: Frame
-        self._kept: list[Part] = []
+        self._run: RunInfo
+        self._empty: bytes
+        self._image: BytesIO
+        self._kept: list[Rows] = []
         self._count = 0
-        self._steps: list[Part] = []
-        self._saves: list[Part] = []
+        self._steps: list[Rows] = []
+        self._saves: list[Rows] = []
         self.saves = 0
         """Saves so far."""
         self.rows = 0
@@ -50,7 +51,7 @@ class ResultWriter:
         CaseError
             If another process is writing it, or it is not a file.
         """
-        self._frame = Frame.of_run(run)
+        self._begin(run)
         if self._path is None or self._folder is None:
             return
         if self._path.exists() and not self._path.is_file():
@@ -58,7 +59,7 @@ class ResultWriter:
         self._folder.lock()
         try:
             self._folder.clear()
-            self._write(())
+            self._write(BytesIO(self._empty))
         except BaseException:
             self._folder.remove()
             raise
@@ -69,12 +70,12 @@ class ResultWriter:
             raise CaseError("a result in memory cannot be resumed")
         self._folder.lock()
         try:
-            with closing(contents_of_file(self._path)) as stopped:
-                self._frame = _continued(stopped.frame(), run)
-            checkpoint = self._folder.read_checkpoint()
+            with Result.open(self._path) as stopped:
+                self._begin(run, provenance=json.dumps(_gone_on_with(stopped, run)))
+            checkpoint = self._folder.read_checkpoint(run.case)
             # What came after it must not be counted again.
             self._folder.write_checkpoint(checkpoint, sync=True)
-            self._write(())
+            self._write(BytesIO(self._empty))
         except BaseException:
             self._folder.unlock()
             raise
@@ -87,7 +88,7 @@ class ResultWriter:
 
     def append_save(self, snapshot: Snapshot) -> None:
         """Add a save; it is written with the next checkpoint."""
-        self._saves.append(save_row(snapshot, self._frame.variables))
+        self._saves.append(save_row(snapshot, self._table))
         self.saves += 1
 
     def checkpoint(self, state: State, wall_time: float, *, sync: bool) -> None:
@@ -104,17 +105,28 @@ class ResultWriter:
         """
         self._finish_part()
         if self._folder is not None:
-            case = fingerprint(self._frame.header.case)
+            case = fingerprint(self._run.case)
             kept = Checkpoint(case, state, wall_time, self._count, self.saves, self.rows)
             self._folder.write_checkpoint(kept, sync=sync)
 
     def finish(self, status: str, wall_time: float, notices: Sequence[Notice] = ()) -> None:
         """Write the whole result, and how the run ended."""
         self._finish_part()
-        self._frame = self._frame.with_header(
-            status=status, wall_time_s=wall_time, notices=[str(notice) for notice in notices]
+        parts: Iterable[Rows] = (
+            self._kept if self._folder is None else self._folder.parts(self._count)
         )
-        self._write(self._parts())
+        image = filled_image(
+            self._empty,
+            parts,
+            self.saves,
+            self.rows,
+            status=status,
+            wall_time_s=wall_time,
+            notices=json.dumps([str(notice) for notice in notices]),
+        )
+        if self._folder is None:
+            self._image = image
+        self._write(image)
         if self._folder is not None and status == "done":
             self._folder.remove()
 
@@ -125,14 +137,14 @@ class ResultWriter:
 
     def result(self) -> Result:
         """Return the result."""
-        if self._path is not None:
-            return Result.open(self._path)
-        return Result(
-            contents_in_memory(self._frame, self._parts(), self.saves, self.rows, "the result")
-        )
+        return Result.open(self._path) if self._path else Result(self._image, "the result")
+
+    def _begin(self, run: RunInfo, **changed: Any) -> None:
+        self._run, self._table = run, variables(run)
+        self._empty = empty_image(run, **changed)
 
     def _finish_part(self) -> None:
-        part = {**_stacked(self._steps), **_stacked(self._saves)}
+        part = {**part_of(self._steps), **part_of(self._saves)}
         if not part:
             return
         if self._folder is None:
@@ -142,34 +154,30 @@ class ResultWriter:
         self._count += 1
         self._steps, self._saves = [], []
 
-    def _parts(self) -> Iterable[Part]:
-        return self._kept if self._folder is None else self._folder.parts(self._count)
-
-    def _write(self, parts: Iterable[Part]) -> None:
-        if self._path is None or self._folder is None:
-            return
-        fresh = self._folder.path / "result.new"
-        image = hdf5_image(self._frame, parts, self.saves, self.rows)
-        write_sealed(self._path, image.getbuffer(), fresh=fresh, sync=True)
+    def _write(self, image: BytesIO) -> None:
+        if self._path is not None and self._folder is not None:
+            fresh = self._folder.path / "result.new"
+            write_sealed(self._path, image.getbuffer(), fresh=fresh, sync=True)
 
 
-def _stacked(rows: Sequence[Part]) -> Part:
-    names = rows[0] if rows else ()
-    return {name: np.stack([row[name] for row in rows]) for name in names}
+def _gone_on_with(stopped: Result, run: RunInfo) -> dict[str, Any]:
+    """Return the provenance of a stopped run, with what it goes on with.
 
-
-def _continued(frame: Frame, run: RunInfo) -> Frame:
-    """Return the frame of a stopped run that goes on, with what it goes on with."""
+    Raises
+    ------
+    CaseError
+        If the effects provide other fields than before.
+    """
     provided = {field.name for field in run.effect_fields}
-    kept = {v.field for v in frame.variables.values() if v.kind == EFFECT}
+    kept = {field.name for field in stopped.fields_of(EFFECT).values()}
     if kept != provided:
         raise CaseError(
             f"the effects provide {', '.join(sorted(provided)) or 'nothing'}, but the result keeps "
             f"{', '.join(sorted(kept)) or 'nothing'} of them; start again with 'tribo run --force'"
         )
-    made = dict(frame.header.provenance)
+    made = dict(stopped.provenance)
     before = made.get("resumed_with", [])
     last = before[-1] if before else made
     if any(last.get(key) != value for key, value in run.provenance.items()):
         made["resumed_with"] = [*before, dict(run.provenance)]
-    return frame.with_header(status="running", wall_time_s=None, provenance=made)
+    return made

@@ -148,7 +148,6 @@ class Simulation:
         path = Path(output)
         with Result.open(path) as result:
             done = result.status == "done"
-            result.check()
             changes = self.changed_since(result)
             case = result.case
         listed = "; ".join(f"{place} was {old}, is {new}" for place, old, new in changes)

@@ -300,8 +300,6 @@ def _of_files(files: Sequence[Path], match: Mapping[str, str]) -> Comparison:
             path.stem if stems else str(path): unless_kept.enter_context(Result.open(path))
             for path in files
         }
-        for result in results.values():
-            result.check()
         comparison = _matched(results, match)
         unless_kept.pop_all()
     return comparison

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 
 from tribo.core.errors import CaseError
-from tribo.result.opening import contents_in_memory
+from tribo.result.hdf5 import renamed_image
 from tribo.result.read import Result
 
 
@@ -55,13 +54,4 @@ def pairs(first: Result, other: Result, match: Mapping[str, str]) -> dict[str, s
 def renamed(result: Result, names: Mapping[str, str]) -> Result:
     """Return a copy in memory whose bodies go by other names; `names` has the old by the new."""
     new = {own: name for name, own in names.items()}
-    frame = result.contents.frame()
-    bodies = {new[own]: body for own, body in result.case["bodies"].items()}
-    variables = {
-        key: replace(variable, bodies=tuple(new[own] for own in variable.bodies))
-        for key, variable in frame.variables.items()
-    }
-    frame = replace(frame, variables=variables).with_header(case={**result.case, "bodies": bodies})
-    rows = result.contents.rows()
-    saves, steps = len(rows["time"]), len(rows["step"])
-    return Result(contents_in_memory(frame, [rows], saves, steps, result.name))
+    return Result(renamed_image(result.image(), new), result.name)

@@ -27,7 +27,6 @@ def is_done(path: Path, simulation: Simulation) -> bool:
         return False
     try:
         with Result.open(path) as result:
-            result.check()
             return (
                 result.status == "done"
                 and result.case == simulation.model.data

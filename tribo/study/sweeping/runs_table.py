@@ -46,7 +46,6 @@ def tables(
         elif run.path.exists():
             try:
                 with Result.open(run.path) as result:
-                    result.check()
                     message = "; ".join(result.notices)
                     row["status"] = "done" if result.status == "done" else "interrupted"
                     if result.status == "done":
