@@ -111,7 +111,7 @@ def _snapshot(time, bodies, plastic, power, shape, grid, texture):
         time=time,
         distance=0.1 * time,
         bodies=states,
-        contact=ContactSolution(pressure, 1e-6, 0 * pressure, 1, SETTLED),
+        contacts=(ContactSolution(pressure, 1e-6, 0 * pressure, 1, SETTLED),),
         increment=1.0,
         reference_depth=1e-6,
     )

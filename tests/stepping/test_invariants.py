@@ -128,8 +128,11 @@ def test_a_step_that_may_chatter_is_told_of_before_it_does(factor, told):
     [
         (lambda e: setattr(e, "volume", lambda depth: 0.99 * type(e).volume(e, depth)), "0.01"),
         (lambda e: setattr(e, "volume", lambda depth: np.nan), "wear depth is not finite"),
-        (lambda e: setattr(e, "average", lambda rate: rate - 0.01 * rate.max()), "grows back by"),
-        (lambda e: setattr(e, "average", lambda rate: 1.01 * rate), "wear volume is off"),
+        (
+            lambda e: setattr(e, "average", lambda rate, at: rate - 0.01 * rate.max()),
+            "grows back by",
+        ),
+        (lambda e: setattr(e, "average", lambda rate, at: 1.01 * rate), "wear volume is off"),
     ],
     ids=["volume", "nan", "regrowth", "average"],
 )

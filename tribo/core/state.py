@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from tribo.core.arrays import Array
@@ -19,9 +19,10 @@ class BodyState:
     Parameters
     ----------
     wear : ndarray
-        Depth worn away, in m; on the body's own surface: shape (nx, ny), or
-        (1, ny) on a body swept along a track.
-    plastic : ndarray, shape (nx, ny)
+        Depth worn away, in m; on the body's own surface: shape (nx, ny),
+        (1, ny) on a body that the average sweeps along a track, and (rows, ny)
+        on one that passes through a resolved cycle.
+    plastic : ndarray, shape (nx, ny) or (rows, ny)
         Permanent displacement by plastic flow, in m, positive into the body.
     law : Mapping[str, ndarray]
         State fields of the body's wear law, shaped as `wear`.
@@ -42,9 +43,9 @@ class State:
         Time in s and sliding distance in m.
     bodies : Mapping[str, BodyState]
         By name.
-    contact : ContactSolution
-        The solved contact; it belongs to the geometry of `bodies` and is the
-        start of the next solve.
+    contacts : tuple of ContactSolution
+        The solved contact at each position of a cycle; they belong to the geometry
+        of `bodies` and are the start of the next solves.
     increment : float
         Sliding increment the step control would take next, in m.
     reference_depth : float
@@ -54,15 +55,16 @@ class State:
         Counted from the beginning of the run.
     saves : int
         Number of saves passed.
-    rates : Mapping[str, WearRate]
-        Rates of the laws at the end of the last implicit step, in the contact
-        frame: where the next one begins. Empty where there are none.
+    rates : sequence of Mapping[str, WearRate]
+        Rates of the laws at the end of the last implicit step, by position and body, in the
+        contact frame: where the next one begins. Empty where there are none.
     notices : tuple of Notice
         What was told so far, each once.
     invariants : Invariants
         How well they hold in the step that led here.
-    previous : ndarray of shape (nx, ny) or None
-        Pressure a step ago, in Pa, by which chattering is told; None before the first.
+    previous : tuple of ndarray, shape (nx, ny)
+        Pressure at each position a step ago, in Pa, by which chattering is told; empty before the
+        first.
     speed : float
         Mean sliding speed of the last step in which it slid, in m/s; of the
         whole motion before the first.
@@ -71,7 +73,7 @@ class State:
     time: float
     distance: float
     bodies: Mapping[str, BodyState]
-    contact: ContactSolution
+    contacts: tuple[ContactSolution, ...]
     increment: float
     reference_depth: float
     steps: int = 0
@@ -79,11 +81,16 @@ class State:
     contact_solves: int = 1
     solver_iterations: int = 0
     saves: int = 0
-    rates: Mapping[str, WearRate] = field(default_factory=dict)
+    rates: Sequence[Mapping[str, WearRate]] = ()
     notices: tuple[Notice, ...] = ()
     invariants: Invariants = field(default_factory=Invariants)
-    previous: Array | None = None
+    previous: tuple[Array, ...] = ()
     speed: float = 0.0
+
+    @property
+    def contact(self) -> ContactSolution:
+        """The contact in the middle of the cycle: the one that a result shows."""
+        return self.contacts[len(self.contacts) // 2]
 
     def has_notice(self, kind: Kind) -> bool:
         """Whether a notice of this kind was given."""

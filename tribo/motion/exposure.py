@@ -14,8 +14,7 @@ from tribo.core.grid import Grid
 class Exposure(ABC):
     """Maps rates in the contact frame on to a body's own surface.
 
-    Fields on a body's surface have shape (nx, ny) where its points stay in the
-    contact, and (1, ny) where they are swept through it.
+    Fields on a body's surface have shape (`rows`, ny).
     """
 
     swept: bool = False
@@ -26,19 +25,30 @@ class Exposure(ABC):
     passes as a whole, so that its surface must not vary along x; it does for a body that stays, and
     for one that turns about an axis across the sliding direction."""
 
+    @property
+    def rows(self) -> int | None:
+        """Cells along x on the body's own surface; None for as many as the window has.
+
+        1 where every point of a track sees the same.
+        """
+        return 1 if self.swept else None
+
     @abstractmethod
-    def average(self, rate: Array) -> Array:
-        """Return the rate each point of the body sees per metre of sliding.
+    def average(self, rate: Array, position: int = 0) -> Array:
+        """Return the rate each point of the body sees per metre of sliding at a position.
 
         Parameters
         ----------
         rate : ndarray, shape (nx, ny)
             Rate per metre of sliding in the contact frame.
+        position : int, optional
+            Position of the cycle; a motion that resolves none has only the first.
 
         Returns
         -------
         ndarray
-            Its mean over a whole motion, on the body's surface.
+            On the body's surface. Weighted with the shares of the positions, these add up to the
+            mean over a cycle.
         """
 
     @abstractmethod
@@ -47,14 +57,29 @@ class Exposure(ABC):
 
         Parameters
         ----------
-        field : ndarray, shape (nx, ny)
-            Field in the contact frame.
+        field : ndarray
+            On the body's surface, or in the contact frame where `indented` leaves it there.
 
         Returns
         -------
         ndarray
             On the body's surface.
         """
+
+    def indented(self, field: Array, position: int = 0) -> Array:
+        """Return `field`, shape (nx, ny), where it lies on the body at a position of the cycle.
+
+        The field itself, unless the body has a surface of its own along x.
+        """
+        return field
+
+    def under(self, field: Array, position: int = 0) -> Array:
+        """Return what lies in the window of a field on the body's surface, at a position.
+
+        The field itself, which then spreads over the window, unless the body has a surface of its
+        own along x.
+        """
+        return field
 
     @abstractmethod
     def volume(self, depth: Array) -> float:
@@ -88,7 +113,7 @@ class Stationary(Exposure):
     def __init__(self, grid: Grid) -> None:
         self._cell_area = grid.cell_area
 
-    def average(self, rate: Array) -> Array:
+    def average(self, rate: Array, position: int = 0) -> Array:
         """Return `rate` itself: every point sees its own."""
         return rate
 
@@ -140,7 +165,7 @@ class Track(Exposure):
         """Track length ℓ, in m."""
         return self._length
 
-    def average(self, rate: Array) -> Array:
+    def average(self, rate: Array, position: int = 0) -> Array:
         """Return the track average, shape (1, ny)."""
         line = np.sum(rate, axis=0, keepdims=True)
         return np.asarray(line * (self._dx / self._length))

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 
 from tribo.component import Component
 from tribo.core.grid import Grid
+from tribo.motion.cycle import Position
 from tribo.motion.exposure import Exposure
 
 
@@ -47,6 +48,19 @@ class Kinematics(Component):
             then they are asked at the mean speed over each step.
         """
         return None
+
+    def cycle(self, grid: Grid) -> Sequence[Position]:
+        """Return the positions of a cycle in which the contact is solved.
+
+        One, unless overridden, with the `speeds` of the motion: the average over the cycle is left
+        to the exposures. The middle one is that which a result shows.
+
+        Parameters
+        ----------
+        grid : Grid
+            The window.
+        """
+        return [Position(speeds=self.speeds())]
 
     @abstractmethod
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:

@@ -245,13 +245,15 @@ def _checkpoint(data: dict[str, Any]) -> Checkpoint:
     """Return a checkpoint from plain data."""
     try:
         state = data.pop("state")
-        contact = state.pop("contact")
-        residuals = Residuals(**contact.pop("residuals"))
         return Checkpoint(
             state=State(
-                contact=ContactSolution(residuals=residuals, **contact),
+                contacts=tuple(_contact(contact) for contact in state.pop("contacts")),
                 bodies={name: BodyState(**body) for name, body in state.pop("bodies").items()},
-                rates={name: WearRate(**rate) for name, rate in state.pop("rates").items()},
+                rates=tuple(
+                    {name: WearRate(**rate) for name, rate in of_bodies.items()}
+                    for of_bodies in state.pop("rates")
+                ),
+                previous=tuple(state.pop("previous")),
                 notices=tuple(Notice(**notice) for notice in state.pop("notices")),
                 invariants=Invariants(**state.pop("invariants")),
                 **state,
@@ -260,6 +262,11 @@ def _checkpoint(data: dict[str, Any]) -> Checkpoint:
         )
     except (LookupError, TypeError, AttributeError) as error:
         raise CaseError(f"its checkpoint is of another version of tribo: {error}") from error
+
+
+def _contact(data: dict[str, Any]) -> ContactSolution:
+    """Return a solved contact from plain data."""
+    return ContactSolution(residuals=Residuals(**data.pop("residuals")), **data)
 
 
 def read_checkpoint(result: Path, case: Mapping[str, object]) -> tuple[State, float]:

@@ -41,6 +41,7 @@ def assemble(case: Case) -> Model:
     motion, solver = GuardedMotion(case.kinematics), GuardedSolver(case.contact)
     with located("kinematics"):
         exposures = motion.exposures(grid, list(bodies))
+        cycle = motion.cycle(grid)
     cap, share = _plastic(bodies, case.contact)
     # Before the first array is made.
     check_memory(grid, memory_needed(case, plastic=cap is not None))
@@ -76,7 +77,18 @@ def assemble(case: Case) -> Model:
     end = motion.end_time(case.stop.distance)
     motion.check_distance(end)
     model = Model(
-        case, solver, motion, surfaces, laws, effects, exposures, share, system, readonly(gap), end
+        case=case,
+        solver=solver,
+        motion=motion,
+        surfaces=surfaces,
+        laws=laws,
+        effects=effects,
+        exposures=exposures,
+        plastic_share=share,
+        system=system,
+        cycle=cycle,
+        gaps=(readonly(gap),) * len(cycle),
+        end_time=end,
     )
     _check_ends(model)
     for effect in effects:

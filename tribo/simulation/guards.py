@@ -21,6 +21,7 @@ from tribo.core.fields import ContactConditions, LocalConditions, WearRate
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.effects.effect import Effect
+from tribo.motion.cycle import Position
 from tribo.motion.exposure import Exposure
 from tribo.motion.kinematics import Kinematics
 from tribo.simulation.guard import Guard
@@ -240,20 +241,32 @@ class GuardedSolver(Guard[ContactSolver]):
 
 
 class GuardedMotion(Guard[Kinematics]):
-    """A motion, and the speeds of its cycle (m/s) with their shares of the distance, if any.
+    """A motion of which every answer is checked."""
 
-    Raises
-    ------
-    PluginError
-        If the speeds are not what they must be.
-    """
+    def cycle(self, grid: Grid) -> tuple[Position, ...]:
+        """Return the positions of a cycle.
 
-    def __init__(self, kinematics: Kinematics) -> None:
-        super().__init__(kinematics)
-        self.speeds = self._speeds()
+        Raises
+        ------
+        PluginError
+            If their shares or speeds are not what they must be.
+        """
+        answer = self.ask(lambda: tuple(self.component.cycle(grid)))
+        if not answer or not all(isinstance(position, Position) for position in answer):
+            raise self.wrong(answer, "as positions of its cycle")
+        shares = [self.number("a share of the path", position.share) for position in answer]
+        if min(shares) < 0 or abs(sum(shares) - 1) > WHOLE:
+            raise BadValues(
+                f"{self} gave shares of the path that add up to {sum(shares):g}, not to 1"
+            )
+        return tuple(
+            Position(share, self._speeds(position.speeds))
+            for share, position in zip(shares, answer, strict=True)
+        )
 
-    def _speeds(self) -> list[tuple[float, float]] | None:
-        answer = self.ask(self.component.speeds)
+    def _speeds(
+        self, answer: Sequence[tuple[float, float]] | None
+    ) -> list[tuple[float, float]] | None:
         if answer is None:
             return None
         what = "speeds of a cycle with their shares of the distance"
@@ -348,17 +361,17 @@ class GuardedExposure(Guard[Kinematics]):
         self._asked = exposure
         self._whose = body
         self._cells = grid.cells
-        # One value for all x where every point of the track sees the same.
-        self._own = (1, grid.cells[1]) if exposure.swept else grid.cells
+        self.rows = exposure.rows or grid.cells[0]
+        self._own = (self.rows, grid.cells[1])
 
     def __str__(self) -> str:
         """Return what messages call it."""
         return f"{super().__str__()}, for body {self._whose!r},"
 
-    def average(self, rate: Array) -> Array:
-        """Return the rate each point of the body sees, on its own surface."""
+    def average(self, rate: Array, position: int = 0) -> Array:
+        """Return the rate each point of the body sees at a position, on its own surface."""
         asked = readonly(rate)
-        answer = self.ask(self._asked.average, asked)
+        answer = self.ask(self._asked.average, asked, position)
         if answer is asked and not self.swept:
             # What was held to the contract as a law's answer.
             return asked
@@ -374,6 +387,18 @@ class GuardedExposure(Guard[Kinematics]):
         return self.field(
             "an envelope", self.ask(self._asked.envelope, readonly(field)), self._own
         )[0]
+
+    def indented(self, field: Array, position: int = 0) -> Array:
+        """Return a field of the window where it lies on the body at a position."""
+        asked = readonly(field)
+        answer = self.ask(self._asked.indented, asked, position)
+        return asked if answer is asked else self.field("an indentation", answer, self._own)[0]
+
+    def under(self, field: Array, position: int = 0) -> Array:
+        """Return what lies in the window of a field on the body, at a position."""
+        asked = readonly(field)
+        answer = self.ask(self._asked.under, asked, position)
+        return asked if answer is asked else self.field("a view", answer, self._cells)[0]
 
     def volume(self, depth: Array) -> float:
         """Return the volume of a depth on the body's own surface, in m³."""

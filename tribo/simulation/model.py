@@ -13,6 +13,7 @@ from tribo.core.arrays import Array
 from tribo.core.contact import ContactSystem
 from tribo.core.grid import Grid
 from tribo.core.measures import between_cells
+from tribo.motion.cycle import Position
 from tribo.simulation.guard import calling
 from tribo.simulation.guards import (
     GuardedEffect,
@@ -53,8 +54,11 @@ class Model:
         Part of the plastic overlap that each body, by name, takes.
     system : ContactSystem
         The constants of the contact.
-    gap : ndarray, shape (nx, ny)
-        Initial gap, in m, with minimum 0.
+    cycle : tuple of Position
+        The positions of a cycle in which the contact is solved.
+    gaps : tuple of ndarray, shape (nx, ny)
+        Initial gap at each position, in m, with minimum 0 in the middle of the cycle; one array
+        for all where it is the same.
     end_time : float
         When the run ends if no depth stops it earlier, in s.
     """
@@ -68,7 +72,8 @@ class Model:
     exposures: Mapping[str, GuardedExposure]
     plastic_share: Mapping[str, float]
     system: ContactSystem
-    gap: Array
+    cycle: tuple[Position, ...]
+    gaps: tuple[Array, ...]
     end_time: float
 
     @cached_property
@@ -83,6 +88,11 @@ class Model:
     def grid(self) -> Grid:
         """The window."""
         return self.case.grid
+
+    @property
+    def gap(self) -> Array:
+        """Initial gap in the middle of the cycle, shape (nx, ny), in m."""
+        return self.gaps[len(self.gaps) // 2]
 
     @property
     def load(self) -> float:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
@@ -14,7 +15,7 @@ from tribo.core.fields import WearRate
 from tribo.core.state import State
 from tribo.core.units import Quantity
 from tribo.stepping.invariants import wear_balance
-from tribo.stepping.rates import Moment, law_states, wear_rates
+from tribo.stepping.rates import CycleRates, Moment, law_states, wear_rates
 from tribo.stepping.scheme import Scheme
 from tribo.stepping.step import (
     accepted,
@@ -104,11 +105,15 @@ class Explicit(Scheme):
         worn = worn_depths(model, rates, increment)
         law = law_states_after(model, law_states(state), rates, increment)
         bodies = worn_bodies(state, worn, law)
-        solution = solve(model, geometry(model, bodies), None, _extrapolated(state))
+        contacts = [
+            solve(model, geometry(model, bodies, position), None, start)
+            for position, start in enumerate(_extrapolated(state))
+        ]
         kept = replace(
-            state, rates={}, invariants=wear_balance(model, worn, rates, increment, state)
+            state, rates=(), invariants=wear_balance(model, worn, rates, increment, state)
         )
-        return accepted(model, kept, bodies, solution, moment, 1, solution.iterations)
+        iterations = sum(contact.iterations for contact in contacts)
+        return accepted(model, kept, bodies, contacts, moment, len(contacts), iterations)
 
     def _instability(self, model: Model, state: State, moment: Moment) -> str | None:
         """Return a warning of a step that is beyond the limit where the case allows it.
@@ -147,7 +152,7 @@ def rated(model: Model, state: State, moment: Moment) -> State:
     """Return `state` with the rates of its contact, asked for unless it has them."""
     if state.rates:
         return state
-    return replace(state, rates=wear_rates(model, state.contact, law_states(state), moment))
+    return replace(state, rates=wear_rates(model, state.contacts, law_states(state), moment))
 
 
 def largest_stable_increment(model: Model, state: State, moment: Moment) -> float | None:
@@ -163,19 +168,22 @@ def largest_stable_increment(model: Model, state: State, moment: Moment) -> floa
     smallest = model.solver.smallest_compliance(model.system)
     if smallest is None:
         return None
-    pressure, near = state.contact.pressure, state.contact.extent
     rates = _steepened(model, state, rated(model, state, moment).rates, moment)
-    compliance = wear_compliance(model, rates, pressure, 1.0)
-    touching = pressure[near] > 0
-    length = np.count_nonzero(touching, axis=0) * model.grid.spacing[0]
-    local = float(np.max(compliance.local[near], where=touching, initial=0.0))
-    slope = local + float((compliance.swept[near[1]] * length).max())
+    slope = max(map(partial(_steepest, model), rates, state.contacts))
     return 2 * smallest / slope if slope > 0 else np.inf
 
 
-def _steepened(
-    model: Model, state: State, rates: Mapping[str, WearRate], moment: Moment
-) -> Mapping[str, WearRate]:
+def _steepest(model: Model, rates: Mapping[str, WearRate], contact: ContactSolution) -> float:
+    """Return the largest depth per metre that a pressure adds at a position, in 1/Pa."""
+    near = contact.extent
+    compliance = wear_compliance(model, rates, contact.pressure, 1.0)
+    touching = contact.pressure[near] > 0
+    length = np.count_nonzero(touching, axis=0) * model.grid.spacing[0]
+    local = float(np.max(compliance.local[near], where=touching, initial=0.0))
+    return local + float((compliance.swept[near[1]] * length).max())
+
+
+def _steepened(model: Model, state: State, rates: CycleRates, moment: Moment) -> CycleRates:
     """Return `rates` with the derivative in all, where laws follow the fields of effects.
 
     The pressure is varied in stripes, up and down from row to row: the mode
@@ -184,23 +192,30 @@ def _steepened(
     following = [name for name, law in model.laws.items() if law.requires]
     if not model.effects or not following:
         return rates
-    pressure = state.contact.pressure
-    stripes = NUDGE * pressure
-    stripes[:, ::2] *= -1
-    nudged = replace(state.contact, pressure=pressure + stripes)
+    stripes = [NUDGE * contact.pressure for contact in state.contacts]
+    for each in stripes:
+        each[:, ::2] *= -1
+    nudged = [
+        replace(contact, pressure=contact.pressure + each)
+        for contact, each in zip(state.contacts, stripes, strict=True)
+    ]
     others = wear_rates(model, nudged, law_states(state), moment)
-    steeper = dict(rates)
-    for name in following:
-        change = others[name].depth_rate - rates[name].depth_rate
-        slope = np.divide(change, stripes, out=np.zeros_like(change), where=stripes != 0)
-        derivative = np.maximum(rates[name].depth_slope, slope)
-        steeper[name] = replace(rates[name], depth_slope=derivative)
+    steeper = []
+    for at, other, each in zip(rates, others, stripes, strict=True):
+        steeper.append(dict(at))
+        for name in following:
+            change = other[name].depth_rate - at[name].depth_rate
+            slope = np.divide(change, each, out=np.zeros_like(change), where=each != 0)
+            derivative = np.maximum(at[name].depth_slope, slope)
+            steeper[-1][name] = replace(at[name], depth_slope=derivative)
     return steeper
 
 
-def _extrapolated(state: State) -> ContactSolution:
-    """Return the contact as it would be if it went on to change by as much as in the last step."""
-    if state.previous is None:
-        return state.contact
-    pressure = np.maximum(2 * state.contact.pressure - state.previous, 0.0)
-    return replace(state.contact, pressure=pressure)
+def _extrapolated(state: State) -> Sequence[ContactSolution]:
+    """Return the contacts as if they went on to change by as much as in the last step."""
+    if not state.previous:
+        return state.contacts
+    return [
+        replace(contact, pressure=np.maximum(2 * contact.pressure - before, 0.0))
+        for contact, before in zip(state.contacts, state.previous, strict=True)
+    ]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
@@ -12,7 +12,6 @@ from pydantic import Field
 
 from tribo.core.arrays import Array
 from tribo.core.errors import BadValues, NumericalError, PluginError
-from tribo.core.fields import WearRate
 from tribo.core.state import State
 from tribo.core.units import Quantity
 from tribo.stepping.invariants import wear_balance
@@ -25,6 +24,7 @@ from tribo.stepping.step import (
     distance_until,
     geometry,
     law_states_after,
+    lost,
     moment_after,
     rested,
     rests,
@@ -123,7 +123,7 @@ class Implicit(Scheme):
             time = until if last else _time_at(model, state, state.distance + increment, until)
             try:
                 trial = self.attempt(model, state, increment, time)
-                errors = self.errors(state, trial)
+                errors = self.errors(model, state, trial)
                 if max(errors.depth, errors.pressure, errors.volume) <= 1:
                     break
                 factor = errors.factor
@@ -172,28 +172,29 @@ class Implicit(Scheme):
             If the passes or a solve do not converge.
         """
         moment = moment_after(state, increment, time)
-        base = geometry(model, state.bodies)
+        cycle = range(len(model.cycle))
+        base = [geometry(model, state.bodies, position) for position in cycle]
         dx = model.grid.spacing[0]
         before = law_states(state)
-        law, solution = before, state.contact
-        solves = iterations = 0
-        implied: Array | None = None
+        law, contacts = before, list(state.contacts)
+        passes = iterations = 0
+        implied: list[Array] = []
         forward: dict[str, Array] = {}
         asked_again = False
         mismatch = drift = np.inf
-        rates: Mapping[str, WearRate] = state.rates
+        rates = state.rates
         while True:
-            if implied is not None or not rates:
-                rates = wear_rates(model, solution, law, moment)
+            if implied or not rates:
+                rates = wear_rates(model, contacts, law, moment)
             worn = worn_depths(model, rates, increment)
             settled = law_states_after(model, before, rates, increment)
-            depth = np.zeros(model.grid.cells)
-            for lost in worn.values():
-                depth += lost
-            if implied is not None:
-                mismatch = float(np.max(np.abs(depth - implied)))
+            depths = [lost(model, worn, position) for position in cycle]
+            if implied:
+                mismatch = _largest(
+                    depth - guess for depth, guess in zip(depths, implied, strict=True)
+                )
                 drift = _largest_change(law, settled)
-                if mismatch <= self.nonlinear_tolerance * float(np.max(depth)):
+                if mismatch <= self.nonlinear_tolerance * _largest(depths):
                     if drift <= self.nonlinear_tolerance:
                         break
                     if not asked_again:
@@ -202,26 +203,32 @@ class Implicit(Scheme):
                         continue
             else:
                 forward = worn
-            if solves == self.max_passes:
+            if passes == self.max_passes:
                 raise StepRejected(
                     f"the implicit step of {increment:.3g} m at {state.distance:.6g} m did not "
-                    f"converge in {solves} passes: wear depth still off by {mismatch:.2g} m, the "
+                    f"converge in {passes} passes: wear depth still off by {mismatch:.2g} m, the "
                     f"state of a law by {drift:.2g} of its largest; raise stepping.max_passes or "
                     "lower stepping.pressure_tolerance"
                 )
             asked_again = False
-            compliance = wear_compliance(model, rates, solution.pressure, increment)
-            remainder = depth - compliance.depth(solution.pressure, dx)
-            try:
-                solution = solve(model, base + remainder, compliance, solution)
-            except PluginError:
-                raise
-            except NumericalError as error:
-                raise StepRejected(str(error)) from error
-            implied = remainder + compliance.depth(solution.pressure, dx)
+            implied = []
+            for position, depth in enumerate(depths):
+                pressure = contacts[position].pressure
+                compliance = wear_compliance(model, rates[position], pressure, increment)
+                remainder = depth - compliance.depth(pressure, dx)
+                try:
+                    solution = solve(
+                        model, base[position] + remainder, compliance, contacts[position]
+                    )
+                except PluginError:
+                    raise
+                except NumericalError as error:
+                    raise StepRejected(str(error)) from error
+                implied.append(remainder + compliance.depth(solution.pressure, dx))
+                contacts[position] = solution
+                iterations += solution.iterations
             law = settled
-            solves += 1
-            iterations += solution.iterations
+            passes += 1
         bodies = worn_bodies(state, worn, settled)
         # Set first: settling a groove leaves the pressure that these rates belong to.
         kept = replace(
@@ -229,10 +236,11 @@ class Implicit(Scheme):
             rates=rates,
             invariants=wear_balance(model, worn, rates, increment, state),
         )
-        after = accepted(model, kept, bodies, solution, moment, solves, iterations)
+        solves = passes * len(contacts)
+        after = accepted(model, kept, bodies, contacts, moment, solves, iterations)
         return Trial(after, forward)
 
-    def errors(self, before: State, trial: Trial) -> Errors:
+    def errors(self, model: Model, before: State, trial: Trial) -> Errors:
         """Return the step's depth, pressure and volume errors as multiples of their tolerances.
 
         The local error of backward Euler in depth is half of what its wear
@@ -249,15 +257,25 @@ class Implicit(Scheme):
         volume's is compared with what the step itself wears.
         """
         after = trial.state
-        p0, p1 = before.contact.pressure, after.contact.pressure
-        load = float(np.sum(p1))
-        pressure_error = float(np.sum(np.abs(p1 - p0))) / load
+        pressures = [
+            (position, after.contacts[position].pressure, model.cycle[position].share)
+            for position in range(len(model.cycle))
+        ]
+        load = sum(share * float(np.sum(p)) for _, p, share in pressures)
+        change = sum(
+            share * float(np.sum(np.abs(p - before.contacts[position].pressure)))
+            for position, p, share in pressures
+        )
         depth_error = volume_error = 0.0
         for name, forward in trial.forward.items():
             worn = after.bodies[name].wear - before.bodies[name].wear
             lag = np.abs(worn - forward)
             scale = float(np.max(after.bodies[name].wear)) + FIRST * after.reference_depth
-            depth_error = max(depth_error, 0.5 * float(np.sum(p1 * lag)) / (load * scale))
+            under = model.exposures[name].under
+            late = sum(
+                share * float(np.sum(p * under(lag, position))) for position, p, share in pressures
+            )
+            depth_error = max(depth_error, 0.5 * late / (load * scale))
             own = 0.5 * (worn + forward)
             if np.any(own > 0):
                 share = min(1.0, float(np.max(own)) / (LATE * scale))
@@ -265,7 +283,7 @@ class Implicit(Scheme):
                 volume_error = max(volume_error, share * missed / float(np.sum(own)))
         return Errors(
             depth_error / self.depth_tolerance,
-            pressure_error / self.pressure_tolerance,
+            change / load / self.pressure_tolerance,
             volume_error / (VOLUME * self.depth_tolerance),
         )
 
@@ -285,8 +303,8 @@ class Implicit(Scheme):
 def _first_increment(model: Model, state: State, remaining: float) -> float:
     """Return a first increment that wears a small part of the elastic approach, in m."""
     moment = Moment(state.time, state.distance, remaining / (model.end_time - state.time))
-    rates = wear_rates(model, state.contact, law_states(state), moment)
-    fastest = max((float(np.max(rate.depth_rate)) for rate in rates.values()), default=0.0)
+    rates = wear_rates(model, state.contacts, law_states(state), moment)
+    fastest = _largest(rate.depth_rate for of_bodies in rates for rate in of_bodies.values())
     part = FIRST * state.reference_depth
     # Two flats that repeat have no approach, and wear evenly.
     return min(remaining, part / fastest) if fastest > 0 and part > 0 else remaining
@@ -301,6 +319,11 @@ def _time_at(model: Model, state: State, distance: float, until: float) -> float
             f"does not lie between {state.time:g} s and {until:g} s"
         )
     return time
+
+
+def _largest(arrays: Iterable[Array]) -> float:
+    """Return the largest absolute value in any of some arrays; 0 if there are none."""
+    return max((float(np.max(np.abs(array))) for array in arrays), default=0.0)
 
 
 def _largest_change(old: LawStates, new: LawStates) -> float:

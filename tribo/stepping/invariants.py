@@ -14,10 +14,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tribo.core.arrays import Array, union
+from tribo.core.contact import ContactSolution
 from tribo.core.errors import NumericalError
-from tribo.core.fields import WearRate
 from tribo.core.measures import Invariants
 from tribo.core.state import State
+from tribo.stepping.rates import CycleRates
 
 if TYPE_CHECKING:
     from tribo.simulation.model import Model
@@ -39,7 +40,7 @@ _MOTION = "that is a fault of the kinematics; 'tribo plugins check' tests it"
 def wear_balance(
     model: Model,
     worn: Mapping[str, Array],
-    rates: Mapping[str, WearRate],
+    rates: CycleRates,
     increment: float,
     before: State,
 ) -> Invariants:
@@ -54,8 +55,8 @@ def wear_balance(
         The composed case.
     worn : Mapping[str, ndarray]
         Depth that each body loses in the step, on its surface, in m.
-    rates : Mapping[str, WearRate]
-        What its law asks for.
+    rates : sequence of Mapping[str, WearRate]
+        What its law asks for at each position.
     increment : float
         Sliding increment, in m.
     before : State
@@ -65,7 +66,14 @@ def wear_balance(
     cell_area = model.grid.cell_area
     for name, depth in worn.items():
         exposure = model.exposures[name]
-        asked = increment * float(np.sum(rates[name].depth_rate)) * cell_area
+        asked = (
+            increment
+            * cell_area
+            * sum(
+                position.share * float(np.sum(of_bodies[name].depth_rate))
+                for position, of_bodies in zip(model.cycle, rates, strict=True)
+            )
+        )
         error = abs(exposure.volume(depth) - asked)
         if not error <= VOLUME * asked:
             asked = max(asked, SMALL * exposure.volume(before.bodies[name].wear))
@@ -92,12 +100,9 @@ def hold(model: Model, before: State | None, after: State) -> State:
         is left to a notice where the case allows unstable steps.
     """
     if before is not None:
-        after = replace(after, previous=before.contact.pressure)
-        if before.previous is not None:
-            # Where neither of the last two presses, nothing comes back.
-            near = union(before.contact.extent, after.contact.extent)
-            pressures = before.previous, before.contact.pressure, after.contact.pressure
-            share = handed_back(*(pressure[near] for pressure in pressures))
+        after = replace(after, previous=tuple(each.pressure for each in before.contacts))
+        if before.previous:
+            share = max(map(_chattering, before.previous, before.contacts, after.contacts))
             after = replace(after, invariants=replace(after.invariants, chattering=share))
     broken = broken_by(after)
     if broken is None and chatters(after) and not model.stepping.may_oscillate:
@@ -114,11 +119,14 @@ def broken_by(state: State) -> str | None:
     lost = _not_finite(state)
     if lost is not None:
         return f"the {lost} is not finite; find what diverges: a wear law, or the kinematics"
-    contact, step = state.contact.residuals, state.invariants
+    contact, step = [each.residuals for each in state.contacts], state.invariants
+    force = max(each.force for each in contact)
+    complementarity = max(each.complementarity for each in contact)
+    penetration = max(each.penetration for each in contact)
     limits = (
-        ("the load is missed by {:.3g} of it", contact.force, LOAD, _SOLVER),
-        ("a gap is under pressure, by {:.3g}", contact.complementarity, CONDITIONS, _SOLVER),
-        ("bodies overlap out of contact, by {:.3g}", contact.penetration, CONDITIONS, _SOLVER),
+        ("the load is missed by {:.3g} of it", force, LOAD, _SOLVER),
+        ("a gap is under pressure, by {:.3g}", complementarity, CONDITIONS, _SOLVER),
+        ("bodies overlap out of contact, by {:.3g}", penetration, CONDITIONS, _SOLVER),
         ("a body grows back by {:.3g} m", step.regrowth, 0.0, _MOTION),
         ("the wear volume is off its law's by {:.3g} of it", step.volume, VOLUME, _MOTION),
     )
@@ -146,6 +154,13 @@ def handed_back(first: Array, second: Array, third: Array) -> float:
     low -= second
     np.abs(low, out=low)
     return 0.5 * float(np.sum(low)) / float(np.sum(second))
+
+
+def _chattering(before: Array, between: ContactSolution, after: ContactSolution) -> float:
+    """Return what is handed back at a position, with the pressure (nx, ny) two steps ago."""
+    # Where neither of the last two presses, nothing comes back.
+    near = union(between.extent, after.extent)
+    return handed_back(before[near], between.pressure[near], after.pressure[near])
 
 
 def chatters(state: State) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 MARGIN = 8
 
 LawStates = Mapping[str, Mapping[str, Array]]
+CycleRates = Sequence[Mapping[str, WearRate]]
+"""Rates in the contact frame, by position of a cycle and body."""
 
 
 @dataclass(frozen=True)
@@ -41,27 +43,42 @@ def law_states(state: State) -> LawStates:
 
 
 def wear_rates(
-    model: Model, contact: ContactSolution, law_states: LawStates, moment: Moment
-) -> dict[str, WearRate]:
-    """Return the rate of every body that wears, in the contact frame: the mean over a cycle.
+    model: Model, contacts: Sequence[ContactSolution], law_states: LawStates, moment: Moment
+) -> CycleRates:
+    """Return the rate of every body that wears, in the contact frame, at each position.
 
     Parameters
     ----------
     model : Model
         The composed case.
-    contact : ContactSolution
-        The pressure.
+    contacts : sequence of ContactSolution
+        The contact at each position of a cycle.
     law_states : Mapping[str, Mapping[str, ndarray]]
         State fields of each body's law, on the body's surface.
     moment : Moment
         When.
     """
-    speeds = model.motion.speeds
+    return tuple(
+        _rates_at(model, position, contact, law_states, moment)
+        for position, contact in enumerate(contacts)
+    )
+
+
+def _rates_at(
+    model: Model, position: int, contact: ContactSolution, law_states: LawStates, moment: Moment
+) -> dict[str, WearRate]:
+    """Return the rates at a position: the mean over its speeds."""
+    under = {
+        name: {field: model.exposures[name].under(values, position) for field, values in of.items()}
+        for name, of in law_states.items()
+        if of
+    }
+    speeds = model.cycle[position].speeds
     if speeds is None:
-        return _rates_at(model, contact, law_states, moment)
+        return _rates_of(model, contact, under, moment)
     rates: dict[str, WearRate] = {}
     for speed, share in speeds:
-        at_speed = _rates_at(model, contact, law_states, replace(moment, speed=speed))
+        at_speed = _rates_of(model, contact, under, replace(moment, speed=speed))
         for name, rate in at_speed.items():
             part = _times(share, rate)
             rates[name] = _sum(rates[name], part) if name in rates else part
@@ -78,10 +95,10 @@ def _sum(one: WearRate, other: WearRate) -> WearRate:
     return WearRate(one.depth_rate + other.depth_rate, one.depth_slope + other.depth_slope, state)
 
 
-def _rates_at(
+def _rates_of(
     model: Model, contact: ContactSolution, law_states: LawStates, moment: Moment
 ) -> dict[str, WearRate]:
-    """Return what `wear_rates` does, at the speed of `moment`."""
+    """Return the rate of each law for what lies in the window, at the speed of `moment`."""
     pressure = readonly(contact.pressure)
     fields = local_fields(model, pressure, moment)
     near = around_region(contact.extent, model.grid.cells, MARGIN)
@@ -99,7 +116,7 @@ def _rates_at(
                 fields={field: fields[field][name][part] for field in law.requires},
                 state={
                     field: np.broadcast_to(values, pressure.shape)[part]
-                    for field, values in law_states[name].items()
+                    for field, values in law_states.get(name, {}).items()
                 },
             )
         )

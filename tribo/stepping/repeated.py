@@ -40,6 +40,7 @@ def _answers(model: Model, state: State, moment: Moment) -> Iterator[tuple[Any, 
     for effect in model.effects:
         for field in effect.provides:
             yield from ((effect, values) for values in fields[field.name].values())
-    for name, rate in wear_rates(model, state.contact, law_states(state), moment).items():
-        for values in (rate.depth_rate, rate.depth_slope, *rate.state_rates.values()):
-            yield model.laws[name], values
+    for of_bodies in wear_rates(model, state.contacts, law_states(state), moment):
+        for name, rate in of_bodies.items():
+            for values in (rate.depth_rate, rate.depth_slope, *rate.state_rates.values()):
+                yield model.laws[name], values

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -14,7 +14,7 @@ from tribo.core.errors import CaseError, NumericalError, PluginError
 from tribo.core.fields import WearRate
 from tribo.core.measures import Invariants, reaches_border
 from tribo.core.state import BodyState, State
-from tribo.stepping.rates import LawStates, Moment
+from tribo.stepping.rates import CycleRates, LawStates, Moment
 
 if TYPE_CHECKING:
     from tribo.simulation.model import Model
@@ -36,40 +36,49 @@ def first_contact(model: Model) -> State:
     NumericalError
         If the solver fails.
     """
-    solution = solve(model, model.gap)
-    if reaches_border(solution.pressure) and not model.may_reach_edge:
+    solved: dict[int, ContactSolution] = {}
+    for gap in model.gaps:
+        # Where nothing varies along the path, one solve serves all positions.
+        if id(gap) not in solved:
+            solved[id(gap)] = solve(model, gap, None, *list(solved.values())[-1:])
+    contacts = tuple(solved[id(gap)] for gap in model.gaps)
+    if any(reaches_border(each.pressure) for each in contacts) and not model.may_reach_edge:
         raise CaseError(
             "the first contact reaches the edge of the window of "
             f"{1e3 * model.grid.size[0]:.4g} × {1e3 * model.grid.size[1]:.4g} mm; make it larger "
             "(or, for a body that ends there, set grid.ends_at_window = true)",
             "grid.size",
         )
+    middle = len(contacts) // 2
     bodies = {}
     for name in model.bodies:
-        unworn = np.zeros_like(model.exposures[name].average(model.gap))
+        exposure = model.exposures[name]
+        unworn = np.zeros((exposure.rows, model.grid.cells[1]))
         initial = model.laws[name].initial_state if name in model.laws else {}
         bodies[name] = BodyState(
             wear=unworn,
-            plastic=model.plastic_share[name] * solution.overlap,
+            plastic=model.plastic_share[name] * exposure.indented(contacts[middle].overlap, middle),
             law={field: np.full_like(unworn, value) for field, value in initial.items()},
         )
     return State(
         time=0.0,
         distance=0.0,
         bodies=bodies,
-        contact=solution,
+        contacts=contacts,
         increment=0.0,
-        reference_depth=solution.approach,
-        solver_iterations=solution.iterations,
+        reference_depth=contacts[middle].approach,
+        contact_solves=len(solved),
+        solver_iterations=sum(contact.iterations for contact in solved.values()),
     )
 
 
-def geometry(model: Model, bodies: Mapping[str, BodyState]) -> Array:
+def geometry(model: Model, bodies: Mapping[str, BodyState], position: int = 0) -> Array:
     """Return the undeformed gap, worn and plastically deformed, shape (nx, ny), in m."""
-    gap = model.gap.copy()
-    for body in bodies.values():
-        gap += body.wear
-        gap += body.plastic
+    gap = model.gaps[position].copy()
+    for name, body in bodies.items():
+        exposure = model.exposures[name]
+        gap += exposure.under(body.wear, position)
+        gap += exposure.under(body.plastic, position)
     return gap
 
 
@@ -113,30 +122,43 @@ def rested(state: State, time: float) -> State:
     return replace(state, time=time, steps=state.steps + 1, invariants=Invariants())
 
 
-def worn_depths(model: Model, rates: Mapping[str, WearRate], increment: float) -> dict[str, Array]:
+def worn_depths(model: Model, rates: CycleRates, increment: float) -> dict[str, Array]:
     """Return the depth that each body loses over `increment` (m), on its own surface, in m."""
-    return {
-        name: increment * model.exposures[name].average(rate.depth_rate)
-        for name, rate in rates.items()
-    }
+    worn: dict[str, Array] = {}
+    for position, of_bodies in enumerate(rates):
+        slid = increment * model.cycle[position].share
+        for name, rate in of_bodies.items():
+            part = slid * model.exposures[name].average(rate.depth_rate, position)
+            worn[name] = worn[name] + part if name in worn else part
+    return worn
+
+
+def lost(model: Model, worn: Mapping[str, Array], position: int) -> Array:
+    """Return what the depths `worn` add to the gap at a position, shape (nx, ny), in m."""
+    depth = np.zeros(model.grid.cells)
+    for name, of_body in worn.items():
+        depth += model.exposures[name].under(of_body, position)
+    return depth
 
 
 def law_states_after(
-    model: Model, before: LawStates, rates: Mapping[str, WearRate], increment: float
+    model: Model, before: LawStates, rates: CycleRates, increment: float
 ) -> dict[str, dict[str, Array]]:
     """Return the state fields of the laws after `increment` (m)."""
     after = {name: dict(fields) for name, fields in before.items()}
-    for name, rate in rates.items():
-        for field, values in rate.state_rates.items():
-            change = increment * model.exposures[name].average(values)
-            after[name][field] = before[name][field] + change
+    for position, of_bodies in enumerate(rates):
+        slid = increment * model.cycle[position].share
+        for name, rate in of_bodies.items():
+            for field, values in rate.state_rates.items():
+                change = slid * model.exposures[name].average(values, position)
+                after[name][field] = after[name][field] + change
     return after
 
 
 def wear_compliance(
     model: Model, rates: Mapping[str, WearRate], pressure: Array, increment: float
 ) -> WearCompliance:
-    """Return the wear over `increment` (m), linear in pressure, as a compliance."""
+    """Return the wear over `increment` (m) at a position, linear in pressure, as a compliance."""
     local = np.zeros(model.grid.cells)
     swept = np.zeros(model.grid.cells[1])
     for name, rate in rates.items():
@@ -159,7 +181,7 @@ def accepted(
     model: Model,
     before: State,
     bodies: Mapping[str, BodyState],
-    solution: ContactSolution,
+    contacts: Sequence[ContactSolution],
     moment: Moment,
     solves: int,
     iterations: int,
@@ -170,13 +192,13 @@ def accepted(
         time=moment.time,
         distance=moment.distance,
         speed=moment.speed,
-        bodies=_yielded(model, bodies, solution.overlap),
-        contact=solution,
+        bodies=_yielded(model, bodies, contacts),
+        contacts=tuple(contacts),
         steps=before.steps + 1,
         contact_solves=before.contact_solves + solves,
         solver_iterations=before.solver_iterations + iterations,
     )
-    return _settle(model, state) if np.any(solution.overlap > 0) else state
+    return _settle(model, state) if yields(contacts) else state
 
 
 def start_sliding(model: Model, state: State) -> State:
@@ -188,13 +210,25 @@ def start_sliding(model: Model, state: State) -> State:
     return _settle(model, state) if state.distance == 0 else state
 
 
-def _yielded(model: Model, bodies: Mapping[str, BodyState], overlap: Array) -> dict[str, BodyState]:
-    if not np.any(overlap > 0):
+def yields(contacts: Sequence[ContactSolution]) -> bool:
+    """Whether the bodies yield at any position."""
+    return any(np.any(contact.overlap > 0) for contact in contacts)
+
+
+def _yielded(
+    model: Model, bodies: Mapping[str, BodyState], contacts: Sequence[ContactSolution]
+) -> dict[str, BodyState]:
+    """Return the bodies with what yields at each position, once where positions overlap."""
+    if not yields(contacts):
         return dict(bodies)
-    return {
-        name: replace(body, plastic=body.plastic + model.plastic_share[name] * overlap)
-        for name, body in bodies.items()
-    }
+    yielded = {}
+    for name, body in bodies.items():
+        exposure, share = model.exposures[name], model.plastic_share[name]
+        deepest = exposure.indented(contacts[0].overlap, 0)
+        for position, contact in enumerate(contacts[1:], 1):
+            deepest = np.maximum(deepest, exposure.indented(contact.overlap, position))
+        yielded[name] = replace(body, plastic=body.plastic + share * deepest)
+    return yielded
 
 
 def _settle(model: Model, state: State) -> State:
@@ -205,31 +239,36 @@ def _settle(model: Model, state: State) -> State:
         return state
     for _ in range(SETTLE_PASSES):
         drawn = {
-            name: replace(
-                body,
-                plastic=np.broadcast_to(
-                    model.exposures[name].envelope(body.plastic), model.grid.cells
-                ).copy(),
-            )
+            name: replace(body, plastic=_drawn_out(model, name, body.plastic))
             for name, body in state.bodies.items()
         }
-        solution = solve(model, geometry(model, drawn), None, state.contact)
+        contacts = tuple(
+            solve(model, geometry(model, drawn, position), None, contact)
+            for position, contact in enumerate(state.contacts)
+        )
         deepest = max(float(np.max(body.plastic)) for body in drawn.values())
-        settled = float(np.max(solution.overlap)) <= SETTLED * deepest
+        still = max(float(np.max(contact.overlap)) for contact in contacts)
+        settled = still <= SETTLED * deepest
         state = replace(
             state,
-            bodies=drawn if settled else _yielded(model, drawn, solution.overlap),
-            contact=solution,
-            rates={},
-            contact_solves=state.contact_solves + 1,
-            solver_iterations=state.solver_iterations + solution.iterations,
+            bodies=drawn if settled else _yielded(model, drawn, contacts),
+            contacts=contacts,
+            rates=(),
+            contact_solves=state.contact_solves + len(contacts),
+            solver_iterations=state.solver_iterations + sum(c.iterations for c in contacts),
         )
         if settled:
             return state
     raise NumericalError(
         f"at {state.distance:.6g} m the groove still yields after {SETTLE_PASSES} passes of the "
-        f"contact, by {float(np.max(state.contact.overlap)):.2g} m a pass: sliding under "
+        f"contact, by {still:.2g} m a pass: sliding under "
         f"{model.system.load:g} N does not come to rest at a hardness of "
         f"{1e-9 * (model.system.cap or 0):g} GPa; lower load.normal, or set contact.plasticity = "
         "false"
     )
+
+
+def _drawn_out(model: Model, name: str, plastic: Array) -> Array:
+    """Return the plastic depth of a body along its whole path."""
+    envelope = model.exposures[name].envelope(plastic)
+    return np.array(np.broadcast_to(envelope, plastic.shape))

@@ -1,0 +1,23 @@
+"""The positions that stand for one cycle of a motion."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Position:
+    """One position of a cycle, in which the contact is solved.
+
+    Parameters
+    ----------
+    share : float
+        Part of the path of a cycle that is spent here; the shares of a cycle add up to 1.
+    speeds : sequence of (float, float) or None, optional
+        Sliding speeds here, in m/s, each with its share of the path spent here. None: laws and
+        effects are asked at the mean speed over each step.
+    """
+
+    share: float = 1.0
+    speeds: Sequence[tuple[float, float]] | None = None
