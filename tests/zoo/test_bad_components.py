@@ -93,7 +93,8 @@ def test_an_effect_that_does_not_say_what_it_provides_is_not_loaded():
 
 def forgetting_the_bodies(self, snapshot):
     snapshot.state.bodies.clear()
-    snapshot.state.rates.clear()
+    for of_bodies in snapshot.state.rates:
+        of_bodies.clear()
     snapshot.measures.bodies.clear()
 
 

@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+Speeds = Sequence[tuple[float, float]]
+"""Sliding speeds in m/s, each with a share of the path."""
+
 
 @dataclass(frozen=True)
 class Position:
@@ -14,10 +17,10 @@ class Position:
     ----------
     share : float
         Part of the path of a cycle that is spent here; the shares of a cycle add up to 1.
-    speeds : sequence of (float, float) or None, optional
+    speeds : Speeds or None, optional
         Sliding speeds here, in m/s, each with its share of the path spent here. None: laws and
         effects are asked at the mean speed over each step.
     """
 
     share: float = 1.0
-    speeds: Sequence[tuple[float, float]] | None = None
+    speeds: Speeds | None = None

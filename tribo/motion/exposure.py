@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -24,6 +25,10 @@ class Exposure(ABC):
     """Whether the body's initial shape stands still in the contact frame. It does not where a body
     passes as a whole, so that its surface must not vary along x; it does for a body that stays, and
     for one that turns about an axis across the sliding direction."""
+
+    starts: Sequence[int] | None = None
+    """The row of the body's own surface at which the window begins, at each position of the cycle;
+    None where the body has no rows but those of the window, or one for all."""
 
     @property
     def rows(self) -> int | None:
@@ -58,28 +63,13 @@ class Exposure(ABC):
         Parameters
         ----------
         field : ndarray
-            On the body's surface, or in the contact frame where `indented` leaves it there.
+            On the body's surface; where every point of a track sees the same, in the contact frame.
 
         Returns
         -------
         ndarray
             On the body's surface.
         """
-
-    def indented(self, field: Array, position: int = 0) -> Array:
-        """Return `field`, shape (nx, ny), where it lies on the body at a position of the cycle.
-
-        The field itself, unless the body has a surface of its own along x.
-        """
-        return field
-
-    def under(self, field: Array, position: int = 0) -> Array:
-        """Return what lies in the window of a field on the body's surface, at a position.
-
-        The field itself, which then spreads over the window, unless the body has a surface of its
-        own along x.
-        """
-        return field
 
     @abstractmethod
     def volume(self, depth: Array) -> float:

@@ -21,7 +21,7 @@ from tribo.core.fields import ContactConditions, LocalConditions, WearRate
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.effects.effect import Effect
-from tribo.motion.cycle import Position
+from tribo.motion.cycle import Position, Speeds
 from tribo.motion.exposure import Exposure
 from tribo.motion.kinematics import Kinematics
 from tribo.simulation.guard import Guard
@@ -264,9 +264,7 @@ class GuardedMotion(Guard[Kinematics]):
             for share, position in zip(shares, answer, strict=True)
         )
 
-    def _speeds(
-        self, answer: Sequence[tuple[float, float]] | None
-    ) -> list[tuple[float, float]] | None:
+    def _speeds(self, answer: Speeds | None) -> Speeds | None:
         if answer is None:
             return None
         what = "speeds of a cycle with their shares of the distance"
@@ -361,6 +359,7 @@ class GuardedExposure(Guard[Kinematics]):
         self._asked = exposure
         self._whose = body
         self._cells = grid.cells
+        self.starts = exposure.starts
         self.rows = exposure.rows or grid.cells[0]
         self._own = (self.rows, grid.cells[1])
 
@@ -387,18 +386,6 @@ class GuardedExposure(Guard[Kinematics]):
         return self.field(
             "an envelope", self.ask(self._asked.envelope, readonly(field)), self._own
         )[0]
-
-    def indented(self, field: Array, position: int = 0) -> Array:
-        """Return a field of the window where it lies on the body at a position."""
-        asked = readonly(field)
-        answer = self.ask(self._asked.indented, asked, position)
-        return asked if answer is asked else self.field("an indentation", answer, self._own)[0]
-
-    def under(self, field: Array, position: int = 0) -> Array:
-        """Return what lies in the window of a field on the body, at a position."""
-        asked = readonly(field)
-        answer = self.ask(self._asked.under, asked, position)
-        return asked if answer is asked else self.field("a view", answer, self._cells)[0]
 
     def volume(self, depth: Array) -> float:
         """Return the volume of a depth on the body's own surface, in m³."""

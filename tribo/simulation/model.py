@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+import numpy as np
+
 from tribo.case import Body, Case
 from tribo.contact.solver import ContactSolver
 from tribo.core.arrays import Array
@@ -146,3 +148,27 @@ class Model:
     def is_swept(self, name: str) -> bool:
         """Whether the body's points pass through the contact."""
         return name in self.swept
+
+    def under(self, name: str, field: Array, position: int) -> Array:
+        """Return what lies in the window of a field on a body's own surface, at a position.
+
+        Shape (nx, ny), or (1, ny) of a field that is the same all along a track.
+        """
+        starts = self.exposures[name].starts
+        if starts is None:
+            return field
+        first = starts[position]
+        return field[first : first + self.grid.cells[0]]
+
+    def spread(self, name: str, field: Array, position: int) -> Array:
+        """Return a field of the window where it lies on a body's own surface, at a position.
+
+        Fields of a track that is the same all along stay in the window.
+        """
+        exposure = self.exposures[name]
+        if exposure.starts is None:
+            return field
+        own = np.zeros((exposure.rows, self.grid.cells[1]))
+        first = exposure.starts[position]
+        own[first : first + self.grid.cells[0]] = field
+        return own

@@ -271,9 +271,9 @@ class Implicit(Scheme):
             worn = after.bodies[name].wear - before.bodies[name].wear
             lag = np.abs(worn - forward)
             scale = float(np.max(after.bodies[name].wear)) + FIRST * after.reference_depth
-            under = model.exposures[name].under
             late = sum(
-                share * float(np.sum(p * under(lag, position))) for position, p, share in pressures
+                share * float(np.sum(p * model.under(name, lag, position)))
+                for position, p, share in pressures
             )
             depth_error = max(depth_error, 0.5 * late / (load * scale))
             own = 0.5 * (worn + forward)

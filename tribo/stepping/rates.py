@@ -69,7 +69,7 @@ def _rates_at(
 ) -> dict[str, WearRate]:
     """Return the rates at a position: the mean over its speeds."""
     under = {
-        name: {field: model.exposures[name].under(values, position) for field, values in of.items()}
+        name: {field: model.under(name, values, position) for field, values in of.items()}
         for name, of in law_states.items()
         if of
     }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import reduce
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -50,14 +51,14 @@ def first_contact(model: Model) -> State:
             "grid.size",
         )
     middle = len(contacts) // 2
+    overlap = contacts[middle].overlap
     bodies = {}
     for name in model.bodies:
-        exposure = model.exposures[name]
-        unworn = np.zeros((exposure.rows, model.grid.cells[1]))
+        unworn = np.zeros((model.exposures[name].rows, model.grid.cells[1]))
         initial = model.laws[name].initial_state if name in model.laws else {}
         bodies[name] = BodyState(
             wear=unworn,
-            plastic=model.plastic_share[name] * exposure.indented(contacts[middle].overlap, middle),
+            plastic=model.plastic_share[name] * model.spread(name, overlap, middle),
             law={field: np.full_like(unworn, value) for field, value in initial.items()},
         )
     return State(
@@ -76,9 +77,8 @@ def geometry(model: Model, bodies: Mapping[str, BodyState], position: int = 0) -
     """Return the undeformed gap, worn and plastically deformed, shape (nx, ny), in m."""
     gap = model.gaps[position].copy()
     for name, body in bodies.items():
-        exposure = model.exposures[name]
-        gap += exposure.under(body.wear, position)
-        gap += exposure.under(body.plastic, position)
+        gap += model.under(name, body.wear, position)
+        gap += model.under(name, body.plastic, position)
     return gap
 
 
@@ -137,7 +137,7 @@ def lost(model: Model, worn: Mapping[str, Array], position: int) -> Array:
     """Return what the depths `worn` add to the gap at a position, shape (nx, ny), in m."""
     depth = np.zeros(model.grid.cells)
     for name, of_body in worn.items():
-        depth += model.exposures[name].under(of_body, position)
+        depth += model.under(name, of_body, position)
     return depth
 
 
@@ -223,11 +223,12 @@ def _yielded(
         return dict(bodies)
     yielded = {}
     for name, body in bodies.items():
-        exposure, share = model.exposures[name], model.plastic_share[name]
-        deepest = exposure.indented(contacts[0].overlap, 0)
-        for position, contact in enumerate(contacts[1:], 1):
-            deepest = np.maximum(deepest, exposure.indented(contact.overlap, position))
-        yielded[name] = replace(body, plastic=body.plastic + share * deepest)
+        overlaps = [
+            model.spread(name, contact.overlap, position)
+            for position, contact in enumerate(contacts)
+        ]
+        deepest = reduce(np.maximum, overlaps)
+        yielded[name] = replace(body, plastic=body.plastic + model.plastic_share[name] * deepest)
     return yielded
 
 
