@@ -132,7 +132,7 @@ def test_a_step_that_may_chatter_is_told_of_before_it_does(factor, told):
             lambda e: setattr(e, "average", lambda rate, at: rate - 0.01 * rate.max()),
             "grows back by",
         ),
-        (lambda e: setattr(e, "average", lambda r, at: 1.01 * r), "wear volume is off"),
+        (lambda e: setattr(e, "average", lambda r: 1.01 * r), "wear volume is off"),
     ],
     ids=["volume", "nan", "regrowth", "average"],
 )

@@ -65,16 +65,16 @@ def exposed(name, words, zoo=ZOO, saved=False, **parts):
     )
 
 
-def doubled(self, rate, at):
+def doubled(self, rate):
     rate *= 2
     return rate
 
 
 for name, words, average in (
-    ("average_none", "for body 'ball', gave an average that", lambda self, rate, at: None),
-    ("average_of_a_track", "float64 of shape (1, 32)", lambda self, rate, at: rate[:1]),
-    ("average_nan", "that is not finite", lambda self, rate, at: np.where(rate > 0, np.nan, rate)),
-    ("average_negative", "gave a negative average", lambda self, rate, at: -np.abs(rate)),
+    ("average_none", "for body 'ball', gave an average that", lambda self, rate: None),
+    ("average_of_a_track", "float64 of shape (1, 32)", lambda self, rate: rate[:1]),
+    ("average_nan", "that is not finite", lambda self, rate: np.where(rate > 0, np.nan, rate)),
+    ("average_negative", "gave a negative average", lambda self, rate: -np.abs(rate)),
     ("average_writes", "read-only", doubled),
     ("average_raises", "raised IndexError: out", staticmethod(raising(IndexError("out")))),
 ):

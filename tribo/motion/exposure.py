@@ -39,21 +39,19 @@ class Exposure(ABC):
         return 1 if self.swept else None
 
     @abstractmethod
-    def average(self, rate: Array, position: int = 0) -> Array:
-        """Return the rate each point of the body sees per metre of sliding at a position.
+    def average(self, rate: Array) -> Array:
+        """Return the rate each point of the body sees per metre of sliding.
 
         Parameters
         ----------
         rate : ndarray, shape (nx, ny)
             Rate per metre of sliding in the contact frame.
-        position : int, optional
-            Position of the cycle; a motion that resolves none has only the first.
 
         Returns
         -------
         ndarray
-            On the body's surface. Weighted with the shares of the positions, these add up to the
-            mean over a cycle.
+            Its mean over a whole motion, on the body's surface. Where `starts` are given: `rate`
+            itself, which is laid on the body's surface at each position of the cycle.
         """
 
     @abstractmethod
@@ -103,7 +101,7 @@ class Stationary(Exposure):
     def __init__(self, grid: Grid) -> None:
         self._cell_area = grid.cell_area
 
-    def average(self, rate: Array, position: int = 0) -> Array:
+    def average(self, rate: Array) -> Array:
         """Return `rate` itself: every point sees its own."""
         return rate
 
@@ -155,7 +153,7 @@ class Track(Exposure):
         """Track length ℓ, in m."""
         return self._length
 
-    def average(self, rate: Array, position: int = 0) -> Array:
+    def average(self, rate: Array) -> Array:
         """Return the track average, shape (1, ny)."""
         line = np.sum(rate, axis=0, keepdims=True)
         return np.asarray(line * (self._dx / self._length))

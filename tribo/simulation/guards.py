@@ -367,10 +367,10 @@ class GuardedExposure(Guard[Kinematics]):
         """Return what messages call it."""
         return f"{super().__str__()}, for body {self._whose!r},"
 
-    def average(self, rate: Array, position: int = 0) -> Array:
-        """Return the rate each point of the body sees at a position, on its own surface."""
+    def average(self, rate: Array) -> Array:
+        """Return the rate each point of the body sees."""
         asked = readonly(rate)
-        answer = self.ask(self._asked.average, asked, position)
+        answer = self.ask(self._asked.average, asked)
         if answer is asked and not self.swept:
             # What was held to the contract as a law's answer.
             return asked

@@ -149,6 +149,10 @@ class Model:
         """Whether the body's points pass through the contact."""
         return name in self.swept
 
+    def average(self, name: str, rate: Array, position: int) -> Array:
+        """Return what the rate (nx, ny) at a position adds, by its share, to a body's mean rate."""
+        return self.spread(name, self.exposures[name].average(rate), position)
+
     def under(self, name: str, field: Array, position: int) -> Array:
         """Return what lies in the window of a field on a body's own surface, at a position.
 

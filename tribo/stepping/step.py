@@ -128,7 +128,7 @@ def worn_depths(model: Model, rates: CycleRates, increment: float) -> dict[str, 
     for position, of_bodies in enumerate(rates):
         slid = increment * model.cycle[position].share
         for name, rate in of_bodies.items():
-            part = slid * model.exposures[name].average(rate.depth_rate, position)
+            part = slid * model.average(name, rate.depth_rate, position)
             worn[name] = worn[name] + part if name in worn else part
     return worn
 
@@ -150,7 +150,7 @@ def law_states_after(
         slid = increment * model.cycle[position].share
         for name, rate in of_bodies.items():
             for field, values in rate.state_rates.items():
-                change = slid * model.exposures[name].average(values, position)
+                change = slid * model.average(name, values, position)
                 after[name][field] = after[name][field] + change
     return after
 
