@@ -129,7 +129,7 @@ def test_a_step_that_may_chatter_is_told_of_before_it_does(factor, told):
         (lambda e: setattr(e, "volume", lambda depth: 0.99 * type(e).volume(e, depth)), "0.01"),
         (lambda e: setattr(e, "volume", lambda depth: np.nan), "wear depth is not finite"),
         (
-            lambda e: setattr(e, "average", lambda rate, at: rate - 0.01 * rate.max()),
+            lambda e: setattr(e, "average", lambda rate: rate - 0.01 * rate.max()),
             "grows back by",
         ),
         (lambda e: setattr(e, "average", lambda r: 1.01 * r), "wear volume is off"),
