@@ -3,6 +3,7 @@
 import os
 import shutil
 import sys
+from contextlib import chdir
 from importlib import import_module
 from pathlib import Path
 from pkgutil import walk_packages
@@ -24,29 +25,21 @@ QUICK = ["--set", "grid.cells=24", "--set", "grid.size=0.7 mm", "--set", "kinema
 QUICK += ["--set", "output.save_times=[0]"]
 
 
-def invoke(*arguments):
-    return CliRunner().invoke(tribo, arguments)
-
-
 @pytest.fixture(scope="module")
 def given():
     """A case and two results in a folder that, unlike those of pytest, all may read and enter."""
     folder = Path(mkdtemp())
-    case = folder / "my.toml"
-    case.write_text(template("ball_on_disk"), encoding="utf-8")
-    for name in ("a.h5", "b.h5"):
-        assert invoke("run", str(case), "-o", str(folder / name), *QUICK).exit_code == 0
-    compared = invoke("compare", *(str(folder / name) for name in ("a.h5", "b.h5")))
-    drawn = invoke("plot", str(folder / "a.h5"))
-    assert compared.exit_code == drawn.exit_code == 0
-    (folder / "denied").mkdir()
-    (folder / "denied").chmod(0o555)
+    (folder / "my.toml").write_text(template("ball_on_disk"), encoding="utf-8")
+    # With all that is imported on the way: nobody may not read where Python is.
+    for command in ("run my.toml -o a.h5", "compare a.h5 b.h5", "plot a.h5"):
+        with chdir(folder):
+            done = CliRunner().invoke(tribo, command.split() + QUICK * command.startswith("run"))
+            assert done.exit_code == 0, done.output
+        shutil.copy(folder / "a.h5", folder / "b.h5")
     sweeps.study(folder)
-    (folder / "swept").mkdir()
-    (folder / "swept").chmod(0o777)
-    for closed in ("denied_entry", "swept/results"):
-        (folder / closed).mkdir()
-        (folder / closed).chmod(0)
+    for name, mode in {"denied": 0o555, "entry": 0, "swept": 0o777, "swept/results": 0}.items():
+        (folder / name).mkdir()
+        (folder / name).chmod(mode)
     folder.chmod(0o755)
     yield folder
     shutil.rmtree(folder)
@@ -75,26 +68,25 @@ def nobody():
 @pytest.mark.parametrize(
     "command",
     [
-        ["new", "ball_on_disk", "denied/my.toml"],
-        ["demo", "-d", "denied/demo"],
-        ["plugins", "new", "acme-fretting", "--kind", "wear-law", "-d", "denied"],
-        ["run", "my.toml", "-o", "denied/my.h5", *QUICK],
-        ["plot", "a.h5", "-d", "denied/plots"],
-        ["export", "a.h5", "-d", "denied/csv"],
-        ["compare", "a.h5", "b.h5", "-o", "denied/compare"],
-        ["compare", "my.toml", "--vary", "load.normal=1,2", "-o", "denied/compare", *QUICK],
+        "new ball_on_disk denied/my.toml",
+        "demo -d denied/demo",
+        "plugins new acme-fretting --kind wear-law -d denied",
+        "run my.toml -o denied/my.h5",
+        "plot a.h5 -d denied/plots",
+        "export a.h5 -d denied/csv",
+        "compare a.h5 b.h5 -o denied/compare",
+        "compare my.toml --vary load.normal=1,2 -o denied/compare",
+        "compare my.toml --vary load.normal=1,2 -o entry",
     ],
-    ids=lambda command: command[0],
 )
-@pytest.mark.slow
 def test_it_is_one_message_and_exit_code_3(given, nobody, monkeypatch, command):
     monkeypatch.chdir(given)
-    done = invoke(*command)
-    assert isinstance(done.exception, OutputError)
+    done = CliRunner().invoke(tribo, command.split() + QUICK * ("my.toml --vary" in command))
+    assert isinstance(done.exception, OutputError), done.output
     assert done.exception.exit_code == 3
     message = str(done.exception)
-    assert message.startswith("cannot ")
-    assert "denied" in message
+    assert "cannot " in message
+    assert command.split()[-1].split("/")[0] in message
     assert "Permission denied" in message
     for word in ("space", ".new", "Errno"):
         assert word not in message
@@ -106,17 +98,8 @@ def test_a_sweep_whose_results_cannot_be_entered_is_one_message(given, nobody, m
         sweep("study.toml", "swept", executor=sweeps.Inline())
 
 
-def test_a_comparison_in_a_folder_that_cannot_be_entered_is_one_message(given, nobody, monkeypatch):
-    monkeypatch.chdir(given)
-    vary = ("--vary", "load.normal=1,2")
-    done = invoke("compare", "my.toml", *vary, "-o", "denied_entry", *QUICK)
-    assert isinstance(done.exception, OutputError)
-    message = str(done.exception)
-    assert message.startswith("load.normal=1: cannot write denied_entry/load.normal=1.h5: Perm")
-
-
 def test_a_case_in_a_folder_that_cannot_be_entered_is_one_message(given, nobody, monkeypatch):
     monkeypatch.chdir(given)
-    done = invoke("run", "denied_entry/my.toml")
+    done = CliRunner().invoke(tribo, ["run", "entry/my.toml"])
     assert isinstance(done.exception, CaseError)
-    assert str(done.exception) == "denied_entry/my.toml cannot be read: Permission denied"
+    assert str(done.exception) == "entry/my.toml cannot be read: Permission denied"

@@ -1,5 +1,6 @@
 """Text from a file does not reach the terminal with its control characters."""
 
+import io
 import json
 
 import pytest
@@ -14,6 +15,9 @@ from tribo.result.provenance import provenance
 from tribo.templates import template
 
 EVIL = "\x1b]0;pwned\x07\x1b[2J\x9b31m\r\x08[/x]"
+NAMES = EVIL.replace("/", "\\"), "[disk]"
+PLUGIN = dict.fromkeys(("distribution", "version", "status", "reason"), EVIL)
+MADE_WITH = {"python": EVIL, "packages": {EVIL: EVIL}, "plugins": [PLUGIN]}
 
 
 def command(*arguments):
@@ -23,35 +27,25 @@ def command(*arguments):
     return done.returncode, text
 
 
-@pytest.fixture
-def result(tmp_path):
-    return written(tmp_path / "x.h5")
-
-
-def test_notices_are_shown_without_them(result):
+@pytest.mark.parametrize(
+    ("changes", "names", "shown"),
+    [
+        ({"notices": [EVIL]}, (), r"Note: \x1b]0;pwned"),
+        ({"provenance": provenance({}) | MADE_WITH}, (), r"Made with Python \x1b]0;pwned"),
+        ({"case": {"bodies": dict.fromkeys(NAMES, {})}}, NAMES, "[disk]"),
+    ],
+    ids=["notices", "provenance", "bodies"],
+)
+def test_a_result_is_shown_without_them(tmp_path, changes, names, shown):
+    result = written(tmp_path / "x.h5")
     with edited(result) as file:
-        file.attrs["notices"] = json.dumps([EVIL])
+        for key, value in changes.items():
+            file.attrs[key] = json.dumps(value)
+        if names:
+            file["body"][:] = names
     code, text = command("show", result)
     assert code == 0
-    assert r"Note: \x1b]0;pwned" in text
-
-
-def test_provenance_is_shown_without_them(result):
-    made_with = provenance({}) | {"python": EVIL, "packages": {EVIL: EVIL}}
-    plugin = dict.fromkeys(("distribution", "version", "status", "reason"), EVIL)
-    with edited(result) as file:
-        file.attrs["provenance"] = json.dumps(made_with | {"plugins": [plugin]})
-    assert command("show", result)[0] == 0
-
-
-def test_names_of_bodies_are_shown_without_them(result):
-    evil = EVIL.replace("/", "\\")
-    with edited(result) as file:
-        file.attrs["case"] = json.dumps({"bodies": {evil: {}, "[disk]": {}}})
-        file["body"][:] = [evil, "[disk]"]
-    code, text = command("show", result)
-    assert code == 0
-    assert "[disk]" in text
+    assert shown in text
 
 
 def test_a_message_on_a_case_is_printed_without_them(tmp_path):
@@ -66,8 +60,10 @@ def test_what_turns_the_direction_of_writing_is_shown_as_an_escape():
     assert harmless("a\u202eb\tµ³\n") == "a\\u202eb\tµ³\n"
 
 
-def test_styles_of_its_own_stay(tmp_path):
+def test_styles_of_its_own_stay():
+    printed = []
     for kind in (RichConsole, Console):
-        with (tmp_path / kind.__module__).open("w+", encoding="utf-8") as file:
-            kind(file=file, force_terminal=True, color_system="standard").print("[red]Note:[/] µ")
-    assert len({path.read_text() for path in tmp_path.iterdir()}) == 1
+        console = kind(file=io.StringIO(), force_terminal=True, color_system="standard")
+        console.print("[red]Note:[/] µ")
+        printed.append(console.file.getvalue())
+    assert printed[0] == printed[1]

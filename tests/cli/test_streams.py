@@ -1,4 +1,4 @@
-"""Standard streams that cannot be written to."""
+"""Standard streams that cannot be written to, or lack signs, and Ctrl-C."""
 
 import io
 import os
@@ -7,13 +7,14 @@ import sys
 from pathlib import Path
 
 import pytest
+from made_results import written
 
 from tribo import Result
-from tribo.cli.streams import Output, over
+from tribo.cli.streams import PLAIN, Output, over
 from tribo.templates import template
 
-QUICK = ["--set", "grid.cells=32", "--set", "kinematics.duration=60"]
-QUICK += ["--set", "output.save_times=[0, 20, 40]", "--set", "grid.size=0.7 mm"]
+QUICK = ["--set", "grid.cells=24", "--set", "kinematics.duration=20"]
+QUICK += ["--set", "output.save_times=[10]", "--set", "grid.size=0.7 mm"]
 # A run as short as this one is silent otherwise.
 TALKATIVE = """
 import tribo.cli.main, tribo.observers.progress
@@ -28,8 +29,7 @@ needs_full = pytest.mark.skipif(not FULL.exists(), reason="there is no /dev/full
 def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("streams")
     (folder / "my.toml").write_text(template("ball_on_disk"), encoding="utf-8")
-    done = tribo(folder, "run", "my.toml", *QUICK, stderr=subprocess.PIPE)
-    assert b"of 60 s, step" in done.stderr
+    written(folder / "my.h5")
     return folder
 
 
@@ -48,21 +48,22 @@ def unread():
         yield pipe
 
 
-def tribo(folder, *arguments, **streams):
-    command = [sys.executable, "-c", TALKATIVE, *arguments]
-    return subprocess.run(command, cwd=folder, check=False, timeout=300, **streams)
+def tribo(folder, *arguments, code=TALKATIVE, **options):
+    command = [sys.executable, "-c", code, *arguments]
+    return subprocess.run(command, cwd=folder, check=False, timeout=300, **options)
 
 
 @needs_full
-@pytest.mark.parametrize("arguments", [["show", "my.h5"], ["show", "my.h5", "--json"], ["--help"]])
 @pytest.mark.slow
+@pytest.mark.parametrize("arguments", [["show", "my.h5"], ["--help"]])
 def test_a_full_standard_output_is_one_line_and_exit_code_3(folder, full, arguments):
     done = tribo(folder, *arguments, stdout=full, stderr=subprocess.PIPE)
     assert done.returncode == 3
     assert done.stderr == b"error: cannot write to standard output: No space left on device\n"
 
 
-@pytest.mark.parametrize("arguments", [["show", "my.h5"], ["show", "my.h5", "--json"], ["--help"]])
+@pytest.mark.slow
+@pytest.mark.parametrize("arguments", [["show", "my.h5", "--json"], ["--help"]])
 def test_a_pipe_that_nobody_reads_ends_quietly(folder, unread, arguments):
     done = tribo(folder, *arguments, stdout=unread, stderr=subprocess.PIPE)
     assert (done.returncode, done.stderr) == (141, b"")
@@ -100,3 +101,44 @@ def test_what_is_not_buffered_stays_so():
     ):
         out.write("now")
         assert reader.read(3) == b"now"
+
+
+@pytest.mark.slow
+def test_a_result_is_shown_on_a_stream_that_carries_ascii_only(folder):
+    ascii_only = {**os.environ, "LC_ALL": "C", "PYTHONIOENCODING": "ascii"}
+    done = tribo(folder, "show", "my.h5", env=ascii_only, capture_output=True)
+    assert done.returncode == 0, done.stderr
+    assert b"mm^3/(N*m)" in done.stdout
+    assert b"?" not in done.stdout
+    assert "µm³, 0…".encode("latin-1", errors=PLAIN) == "µm³, 0...".encode("latin-1")
+
+
+INTERRUPTED = """
+import signal, time, weakref
+from unittest import mock
+import tribo.cli.main as cli
+
+# A shell starts what runs in the background with the signal ignored.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+
+class Thing:
+    pass
+
+def work(**options):
+    thing = Thing()
+    kept = weakref.ref(thing, lambda _: signal.raise_signal(signal.SIGINT))
+    del thing
+    for _ in range(500):
+        time.sleep(0.01)
+
+with mock.patch.object(cli.tribo, "main", work):
+    try:
+        cli.main()
+    except KeyboardInterrupt:
+        print("stopped")
+"""
+
+
+def test_an_interrupt_that_comes_while_python_tidies_up_is_not_lost(folder):
+    done = tribo(folder, code=INTERRUPTED, capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "stopped\n", "")
