@@ -32,7 +32,7 @@ def command(*arguments):
     [
         ({"notices": [EVIL]}, (), r"Note: \x1b]0;pwned"),
         ({"provenance": provenance({}) | MADE_WITH}, (), r"Made with Python \x1b]0;pwned"),
-        ({"case": {"bodies": dict.fromkeys(NAMES, {})}}, NAMES, "[disk]"),
+        ({"case": {"bodies": {name: {} for name in NAMES}}}, NAMES, "[disk]"),
     ],
     ids=["notices", "provenance", "bodies"],
 )

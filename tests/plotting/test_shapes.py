@@ -80,25 +80,6 @@ def test_an_even_pressure_is_stated():
     assert not axes.texts
 
 
-def contours(axes):
-    """Pieces of the thin lines of a map, the thick edge of the contact left out."""
-    sets = [c for c in axes.collections if hasattr(c, "allsegs") and c.get_linewidths()[0] < 0.6]
-    return [piece for lines in sets for pieces in lines.allsegs for piece in pieces if len(piece)]
-
-
-def test_lines_of_equal_pressure_are_closed_or_end_at_a_label_or_the_window(case):
-    (axes,) = pressure_map(case).axes
-    axes.figure.draw_without_rendering()
-    labels = [text.get_window_extent().padded(10) for text in axes.texts]
-    window = np.array([[x[0], x[-1]] for x in (case.grid.x, case.grid.y)]).T
-    for piece in contours(axes):
-        if np.allclose(piece[0], piece[-1], atol=1e-9):
-            continue
-        for end in piece[[0, -1]]:
-            at_edge = np.any(np.isclose(1e-3 * end, window, atol=1e-9))
-            assert at_edge or any(box.contains(*axes.transData.transform(end)) for box in labels)
-
-
 def test_labels_on_a_map_stand_apart(case):
     (axes,) = pressure_map(case, 1).axes
     axes.figure.draw_without_rendering()

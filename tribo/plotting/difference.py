@@ -15,24 +15,11 @@ from tribo.plotting.style import DIFFERENCES, house_style
 from tribo.plotting.units import fitting, height_unit, size
 from tribo.result.read import Result
 
-_LEVELS = (-0.5, -0.25, 0.25, 0.5)
-"""Lines on a map of differences, in parts of the largest one."""
-
 
 def difference_map(results: Mapping[str, Result], label: str, time: float) -> Figure:
     """Draw how far a result is from the first: pressure, and wear of bodies that stay.
 
-    Lines are at a quarter and at half of the largest difference, where they
-    are whole, and dashed where the result lies below the first.
-
-    Parameters
-    ----------
-    results : Mapping
-        The results by label.
-    label : str
-        The one to draw.
-    time : float
-        Of a save of both, in s.
+    `results` are by label; `label` is the one to draw, `time` that of a save of both, in s.
 
     Raises
     ------
@@ -69,7 +56,6 @@ def difference_map(results: Mapping[str, Result], label: str, time: float) -> Fi
             scale = f"{what} ({units[what]})"
             colours = {"cmap": DIFFERENCES, "interpolation": "nearest"}
             shown.image(values, scale, vmin=-largest, vmax=largest, **colours)
-            shown.lines(values, {largest * level: "black" for level in _LEVELS})
         maps[0].axes.set_title(f"{label} less {first_label}, t = {time:g} s", loc="left")
     return figure
 

@@ -1,4 +1,7 @@
-"""Pictures of what changes with time: wear, pressure and the size of the contact."""
+"""Pictures of what changes with time: wear, pressure and the size of the contact.
+
+Each raises CaseError if the result holds no save.
+"""
 
 from __future__ import annotations
 
@@ -29,16 +32,6 @@ def wear_history(result: Result) -> Figure:
     Markers are the saves; a line joins them where there are steps between, or
     more than two. Mass is on the right where all densities are equal,
     else in a panel of its own; it is left out without densities.
-
-    Parameters
-    ----------
-    result : Result
-        What to draw.
-
-    Raises
-    ------
-    CaseError
-        If there is no save.
     """
     number_of_saves(result)
     history, unit = result.table("history"), time_unit(result.times)
@@ -90,49 +83,37 @@ def contact_history(result: Result) -> Figure:
 
     A half-width is known to a cell, so that it grows in steps; the line goes
     from step to step.
-
-    Parameters
-    ----------
-    result : Result
-        What to draw.
-
-    Raises
-    ------
-    CaseError
-        If there is no save.
     """
     number_of_saves(result)
     history, unit = result.table("history"), time_unit(result.times)
-    time = history["time_s"]
-    pressures = [history["max_pressure_Pa"], history["centre_pressure_Pa"]]
-    widths = [history["contact_half_width_x_m"], history["contact_half_width_y_m"]]
-    spacing = result.grid.spacing
-    stress = fitting("Pa", float(np.max(pressures)))
-    length = fitting("m", float(np.max(widths)))
+    time, spacing = history["time_s"], result.grid.spacing
+    every = np.ones(time.shape, dtype=bool)
+    pressures = [(history[f"{name}_pressure_Pa"], every) for name in ("max", "centre")]
+    widths = [history[f"contact_half_width_{axis}_m"] for axis in "xy"]
+    steps = [(width, _steps(width, cell)) for width, cell in zip(widths, spacing, strict=True)]
+    drawn = (
+        ("Pressure", "Pa", pressures, ("largest", "centre"), (LARGEST, OVER)),
+        ("Contact half-width", "m", steps, ("along sliding", "across sliding"), (UNDER, OVER)),
+    )
     marker = "o" if len(time) == 1 else "none"
     with house_style():
         figure = new_figure(88.0)
-        upper, lower = figure.subplots(2, 1, sharex=True)
-        for values, look, label in zip(
-            pressures, (LARGEST, OVER), ("largest", "centre"), strict=True
-        ):
-            upper.plot(time / size(unit), values / size(stress), marker=marker, label=label, **look)
-        upper.set_ylabel(f"Pressure ({stress})")
-        for width, cell, look, label in zip(
-            widths, spacing, (UNDER, OVER), ("along sliding", "across sliding"), strict=True
-        ):
-            kept = _steps(width, cell)
-            t, values = time[kept] / size(unit), width[kept] / size(length)
-            lower.plot(t, values, marker=marker, label=label, **look)
+        panels = figure.subplots(2, 1, sharex=True)
+        for axes, (what, si, curves, labels, looks) in zip(panels, drawn, strict=True):
+            values = np.concatenate([curve for curve, _ in curves])
+            shown = fitting(si, float(np.max(values)))
+            for (curve, kept), label, look in zip(curves, labels, looks, strict=True):
+                x, y = time[kept] / size(unit), curve[kept] / size(shown)
+                axes.plot(x, y, marker=marker, label=label, **look)
+            axes.set_ylabel(f"{what} ({shown})")
+            axes.legend(loc="best")
+            _fit_scale(axes, values)
         cell_unit = height_unit(max(spacing))
         cells = dict.fromkeys(f"{cell / size(cell_unit):.3g}" for cell in spacing)
-        lower.set_title(f"± 1 cell, {' × '.join(cells)} {cell_unit}", loc="right", fontsize=7.0)
-        lower.set_ylabel(f"Contact half-width ({length})")
-        for axes, curves in ((upper, pressures), (lower, widths)):
-            axes.legend(loc="best")
-            _fit_scale(axes, np.concatenate(curves))
-        lower.set_xlim(left=0.0)
-        lower.set_xlabel(f"Time ({unit})")
+        cells_words = f"± 1 cell, {' × '.join(cells)} {cell_unit}"
+        panels[1].set_title(cells_words, loc="right", fontsize=7.0)
+        panels[1].set_xlim(left=0.0)
+        panels[1].set_xlabel(f"Time ({unit})")
     return figure
 
 

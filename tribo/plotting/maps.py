@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 from matplotlib.ticker import MaxNLocator
@@ -31,9 +29,6 @@ _THINNEST = 2.5
 """Length over width up to which a map is true to scale."""
 _STRETCHED = 1.4
 """Length over width on paper where it is not."""
-_PIECES, _ROOM, _APART = 2, 8.0, 2.5
-"""Most pieces of a line of equal value, least width where it is closed, and least distance
-between two, in mm."""
 
 
 @dataclass(frozen=True)
@@ -62,30 +57,6 @@ class Map:
         scale = axes.inset_axes((1.0 + 2.0 / width, 0.0, 3.0 / width, 1.0))
         axes.figure.colorbar(image, cax=scale, label=label, ticks=ticks(max(3, int(height / 8))))
         return image
-
-    def lines(self, field: Array, levels: Mapping[float, str]) -> list[QuadContourSet]:
-        """Draw lines of equal value, but for those in fragments or without room, and return them.
-
-        The field may be masked; `levels` says in which colour each is drawn. Matplotlib
-        dashes those below zero.
-        """
-        x, y = self.positions()
-        corners = np.array([(x[0], y[0]), (x[-1], y[-1])])
-        shown = self.axes.get_xlim(), self.axes.get_ylim()
-        per_unit = np.asarray(self.size) / np.ptp(shown, axis=1)
-        lines: list[QuadContourSet] = []
-        drawn: list[Array] = []
-        for level, colour in levels.items():
-            line = self.axes.contour(x, y, field.T, [level], colors=colour, linewidths=0.5)
-            pieces = [piece for piece in line.allsegs[0] if len(piece)]
-            whole = all(_is_whole(piece, corners, per_unit) for piece in pieces)
-            points = per_unit * np.concatenate([*pieces, np.empty((0, 2))])
-            if 0 < len(pieces) <= _PIECES and whole and all(_apart(points, o) for o in drawn):
-                lines.append(line)
-                drawn.append(points)
-            else:
-                line.remove()
-        return lines
 
 
 def new_maps(
@@ -127,15 +98,3 @@ def new_maps(
         axes.set_ylabel(labels[1] if height >= _LABEL else labels[1].replace(", ", ",\n"))
         maps.append(Map(axes, grid, units, (width, height)))
     return figure, maps
-
-
-def _is_whole(piece: Array, corners: Array, per_unit: Array) -> bool:
-    """Whether a line is closed, with room in it, or ends at the window's edges."""
-    if np.allclose(per_unit * (piece[0] - piece[-1]), 0.0, atol=1e-6):
-        return bool(np.min(per_unit * np.ptp(piece, axis=0)) > _ROOM)
-    return all(bool(np.any(end == corners)) for end in piece[[0, -1]])
-
-
-def _apart(one: Array, other: Array) -> bool:
-    """Whether two lines have room between them."""
-    return bool(np.min(np.hypot(*(one[:, None] - other[None]).T)) > _APART)

@@ -1,4 +1,7 @@
-"""Pictures of several results at one time: their sections laid over each other."""
+"""Pictures of several results, by label, at one time: their sections laid over each other.
+
+Each raises CaseError if a result holds no save at that time, in s, or no such body.
+"""
 
 from __future__ import annotations
 
@@ -23,18 +26,6 @@ def pressure_overlay(results: Results, time: float) -> Figure:
     """Draw the pressure of several results along and across the sliding direction.
 
     The sections go through the windows' centres.
-
-    Parameters
-    ----------
-    results : Mapping
-        What to draw, by label.
-    time : float
-        Of a save of all, in s.
-
-    Raises
-    ------
-    CaseError
-        If one has no save then.
     """
     pressures = [result.field("pressure", result.save_at(time)) for result in results.values()]
     grids = [result.grid for result in results.values()]
@@ -58,20 +49,6 @@ def profile_overlay(results: Results, name: str, time: float) -> Figure:
     """Draw a body's worn surface in several results, along and across the sliding direction.
 
     A swept body has one section only, across.
-
-    Parameters
-    ----------
-    results : Mapping
-        What to draw, by label.
-    name : str
-        The body.
-    time : float
-        Of a save of all, in s.
-
-    Raises
-    ------
-    CaseError
-        If one has no such body, or no save then.
     """
     saves = [(result, result.save_at(time)) for result in results.values()]
     swept = all(result.body(name).swept for result, _ in saves)

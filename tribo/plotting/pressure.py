@@ -1,4 +1,7 @@
-"""Pictures of the contact pressure: the full field, and sections over time."""
+"""Pictures of the contact pressure: the full field, and sections over time.
+
+Each raises CaseError if the result holds no such save.
+"""
 
 from __future__ import annotations
 
@@ -38,40 +41,30 @@ def pressure_map(result: Result, save: int = -1) -> Figure:
     """Draw the pressure at a save from above.
 
     The scale goes from zero to the largest pressure. Thin lines are those of
-    equal pressure, where they are whole and have room; where nine tenths of
-    the contact bear the same within a tenth there are none, and the title
-    gives the mean pressure and how even it is. The thick line is the edge of
-    the contact, drawn smoothly through the steps of the cells, and the dashed
-    one Hertz's first contact where the surfaces state their curvature. A long
-    contact is drawn wider than it is, and the axis says how much.
-
-    Parameters
-    ----------
-    result : Result
-        What to draw.
-    save : int, optional
-        Number of the save; the last one if left out.
-
-    Raises
-    ------
-    CaseError
-        If there is no such save.
+    equal pressure; where nine tenths of the contact bear the same within a
+    tenth there are none, and the title gives the mean pressure and how even it
+    is. The thick line is the edge of the contact, drawn smoothly through the
+    steps of the cells, and the dashed one Hertz's first contact where the
+    surfaces state their curvature. A rough contact is shown cell by cell,
+    without lines. A long one is drawn wider than it is, and the axis says how
+    much.
     """
     pressure, hertz = result.field("pressure", save), hertz_contact(result.system)
     highest = float(np.max(pressure))
     unit = fitting("Pa", highest)
+    values = pressure / size(unit)
     title = f"t = {time_labels(result.times)[save]}"
     with style.house_style():
         figure, (shown,) = new_maps(pressure > 0, result.grid, _reach(hertz))
-        _draw_field(shown, pressure / size(unit), unit)
-        bearing = pressure[pressure > 0]
+        smooth = _draw_field(shown, values, unit)
+        bearing = values[values > 0]
         low, high = np.percentile(bearing, (5.0, 95.0)) if bearing.size else (0.0, 0.0)
-        unevenness = float(high - low) / (highest or 1.0)
-        if unevenness > _EVEN:
-            _draw_levels(shown, pressure / size(unit), low / size(unit), high / size(unit))
-        elif bearing.size:
-            mean = float(np.mean(bearing)) / size(unit)
-            title += f"\n{mean:.3g} {unit}, even within {max(100 * unevenness, 1.0):.0f} %"
+        unevenness = float(high - low) / (float(np.max(values)) or 1.0)
+        if unevenness > _EVEN and smooth:
+            _draw_levels(shown, values, low, high)
+        elif unevenness <= _EVEN and bearing.size:
+            percent = max(100 * unevenness, 1.0)
+            title += f"\n{np.mean(bearing):.3g} {unit}, even within {percent:.0f} %"
         shown.axes.set_title(title, loc="left")
         if hertz is not None:
             style.legend_below(figure, [_draw_first_contact(shown, hertz)])
@@ -85,16 +78,6 @@ def pressure_sections(result: Result) -> Figure:
     dwarfed by the first, that one leaves the top and stands whole in a narrow
     panel beside, along the axis on which its contact is shorter. A hatched
     strip begins where a body in contact ends, at which the pressure may peak.
-
-    Parameters
-    ----------
-    result : Result
-        What to draw.
-
-    Raises
-    ------
-    CaseError
-        If there is no save.
     """
     count = number_of_saves(result)
     grid, hertz, cap = result.grid, hertz_contact(result.system), result.system.cap
@@ -171,32 +154,33 @@ def _mark_hardness(axes: Axes, cap: float) -> Artist:
     return axes.axhline(cap, color="black", linewidth=0.6, linestyle=":", label="hardness")
 
 
-def _draw_field(shown: Map, pressure: Array, unit: str) -> None:
-    """Draw the field with the edge of the contact, and white outside of that."""
+def _draw_field(shown: Map, pressure: Array, unit: str) -> bool:
+    """Draw the field with the edge of the contact, and return whether that is smooth."""
     touching = pressure > 0
     inside = _smooth(touching, 3)
-    kept = (inside > 0.5) == touching
     # What is only a few cells small is shown cell by cell.
-    smooth = bool(np.sum(~kept) < _ALTERED * np.sum(touching))
+    smooth = bool(np.sum((inside > 0.5) != touching) < _ALTERED * np.sum(touching))
+    field, edge = pressure, touching.astype(float)
     if smooth:
         # Around the contact, what the nearest of its cells bear.
-        nearby = _smooth(pressure, 3) / np.maximum(inside, 1e-9)
-        field = np.where(touching, pressure, nearby)
+        field = np.where(touching, pressure, _smooth(pressure, 3) / np.maximum(inside, 1e-9))
+        edge = inside
     image = shown.image(
-        field if smooth else pressure,
+        field,
         f"Pressure ({unit})",
         cmap=style.PRESSURES,
         vmin=0.0,
         vmax=float(np.max(pressure)) or 1.0,
         interpolation="bilinear" if smooth else "nearest",
     )
-    edge = np.pad(inside if smooth else touching.astype(float), 1, mode="edge").T
+    edge = np.pad(edge, 1, mode="edge").T
     x, y = (np.pad(part, 1, "reflect", reflect_type="odd") for part in shown.positions())
     if np.any(touching):
         (region,) = shown.axes.contourf(x, y, edge, levels=[0.5, 2.0], alpha=0.0).get_paths()
         image.set_clip_path(region, transform=shown.axes.transData)
     if not np.all(touching):
         shown.axes.contour(x, y, edge, levels=[0.5], colors="black", linewidths=0.9)
+    return smooth
 
 
 def _smooth(field: Array | Mask, passes: int) -> Array:
@@ -212,12 +196,11 @@ def _draw_levels(shown: Map, pressure: Array, low: float, high: float) -> None:
     """Draw a few labelled lines of round pressures between two, in the unit shown."""
     levels = np.asarray(style.ticks(3).tick_values(low, high))
     levels = levels[(levels > low) & (levels < high)]
-    # The jumps of single cells would make the lines ragged, and those at the rim into crumbs.
-    field = np.ma.masked_where(_smooth(pressure > 0, 2) < 0.99, _smooth(pressure, 2))
-    bright = 0.55 * float(np.max(pressure))
-    colours = {float(level): "black" if level > bright else "white" for level in levels}
-    for line in shown.lines(field, colours):
-        shown.axes.clabel(line, fontsize=6.0, fmt="%g", inline_spacing=2)
+    colours = ["black" if each > 0.55 * np.max(pressure) else "white" for each in levels]
+    # The jumps of single cells would make the lines ragged.
+    field = _smooth(pressure, 2).T
+    lines = shown.axes.contour(*shown.positions(), field, levels, colors=colours, linewidths=0.5)
+    shown.axes.clabel(lines, fontsize=6.0, fmt="%g", inline_spacing=2)
 
 
 def _draw_first_contact(shown: Map, hertz: HertzContact) -> Line2D:

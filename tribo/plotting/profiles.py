@@ -1,4 +1,7 @@
-"""Pictures of worn surfaces in section: of one body at every save, and of both together."""
+"""Pictures of worn surfaces in section: of one body at every save, and of both together.
+
+Each raises CaseError if the result holds no save, or no such body.
+"""
 
 from __future__ import annotations
 
@@ -29,23 +32,11 @@ UPPER, LOWER = "#e4e4e4", "#b4b4b4"
 def body_profiles(result: Result, name: str, axis: int) -> Figure:
     """Draw a body's surface through the window's centre at every save.
 
+    It runs along axis 0, the sliding direction, or across it, along axis 1.
+
     The height points out of the body, so that material goes downwards: the
     unworn profile lies on top. Plastic displacement is part of it; elastic
     deformation is not. The picture states how much it enlarges heights.
-
-    Parameters
-    ----------
-    result : Result
-        What to draw.
-    name : str
-        The body.
-    axis : int
-        0 along the sliding direction, 1 across it.
-
-    Raises
-    ------
-    CaseError
-        If there is no such body or no save.
     """
     if axis not in (0, 1):
         raise CaseError(f"a profile runs along axis 0 or across, axis 1; not {axis!r}")
@@ -57,20 +48,7 @@ def body_profiles(result: Result, name: str, axis: int) -> Figure:
 
 
 def groove(result: Result, name: str) -> Figure:
-    """Draw the section of the groove in a swept body at every save.
-
-    Parameters
-    ----------
-    result : Result
-        What to draw.
-    name : str
-        The body.
-
-    Raises
-    ------
-    CaseError
-        If there is no such body, it is not swept, or there is no save.
-    """
+    """Draw the section of the groove in a swept body at every save."""
     if not result.body(name).swept:
         raise CaseError(
             f"{name} is not swept in {result.name}, so that it has no groove; draw body_profiles"
@@ -86,11 +64,6 @@ def worn_section(result: Result) -> Figure:
     The unworn surface of each worn body is drawn where its points were: that
     of the upper one, dotted, runs inside the lower body. The picture states
     how much it enlarges heights and how deep the scars are.
-
-    Raises
-    ------
-    CaseError
-        If there is no save.
     """
     last = number_of_saves(result) - 1
     upper, lower = (result.body(name) for name in result.body_names)

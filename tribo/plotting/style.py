@@ -73,9 +73,6 @@ def ticks(most: int) -> MaxNLocator:
 
 def times(factor: float) -> str:
     """Return two digits of a factor."""
-    digits, power = f"{factor:.1e}".split("e")
-    if int(power) >= 5:
-        return rf"${digits} \times 10^{{{int(power)}}}$"
     return f"{float(f'{factor:.1e}'):g}"
 
 
