@@ -7,38 +7,28 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from tribo.core.arrays import Array
-from tribo.core.fields import LocalConditions, WearRate
-from tribo.core.grid import Grid
-from tribo.core.material import Material
+from tribo import Material, Observer, Quantity, Registry, Surface, WearLaw, hookimpl
 from tribo.core.table import Table
-from tribo.core.units import Quantity
-from tribo.observers.observer import Observer
-from tribo.registry.hookspecs import hookimpl
 from tribo.registry.plugins import given
-from tribo.registry.registry import Registry
-from tribo.surfaces.surface import Surface
-from tribo.wear.law import WearLaw
 
 
-class Linear(WearLaw):
+class Law(WearLaw):
+    def rate(self, local):
+        raise NotImplementedError
+
+
+class Linear(Law):
     type = "linear"
     k: Annotated[float, Quantity("1/Pa", above=0)]
     """Coefficient."""
     passes: int = 3
 
-    def rate(self, local: LocalConditions) -> WearRate:
-        raise NotImplementedError
 
-
-class NoWear(WearLaw):
+class NoWear(Law):
     type = "none"
 
-    def rate(self, local: LocalConditions) -> WearRate:
-        raise NotImplementedError
 
-
-class Blend(WearLaw):
+class Blend(Law):
     type = "blend"
     parts: tuple[WearLaw, ...]
     weight: float | Literal["auto"] = "auto"
@@ -49,14 +39,11 @@ class Blend(WearLaw):
             raise ValueError("give at least one part")
         return self
 
-    def rate(self, local: LocalConditions) -> WearRate:
-        raise NotImplementedError
-
 
 class Plane(Surface):
     type = "plane"
 
-    def height(self, grid: Grid) -> Array:
+    def height(self, grid):
         raise NotImplementedError
 
 
@@ -65,12 +52,12 @@ class Counter(Observer):
     every: int = Field(default=1, ge=1)
 
 
-def registry(*laws: type[WearLaw]) -> Registry:
+def registry(*laws):
     """The registry of these dummies, with other wear laws if any are given."""
     module = ModuleType("dummies")
-    module.__version__ = "1.0"  # type: ignore[attr-defined]
+    module.__version__ = "1.0"
     classes = (*(laws or (Linear, NoWear, Blend)), Plane, Counter)
-    module.tribo_components = hookimpl(specname="tribo_components")(lambda: classes)  # type: ignore[attr-defined]
+    module.tribo_components = hookimpl(specname="tribo_components")(lambda: classes)
     return Registry([given(module)])
 
 

@@ -1,12 +1,7 @@
 """Each mistake in a case is one line with its path and a remedy, in the words of the case."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-from typing import Any
-
 import pytest
-from pydantic import BaseModel, ValidationError
+from pydantic import ValidationError
 
 from tribo.core.explain import case_error
 
@@ -16,17 +11,17 @@ LAWS = "blend, linear, none (dummies 1.0)"
 PRESSURE = "a pressure [Pa] is needed, as in '4 GPa'"
 
 
-def ball(**changes: object) -> dict[str, Any]:
+def ball(**changes):
     return {"bodies": {"ball": {"material": STEEL, **changes}}}
 
 
 @pytest.fixture
-def lines(dummies: Any) -> Callable[..., list[str]]:
+def lines(dummies):
     registry = dummies.registry()
 
-    def explained(data: object, model: type[BaseModel] = dummies.Rig) -> list[str]:
+    def explained(data):
         with pytest.raises(ValidationError) as caught:
-            model.model_validate(data, context={"registry": registry})
+            dummies.Rig.model_validate(data, context={"registry": registry})
         return str(case_error(caught.value)).split("\n")
 
     return explained
@@ -43,11 +38,6 @@ BLEND = {"type": "blend", "parts": ["none", {**LINEAR, "zzz": 1}]}
         (ball(material={**STEEL, "hardnes": 1}), "bodies.ball.material.hardnes", "'hardness'?"),
         (ball(wear={**LINEAR, "pases": 1}), "bodies.ball.wear.pases", "Allowed: type, k, passes"),
         (ball(wear=BLEND), "bodies.ball.wear.parts[1].zzz", "unknown key 'zzz'. Allowed: type, k"),
-        (
-            {"bodies": {}, "observers": [{"type": "counter"}, {"type": "counter", "evry": 2}]},
-            "observers[1].evry",
-            "'every'?",
-        ),
         ({"bodies": {}, "stepping": {"type": "fast", "limt": 2}}, "stepping.limt", "'limit'?"),
         # Missing ones.
         ({}, "bodies", "missing"),
@@ -63,7 +53,6 @@ BLEND = {"type": "blend", "parts": ["none", {**LINEAR, "zzz": 1}]}
         (ball(wear="liner"), "bodies.ball.wear", f"'linear'? Installed: {LAWS}"),
         (ball(wear={"type": "{x}"}), "bodies.ball.wear.type", "unknown wear law '{x}'."),
         (ball(wear={"type": ["linear"]}), "bodies.ball.wear.type", "type must be text"),
-        (ball(wear={"type": "blend", "parts": [{}]}), "bodies.ball.wear.parts[0].type", LAWS),
         (
             {"bodies": {}, "observers": ["counter", {"type": 3}]},
             "observers[1].type",
@@ -81,8 +70,6 @@ BLEND = {"type": "blend", "parts": ["none", {**LINEAR, "zzz": 1}]}
         (ball(material=3), "bodies.ball.material", "a table is needed, 3 was given"),
         (ball(wear={**LINEAR, "passes": 2.5}), "bodies.ball.wear.passes", "a whole number"),
         (ball(wear=4), "bodies.ball.wear", "a wear law is needed, as a table with its type"),
-        ({"bodies": 3}, "bodies", "a table is needed"),
-        ({"bodies": {}, "cells": 3}, "cells", "a list is needed"),
         ({"bodies": {}, "cells": [8, "x"]}, "cells[1]", "a whole number is needed"),
         ({"bodies": {}, "cells": [8, 8, 8]}, "cells", "at most 2 allowed, 3 given"),
         ({"bodies": {}, "verbose": "maybe"}, "verbose", "true or false is needed"),
@@ -104,13 +91,13 @@ BLEND = {"type": "blend", "parts": ["none", {**LINEAR, "zzz": 1}]}
         ({"bodies": {"my ball": {}}}, 'bodies."my ball".material', "missing"),
     ],
 )
-def test_a_mistake_is_one_line(lines: Any, data: object, path: str, words: str) -> None:
+def test_a_mistake_is_one_line(lines, data, path, words):
     (line,) = lines(data)
     assert line.startswith(f"{path}: " if path else words)
     assert words in line
 
 
-def test_unknown_keys_come_first(lines: Any) -> None:
+def test_unknown_keys_come_first(lines):
     found = lines({"cells": 3, "bodies": {"ball": {"wear": {**LINEAR, "zzz": 1}}}})
     assert [line.partition(": ")[0] for line in found] == [
         "bodies.ball.wear.zzz",
@@ -119,7 +106,7 @@ def test_unknown_keys_come_first(lines: Any) -> None:
     ]
 
 
-def test_no_word_of_the_library_appears(lines: Any) -> None:
+def test_no_word_of_the_library_appears(lines):
     wrong = {
         "bodies": {
             "a": {"material": {"young": [], "poisson": {}}, "wear": {"type": "linear", "k": None}}

@@ -1,9 +1,6 @@
 """A file that cannot be a case is refused in one line."""
 
-from __future__ import annotations
-
 import tomllib
-from pathlib import Path
 
 import pytest
 
@@ -23,7 +20,7 @@ from tribo.core.errors import CaseError
         (b"x = " + b"9" * 10_000, "is not TOML"),
     ],
 )
-def test_content_that_is_not_toml(tmp_path: Path, content: bytes, message: str) -> None:
+def test_content_that_is_not_toml(tmp_path, content, message):
     path = tmp_path / "case.toml"
     path.write_bytes(content)
     with pytest.raises(CaseError) as caught:
@@ -33,7 +30,7 @@ def test_content_that_is_not_toml(tmp_path: Path, content: bytes, message: str) 
     assert "\n" not in str(caught.value)
 
 
-def test_a_file_that_cannot_be_opened(tmp_path: Path) -> None:
+def test_a_file_that_cannot_be_opened(tmp_path):
     with pytest.raises(CaseError, match="there is no such file"):
         read_toml(tmp_path / "case.toml")
     with pytest.raises(CaseError, match="is a directory"):
@@ -45,7 +42,7 @@ def test_a_file_that_cannot_be_opened(tmp_path: Path) -> None:
         read_toml("case\0.toml")
 
 
-def test_a_file_that_is_too_large(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_file_that_is_too_large(tmp_path, monkeypatch):
     monkeypatch.setattr(load, "_LARGEST", 10)
     path = tmp_path / "case.toml"
     path.write_text("x = 1 # " + "long" * 10)
@@ -53,7 +50,7 @@ def test_a_file_that_is_too_large(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
         read_toml(path)
 
 
-def test_the_mark_that_some_editors_add_is_no_fault(tmp_path: Path) -> None:
+def test_the_mark_that_some_editors_add_is_no_fault(tmp_path):
     path = tmp_path / "case.toml"
     path.write_bytes("x = 1".encode("utf-8-sig"))
     assert read_toml(path) == {"x": 1}
@@ -75,26 +72,26 @@ material = {young = "207 GPa", poisson = 0.3}
 
 
 @pytest.fixture
-def path(tmp_path: Path) -> Path:
+def path(tmp_path):
     path = tmp_path / "case.toml"
     path.write_text(CASE)
     return path
 
 
-def test_a_case_is_read_from_a_file_with_changes(path: Path) -> None:
+def test_a_case_is_read_from_a_file_with_changes(path):
     case = load_case(path, overrides=["load.normal=50 N", "bodies.ball.wear.k=1e-15"])
     assert case.load.normal == 50
     assert case.bodies["ball"].wear.k == 1e-15
     assert case.bodies["disk"].surface.type == "flat"
 
 
-def test_a_case_survives_being_written_and_read(path: Path) -> None:
+def test_a_case_survives_being_written_and_read(path):
     case = load_case(path)
     for options in ({}, {"exclude_defaults": True}, {"exclude_unset": True}, {"mode": "json"}):
         assert validate_case(case.model_dump(**options)) == case
 
 
-def test_each_mistake_is_a_line(path: Path) -> None:
+def test_each_mistake_is_a_line(path):
     with pytest.raises(CaseError) as caught:
         load_case(path, overrides=["bodies.ball.material.young=-1", "contact.tolerence=1"])
     lines = str(caught.value).splitlines()
@@ -103,7 +100,7 @@ def test_each_mistake_is_a_line(path: Path) -> None:
     assert lines[1:] == ["bodies.ball.material.young: -1 Pa: must be greater than 0"]
 
 
-def test_a_default_type_need_not_be_named() -> None:
+def test_a_default_type_need_not_be_named():
     from tribo.templates import template
 
     data = tomllib.loads(template("ball_on_disk"))

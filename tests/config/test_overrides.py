@@ -1,16 +1,13 @@
 """Changes from the command line reach any value, and never get lost silently."""
 
-from __future__ import annotations
-
 import copy
-from typing import Any
 
 import pytest
 
 from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError
 
-DATA: dict[str, Any] = {
+DATA = {
     "load": {"normal": 100.0},
     "contact": {"type": "dcfft", "tolerance": 1e-8},
     "bodies": {"ball": {"wear": {"type": "archard", "k": 1e-16}, "surface": "flat"}},
@@ -18,7 +15,7 @@ DATA: dict[str, Any] = {
 }
 
 
-def changed(*overrides: str) -> dict[str, Any]:
+def changed(*overrides):
     before = copy.deepcopy(DATA)
     result = apply_settings(DATA, overrides)
     assert before == DATA
@@ -40,50 +37,45 @@ def changed(*overrides: str) -> dict[str, Any]:
         ("1\nx = 2", "1\nx = 2"),
     ],
 )
-def test_a_value_is_toml_or_else_text(text: str, value: object) -> None:
+def test_a_value_is_toml_or_else_text(text, value):
     assert changed(f"load.normal={text}")["load"]["normal"] == value
 
 
-def test_missing_tables_are_added() -> None:
+def test_missing_tables_are_added_and_the_last_of_two_values_counts():
+    assert changed("load.normal=1", "load.normal=2")["load"] == {"normal": 2}
     assert changed("friction.coefficient = 0.1")["friction"] == {"coefficient": 0.1}
+    assert apply_settings({}, "load.normal=50") == {"load": {"normal": 50}}
     assert changed("bodies.disk.wear.k=1")["bodies"]["disk"] == {"wear": {"k": 1}}
 
 
-def test_lists_are_reached_by_index() -> None:
+def test_lists_are_reached_by_index():
     assert changed("effects.0.rate=2")["effects"][0] == {"type": "heat", "rate": 2}
     assert changed("effects.1=heat")["effects"] == [DATA["effects"][0], "heat"]
 
 
-def test_keys_may_be_quoted() -> None:
+def test_keys_may_be_quoted():
     assert changed('bodies."a.b".x=1')["bodies"]["a.b"] == {"x": 1}
 
 
-def test_another_type_drops_the_keys_of_the_former() -> None:
+def test_another_type_drops_the_keys_of_the_former_and_the_same_keeps_them():
     assert changed("contact.type=winkler")["contact"] == {"type": "winkler"}
     assert changed("effects.0.type=glow")["effects"][0] == {"type": "glow"}
-
-
-def test_the_same_type_keeps_them() -> None:
     assert changed("contact.type=dcfft") == DATA
 
 
 @pytest.mark.parametrize("reverse", [False, True])
-def test_keys_of_the_new_type_survive_in_any_order(reverse: bool) -> None:
+def test_keys_of_the_new_type_survive_in_any_order(reverse):
     overrides = ["contact.type=winkler", "contact.modulus=1"]
     result = changed(*(reversed(overrides) if reverse else overrides))
     assert result["contact"] == {"type": "winkler", "modulus": 1}
 
 
-def test_a_name_alone_is_a_table_with_its_type() -> None:
+def test_a_name_alone_is_a_table_with_its_type():
     ball = changed("bodies.ball.surface.tilt=1")["bodies"]["ball"]
     assert ball["surface"] == {"type": "flat", "tilt": 1}
     assert changed("bodies.ball.surface.type=sphere")["bodies"]["ball"]["surface"] == {
         "type": "sphere"
     }
-
-
-def test_the_last_of_two_counts() -> None:
-    assert changed("load.normal=1", "load.normal=2")["load"] == {"normal": 2}
 
 
 @pytest.mark.parametrize(
@@ -100,11 +92,7 @@ def test_the_last_of_two_counts() -> None:
         ("load.normal.x=1", "load.normal: is not a table"),
     ],
 )
-def test_a_malformed_override_is_refused(override: str, message: str) -> None:
+def test_a_malformed_override_is_refused(override, message):
     with pytest.raises(CaseError) as caught:
         changed(override)
     assert message in str(caught.value)
-
-
-def test_one_text_stands_for_a_list_of_one():
-    assert apply_settings({}, "load.normal=50") == {"load": {"normal": 50}}

