@@ -83,10 +83,7 @@ class Component(Table, ABC):
         # Component itself does not exist yet where this is first asked.
         if Table in cls.__bases__ or Component not in cls.__bases__:
             return handler(source)
-        return core_schema.with_info_plain_validator_function(
-            cls._find,
-            serialization=core_schema.plain_serializer_function_ser_schema(_dump, info_arg=True),
-        )
+        return core_schema.with_info_plain_validator_function(cls._find)
 
     @classmethod
     def _find(cls, value: object, info: ValidationInfo) -> Component:
@@ -96,11 +93,10 @@ class Component(Table, ABC):
         if not isinstance(table, Mapping):
             words = cls.kind().replace("_", " ")
             raise told(f"a {words} is needed, as a table with its type; {cls.hint(info)}")
-        if "type" not in table:
-            raise refused_at("type", f"type is missing; {cls.hint(info)}", table)
-        name = table["type"]
+        name = table.get("type")
         if not isinstance(name, str):
-            raise refused_at("type", f"type must be text; {cls.hint(info)}", name)
+            fault = "must be text" if "type" in table else "is missing"
+            raise refused_at("type", f"type {fault}; {cls.hint(info)}", name)
         try:
             found = _registry(info).lookup(cls.kind(), name)
         except CaseError as error:
@@ -161,17 +157,3 @@ def _registry(info: ValidationInfo) -> Registry:
     from tribo.registry.registry import default_registry
 
     return (info.context or {}).get("registry") or default_registry()
-
-
-def _dump(value: Component, info: core_schema.SerializationInfo) -> dict[str, Any]:
-    return value.model_dump(
-        mode=info.mode,
-        include=info.include,  # type: ignore[arg-type]
-        exclude=info.exclude,  # type: ignore[arg-type]
-        context=info.context,
-        by_alias=info.by_alias,
-        exclude_unset=info.exclude_unset,
-        exclude_defaults=info.exclude_defaults,
-        exclude_none=info.exclude_none,
-        round_trip=info.round_trip,
-    )
