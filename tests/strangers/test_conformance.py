@@ -1,6 +1,5 @@
 """What strangers wrote holds to the contract."""
 
-from strangers.layered import Layered
 from strangers.oxidation import OxideFilm
 from strangers.protected import Protected
 from strangers.running_in import RunningIn
@@ -9,10 +8,8 @@ from strangers.twin_disk import TwinDisk
 
 from tribo.testing import parametrize_checks
 
-LAYER = {"young": "100 GPa", "poisson": 0.3, "base_young": "1000 GPa", "base_poisson": 0.2}
 DISKS = {"ball": "150 mm", "disk": "100 mm"}
 
-test_layered = parametrize_checks(Layered, [{"thickness": "20 um", **LAYER}])
 test_oxide_film = parametrize_checks(OxideFilm, [{"power": "1 MW/m^2"}])
 test_protected = parametrize_checks(
     Protected, [{"k": "1e-15 1/Pa"}], fields={"stranger_oxide": 0.5}
