@@ -20,7 +20,7 @@ from tempfile import TemporaryDirectory
 
 from fuzz import trial
 
-HANG = 30.0
+HANG = 120.0
 """Time after which a case that does not heed being stopped is said to hang, in s."""
 START = "spawn"
 

@@ -55,7 +55,7 @@ LAWS = (
     {"type": "archard", "K": 1e-6, "hardness": "2 GPa"},
     {"type": "power", "k": 3e-16, "p_exponent": 1.5, "reference_pressure": 1e9},
     {"type": "energy.dissipation", "alpha": 3e-15, "threshold_energy": "1 MJ/m^2"},
-    {"type": "thermal.softening"},
+    {"type": "thermal.softening", "K": 1e-6, "softening": 1e-3, "reference_temperature": 363},
     {"type": "power", "k": 3e-16, "p_exponent": 4, "reference_pressure": 1e9},
 )
 SURFACES = (
@@ -193,10 +193,13 @@ def plausible(case, chance):
     for body in case["bodies"].values():
         if chance.random() < 0.3:
             body["wear"] = deepcopy(chance.choice(LAWS))
-        if chance.random() < 0.2:
-            body["surface"] = deepcopy(chance.choice(SURFACES))
         if chance.random() < 0.3:
             body["material"]["hardness"] = chance.choice((5e8, 1e9, 2e9, 4e9))
+        if "effects" in case:
+            body["material"] |= {"conductivity": 46, "density": 7850, "heat_capacity": 460}
+            case.setdefault("friction", {"coefficient": 0.1})
+    if chance.random() < 0.2:
+        next(iter(case["bodies"].values()))["surface"] = deepcopy(chance.choice(SURFACES))
     return case
 
 

@@ -5,12 +5,10 @@ import random
 import sys
 import time
 import tomllib
-from collections import Counter
 from dataclasses import replace
 
 import command_line
 import pytest
-import trials
 from fuzz import fuzzing, trial
 from fuzz.generate import mutated, plausible, toml, valid_cases
 from fuzz.trial import schema
@@ -21,22 +19,20 @@ from tribo.config.load import validate_case
 
 
 @pytest.mark.slow
-def test_two_hundred_cases_end_as_they_should():
-    done = fuzzing.fuzz(200, seed=3)
+def test_some_cases_of_each_kind_end_as_they_should():
+    done = fuzzing.fuzz(5 * len(trial.KINDS), seed=3)
     assert done.faults == {}
-    assert done.figures()["cases"] == 200
-    # Enough of them ran, on a busy machine until they were stopped, and were refused.
-    codes = Counter(done.figures()["exit codes"])
-    assert codes["0"] + codes["130"] > 20
-    assert codes["2"] > 20
+    # Those that were stopped on a busy machine, with 130, are counted apart.
+    codes = done.figures()["exit codes"]
+    assert codes["0"] > 4
+    assert codes["2"] > 10
 
 
-@pytest.mark.parametrize("command", [trials.main, fuzzing.main])
-def test_what_to_install_is_said_before_anything_starts(monkeypatch, capsys, command):
+def test_what_to_install_is_said_before_anything_starts(monkeypatch, capsys):
     monkeypatch.setitem(sys.modules, "SurfaceTopography", None)
     monkeypatch.setattr(sys, "argv", ["command"])
     with pytest.raises(SystemExit):
-        command()
+        fuzzing.main()
     said = capsys.readouterr()
     assert said.out == ""
     assert "SurfaceTopography is not installed" in said.err
@@ -73,9 +69,10 @@ def test_half_of_the_plausible_cases_are_valid():
 @pytest.mark.slow
 def test_a_hang_and_a_death_are_seen(monkeypatch, end, words):
     monkeypatch.setattr(trial, "_schema", end)
-    monkeypatch.setattr(fuzzing, "HANG", 3.0)
+    monkeypatch.setattr(fuzzing, "HANG", 1.0)
     monkeypatch.setattr(fuzzing, "START", "fork")
-    figures = fuzzing.fuzz(0, seed=1, workers=1, numbers=[0, 0]).figures()
+    monkeypatch.setattr(trial, "prepare", os.chdir)
+    figures = fuzzing.fuzz(0, seed=1, workers=1, numbers=[0]).figures()
     assert figures["hangs" if words == "hang" else "deaths"] == figures["faults"] == 1
 
 
