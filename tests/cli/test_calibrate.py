@@ -14,7 +14,8 @@ from tribo.study.calibration.outcome import Calibration
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 QUICK = ["--set", "grid.cells=24", "--set", "contact.type=winkler"]
-WEIGHED = ["calibrate", "weighed_split.toml", "--measured", "weighed.toml", *QUICK]
+COARSE = ["--set", "stepping.depth_tolerance=1e-2", "--set", "stepping.pressure_tolerance=0.3"]
+WEIGHED = ["calibrate", "weighed_split.toml", "--measured", "weighed.toml", *QUICK, *COARSE]
 
 pytestmark = pytest.mark.slow
 

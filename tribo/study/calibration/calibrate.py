@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+import pandas as pd
 
 from tribo.case import Case
 from tribo.config.load import case_tables, validate_case
@@ -89,13 +90,15 @@ def calibrate(
     for i, entry in enumerate(asked.measured):
         _check_entry(model, entry, f"measured[{i}]")
     parameters = find_parameters(base, asked.fit, asked.measured)
-    data = [reading for entry in asked.measured for reading in entry.readings]
+    data = asked.table()
     if len(data) < len(parameters):
         raise CaseError(
             f"{len(parameters)} parameters cannot be fitted to {len(data)} measured "
             f"value{'' if len(data) == 1 else 's'}: measure more, or leave parameters out of fit"
         )
     predicted = _not_measured(model, asked.measured)
+    columns = ["body", "quantity", "time_s", "position_m"]
+    wanted = [*(Reading(*row) for row in data[columns].itertuples(index=False)), *predicted]
     times = sorted({entry.time for entry in asked.measured if entry.time is not None})
     tables = apply_settings(tables, {"output.save_times": times, "observers": []})
     runs: dict[bytes, Run] = {}
@@ -103,20 +106,20 @@ def calibrate(
     def run(values: Array) -> Run:
         key = values.tobytes()
         if key not in runs:
-            name = f"run {len(runs) + 1}"
-            runs[key] = make_run(tables, parameters, values, [*data, *predicted], registry, name)
-            _check_positive(asked.measured, runs[key].responses)
+            found = make_run(tables, parameters, values, wanted, registry, f"run {len(runs) + 1}")
+            _check_positive(data, found.responses)
+            runs[key] = found
         return runs[key]
 
     # With the rounding that the fit, which works with logarithms, has.
     start = np.exp(np.log([p.start for p in parameters]))
     first = run(start)
-    far = far_off(asked.measured, first.responses, parameters)
+    far = far_off(data, first.responses, parameters)
     problem = Problem(
         names=tuple(p.path for p in parameters),
-        observed=np.concatenate([entry.values for entry in asked.measured]),
-        sigma=np.hypot([e.sigma for e in asked.entries], first.read_off[: len(data)]),
-        logged=np.array([each.quantity not in PROFILES for each in (*data, *predicted)]),
+        observed=data["measured"].to_numpy(),
+        sigma=np.hypot(data["sigma"], first.read_off[: len(data)]).to_numpy(),
+        logged=np.array([each.quantity not in PROFILES for each in wanted]),
         lower=np.array([math.log(p.lower) if p.lower > 0 else -math.inf for p in parameters]),
         upper=np.array([math.log(p.upper) for p in parameters]),
     )
@@ -139,7 +142,7 @@ def calibrate(
     return outcome(
         fitted,
         parameters,
-        asked,
+        data,
         {i: each for i, each in enumerate(predicted, len(data)) if positive[i]},
         grid=model.grid,
         read_off=last.read_off,
@@ -185,24 +188,25 @@ def make_run(
         return Run(given, blurred, result.notices)
 
 
-def far_off(
-    measured: Sequence[Measured], computed: Array, parameters: Sequence[Parameter]
-) -> list[str]:
+def far_off(data: pd.DataFrame, computed: Array, parameters: Sequence[Parameter]) -> list[str]:
     """Return what is measured several times above or below what the first run gives, in words.
 
     `computed` begins with the data as that run gives them. Raises CaseError,
-    one line a value, from a factor of 300.
+    one line an entry, from a factor of 300.
     """
     given = ", ".join(f"{p.path} = {in_si(p.start, p.unit)}" for p in parameters)
+    sizes = data[["unit", "sigma"]].assign(
+        value=data["measured"].abs(), own=np.abs(computed[: len(data)])
+    )
     found, refused = [], []
-    for i, (entry, own) in enumerate(zip(measured, _largest(measured, computed), strict=True)):
-        value = entry.largest
+    for place, unit, sigma, value, own in (
+        sizes.groupby(data["place"], sort=False).max().itertuples()
+    ):
         # Of less than its uncertainty, as a null result, no more is known than that it is as small.
-        factor = max(value / own, own / max(value, entry.sigma)) if own > 0 < value else 1.0
-        unit = QUANTITIES[entry.quantity].unit
+        factor = max(value / own, own / max(value, sigma)) if own > 0 < value else 1.0
         text = (
-            f"measured[{i}] was read as {in_si(value, unit)}, and the case gives "
-            f"{in_si(own, unit)} with {given}"
+            f"{place} was read as {in_si(value, unit)}, and the case gives {in_si(own, unit)} "
+            f"with {given}"
         )
         if factor > TOO_FAR:
             refused.append(
@@ -215,21 +219,14 @@ def far_off(
     return found
 
 
-def _largest(measured: Sequence[Measured], computed: Array) -> list[float]:
-    """Return the largest magnitude that a run computes of each entry."""
-    ends = np.cumsum([len(entry.values) for entry in measured])
-    parts = np.split(computed[: ends[-1]], ends[:-1])
-    return [float(np.max(np.abs(part))) for part in parts]
-
-
-def _check_positive(measured: Sequence[Measured], computed: Array) -> None:
-    for i, (entry, own) in enumerate(zip(measured, _largest(measured, computed), strict=True)):
-        if own == 0 and entry.quantity not in PROFILES:
-            raise CaseError(
-                f"the {entry.quantity} of {entry.body!r} comes out as 0 in the case; begin with "
-                "more wear: give start in fit",
-                f"measured[{i}]",
-            )
+def _check_positive(data: pd.DataFrame, computed: Array) -> None:
+    nothing = data[data["position_m"].isna() & (computed[: len(data)] <= 0)]
+    for each in nothing.itertuples():
+        raise CaseError(
+            f"the {each.quantity} of {each.body!r} comes out as 0 in the case; begin with more "
+            "wear: give start in fit",
+            each.place,
+        )
 
 
 def _check_entry(model: Model, entry: Measured, place: str) -> None:

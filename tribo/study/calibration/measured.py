@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
 import numpy as np
+import pandas as pd
 from pydantic import ValidationError, ValidationInfo, field_validator, model_validator
 
 from tribo.config.load import read_toml
@@ -15,7 +16,7 @@ from tribo.core.errors import CaseError
 from tribo.core.explain import case_error
 from tribo.core.table import Table
 from tribo.core.units import Quantity
-from tribo.study.calibration.quantities import PROFILES, QUANTITIES, Reading, in_words
+from tribo.study.calibration.quantities import PROFILES, QUANTITIES, in_words
 
 FINEST = 1e-6
 """Smallest uncertainty, relative to the value: runs are good to about a thousandth."""
@@ -99,10 +100,11 @@ class Measured(Table):
                 "say how well it was measured: uncertainty (a standard deviation), resolution, "
                 "or both"
             )
-        if self.sigma < FINEST * self.largest:
+        largest = float(np.max(np.abs(self.values)))
+        if self.sigma < FINEST * largest:
             raise ValueError(
                 f"known to {in_words(self.quantity, self.sigma)}, less than a millionth of "
-                f"{in_words(self.quantity, self.largest)}: no run is that exact; check the "
+                f"{in_words(self.quantity, largest)}: no run is that exact; check the "
                 "uncertainty and its unit"
             )
         mean = float(np.mean(self.values))
@@ -120,17 +122,6 @@ class Measured(Table):
         if self.before is not None and self.after is not None:
             return np.array([self.before - self.after])
         return np.atleast_1d(np.array(self.value, dtype=float))
-
-    @property
-    def largest(self) -> float:
-        """The largest of the values, whatever their signs."""
-        return float(np.max(np.abs(self.values)))
-
-    @property
-    def readings(self) -> list[Reading]:
-        """What to read off a run to compare with the values."""
-        positions = self.position or (None,)
-        return [Reading(self.body, self.quantity, self.time, each) for each in positions]
 
     @property
     def from_resolution(self) -> tuple[float, float]:
@@ -170,10 +161,32 @@ class Measurements(Table):
     measured: tuple[Measured, ...]
     """The measured values."""
 
-    @property
-    def entries(self) -> list[Measured]:
-        """The entry of each measured number; of a profile the same for all its depths."""
-        return [entry for entry in self.measured for _ in entry.values]
+    def table(self) -> pd.DataFrame:
+        """Return a row a number: what was measured, of what, when, where and how well, in SI.
+
+        `place` is that of its entry in the file; `step_sigma` and `step_most`
+        are what the instrument's resolution, `step`, adds to its error.
+        """
+        rows = []
+        for i, each in enumerate(self.measured):
+            step_sigma, step_most = each.from_resolution
+            rows += [
+                {
+                    "place": f"measured[{i}]",
+                    "body": each.body,
+                    "quantity": each.quantity,
+                    "time_s": each.time,
+                    "position_m": position,
+                    "unit": QUANTITIES[each.quantity].unit,
+                    "measured": value,
+                    "sigma": each.sigma,
+                    "step": each.resolution or 0.0,
+                    "step_sigma": step_sigma,
+                    "step_most": step_most,
+                }
+                for value, position in zip(each.values, each.position or (None,), strict=True)
+            ]
+        return pd.DataFrame(rows).astype({"time_s": float, "position_m": float})
 
     @field_validator("measured")
     @classmethod

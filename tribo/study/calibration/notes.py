@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -11,7 +12,6 @@ from scipy.special import chdtrc
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
-from tribo.study.calibration.measured import Measured, Measurements
 from tribo.study.calibration.quantities import AXES, EDGES, PROFILES, in_si, in_words, percent
 
 UNLIKELY = 0.01
@@ -25,30 +25,28 @@ _MOST = 0.5
 def notes(
     estimates: pd.DataFrame,
     data: pd.DataFrame,
-    asked: Measurements,
     jacobian: Array,
     grid: Grid,
     spare: int,
 ) -> list[str]:
     """Return what to bear in mind, a sentence or two each.
 
-    `estimates` and `data` are those of a `Calibration`, `jacobian` the
-    derivatives of the residuals by the logarithms of the parameters, and
+    `estimates` are those of a `Calibration`; `data` as well, with the columns
+    of `Measurements.table` and `stated`, the standard deviation without that of
+    the grid; `jacobian` the derivatives of the residuals by the logarithms of the parameters, and
     `spare` the degrees of freedom of χ².
     """
     return [
-        *_on_parameters(estimates, data, asked.entries, jacobian),
+        *_on_parameters(estimates, data, jacobian),
         *_entangled(list(estimates["path"]), jacobian),
         *_on_misfit(data, spare),
-        *_on_instruments(asked.measured, grid),
+        *_on_instruments(data, grid),
     ]
 
 
-def _on_parameters(
-    estimates: pd.DataFrame, data: pd.DataFrame, owners: Sequence[Measured], jacobian: Array
-) -> Iterator[str]:
+def _on_parameters(estimates: pd.DataFrame, data: pd.DataFrame, jacobian: Array) -> Iterator[str]:
     """Say where a better instrument would help most, and what bounds a parameter has."""
-    parts = np.array([entry.from_resolution[0] for entry in owners]) / data["sigma"].to_numpy()
+    parts = (data["step_sigma"] / data["sigma"]).to_numpy()
     for each, effect in zip(estimates.itertuples(), np.linalg.pinv(jacobian), strict=True):
         is_open = {"below": each.lower == 0, "above": math.isinf(each.upper)}
         if each.held:
@@ -62,10 +60,10 @@ def _on_parameters(
             sides = " or ".join(side for side, so in is_open.items() if so)
             yield f"{each.path}: the data do not bound it from {sides}"
         if not each.held and not is_open["above"] and each.resolution_share > _MOST:
-            entry = owners[int(np.argmax(np.abs(effect) * parts))]
+            entry = data.iloc[int(np.argmax(np.abs(effect) * parts))]
             yield (
                 f"{each.path}: the {_instrument(entry)}'s resolution dominates the uncertainty; "
-                f"the {_named(entry)} read to {in_words(entry.quantity, entry.resolution or 0.0)} "
+                f"the {_named(entry)} read to {in_words(entry.quantity, entry.step)} "
                 f"leaves ±{percent(each.resolution_limit)} % open"
             )
 
@@ -108,28 +106,29 @@ def _on_misfit(data: pd.DataFrame, spare: int) -> Iterator[str]:
         )
 
 
-def _on_instruments(measured: Sequence[Measured], grid: Grid) -> Iterator[str]:
+def _on_instruments(data: pd.DataFrame, grid: Grid) -> Iterator[str]:
     """Say which instruments are too coarse for what is measured, and for which the grid is."""
-    for entry in measured:
-        name, most = entry.quantity, entry.from_resolution[1]
-        if most >= entry.largest:
+    largest = data["measured"].abs().groupby(data["place"]).transform("max")
+    for entry in data.assign(largest=largest).drop_duplicates("place").itertuples():
+        name = entry.quantity
+        if entry.step_most >= entry.largest:
             yield (
-                f"the {_instrument(entry)} is too coarse: read to "
-                f"{in_words(name, entry.resolution or 0.0)}, the {_named(entry)} may be off by "
-                f"{in_words(name, most)}, and {in_words(name, entry.largest)} is given"
+                f"the {_instrument(entry)} is too coarse: read to {in_words(name, entry.step)}, "
+                f"the {_named(entry)} may be off by {in_words(name, entry.step_most)}, and "
+                f"{in_words(name, entry.largest)} is given"
             )
         if name in AXES and name not in PROFILES:
             blur = EDGES * grid.spacing[AXES[name]]
-            if entry.sigma < blur:
+            if entry.stated < blur:
                 yield (
-                    f"the {_named(entry)} is measured to {in_words(name, entry.sigma)}, the grid "
+                    f"the {_named(entry)} is measured to {in_words(name, entry.stated)}, the grid "
                     f"is good to about {in_words(name, blur)}: raise grid.cells"
                 )
 
 
-def _instrument(entry: Measured) -> str:
+def _instrument(entry: Any) -> str:
     return "balance" if entry.quantity == "mass" else "instrument"
 
 
-def _named(entry: Measured) -> str:
+def _named(entry: Any) -> str:
     return f"{entry.quantity} of {entry.body!r}"

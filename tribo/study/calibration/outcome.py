@@ -14,7 +14,6 @@ from scipy.special import chdtrc, chdtri
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
 from tribo.study.calibration.fit import NOTABLE, Surrogate, interval, root_covariance
-from tribo.study.calibration.measured import Measurements
 from tribo.study.calibration.notes import notes
 from tribo.study.calibration.parameters import Parameter
 from tribo.study.calibration.quantities import QUANTITIES, Reading
@@ -108,7 +107,7 @@ class Calibration:
 def outcome(
     fitted: Surrogate,
     parameters: Sequence[Parameter],
-    asked: Measurements,
+    data: pd.DataFrame,
     predicted: Mapping[int, Reading],
     *,
     grid: Grid,
@@ -119,21 +118,20 @@ def outcome(
 ) -> Calibration:
     """Return what a fit says of its parameters, data and predictions, in that order.
 
-    `predicted` are the responses that are predictions, by their index; `read_off`
-    are the standard deviations with which the grid gives the responses.
+    `data` are what was measured, as `Measurements.table` has it; `predicted` the
+    responses that are predictions, by their index; `read_off` the standard
+    deviations with which the grid gives the responses.
     """
     jacobian = fitted.jacobian(fitted.point)
     root = root_covariance(jacobian)
     deviations = np.sqrt(np.sum(root**2, axis=1))
-    estimates = _estimates(fitted, parameters, asked, level)
+    estimates = _estimates(fitted, parameters, data, level)
     held = estimates["held"].to_numpy()
     residuals = fitted.problem.residuals(fitted.responses)
-    readings = [reading for entry in asked.measured for reading in entry.readings]
-    data = pd.DataFrame(readings).assign(
-        unit=[QUANTITIES[each.quantity].unit for each in readings],
-        measured=fitted.problem.observed,
+    data = data.assign(
+        stated=data["sigma"],
         sigma=fitted.problem.sigma,
-        computed=fitted.responses[: len(readings)],
+        computed=fitted.responses[: len(data)],
         residual=residuals,
     )
     spare = len(data) - int(np.sum(~held))
@@ -150,18 +148,18 @@ def outcome(
         level=level,
         runs=runs,
         parameters=estimates,
-        data=data,
+        data=data.drop(columns=["place", "step", "step_sigma", "step_most", "stated"]),
         predictions=pd.DataFrame(rows, columns=columns),
         chi_square=float(np.sum(residuals**2)),
         degrees_of_freedom=spare,
         correlation=root @ root.T / np.outer(deviations, deviations),
         singular_values=np.asarray(np.linalg.svd(jacobian, compute_uv=False), dtype=np.float64),
-        notes=(*notes(estimates, data, asked, jacobian, grid, spare), *notices),
+        notes=(*notes(estimates, data, jacobian, grid, spare), *notices),
     )
 
 
 def _estimates(
-    fitted: Surrogate, parameters: Sequence[Parameter], asked: Measurements, level: float
+    fitted: Surrogate, parameters: Sequence[Parameter], data: pd.DataFrame, level: float
 ) -> pd.DataFrame:
     table = pd.DataFrame(parameters).drop(columns="start")
     values = np.exp(fitted.point)
@@ -171,9 +169,7 @@ def _estimates(
         low, high = values[i] * np.exp(interval(fitted, np.eye(len(values))[i], level))
         lower[i], upper[i] = max(low, lower[i]), min(high, upper[i])
     effect = np.linalg.pinv(fitted.jacobian(fitted.point))
-    deviation, most = (
-        np.transpose([entry.from_resolution for entry in asked.entries]) / fitted.problem.sigma
-    )
+    deviation, most = data[["step_sigma", "step_most"]].to_numpy().T / fitted.problem.sigma
     share = np.sum((effect * deviation) ** 2, axis=1) / np.sum(effect**2, axis=1)
     return table[["path", "unit"]].assign(
         value=values,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -61,12 +62,12 @@ PROFILES = ("profile_along", "profile_across")
 
 
 class Reading(NamedTuple):
-    """One number to read off a run: a body, a quantity, and of a datum when and where, in SI."""
+    """One number to read off a run: a body and a quantity; when, if not at the end, and where."""
 
     body: str
     quantity: str
-    time_s: float | None = None
-    position_m: float | None = None
+    time_s: float = math.nan
+    position_m: float = math.nan
 
 
 def in_words(name: str, value: float) -> str:
@@ -87,7 +88,7 @@ def percent(part: float) -> str:
 def read(result: Result, asked: Reading) -> tuple[float, float]:
     """Return what a run gives, and the standard deviation with which its grid gives it."""
     body = result.body(asked.body)
-    save = -1 if asked.time_s is None else result.save_at(asked.time_s)
+    save = -1 if math.isnan(asked.time_s) else result.save_at(asked.time_s)
     depth, spacing, name = body.wear_depth[save], result.grid.spacing, asked.quantity
     if name in ("scar_along", "scar_across"):
         axis = AXES[name]
@@ -102,7 +103,7 @@ def read(result: Result, asked: Reading) -> tuple[float, float]:
     if name in PROFILES:
         axis = AXES[name]
         known = (result.grid.x, result.grid.y)[axis]
-        value = float(np.interp(asked.position_m or 0.0, known, profile(depth, axis)))
+        value = float(np.interp(asked.position_m, known, profile(depth, axis)))
         return value, DEPTHS * float(np.max(depth))
     volume = float(result.table("saves")[f"bodies.{body.name}.wear_volume_m3"][save])
     return mass_from_volume(volume, body.density or 0.0) if name == "mass" else volume, 0.0
