@@ -13,7 +13,7 @@ import pandas
 import pytest
 import sweeps
 
-from tribo import Result
+from tribo import Result, sweep
 from tribo.core.errors import CaseError
 from tribo.study.sweeping.executors import THREADS, on_scheduler, processes
 
@@ -99,15 +99,15 @@ def assert_stopped(folder, process):
     assert code == 130
     assert err.endswith("error: stopped; the same command goes on\n")
     assert set(table(folder)["status"]) >= {"interrupted", "waiting"}
-    assert not list(results(folder).glob("*.lock"))
+    # A killed worker leaves its own; those that have stopped leave none.
+    assert len(list(results(folder).glob("*.lock"))) <= 1
 
 
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory):
     """Return the table of a sweep that nothing disturbed."""
     folder = tmp_path_factory.mktemp("whole")
-    process = sweeps.tribo("sweep", sweeps.study(folder, sweeps.SLOW + LOADS), cwd=folder)
-    assert finished(process)[0] == 0
+    sweep(sweeps.study(folder, sweeps.SLOW + LOADS), executor=sweeps.Inline())
     return table(folder)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import (
     FIRST_COMPLETED,
     BrokenExecutor,
@@ -23,7 +23,7 @@ ATTEMPTS = 3
 """How often a run is begun whose worker dies."""
 TICK = 0.2
 """Time between two looks at whether to stop, in s."""
-Outcome = tuple[str, str]
+_GOES_ON = "what is done is kept, and the same command goes on"
 
 
 def carry(
@@ -47,11 +47,17 @@ def carry(
         If the executor has broken.
     """
     begun = Counter[int]()
-    futures: dict[Future[Outcome], Run] = {}
+    futures: dict[Future[tuple[str, str]], Run] = {}
 
     def submit(run: Run) -> None:
         begun[run.number] += 1
-        futures[_submitted(executor, run, stop)] = run
+        what = run.case.model_dump(mode="json"), str(run.path.resolve()), str(stop.resolve())
+        try:
+            futures[executor.submit(carry_out, *what)] = run
+        except Exception as error:
+            raise OutputError(
+                f"the executor takes no more runs ({type(error).__name__}: {error}); {_GOES_ON}"
+            ) from error
 
     with InterruptGuard() as guard:
         for run in runs:
@@ -59,61 +65,37 @@ def carry(
         while futures:
             done, _ = wait(futures, TICK, FIRST_COMPLETED)
             if guard.requested:
-                _stop(futures, stop, patience)
+                # Cancelling instead would lose sight of runs that dask has begun.
+                stop.touch()
+                try:
+                    wait(futures, patience)
+                finally:
+                    stop.unlink(missing_ok=True)
+                raise Interrupted("stopped; the same command goes on")
             for future in done:
                 run = futures.pop(future)
-                status, why = _outcome(future, run)
-                if status != "lost":
-                    ended(run, why)
-                elif begun[run.number] < ATTEMPTS:
+                why, lost = _outcome(future, run)
+                if lost and begun[run.number] < ATTEMPTS:
                     submit(run)
                 else:
-                    ended(run, f"begun {ATTEMPTS} times, and each time {why}")
+                    ended(run, f"begun {ATTEMPTS} times, and each time {why}" if lost else why)
 
 
-def _submitted(executor: Executor, run: Run, stop: Path) -> Future[Outcome]:
-    case = run.case.model_dump(mode="json")
-    try:
-        return executor.submit(carry_out, case, str(run.path.resolve()), str(stop.resolve()))
-    except Exception as error:
-        raise OutputError(
-            f"the executor takes no more runs ({type(error).__name__}: {error}); what is done is "
-            "kept, and the same command goes on"
-        ) from error
-
-
-def _outcome(future: Future[Outcome], run: Run) -> Outcome:
-    """Return what became of a run: ``"done"``, ``"failed"`` or ``"lost"``, and why."""
+def _outcome(future: Future[tuple[str, str]], run: Run) -> tuple[str, bool]:
+    """Return why a run failed, nothing if it did not, and whether another worker may do better."""
     try:
         status, why = future.result()
     except BrokenExecutor:
-        return "lost", "its worker process died: was it killed, or out of memory?"
+        return "its worker process died: was it killed, or out of memory?", True
     except CancelledError:
         raise OutputError(
-            "the executor dropped its runs: has its scheduler ended? What is done is kept, and the "
-            "same command goes on"
+            f"the executor dropped its runs: has its scheduler ended? {_GOES_ON.capitalize()}"
         ) from None
     except Exception as error:
-        return "lost", f"its worker did not do it: {type(error).__name__}: {error}"
+        return f"its worker did not do it: {type(error).__name__}: {error}", True
     if status == "interrupted":
-        return "lost", "its worker was stopped"
+        return "its worker was stopped", True
     if status == "done" and not run.path.exists():
         folder = run.path.parent
-        return (
-            "lost",
-            f"its worker wrote to a folder of its own: {folder} must be one that all share",
-        )
-    return status, why
-
-
-def _stop(futures: Collection[Future[Outcome]], stop: Path, patience: float | None) -> None:
-    """Let the workers stop; what has not begun then comes back at once.
-
-    Cancelling instead would lose sight of runs that dask has begun.
-    """
-    stop.touch()
-    try:
-        wait(futures, patience)
-    finally:
-        stop.unlink(missing_ok=True)
-    raise Interrupted("stopped; the same command goes on")
+        return f"its worker wrote to a folder of its own: {folder} must be one that all share", True
+    return why, False
