@@ -98,7 +98,7 @@ def assert_stopped(folder, process):
     code, _, err = finished(process)
     assert code == 130
     assert err.endswith("error: stopped; the same command goes on\n")
-    assert set(table(folder)["status"]) >= {"interrupted", "waiting"}
+    assert "interrupted" in set(table(folder)["status"])
     # A killed worker leaves its own; those that have stopped leave none.
     assert len(list(results(folder).glob("*.lock"))) <= 1
 
@@ -113,16 +113,14 @@ def whole(tmp_path_factory):
 
 def test_a_sweep_survives_a_killed_worker_ctrl_c_and_a_killed_parent(tmp_path, whole):
     process, command = swept(tmp_path, "--jobs", 2)
-    first, second = workers(process)
-    os.kill(first, signal.SIGKILL)
-    until(lambda: set(workers(process)) - {first, second}, "worker in the place of the killed one")
+    os.kill(workers(process)[0], signal.SIGKILL)
+    until(lambda: done(tmp_path), "run that is done")
+    assert len(workers(process)) == 2
     # As a terminal does, to the parent and to its workers.
     os.killpg(process.pid, signal.SIGINT)
     assert_stopped(tmp_path, process)
     killed = sweeps.tribo(*command, cwd=tmp_path)
-    until(lambda: done(tmp_path) and half_done(tmp_path), "run that is done, and one that is not")
-    children = workers(killed)
-    assert len(children) == 2
+    children = until(lambda: len(workers(killed)) == 2 and workers(killed), "two workers")
     killed.kill()
     # Python's own helper, too, goes without a word.
     assert all(line.endswith(" of 4 runs") for line in killed.communicate()[1].splitlines())
@@ -166,11 +164,13 @@ def cluster(tmp_path):
         )
         for name, *options in (("scheduler", "--port", 0, "--no-dashboard"), worker, worker)
     ]
-    until(where.exists, "scheduler")
-    yield json.loads(where.read_text())["address"], *processes
-    for process in processes:
-        process.kill()
-        process.communicate()
+    try:
+        told = until(lambda: where.exists() and where.read_text(), "scheduler")
+        yield json.loads(told)["address"], *processes
+    finally:
+        for process in processes:
+            process.kill()
+            process.communicate()
 
 
 def test_a_sweep_survives_a_killed_worker_ctrl_c_and_the_end_of_dask(tmp_path, whole, cluster):
