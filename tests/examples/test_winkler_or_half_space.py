@@ -1,33 +1,19 @@
 """The rule that the page *When is Winkler good enough?* gives holds in its examples."""
 
-import importlib.util
-import sys
-from pathlib import Path
-
 import pytest
 
-SCRIPT = Path(__file__).parents[2] / "examples" / "winkler_or_half_space.py"
-
-
-@pytest.fixture(scope="module")
-def example():
-    spec = importlib.util.spec_from_file_location("winkler_or_half_space", SCRIPT)
-    module = importlib.util.module_from_spec(spec)
-    sys.modules["winkler_or_half_space"] = module
-    spec.loader.exec_module(module)
-    yield module
-    del sys.modules["winkler_or_half_space"]
-
-
-@pytest.fixture(scope="module")
-def cases(example):
-    return list(example.CASES.values())
+pytestmark = pytest.mark.slow
 
 
 @pytest.fixture(scope="module", params=range(4))
-def errors(request, example, cases):
-    with example.run(cases[request.param]) as comparison:
-        return example.errors(comparison)
+def comparison(request, example):
+    with example.run(list(example.CASES.values())[request.param]) as comparison:
+        yield comparison
+
+
+@pytest.fixture(scope="module")
+def errors(example, comparison):
+    return example.errors(comparison)
 
 
 def at(errors, match, time):
@@ -35,7 +21,6 @@ def at(errors, match, time):
     return found
 
 
-@pytest.mark.slow
 def test_the_first_contact_is_off_as_the_matching_says(errors):
     # By Hertz's theory; a pressure on a few cells is good to a part of a cell, an area to one.
     for match, pressure, width in (
@@ -64,14 +49,12 @@ def test_the_rule_of_the_page(errors):
     assert max(abs(e.depth) for e in errors if e.match != "peak_pressure") > 0.2
 
 
-@pytest.mark.slow
-def test_volumes_do_not_depend_on_what_bears_the_load(example):
-    with example.run() as comparison:
-        for time in comparison.times[1:]:
-            saves = [comparison.save(label, time) for label in comparison.results]
-            for name, body in saves[0]["bodies"].items():
-                of = [save["bodies"][name]["wear_volume_m3"] for save in saves]
-                assert of == pytest.approx([body["wear_volume_m3"]] * 4, rel=1e-12, abs=0)
+def test_volumes_do_not_depend_on_what_bears_the_load(comparison):
+    for time in comparison.times[1:]:
+        saves = [comparison.save(label, time) for label in comparison.results]
+        for name, body in saves[0]["bodies"].items():
+            of = [save["bodies"][name]["wear_volume_m3"] for save in saves]
+            assert of == pytest.approx([body["wear_volume_m3"]] * 4, rel=1e-12, abs=0)
 
 
 def test_the_table_has_a_row_a_save(example, errors):
