@@ -41,12 +41,6 @@ def test_it_shows_what_the_demo_prints(tmp_path, monkeypatch):
     assert _comparable(shown) == _comparable(printed.stdout)
 
 
-def test_the_demo_says_what_the_papers_average_costs():
-    (shown,) = SHOWN
-    assert "the paper's model" in shown
-    assert "18 % too deep. docs/paper.md" in shown
-
-
 def test_its_pictures_are_small():
     pictures = re.findall(r"\]\((docs/images/[^)]+)\)", README)
     assert pictures

@@ -3,7 +3,6 @@
 from strangers.oxidation import OxideFilm
 from strangers.protected import Protected
 from strangers.running_in import RunningIn
-from strangers.transition import Transition
 from strangers.twin_disk import TwinDisk
 
 from tribo.testing import parametrize_checks
@@ -17,7 +16,6 @@ test_protected = parametrize_checks(
 test_running_in = parametrize_checks(
     RunningIn, [{"k_first": "4e-15 1/Pa", "k_last": "1e-15 1/Pa", "length": "2 m"}]
 )
-test_transition = parametrize_checks(Transition, [{"k": "1e-15 1/Pa", "p_severe": "1 GPa"}])
 test_twin_disk = parametrize_checks(
     TwinDisk,
     [{"speed": "2 m/s", "slip": 0.05, "circumference": DISKS, "duration": "10 min"}],

@@ -1,4 +1,4 @@
-"""Print tables and styled text, without the control characters that one from a file may have."""
+"""Tables and styled text on the terminal; control characters from files become escapes."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from tribo.cli.streams import harmless
 
 
 class Console(RichConsole):
-    """A console that prints text harmlessly; only its own styles and movements are escapes."""
+    """A console whose own styles are the only escape sequences that it prints."""
 
     def __init__(self, **options: Any) -> None:
         super().__init__(**{"highlight": False, **options})

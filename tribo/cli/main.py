@@ -96,7 +96,7 @@ def tribo(no_plugin: tuple[str, ...], only: str | None) -> None:
 
 def main() -> None:
     """Run the command; every expected error becomes one message and an exit code."""
-    # Looking for plugins of its own, pydantic falls over any malformed distribution.
+    # pydantic fails on any malformed distribution while it looks for its own plugins.
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     sys.stdout, sys.stderr = over(sys.stdout, Output), over(sys.stderr, Remarks)
     try:

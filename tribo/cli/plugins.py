@@ -3,14 +3,10 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
 from tribo.cli.options import PATH, echo_json
-
-if TYPE_CHECKING:
-    from tribo.component import Component
 
 
 @click.group()
@@ -44,14 +40,20 @@ def list_(as_json: bool) -> None:
     if as_json:
         echo_json(rows)
         return
-    names = max(len(row["name"]) for row in rows)
-    owners = [f"{row['distribution']} {row['version']}" for row in rows]
-    width = max(map(len, owners))
-    for row, owner in zip(rows, owners, strict=True):
-        click.echo(
-            f"{row['name'] or '-':<{names}}  {row['kind'] or '-':<14}  {owner:<{width}}  "
-            f"{row['status']:<12}  {row['reason'] or row['summary']}"
+    cells = [
+        (
+            row["name"] or "-",
+            row["kind"] or "-",
+            f"{row['distribution']} {row['version']}",
+            row["status"],
+            row["reason"] or row["summary"],
         )
+        for row in rows
+    ]
+    widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
+    for row in cells:
+        padded = (f"{cell:<{width}}" for cell, width in zip(row, widths, strict=True))
+        click.echo("  ".join(padded).rstrip())
 
 
 @plugins.command()
@@ -96,20 +98,22 @@ def check(name: str) -> None:
     from tribo.testing import check as conform
     from tribo.testing import example_configs
 
-    registry = default_registry()
-    failed = []
+    registry, failed = default_registry(), []
     for component in find(registry, name):
         (owner, *others) = registry.claimants(component)
         if not others and not (tried := probe(owner)).usable:
             raise CaseError(f"{component!r} is in {tried}, which is {tried.status}: {tried.reason}")
         cls = registry.find(component)
         assert cls is not None
+        fields = cls.model_fields.items()
+        files = [key for key, each in fields if each.is_required() and each.annotation is Path]
         try:
             configs = example_configs(cls)
-            if not configs and (files := _files_needed(cls)):
-                lacks = f"for want of a file as its {' and '.join(files)}"
-                left = f"the tests of {owner.distribution} have to"
-                click.echo(f"{component}: not checked, {lacks}; {left}")
+            if files and not configs:
+                click.echo(
+                    f"{component}: not checked, for want of a file as its {' and '.join(files)}; "
+                    f"the tests of {owner.distribution} have to"
+                )
                 continue
             report = conform(cls, configs)
         except ValueError as error:
@@ -119,11 +123,6 @@ def check(name: str) -> None:
             failed.append(component)
     if failed:
         raise NumericalError(f"{', '.join(failed)} does not conform; see above")
-
-
-def _files_needed(cls: type[Component]) -> list[str]:
-    fields = cls.model_fields.items()
-    return [name for name, field in fields if field.is_required() and field.annotation is Path]
 
 
 @plugins.command()

@@ -1,4 +1,4 @@
-"""The tables a run ends with, in a lab's units."""
+"""Tables of a result, in a laboratory's units."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ COLUMNS = (
 )
 """Name, unit, key in a save, factor to the unit, and format of each column."""
 DISPENSABLE = ("area", "p centre", "path", "along", "across")
-"""Columns that a narrow terminal does without, the first one first."""
+"""Columns left out on a narrow terminal, in this order."""
 WIDE = 10_000
 """More characters than any table needs."""
 NOTHING = "–"

@@ -1,4 +1,4 @@
-"""Warnings and Ctrl-C, as all commands handle them."""
+"""Warnings and Ctrl-C in commands."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def warnings_on_stderr() -> Iterator[None]:
 
 @contextmanager
 def no_interrupt_lost() -> Iterator[None]:
-    """Ask again for an interrupt that comes while Python tidies up, where it is only printed."""
+    """Repeat an interrupt that arrives in a destructor, where Python would only print it."""
 
     def hook(unraisable: UnraisableHookArgs) -> None:
         if unraisable.exc_type is KeyboardInterrupt:

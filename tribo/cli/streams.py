@@ -1,4 +1,4 @@
-"""Text on its way to standard streams that may be full or closed, or lack µ, ³ and their like."""
+"""Standard streams that may be full, closed, or unable to encode µ and ³."""
 
 from __future__ import annotations
 
@@ -32,18 +32,18 @@ SIGNS = {
 
 
 _CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069]")
-"""All but tab and line feed; and what turns the direction of writing."""
+"""All but tab and line feed, and the marks that change the direction of text."""
 
 
 class Output(io.FileIO):
-    """Standard output: it ends the command where it cannot be written to."""
+    """Standard output; the command ends where it cannot be written."""
 
     def write(self, data: ReadableBuffer) -> int:
         """Write, or raise `OutputError` or `ReaderGone`."""
         try:
             return super().write(data)
         except OSError as error:
-            # Or Python tries once more as it ends, and complains.
+            # Otherwise Python writes again as it exits, and reports the failure.
             os.dup2(os.open(os.devnull, os.O_WRONLY), self.fileno())
             if isinstance(error, BrokenPipeError):
                 raise ReaderGone("nobody reads standard output any more") from error
@@ -51,10 +51,10 @@ class Output(io.FileIO):
 
 
 class Remarks(io.FileIO):
-    """Standard error: progress and messages that cannot be written are left out."""
+    """Standard error; what cannot be written is left out."""
 
     def write(self, data: ReadableBuffer) -> int:
-        """Write, or say nothing."""
+        """Write, ignoring failures."""
         try:
             return super().write(data)
         except OSError:
@@ -69,21 +69,21 @@ def harmless(text: str) -> str:
 def say(what: str, colour: str, text: str) -> None:
     """Print a message on standard error, as ``"error: there is no such file"``."""
     label = click.style(f"{what}: ", fg=colour, bold=True)
-    # To sys.stderr as it is now: a progress line that lives there moves out of the way.
+    # Looked up now: a live progress line replaces sys.stderr, to print above itself.
     click.echo(label + harmless(text), file=sys.stderr)
 
 
 def over(stream: TextIO, kind: type[Output | Remarks]) -> TextIO:
-    """Return a stream to where `stream` goes that fails as `kind` does, in signs that it has."""
+    """Return a stream to the same file that fails as `kind` does and replaces signs it lacks."""
     try:
         number = stream.fileno()
     except (AttributeError, OSError, ValueError):
-        # None of the operating system's: a test's, a notebook's, or none at all.
+        # No file: in a test, in a notebook, or none at all.
         return stream
     if not isinstance(stream, io.TextIOWrapper) or (sys.platform == "win32" and stream.isatty()):
         # A console of Windows takes text, not bytes.
         return stream
-    # As good as none where `python -u` asks for no buffer.
+    # `python -u` asks for no buffer.
     size = 1 if stream.write_through else io.DEFAULT_BUFFER_SIZE
     return io.TextIOWrapper(
         io.BufferedWriter(kind(number, "w", closefd=False), size),

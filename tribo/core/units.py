@@ -33,7 +33,7 @@ _KINDS = {
     "Hz": ("a frequency", "25 Hz"),
     "m/s": ("a speed", "0.1 m/s"),
     "N": ("a force", "100 N"),
-    "Pa": ("a pressure", "4 GPa"),
+    "Pa": ("a pressure", "210 GPa"),
     "1/Pa": ("an inverse pressure", "1e-6 mm^3/(N m)"),
     "Pa/m": ("a foundation modulus", "20 GPa/mm"),
     "J": ("an energy", "1 J"),

@@ -10,7 +10,7 @@ from tribo.core.contact import ContactSystem
 
 AT_THE_CAP = 1 - 1e-9
 END_PEAK = 1.05
-"""Peak pressure over that at mid-length from which on the ends of a line are spoken of."""
+"""Ratio of the peak pressure to that at mid-length above which the ends are reported."""
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,7 @@ def hertz_contact(system: ContactSystem) -> HertzContact | None:
 def computed_pressure(
     system: ContactSystem, max_pressure: float, centre_pressure: float
 ) -> tuple[float, str]:
-    """Return the computed pressure that Hertz's and the onset of yield are for, and it in words.
+    """Return the computed pressure to compare with Hertz's and the onset of yield, and its words.
 
     The peak of a point contact, and the pressure of a line contact at mid-length: where a
     cylinder ends on a half-space the pressure is singular.

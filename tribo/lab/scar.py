@@ -129,8 +129,8 @@ def _ends(line: Array) -> tuple[float, float] | None:
 def _beyond(worn: Array, most: float) -> float:
     """Return how far beyond the first of the worn cells the edge lies, in cells.
 
-    A rim too narrow to be resolved is seen once it reaches a cell: that counts as much as the
-    edge lies beyond it, so that the edge moves evenly.
+    A rim narrower than a cell appears at once when it reaches the centre of a cell. Weighting
+    it by how far the edge lies beyond that centre lets the edge move evenly.
     """
     outer, inner = _extrapolated(worn[:4]), _extrapolated(worn[1:5])
     if outer is None:

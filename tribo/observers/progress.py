@@ -1,4 +1,4 @@
-"""Show on the terminal how a run gets on."""
+"""Progress of a run on the terminal."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Progress(Observer):
 
     type = "progress"
 
-    # Whatever the environment says of colours, a line is renewed on a terminal only.
+    # A line is renewed on a terminal only, even where the environment forces colours.
     _on_terminal: bool = PrivateAttr(default_factory=lambda: sys.stderr.isatty())
     _clock: Callable[[], float] = PrivateAttr(default=time.monotonic)
     _bar: Bar | None = None

@@ -27,12 +27,12 @@ from tribo.result.read import Result
 
 HERTZ: style.Look = {"color": "#909090", "linewidth": 0.7, "zorder": 3}
 _EVEN = 0.1
-"""Pressures that differ by less, in parts of the largest, get no lines on the map."""
+"""Differences, in parts of the largest pressure, below which the map has no lines."""
 _ALTERED = 0.1
-"""Most cells, in parts of the contact, that a smooth edge may leave on its wrong side."""
+"""Largest share of the cells in contact that a smooth edge may put on the wrong side."""
 _COLUMNS = 6
 _FADED = 2.0
-"""A first pressure so many times the later ones is drawn whole in a panel of its own."""
+"""Ratio of the first pressure to the later ones above which it has a panel of its own."""
 _BEYOND = 0.06
 """Shown beyond the end of a body, in parts of the window."""
 
@@ -74,9 +74,9 @@ def pressure_map(result: Result, save: int = -1) -> Figure:
 def pressure_sections(result: Result) -> Figure:
     """Draw the pressure along and across the sliding direction at every save.
 
-    The sections go through the window's centre. Where later pressures are
-    dwarfed by the first, that one leaves the top and stands whole in a narrow
-    panel beside, along the axis on which its contact is shorter. A hatched
+    The sections go through the window's centre. Where the first
+    pressure dwarfs the later ones, it is cut off at the top and drawn whole in a
+    narrow panel beside them, along the axis on which its contact is shorter. A hatched
     strip begins where a body in contact ends, at which the pressure may peak.
     """
     count = number_of_saves(result)
@@ -158,7 +158,7 @@ def _draw_field(shown: Map, pressure: Array, unit: str) -> bool:
     """Draw the field with the edge of the contact, and return whether that is smooth."""
     touching = pressure > 0
     inside = _smooth(touching, 3)
-    # What is only a few cells small is shown cell by cell.
+    # A contact of a few cells is shown cell by cell.
     smooth = bool(np.sum((inside > 0.5) != touching) < _ALTERED * np.sum(touching))
     field, edge = pressure, touching.astype(float)
     if smooth:

@@ -36,7 +36,7 @@ DASHES = (
 )
 UNDER: Look = {"color": "#56b4e9", "linewidth": 2.4}
 OVER: Look = {"color": "#202020", "linewidth": 1.1, "linestyle": (0.0, (3.0, 1.6))}
-"""A wide light line and a narrow dark one; both show where they coincide."""
+"""A wide light line and a narrow dark one; both are seen where they coincide."""
 
 PRESSURES = "viridis"
 """Colours of pressures: higher is lighter."""
@@ -65,8 +65,8 @@ def new_figure(height: float, width: float = SINGLE_COLUMN) -> Figure:
 def ticks(most: int) -> MaxNLocator:
     """Return a locator of at most so many round intervals.
 
-    Unlike matplotlib's own it does not depend on the axis' length, so that the
-    layout, which depends on how long the labels are, has an end.
+    Unlike matplotlib's own it does not depend on the length of the axis, which the
+    layout changes to make room for the labels.
     """
     return MaxNLocator(most, steps=[1, 2, 2.5, 5, 10])
 
