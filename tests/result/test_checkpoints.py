@@ -43,10 +43,10 @@ def everything(result):
 
 @pytest.fixture(scope="module")
 def left(tmp_path_factory):
-    """A folder left by a killed run: a checkpoint that waited for the disk, and a later one."""
+    """A folder left by a killed run."""
     folder = tmp_path_factory.mktemp("left")
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(recorder, "SYNC_EVERY", 1e9)
+        patch.setattr(recorder, "SAVES_WAIT", 0.0)
 
         def full(*_):
             raise OSError(errno.ENOSPC, "No space left on device")
@@ -81,35 +81,11 @@ def test_a_killed_run_is_shown_as_far_as_it_came_and_goes_on_to_the_same_bits(ki
     assert list(killed.parent.iterdir()) == [killed]
 
 
-@pytest.mark.parametrize("at", [0, 1000, -5000, -1])
-def test_where_the_last_checkpoint_is_damaged_the_one_before_is_used(killed, undisturbed, at):
-    flip(RunFolder(killed).last, at)
-    with (
-        pytest.warns(TriboWarning, match=r"last\.checkpoint is (damaged|not a whole).*going on"),
-        simulation().resume(killed) as result,
-    ):
-        assert everything(result) == undisturbed
-
-
-def test_a_part_that_the_disk_had_not_kept_costs_no_more_than_its_checkpoint(killed, undisturbed):
-    folder = RunFolder(killed)
-    part = folder.part(len(list(folder.path.glob("*.part"))) - 1)
-    part.write_bytes(part.read_bytes()[:-100])
-    with (
-        pytest.warns(TriboWarning, match="last.checkpoint counts on a part that cannot be read"),
-        simulation().resume(killed) as result,
-    ):
-        assert everything(result) == undisturbed
-
-
-@pytest.mark.parametrize("names", [("last.checkpoint", "synced.checkpoint"), ("000000.part",)])
-def test_where_nothing_is_sound_resume_says_what_is_damaged(killed, names):
-    for name in names:
-        flip(RunFolder(killed).path / name, 2000)
-    with pytest.raises(CaseError) as raised:
+@pytest.mark.parametrize("name", ["checkpoint", "000000.part"])
+def test_what_is_damaged_is_named_and_not_resumed(killed, name):
+    flip(RunFolder(killed).path / name, 2000)
+    with pytest.raises(CaseError, match=rf"{name} is damaged.*tribo run --force"):
         simulation().resume(killed)
-    assert all(name in str(raised.value) for name in names)
-    assert "tribo run --force" in str(raised.value)
 
 
 def test_what_a_killed_run_has_saved_is_not_shown_where_it_is_damaged(killed):
@@ -140,27 +116,18 @@ def test_a_damaged_result_is_not_resumed(killed):
 
 def test_a_checkpoint_of_another_version_of_tribo_is_refused(killed):
     folder = RunFolder(killed)
-    folder.last.unlink()
-    data = _load(folder.synced)
+    data = _load(folder.checkpoint)
     data["state"]["invariants"]["unheard_of"] = 1.0
-    _store(folder.synced, data, sync=False)
+    _store(folder.checkpoint, data)
     with pytest.raises(CaseError, match=r"another version.*unheard_of"):
-        simulation().resume(killed)
-
-
-def test_parts_that_do_not_fit_their_checkpoint_are_refused(killed):
-    folder = RunFolder(killed)
-    folder.last.unlink()
-    shutil.copy(folder.part(1), folder.part(0))
-    with pytest.raises(CaseError, match=r"parts are those of another run"):
         simulation().resume(killed)
 
 
 def test_every_bit_of_a_state_is_kept(killed, tmp_path):
     folder = RunFolder(killed)
     kept = folder.read_checkpoint(simulation().model.data)
-    _store(tmp_path / "again", kept, sync=False)
-    first, second = folder.last.read_bytes(), (tmp_path / "again").read_bytes()
+    _store(tmp_path / "again", kept)
+    first, second = folder.checkpoint.read_bytes(), (tmp_path / "again").read_bytes()
     assert first == second
 
 
@@ -169,13 +136,13 @@ def test_only_one_process_writes_a_result(tmp_path):
     with pytest.raises(Interrupted):
         simulation().run(path, observers=[StopAfter()])
     folder = RunFolder(path)
-    before = folder.synced.read_bytes()
+    before = folder.checkpoint.read_bytes()
     with closing(ResultWriter(path)) as other:
         other._folder.lock()
         for write in (simulation().resume, lambda p: simulation().run(p, overwrite=True)):
             with pytest.raises(CaseError, match="in use"):
                 write(path)
-    assert folder.synced.read_bytes() == before
+    assert folder.checkpoint.read_bytes() == before
     simulation().resume(path).close()
 
 

@@ -109,22 +109,6 @@ def test_a_run_gone_on_with_changed_components_and_stopped_again_says_how_to_go_
 
 
 @pytest.mark.slow
-def test_a_torn_checkpoint_falls_back_on_the_one_before(tmp_path):
-    whole, parts = tmp_path / "whole.h5", tmp_path / "parts.h5"
-    model = small(save_times=(20, 100))
-    Simulation(model.case).run(whole).close()
-    with pytest.raises(Interrupted):
-        Simulation(model.case).run(parts, observers=[Stopper(after=30)])
-    last = tmp_path / "parts.h5.run" / "last.checkpoint"
-    last.write_bytes(last.read_bytes()[:2000])
-    with pytest.warns(TriboWarning, match=r"last.* is not a whole.*: going on from synced"):
-        Simulation(model.case).resume(parts).close()
-    first, second = contents(whole), contents(parts)
-    for name in first:
-        np.testing.assert_array_equal(first[name], second[name], err_msg=name)
-
-
-@pytest.mark.slow
 def test_only_a_stopped_run_of_the_same_case_is_resumed(tmp_path):
     path = tmp_path / "run.h5"
     with pytest.raises(Interrupted):

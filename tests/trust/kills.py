@@ -3,7 +3,6 @@
 PYTHONPATH=tests python -m trust.kills --count 100 --seed 1
 """
 
-import os
 import random
 import sys
 import time
@@ -14,7 +13,7 @@ from tempfile import TemporaryDirectory
 from trust.trial import command, contents, dying, resume, run, same, start, whole
 
 from tribo import CaseError, Result
-from tribo.result.checkpoint import RunFolder, _checkpoint, _load
+from tribo.result.checkpoint import RunFolder
 
 WRITES = 300
 """About as many writes as a run makes."""
@@ -27,8 +26,6 @@ class Kills:
     killed: int = 0
     finished: int = 0
     """Done before the signal came."""
-    power_cuts: int = 0
-    """Of those killed, how often what had not waited for the disk was torn besides."""
     identical: int = 0
     lost_saves: int = 0
     unreadable: int = 0
@@ -48,8 +45,7 @@ class Kills:
 def kill_and_resume(count, seed):
     """Kill `count` runs, each at a moment of its own, and resume each.
 
-    Every other one dies in the middle of a write, half of them once more as they go on, and now
-    and then the power fails too.
+    Every other one dies in the middle of a write, and half of them once more as they go on.
     """
     kills = Kills()
     chance = random.Random(seed)
@@ -75,11 +71,6 @@ def _one(path, chance, duration, undisturbed, kills):
         return
     kills.killed += 1
     while code != 0:
-        if chance.random() < 0.25 and RunFolder(path).synced.exists():
-            kills.power_cuts += 1
-            _cut_power(path, chance)
-            # What came after the last wait for the disk is made again.
-            acknowledged = []
         kills.unreadable += not _readable(path)
         kills.lost_saves += len(set(acknowledged) - set(_times(path)))
         if code > 0:
@@ -110,15 +101,6 @@ def _killed(work, path, chance, duration, writing):
         child.kill()
     code, told = child.wait()
     return list(told), code
-
-
-def _cut_power(path, chance):
-    """Tear what did not wait for the disk: the last checkpoint, and parts after the one before."""
-    folder = RunFolder(path)
-    waited = {folder.part(n) for n in range(_checkpoint(_load(folder.synced)).parts)}
-    for torn in {folder.last, *folder.path.glob("*.part")} - waited:
-        if torn.exists():
-            os.truncate(torn, chance.randrange(torn.stat().st_size))
 
 
 def _times(path):

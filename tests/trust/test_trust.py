@@ -19,27 +19,25 @@ from tribo.result.store import ResultWriter
 pytestmark = pytest.mark.slow
 
 
-# Some are cut off from power, which tears a checkpoint.
-@pytest.mark.filterwarnings("ignore:.*going on from synced")
 def test_killed_runs_go_on_to_the_same_bits():
-    kills = kill_and_resume(6, seed=3)
-    assert kills.killed == kills.identical == 6
+    kills = kill_and_resume(4, seed=3)
+    assert kills.killed == kills.identical == 4
     assert (kills.lost_saves, kills.unreadable) == (0, 0)
 
 
 def test_damaged_files_are_never_read_wrong():
-    damages = damage_and_read(10 * len(KINDS), seed=3)
+    damages = damage_and_read(5 * len(KINDS), seed=3)
     assert set(damages.ends()) <= {"refused", "read right"}
-    assert damages.ends()["refused"] > 50
+    assert damages.ends()["refused"] > 20
 
 
 @pytest.mark.parametrize("tmpfs", [False, True], ids=["size limit", "tmpfs"])
 def test_a_full_disk_costs_nothing_that_was_saved(tmpfs):
     try:
-        disks = fill_and_resume(5, seed=5, tmpfs=tmpfs)
+        disks = fill_and_resume(2, seed=5, tmpfs=tmpfs)
     except PermissionError as error:
         pytest.skip(str(error))
-    assert disks.stopped == disks.identical == 5
+    assert disks.stopped == disks.identical == 2
     assert (disks.other_exits, disks.lost_saves) == (0, 0)
 
 
@@ -103,7 +101,7 @@ def test_other_bits_after_a_kill_would_be_seen(monkeypatch):
         write(folder, replace(kept, state=state), **options)
 
     monkeypatch.setattr(RunFolder, "write_checkpoint", other)
-    kills = kill_and_resume(2, seed=3)
+    kills = kill_and_resume(1, seed=3)
     assert kills.different > 0
     assert not kills.good
 

@@ -1,4 +1,4 @@
-"""Write the result file and its checkpoints."""
+"""Write the result file and its checkpoint."""
 
 from __future__ import annotations
 
@@ -19,9 +19,8 @@ from tribo.observers.observer import Observer
 from tribo.result.read import Result
 from tribo.result.store import ResultWriter
 
-SYNC_EVERY = 1.0
-"""Wall time between waits for the disk, in s. A power failure may lose what came in between, a
-kill does not."""
+SAVES_WAIT = 1.0
+"""Wall time between the checkpoints of saves that follow one another quickly, in s."""
 
 
 class Recorder(Observer):
@@ -33,14 +32,13 @@ class Recorder(Observer):
     overwrite: bool = False
     """Whether an existing file may be replaced."""
     checkpoint_every: Annotated[float, Quantity("s", at_least=0)] = 10.0
-    """Wall time between checkpoints; one is also written at every save."""
+    """Wall time between checkpoints; one is also written at a save, at most once a second."""
 
     _writer: ResultWriter = PrivateAttr()
     _effects: bool = False
     _clock: float = 0.0
     _spent_before: float = 0.0
-    _last_checkpoint: float = 0.0
-    _synced: float = -math.inf
+    _last_checkpoint: float = -math.inf
     _saved: float = -1.0
 
     def model_post_init(self, context: Any, /) -> None:
@@ -49,11 +47,11 @@ class Recorder(Observer):
 
     def on_start(self, run: RunInfo) -> None:
         """Create the file, or go on with it."""
-        self._clock = self._last_checkpoint = time.monotonic()
+        self._clock = time.monotonic()
         self._effects = bool(run.effect_fields)
         with self._writing():
             if run.resumed_from is not None and self.path is not None:
-                self._spent_before = run.wall_time
+                self._spent_before, self._last_checkpoint = run.wall_time, self._clock
                 self._saved = run.resumed_from.state.time
                 self._writer.reopen(run)
                 return
@@ -65,15 +63,15 @@ class Recorder(Observer):
         """Add to the history; now and then write a checkpoint."""
         self._writer.append_step(snapshot.measures)
         # A state that counts a save still to be written has its checkpoint with that.
-        due = time.monotonic() - self._last_checkpoint > self.checkpoint_every
-        if due and snapshot.state.saves == self._writer.saves:
-            self._checkpoint(snapshot)
+        if snapshot.state.saves == self._writer.saves:
+            waits = SAVES_WAIT if self._writer.waiting else self.checkpoint_every
+            self._checkpoint(snapshot, waits)
 
     def on_save(self, snapshot: Snapshot) -> None:
-        """Write the fields and a checkpoint; when this returns the save is safe."""
+        """Add the fields, and write a checkpoint."""
         self._writer.append_save(snapshot)
         self._saved = snapshot.state.time
-        self._checkpoint(snapshot)
+        self._checkpoint(snapshot, SAVES_WAIT)
 
     def on_finish(self, snapshot: Snapshot | None, reason: str) -> None:
         """Write what is left; keep the checkpoint unless the run is done."""
@@ -100,19 +98,18 @@ class Recorder(Observer):
             writer.append_save(snapshot)
             self._saved = state.time
         if writer.saves == state.saves:
-            self._checkpoint(snapshot)
+            self._checkpoint(snapshot, 0.0)
         if state.time != self._saved:
             # For the user to see; it belongs to no checkpoint.
             writer.append_save(snapshot)
 
-    def _checkpoint(self, snapshot: Snapshot) -> None:
+    def _checkpoint(self, snapshot: Snapshot, wait: float) -> None:
+        """Write a checkpoint if the last one is older than `wait`, in s."""
         now = time.monotonic()
-        sync = now - self._synced > SYNC_EVERY
-        with self._writing():
-            self._writer.checkpoint(snapshot.state, self._spent(), sync=sync)
-        self._last_checkpoint = now
-        if sync:
-            self._synced = now
+        if now - self._last_checkpoint >= wait:
+            with self._writing():
+                self._writer.checkpoint(snapshot.state, self._spent())
+            self._last_checkpoint = now
 
     def _spent(self) -> float:
         return self._spent_before + time.monotonic() - self._clock
@@ -126,5 +123,5 @@ class Recorder(Observer):
             remedy = "" if isinstance(error, PermissionError) else "free space or "
             raise OutputError(
                 f"cannot write {self.path}: {reason}; {remedy}choose another place with "
-                "-o; what was saved before is intact"
+                "-o; the last checkpoint is intact"
             ) from error

@@ -1,9 +1,9 @@
-"""The files of a run that is not done: its parts and its checkpoints.
+"""The files of a run that is not done: its parts and its checkpoint.
 
 Beside `my.h5` a folder `my.h5.run` holds them. A part has the rows that the
-run added since the one before, and never changes. A checkpoint has the whole
-state and says how many parts belong to it. It is replaced whole, and the last
-one that the disk is known to have is kept apart.
+run added since the one before, and never changes. The checkpoint has the whole
+state and says how many parts belong to it. It is replaced whole, and both wait
+for the disk.
 """
 
 from __future__ import annotations
@@ -24,7 +24,6 @@ from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution, Residuals
 from tribo.core.errors import CaseError, TriboWarning
 from tribo.core.fields import WearRate
-from tribo.core.files import wait_for_disk
 from tribo.core.locks import BusyError, lock
 from tribo.core.measures import Invariants
 from tribo.core.notices import Notice
@@ -70,11 +69,9 @@ class RunFolder:
 
     def __init__(self, result: Path) -> None:
         self.path = result.with_name(result.name + ".run")
-        self.last = self.path / "last.checkpoint"
-        self.synced = self.path / "synced.checkpoint"
+        self.checkpoint = self.path / "checkpoint"
         self._result = result
         self._lock: IO[bytes] | None = None
-        self._waiting: list[Path] = []
 
     def lock(self) -> None:
         """Make the folder, and keep other processes from writing the result.
@@ -121,8 +118,8 @@ class RunFolder:
             return True
 
     def clear(self) -> None:
-        """Remove checkpoints and parts."""
-        for path in (self.last, self.synced, *self.path.glob("*.part")):
+        """Remove the checkpoint and the parts."""
+        for path in (self.checkpoint, *self.path.glob("*.part")):
             path.unlink(missing_ok=True)
 
     def remove(self) -> None:
@@ -131,11 +128,6 @@ class RunFolder:
         self.unlock()
         # An open file cannot be removed everywhere.
         shutil.rmtree(self.path, ignore_errors=True)
-
-    @property
-    def has_checkpoint(self) -> bool:
-        """Whether there is a checkpoint, sound or not."""
-        return self.last.exists() or self.synced.exists()
 
     def parts(self, count: int) -> Iterator[Rows]:
         """Read the first parts, one after the other."""
@@ -146,63 +138,28 @@ class RunFolder:
         return self.path / f"{number:06}.part"
 
     def write_part(self, number: int, rows: Rows) -> None:
-        """Write a part; `write_checkpoint` waits for the disk if need be."""
-        _store(self.part(number), rows, sync=False)
-        self._waiting.append(self.part(number))
+        """Write a part."""
+        _store(self.part(number), rows)
 
-    def write_checkpoint(self, checkpoint: Checkpoint, *, sync: bool) -> None:
-        """Replace the last checkpoint; with `sync` wait until it would survive a power failure."""
-        if not sync:
-            _store(self.last, checkpoint, sync=False)
-            return
-        for path in self._waiting:
-            wait_for_disk(path)
-        self._waiting.clear()
-        _store(self.synced, checkpoint, sync=True)
-        self.last.unlink(missing_ok=True)
+    def write_checkpoint(self, checkpoint: Checkpoint) -> None:
+        """Replace the checkpoint, after its parts are written."""
+        _store(self.checkpoint, checkpoint)
 
     def read_checkpoint(self, case: Mapping[str, object]) -> Checkpoint:
-        """Return the latest checkpoint of a case that is sound, as its parts are.
-
-        A warning says which were damaged.
+        """Return the checkpoint of a case.
 
         Raises
         ------
         CaseError
-            If there is none, with the reasons.
+            If there is none, or it is damaged or of another case.
         """
-        reasons, found = [], []
-        for path in (self.last, self.synced):
-            try:
-                found.append((_checkpoint(_load(path)), path.name))
-            except FileNotFoundError:
-                continue
-            except CaseError as error:
-                reasons.append(str(error))
-        for checkpoint, name in sorted(found, key=lambda pair: -pair[0].rows):
-            if checkpoint.case != fingerprint(case):
-                raise CaseError("it belongs to another case")
-            try:
-                self._check_parts(checkpoint)
-            except (OSError, CaseError) as error:
-                reasons.append(f"{name} counts on a part that cannot be read ({error})")
-                continue
-            if reasons:
-                warnings.warn(
-                    f"{'; '.join(reasons)}: going on from {name}, at {checkpoint.state.time:.6g} s",
-                    TriboWarning,
-                    stacklevel=2,
-                )
-            return checkpoint
-        raise CaseError("; ".join(reasons) or "its run was stopped before the first was written")
-
-    def _check_parts(self, checkpoint: Checkpoint) -> None:
-        saves = rows = 0
-        for part in self.parts(checkpoint.parts):
-            saves += len(part.get("time", ()))
-            rows += len(part.get("history_time", ()))
-        if (saves, rows) != (checkpoint.saves, checkpoint.rows):
-            raise CaseError("the parts are those of another run")
+        try:
+            checkpoint = _checkpoint(_load(self.checkpoint))
+        except FileNotFoundError:
+            raise CaseError("its run was stopped before the first was written") from None
+        if checkpoint.case != fingerprint(case):
+            raise CaseError("it belongs to another case")
+        return checkpoint
 
 
 def fingerprint(case: Mapping[str, object]) -> str:
@@ -210,7 +167,7 @@ def fingerprint(case: Mapping[str, object]) -> str:
     return sha256(json.dumps(case, sort_keys=True).encode()).hexdigest()
 
 
-def _store(path: Path, data: object, *, sync: bool) -> None:
+def _store(path: Path, data: object) -> None:
     """Write plain data, dataclasses and arrays, so that `_load` returns the same bits."""
     arrays: list[Array] = []
 
@@ -228,7 +185,7 @@ def _store(path: Path, data: object, *, sync: bool) -> None:
     text = json.dumps(data, default=plain)
     image = BytesIO()
     np.savez(image, np.frombuffer(text.encode(), np.uint8), *arrays)
-    write_sealed(path, image.getbuffer(), sync=sync)
+    write_sealed(path, image.getbuffer(), sync=True)
 
 
 def _load(path: Path) -> dict[str, Any]:
@@ -292,7 +249,9 @@ def read_checkpoint(result: Path, case: Mapping[str, object]) -> tuple[State, fl
         folder.unlock()
     try:
         checkpoint = folder.read_checkpoint(case)
-    except CaseError as error:
+        for _ in folder.parts(checkpoint.parts):
+            """Each is sound, or it raises."""
+    except (OSError, CaseError) as error:
         raise CaseError(
             f"{result} has no checkpoint to resume from: {error}; start again with "
             "'tribo run --force'"

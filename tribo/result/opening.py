@@ -72,7 +72,7 @@ def _saved_so_far(path: Path, folder: RunFolder) -> BytesIO:
     """Return the file that the run would write now, with who writes it as its status."""
     status = "running" if folder.busy() else "killed"
     empty = path.read_bytes()
-    if not folder.has_checkpoint:
+    if not folder.checkpoint.exists():
         return filled_image(empty, (), 0, 0, status=status)
     with h5py.File(BytesIO(empty)) as file:
         case = json.loads(file.attrs["case"])

@@ -73,13 +73,16 @@ class ResultWriter:
             with Result.open(self._path) as stopped:
                 self._begin(run, provenance=json.dumps(_gone_on_with(stopped, run)))
             checkpoint = self._folder.read_checkpoint(run.case)
-            # What came after it must not be counted again.
-            self._folder.write_checkpoint(checkpoint, sync=True)
             self._write(BytesIO(self._empty))
         except BaseException:
             self._folder.unlock()
             raise
         self._count, self.saves, self.rows = checkpoint.parts, checkpoint.saves, checkpoint.rows
+
+    @property
+    def waiting(self) -> bool:
+        """Whether a save waits for the next checkpoint."""
+        return bool(self._saves)
 
     def append_step(self, measures: Measures) -> None:
         """Add a row to the history; it is written with the next checkpoint."""
@@ -91,23 +94,13 @@ class ResultWriter:
         self._saves.append(save_row(snapshot, self._table))
         self.saves += 1
 
-    def checkpoint(self, state: State, wall_time: float, *, sync: bool) -> None:
-        """Write what was added, and the state that belongs to it.
-
-        Parameters
-        ----------
-        state : State
-            The state after all that was added.
-        wall_time : float
-            Time spent so far, in s.
-        sync : bool
-            Whether to wait until it would survive a power failure.
-        """
+    def checkpoint(self, state: State, wall_time: float) -> None:
+        """Write what was added, and the state after it with the time spent so far, in s."""
         self._finish_part()
         if self._folder is not None:
             case = fingerprint(self._run.case)
             kept = Checkpoint(case, state, wall_time, self._count, self.saves, self.rows)
-            self._folder.write_checkpoint(kept, sync=sync)
+            self._folder.write_checkpoint(kept)
 
     def finish(self, status: str, wall_time: float, notices: Sequence[Notice] = ()) -> None:
         """Write the whole result, and how the run ended."""
