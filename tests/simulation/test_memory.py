@@ -12,6 +12,7 @@ from paper_models import archard, flat, named, small, sphere, steel
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.simulation import memory
+from tribo.simulation.memory import memory_needed
 from tribo.simulation.predict import predict
 from tribo.surfaces.sphere import Sphere
 from tribo.templates import template
@@ -67,10 +68,17 @@ def test_more_than_there_is_is_refused_with_the_estimate(tight):
     small(grid=Grid((0.7e-3, 0.7e-3), (64, 64)))
     with pytest.raises(CaseError) as caught:
         small(grid=Grid((0.7e-3, 0.7e-3), (4000, 4000)))
-    assert str(caught.value) == (
-        "grid.cells: 4000 × 4000 cells take up to 7.17 GiB of memory, and this machine leaves "
-        "64 MiB: use fewer cells"
-    )
+    text = str(caught.value)
+    assert text.startswith("grid.cells: 4000 × 4000 cells take up to 8.6 GiB of memory, and this")
+    assert text.endswith("leaves 64 MiB: use fewer cells")
+
+
+def test_the_file_that_is_made_in_memory_counts():
+    few, many = small(save_times=()), small(save_times=tuple(range(1, 101)))
+    sizes = [memory_needed(model.case, plastic=False) for model in (few, many)]
+    # Of each save the pressure, and the wear and plastic depth of two bodies.
+    cells = few.grid.cells[0] * few.grid.cells[1]
+    assert sizes[1] - sizes[0] == 100 * 5 * 8 * cells
 
 
 def test_yielding_takes_more(tight):

@@ -15,7 +15,7 @@ from trust.trial import command, contents, dying, resume, run, same, start, whol
 from tribo import CaseError, Result
 from tribo.result.checkpoint import RunFolder
 
-WRITES = 300
+WRITES = 60
 """About as many writes as a run makes."""
 
 
@@ -50,8 +50,9 @@ def kill_and_resume(count, seed):
     kills = Kills()
     chance = random.Random(seed)
     with TemporaryDirectory() as folder:
-        begun = time.monotonic()
         undisturbed = contents(whole(folder))
+        begun = time.monotonic()
+        start(run, Path(folder) / "run.h5").wait()
         duration = time.monotonic() - begun
         while kills.killed + kills.other_exits < count:
             _one(Path(folder) / "run.h5", chance, duration, undisturbed, kills)

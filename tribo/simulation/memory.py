@@ -29,7 +29,19 @@ def memory_needed(case: Case, *, plastic: bool) -> float:
     fields = sum(len(body.wear.state_fields) for body in case.bodies.values() if body.wear)
     fields += len(case.bodies) * sum(len(effect.provides) for effect in case.effects)
     arrays = FIELDS + FIELDS_IF_PLASTIC * plastic + FIELDS_PER_FIELD * fields
-    return BESIDES + 8.0 * case.grid.cells[0] * case.grid.cells[1] * arrays
+    # At its end a run makes its file in memory.
+    return BESIDES + 8.0 * case.grid.cells[0] * case.grid.cells[1] * arrays + size_of_fields(case)
+
+
+def size_of_fields(case: Case) -> float:
+    """Return the size of all fields that a result keeps, before they are compressed, in bytes."""
+    bodies = case.bodies.values()
+    states = {field for body in bodies if body.wear for field in body.wear.state_fields}
+    effects = sum(len(effect.provides) for effect in case.effects)
+    # The pressure, and for each body wear, plastic depth and what its models keep.
+    each = 1 + len(bodies) * (2 + effects + len(states))
+    saves = 2 + len(case.output.save_times)
+    return 8.0 * case.grid.cells[0] * case.grid.cells[1] * (len(bodies) + saves * each)
 
 
 def memory_left() -> tuple[float, str]:

@@ -17,7 +17,7 @@ from tribo.simulation.doubt import doubting, too_deep, unusual
 from tribo.simulation.guard import calling
 from tribo.simulation.march import begin, march
 from tribo.simulation.measure import measure
-from tribo.simulation.memory import memory_needed
+from tribo.simulation.memory import memory_needed, size_of_fields
 from tribo.simulation.model import Model
 from tribo.simulation.validity import (
     check_stroke,
@@ -142,27 +142,11 @@ def predict(model: Model) -> Prediction:
         window_holds=holds,
         limitation=coarse.limitation,
         memory=memory_needed(model.case, plastic=model.system.cap is not None),
-        file_size=_file_size(model),
+        file_size=BARE_FILE + size_of_fields(model.case),
         facts={place: stated for place, stated in facts.items() if stated},
         problems=tuple(problem for problem in problems if problem is not None),
         exit_code=next((code for code, text in stopping if text is not None and code), 0),
     )
-
-
-def _file_size(model: Model) -> float:
-    """Return the size of the result file without compression, in bytes."""
-    nx, ny = model.grid.cells
-    saves = len({0.0, model.end_time, *model.case.output.save_times})
-    # Per save: the pressure, and of each body what effects compute for it, its plastic depth, its
-    # wear and its state.
-    field = 8.0 * nx * ny
-    each = field * (1 + len(model.bodies) * sum(len(effect.provides) for effect in model.effects))
-    for name in model.bodies:
-        own = field / nx if name in model.swept else field
-        states = len(model.laws[name].state_fields) if name in model.laws else 0
-        each += field + (1 + states) * own
-    heights = field * len(model.bodies)
-    return BARE_FILE + heights + saves * each
 
 
 def _failed(coarse: CoarseRun) -> str | None:
