@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
@@ -147,7 +147,7 @@ def _suite_table(rows: Sequence[Row], *, header: bool) -> Table:
 def _print_study(study: Refinement) -> None:
     from tribo.cli.console import Console
 
-    widths = {"value": 10, "±": 7, "%": 5, "grid": 10, "GCI %": 5, "steps": 10}
+    widths = {"value": 10, "±": 7, "%": 6, "grid": 10, "GCI %": 6, "steps": 10}
     table = _table(header=True, quantity=0, **widths)
     for estimate in study.estimates:
         quoted = estimate.uncertainty
@@ -155,16 +155,17 @@ def _print_study(study: Refinement) -> None:
             _named(estimate.name, estimate.unit),
             f"{estimate.value:.5g}",
             NOTHING if quoted is None else f"{quoted:.1e}",
-            _share(quoted, estimate.value),
+            _percent(quoted, estimate.value),
             _order(estimate.grid),
-            NOTHING if estimate.grid.gci is None else _percent(100 * estimate.grid.gci),
+            _percent(estimate.grid.gci),
             _order(estimate.steps),
         )
     console = Console(highlight=False)
     console.print(table)
+    cells = ", ".join(str(level.cells[0]) for level in study.grids)
+    steps = ", ".join(str(level.steps) for level in study.steps)
     console.print(
-        f"Grids of {_levels(level.cells[0] for level in study.grids)} cells along x, and "
-        f"{_levels(level.steps for level in study.steps)} steps; under each, the observed order. "
+        f"Grids of {cells} cells along x, and {steps} steps; under each, the observed order. "
         "±: the uncertainty to quote, of grid and steps together. GCI: grid convergence index of "
         "the finest grid (Celik et al. 2008)."
     )
@@ -194,22 +195,9 @@ def _order(found: Convergence) -> str:
     return order if found.behaviour == "converges" else f"{order}, {found.behaviour}"
 
 
-def _share(uncertainty: float | None, value: float) -> str:
-    if uncertainty is None or (uncertainty and not value):
-        return NOTHING
-    return _percent(100 * uncertainty / abs(value) if value else 0.0)
-
-
-def _percent(share: float) -> str:
-    """Return a share in at most five characters."""
-    if 0 < share < 0.01:
-        return "<0.01"
-    return f"{share:.0f}" if share >= 10 else f"{share:.2g}"
+def _percent(part: float | None, of: float = 1.0) -> str:
+    return NOTHING if part is None or not of else f"{100 * part / abs(of):.2f}"
 
 
 def _named(name: str, unit: str) -> str:
     return name if unit == "1" else f"{name}, {unit}"
-
-
-def _levels(values: Iterable[int]) -> str:
-    return ", ".join(str(value) for value in values)

@@ -175,16 +175,6 @@ class Checks(ABC):
         )
 
 
-def units_of(config: Component) -> dict[str, set[str]]:
-    """Return the units of each real number of a configuration, ``""`` for those in tables."""
-    schema = type(config).model_json_schema()["properties"]
-    return {
-        name: {part.get("x-unit", "") for part in (schema[name], *schema[name].get("anyOf", ()))}
-        for name, value in config
-        if value is not None and not isinstance(value, bool | int | str)
-    }
-
-
 def _properties(cls: type[Component]) -> Iterator[tuple[str, Mapping[str, Any]]]:
     """Yield every field with its schema, those of nested tables too, but not `type`."""
     schema = cls.model_json_schema()

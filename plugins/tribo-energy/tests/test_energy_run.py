@@ -33,9 +33,9 @@ class Last(Observer):
         return self._seen.measures
 
 
-def case(duration=200, **wear):
+def case(duration=200, cells=40, **wear):
     data = tomllib.loads(EXAMPLE.read_text())
-    data["grid"] = {"size": "0.8 mm", "cells": 40}
+    data["grid"] = {"size": "0.8 mm", "cells": cells}
     data["kinematics"]["duration"] = duration
     data["output"] = {}
     for body in data["bodies"].values():
@@ -85,7 +85,7 @@ def test_each_body_sees_all_the_energy_of_friction(energy):
 @pytest.mark.slow
 def test_wear_begins_at_the_threshold_energy():
     threshold = 1e8
-    _, last, _ = run(case(200, threshold_energy=threshold))
+    _, last, _ = run(case(60, 24, threshold_energy=threshold))
     for body in last.state.bodies.values():
         dissipated = body.law["dissipated_energy"]
         expected = ALPHA * np.maximum(dissipated - threshold, 0)
@@ -103,10 +103,6 @@ def test_a_threshold_traction_narrows_the_scar():
     assert 0 < narrow < wide
 
 
-def test_the_result_says_whose_law_it_was(energy):
-    assert "tribo-energy" in str(energy[2].provenance)
-
-
 @pytest.mark.parametrize(
     ("without", "needs"),
     [("effects", "friction_traction"), ("friction", "coefficient of friction")],
@@ -116,11 +112,6 @@ def test_a_case_without_friction_is_refused(without, needs):
     del data[without]
     with pytest.raises(CaseError, match=needs):
         Simulation(data)
-
-
-def test_a_wrong_dimension_is_refused_with_its_place():
-    with pytest.raises(CaseError, match=r"bodies\.ball\.wear\.alpha"):
-        Simulation(case(alpha="3 GPa"))
 
 
 def test_the_readme_shows_what_the_example_prints(capsys):

@@ -51,21 +51,20 @@ def test_implicit_stepping_stops_with_an_error_that_names_both():
 
 
 @needs_tamaas
-@pytest.mark.parametrize(
-    ("load", "width", "duration"), [(100, "0.7 mm", "40 s"), (1000, "1.4 mm", "20 s")]
-)
-def test_explicit_wear_of_a_few_metres_is_that_of_dcfft(load, width, duration):
+@pytest.mark.slow
+def test_explicit_wear_of_yielding_bodies_is_that_of_dcfft():
+    # Without yield it is a row of `tribo verify`.
     theirs, ours = (
-        Simulation(case(name, load, width, duration)).run().saves()[-1]
+        Simulation(case(name, 1000, "1.4 mm", "20 s")).run().saves()[-1]
         for name in ("tamaas.half_space", "dcfft")
     )
-    assert theirs["distance_m"] == pytest.approx(4.0 if load == 100 else 2.0)
+    assert theirs["distance_m"] == pytest.approx(2.0)
     # Each solve is good to some 1e-6 of the pressure, and errors do not add up.
     assert theirs["max_pressure_Pa"] == pytest.approx(ours["max_pressure_Pa"], rel=1e-5)
     for body in ("ball", "disk"):
         assert theirs["bodies"][body] == pytest.approx(ours["bodies"][body], rel=1e-5, abs=1e-14)
         assert theirs["bodies"][body]["wear_volume_m3"] > 0
-        assert (theirs["bodies"][body]["max_plastic_depth_m"] > 0) == (load == 1000)
+        assert theirs["bodies"][body]["max_plastic_depth_m"] > 0
 
 
 @needs_tamaas
