@@ -9,7 +9,7 @@ from fake_distributions import distribute, observer, plugins
 from pydantic import BaseModel, ConfigDict, Field
 
 from tribo import CaseError, Observer, Quantity, Registry
-from tribo.registry.catalogue import catalogue, describe, find
+from tribo.registry.catalogue import catalogue, describe, matching
 from tribo.registry.plugins import given
 
 
@@ -39,13 +39,13 @@ def test_each_claim_on_a_name_has_a_row(registry):
 
 
 def test_components_are_found_by_name_or_distribution(registry):
-    assert find(registry, "cat.calm") == ["cat.calm"]
-    assert find(registry, "cat_b") == ["cat_b.own", "cat.calm"]
+    assert matching(registry, "cat.calm") == ["cat.calm"]
+    assert matching(registry, "cat_b") == ["cat_b.own", "cat.calm"]
     for name in ("cat_c", "new"):
         with pytest.raises(CaseError, match=r"cat_c 1\.0 is broken: 'new' needs a prefix"):
-            find(registry, name)
+            matching(registry, name)
     with pytest.raises(CaseError, match=r"'cat.clam'; did you mean 'cat.calm'\?"):
-        find(registry, "cat.clam")
+        matching(registry, "cat.clam")
 
 
 class Place(BaseModel):

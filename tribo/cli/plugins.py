@@ -65,11 +65,11 @@ def show(name: str) -> None:
     Example:
       tribo plugins show archard
     """
-    from tribo.registry.catalogue import describe, find
+    from tribo.registry.catalogue import describe, matching
     from tribo.registry.registry import default_registry
 
     registry = default_registry()
-    for number, component in enumerate(find(registry, name)):
+    for number, component in enumerate(matching(registry, name)):
         cls = registry.find(component)
         assert cls is not None
         described = describe(cls, registry.claimants(component)[0])
@@ -92,14 +92,14 @@ def check(name: str) -> None:
       tribo plugins check acme-fretting
     """
     from tribo.core.errors import CaseError, NumericalError
-    from tribo.registry.catalogue import find
+    from tribo.registry.catalogue import matching
     from tribo.registry.probe import probe
     from tribo.registry.registry import default_registry
     from tribo.testing import check as conform
     from tribo.testing import example_configs
 
     registry, failed = default_registry(), []
-    for component in find(registry, name):
+    for component in matching(registry, name):
         (owner, *others) = registry.claimants(component)
         if not others and not (tried := probe(owner)).usable:
             raise CaseError(f"{component!r} is in {tried}, which is {tried.status}: {tried.reason}")

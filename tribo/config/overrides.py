@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
-from copy import deepcopy
 from typing import Any
 
 from pydantic import BaseModel
@@ -51,10 +50,10 @@ def apply_settings(
         if len(keys) > LEVELS:
             raise nested_too_deeply(path)
         check_depth(value, path)
-    changed = deepcopy(dict(data))
+    changed = dict(data)
     types = sorted((c for c in changes if c[0][-1] == "type"), key=lambda c: len(c[0]))
     for keys, value in types + [c for c in changes if c[0][-1] != "type"]:
-        _set(changed, keys, deepcopy(value))
+        changed = _changed(changed, keys, value)
     return changed
 
 
@@ -126,31 +125,23 @@ def _pair(text: str) -> tuple[str, Any]:
     return path.strip(), parse_value(value.strip())
 
 
-def _set(data: dict[str, Any], keys: list[str], value: Any) -> None:
-    holder: Any = {"": data}
-    place: Any = ""
-    for depth, key in enumerate(keys):
-        inside = holder[place]
-        if isinstance(inside, str) and depth:
-            # The name of a component is short for a table with its type.
-            inside = holder[place] = {"type": inside}
-        if keys[depth:] == ["type"] and depth and isinstance(inside, dict):
-            holder[place] = inside if inside.get("type") == value else {"type": value}
-            return
-        if isinstance(inside, dict):
-            if depth < len(keys) - 1:
-                inside.setdefault(key, {})
-            holder, place = inside, key
-        elif isinstance(inside, list):
-            holder, place = inside, _index(inside, keys[: depth + 1])
-        else:
-            raise CaseError("is not a table; nothing in it can be set", ".".join(keys[:depth]))
-    holder[place] = value
-
-
-def _index(items: list[Any], keys: list[str]) -> int:
-    key = keys[-1]
-    if not (key.isascii() and key.isdigit() and int(key) < len(items)):
-        count = f"0 to {len(items) - 1}" if items else "none: the list is empty"
-        raise CaseError(f"{key!r} is not an index; allowed: {count}", ".".join(keys[:-1]))
-    return int(key)
+def _changed(inside: Any, keys: list[str], value: Any, above: tuple[str, ...] = ()) -> Any:
+    """Return a copy of what is at `above`, with `value` at `keys` in it."""
+    if not keys:
+        return value
+    key, *rest = keys
+    if isinstance(inside, str):
+        # The name of a component is short for a table with its type.
+        inside = {"type": inside}
+    if isinstance(inside, Mapping):
+        if keys == ["type"] and above:
+            return inside if inside.get("type") == value else {"type": value}
+        return {**inside, key: _changed(inside.get(key, {}), rest, value, (*above, key))}
+    if not isinstance(inside, list):
+        raise CaseError("is not a table; nothing in it can be set", ".".join(above))
+    if not (key.isascii() and key.isdigit() and int(key) < len(inside)):
+        count = f"0 to {len(inside) - 1}" if inside else "none: the list is empty"
+        raise CaseError(f"{key!r} is not an index; allowed: {count}", ".".join(above))
+    changed = list(inside)
+    changed[int(key)] = _changed(inside[int(key)], rest, value, (*above, key))
+    return changed

@@ -52,7 +52,7 @@ def catalogue(registry: Registry) -> list[dict[str, str]]:
     return rows + [_row("", plugin) for plugin in registry.plugins if not plugin.usable]
 
 
-def find(registry: Registry, name: str) -> list[str]:
+def matching(registry: Registry, name: str) -> list[str]:
     """Return the names of the component called `name`, or of those of the distribution.
 
     Names in conflict come last.

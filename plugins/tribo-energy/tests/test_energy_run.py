@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 from tribo import CaseError, Observer, Simulation
 
-from tribo_energy.plugin import EXAMPLE
-from tribo_energy.report import tribo_figures, tribo_lab_rows
+from tribo_energy.plugin import EXAMPLE, tribo_figures, tribo_lab_rows
 
 HERE = Path(__file__).parent
 ALPHA, MU, LOAD = 3.11e-15, 0.1, 100.0

@@ -10,8 +10,7 @@ import pytest
 from tribo import CaseError, ContactConditions, Simulation
 
 from tribo_thermal.flash import Flash
-from tribo_thermal.plugin import EXAMPLE
-from tribo_thermal.report import tribo_figures, tribo_lab_rows
+from tribo_thermal.plugin import EXAMPLE, tribo_figures, tribo_lab_rows
 
 # The case is small, and its stroke is the paper's.
 pytestmark = [

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
-from tribo import CaseTemplate, Component, hookimpl
+from matplotlib.figure import Figure
+from tribo import Array, CaseTemplate, Component, LabRow, Result, hookimpl
 
 from tribo_energy.dissipation import Dissipation
-from tribo_energy.report import tribo_figures, tribo_lab_rows
 from tribo_energy.traction import FrictionTraction
-
-__all__ = ["tribo_components", "tribo_figures", "tribo_lab_rows", "tribo_templates"]
 
 EXAMPLE = Path(__file__).with_name("ball_on_disk.toml")
 
@@ -26,3 +25,46 @@ def tribo_templates() -> list[CaseTemplate]:
     """Offer the paper's test, worn by dissipated energy."""
     summary = "the paper's test, worn by dissipated energy"
     return [CaseTemplate("energy.ball_on_disk", summary, EXAMPLE.read_text(encoding="utf-8"))]
+
+
+def dissipated(result: Result) -> Array | None:
+    """Return the energy dissipated by each step of the run, μ F s, in J; None without friction."""
+    friction = result.case.get("friction")
+    if friction is None:
+        return None
+    energy: Array = (
+        friction["coefficient"] * result.system.load * result.table("history")["distance_m"]
+    )
+    return energy
+
+
+@hookimpl
+def tribo_lab_rows(result: Result) -> list[LabRow]:
+    """Offer the energy dissipated in all, and the volume lost for it."""
+    energy = dissipated(result)
+    if energy is None or not energy[-1] > 0:
+        return []
+    volume = sum(body["wear_volume_m3"] for body in result.saves()[-1]["bodies"].values())
+    return [
+        LabRow("dissipated energy", float(energy[-1]), "J"),
+        LabRow("worn volume per dissipated energy", 1e9 * volume / float(energy[-1]), "mm³/J"),
+    ]
+
+
+@hookimpl
+def tribo_figures(result: Result) -> dict[str, Callable[[], Figure]]:
+    """Offer the worn volumes over the dissipated energy."""
+    energy = dissipated(result)
+    if energy is None or not energy[-1] > 0:
+        return {}
+
+    def draw() -> Figure:
+        figure = Figure(figsize=(3.35, 2.5), layout="constrained")
+        axes = figure.add_subplot(xlabel="Dissipated energy, J", ylabel="Worn volume, mm³")
+        history = result.table("history")
+        for name in result.body_names:
+            axes.plot(energy, 1e9 * history[f"bodies.{name}.wear_volume_m3"], label=name)
+        axes.legend()
+        return figure
+
+    return {"worn_volume_over_energy": draw}

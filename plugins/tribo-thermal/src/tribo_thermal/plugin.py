@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
-from tribo import CaseTemplate, Component, hookimpl
+from matplotlib.figure import Figure
+from tribo import Array, CaseTemplate, Component, LabRow, Result, hookimpl
 
 from tribo_thermal.arrhenius import Arrhenius
-from tribo_thermal.flash import Flash
-from tribo_thermal.report import tribo_figures, tribo_lab_rows
+from tribo_thermal.flash import TEMPERATURE, Flash
 from tribo_thermal.softening import Softening
-
-__all__ = ["tribo_components", "tribo_figures", "tribo_lab_rows", "tribo_templates"]
 
 EXAMPLE = Path(__file__).with_name("ball_on_disk.toml")
 
@@ -27,3 +26,38 @@ def tribo_templates() -> list[CaseTemplate]:
     """Offer the paper's test in its warm bath, with wear that follows the temperature."""
     summary = "the paper's test, with wear that follows the temperature of the contact"
     return [CaseTemplate("thermal.ball_on_disk", summary, EXAMPLE.read_text(encoding="utf-8"))]
+
+
+def temperatures(result: Result) -> dict[str, Array]:
+    """Return the highest temperature of each body at each save, in °C; empty without `Flash`."""
+    kept = {name: result.body(name).effects.get(TEMPERATURE.name) for name in result.body_names}
+    return {
+        name: at.max(axis=(1, 2)) - 273.15
+        for name, at in kept.items()
+        if at is not None and len(at) > 1
+    }
+
+
+@hookimpl
+def tribo_lab_rows(result: Result) -> list[LabRow]:
+    """Offer the highest temperature of each body at any save."""
+    return [
+        LabRow(f"highest temperature of {name} in the contact", float(at.max()), "°C")
+        for name, at in temperatures(result).items()
+    ]
+
+
+@hookimpl
+def tribo_figures(result: Result) -> dict[str, Callable[[], Figure]]:
+    """Offer the temperature of each body over time."""
+    found = temperatures(result)
+
+    def draw() -> Figure:
+        figure = Figure(figsize=(3.35, 2.5), layout="constrained")
+        axes = figure.add_subplot(xlabel="Time, s", ylabel="Temperature in the contact, °C")
+        for name, at in found.items():
+            axes.plot(result.times, at, marker=".", label=name)
+        axes.legend()
+        return figure
+
+    return {"contact_temperature": draw} if found else {}

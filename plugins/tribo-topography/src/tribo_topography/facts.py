@@ -58,12 +58,11 @@ class Facts:
 
     def __str__(self) -> str:
         """Return the facts in one line, in the units of a lab."""
-        missing = f", {100 * self.missing:.2g} % missing" if self.missing else ""
+        of = self.stated()
+        missing = f", {of['missing']} missing" if self.missing else ""
         return (
-            f"{self.path.name} ({self.format}, {self.channel!r}): {self.pixels[0]} × "
-            f"{self.pixels[1]} pixels on {_shown(self.size)}, "
-            f"heights over {1e6 * self.range:.4g} µm, Sq {1e6 * self.sq:.4g} µm"
-            f"{_FORM[self.detrend]}{missing}"
+            f"{of['file']} ({of['read as']}): {of['pixels']} pixels on {of['size']}, heights "
+            f"{of['heights']}, Sq {of['Sq']}{missing}"
         )
 
     def stated(self) -> dict[str, str]:
