@@ -62,8 +62,6 @@ class DcFft(ContactSolver):
         Without `start`, grids of half the cells are solved first.
         """
         guess = None if start is None else start.pressure
-        # Here, so that the message speaks of the window and not of a box in it.
-        check_window(problem.system.grid, problem.load, problem.system.cap)
         return self._solve(problem, guess, self.tolerance)
 
     def smallest_compliance(self, system: ContactSystem) -> float:

@@ -19,16 +19,14 @@ def readonly(array: Array) -> Array:
     return view
 
 
-def _span(line: Mask) -> slice:
-    """Return where `line` is set, from the first to the last; empty if nowhere."""
-    index = np.flatnonzero(line)
-    return slice(int(index[0]), int(index[-1]) + 1) if index.size else slice(0, 0)
-
-
 def bounds(cells: Mask) -> Region:
     """Return the smallest region with all cells of `cells` that are set; empty if none is."""
-    rows = _span(np.asarray(cells.any(axis=1)))
-    return rows, _span(np.asarray(cells[rows].any(axis=0)))
+    rows = np.flatnonzero(cells.any(axis=1))
+    if not rows.size:
+        return slice(0, 0), slice(0, 0)
+    along = slice(int(rows[0]), int(rows[-1]) + 1)
+    columns = np.flatnonzero(cells[along].any(axis=0))
+    return along, slice(int(columns[0]), int(columns[-1]) + 1)
 
 
 def union(first: Region, second: Region) -> Region:

@@ -86,15 +86,11 @@ def around_region(region: Region, window: tuple[int, int], margin: int) -> Box:
 
 def _widened(lines: slice, count: int, margin: int) -> tuple[int, int]:
     low, high = lines.start - margin, lines.stop + margin
-    length = _rounded(high - low)
+    unit = _SMALLEST // 4
+    while 7 * unit < high - low:
+        unit *= 2
+    length = max(_SMALLEST, unit * -(-(high - low) // unit))
     if length >= count:
         return 0, count
     first = low - (length - (high - low)) // 2
     return min(max(first, 0), count - length), length
-
-
-def _rounded(length: int) -> int:
-    unit = _SMALLEST // 4
-    while 7 * unit < length:
-        unit *= 2
-    return max(_SMALLEST, unit * -(-length // unit))
