@@ -72,7 +72,8 @@ class ResultWriter:
         try:
             with Result.open(self._path) as stopped:
                 self._begin(run, provenance=json.dumps(_gone_on_with(stopped, run)))
-            checkpoint = self._folder.read_checkpoint(run.case)
+                # Another version of a component may have added keys to the case of the run.
+                checkpoint = self._folder.read_checkpoint(stopped.case)
             self._write(BytesIO(self._empty))
         except BaseException:
             self._folder.unlock()
