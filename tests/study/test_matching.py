@@ -62,15 +62,10 @@ def test_matched_bodies_are_compared_and_told(files, tmp_path):
         assert drawn == {"pressure_200s.png", "ball_200s.png", "disk_200s.png"}
 
 
-@pytest.mark.parametrize(
-    ("match", "known"),
-    [
-        ({"bal": "pin"}, "ball, disk"),
-        ({"ball": "pim"}, "plate, pin"),
-        ({"ball": "pin", "disk": "pin"}, "'pin'"),
-    ],
-)
-def test_a_match_of_no_body_is_refused(files, match, known):
-    with pytest.raises(CaseError, match=known) as caught:
+@pytest.mark.parametrize("match", [{"bal": "pin"}, {"ball": "pim"}, {"ball": "pin", "disk": "pin"}])
+def test_a_match_of_no_body_is_refused(files, match):
+    with pytest.raises(
+        CaseError, match=r"first result, ball, disk, .* others, plate, pin,"
+    ) as caught:
         compare(files("ball and disk", "plate and pin"), match=match)
     assert caught.value.path == "match"

@@ -18,17 +18,14 @@ def check_match(match: Mapping[str, str], first: Result, others: Sequence[Result
         If it does not.
     """
     theirs = dict.fromkeys(name for result in others for name in result.body_names)
-    for name, own in match.items():
-        if name not in first.body_names:
-            known = ", ".join(first.body_names)
-            raise CaseError(
-                f"the first result has no body {name!r}; its bodies are {known}", "match"
-            )
-        if own not in theirs:
-            known = ", ".join(theirs)
-            raise CaseError(f"no other result has a body {own!r}; theirs are {known}", "match")
-        if list(match.values()).count(own) > 1:
-            raise CaseError(f"{own!r} cannot be two bodies of the first result", "match")
+    known = match.keys() <= {*first.body_names} and theirs.keys() >= {*match.values()}
+    if not known or len({*match.values()}) < len(match):
+        given = ", ".join(f"{name}={own}" for name, own in match.items())
+        raise CaseError(
+            f"{given} does not pair bodies of the first result, {', '.join(first.body_names)}, "
+            f"with those of others, {', '.join(theirs)}, each at most once",
+            "match",
+        )
 
 
 def pairs(first: Result, other: Result, match: Mapping[str, str]) -> dict[str, str]:

@@ -62,10 +62,9 @@ class Problem:
         """Return the misfit of the first n responses, in standard deviations."""
         return (responses[: len(self.observed)] - self.observed) / self.sigma
 
-    def change(self, before: Array, after: Array) -> Array:
-        """Return the change of responses, of their logarithms where logged."""
-        ratio = np.where(self.logged, after, 1.0) / np.where(self.logged, before, 1.0)
-        return np.where(self.logged, np.log(ratio), after - before)
+    def scaled(self, responses: Array) -> Array:
+        """Return responses, of those that are `logged` the logarithms."""
+        return np.log(responses, out=responses.copy(), where=self.logged)
 
 
 @dataclass(frozen=True)
@@ -95,9 +94,9 @@ class Surrogate:
 
     def at(self, point: Array) -> Array:
         """Return the responses at another point."""
-        moved = np.sum(self.slopes * (point - self.point), axis=1)
-        grown = self.responses * np.exp(np.where(self.problem.logged, moved, 0.0))
-        return np.where(self.problem.logged, grown, self.responses + moved)
+        moved = self.problem.scaled(self.responses)
+        moved += np.sum(self.slopes * (point - self.point), axis=1)
+        return np.exp(moved, out=moved, where=self.problem.logged)
 
     def residuals(self, point: Array) -> Array:
         """Return the misfit of the data, in standard deviations."""
@@ -125,8 +124,7 @@ class Surrogate:
     def updated(self, point: Array, responses: Array) -> Surrogate:
         """Return the surrogate about a new run, its slopes corrected by Broyden's formula."""
         step = point - self.point
-        expected = np.sum(self.slopes * step, axis=1)
-        error = self.problem.change(self.responses, responses) - expected
+        error = self.problem.scaled(responses) - self.problem.scaled(self.at(point))
         slopes = self.slopes + error[:, None] * step / np.sum(step**2)
         return replace(self, point=point, responses=responses, slopes=slopes)
 
@@ -273,7 +271,8 @@ def _differenced(
         step = min(STEP, above) if above >= min(STEP, below) else -min(STEP, below)
         moved = point.copy()
         moved[i] += step
-        columns.append(problem.change(responses, model(np.exp(moved))) / step)
+        change = problem.scaled(model(np.exp(moved))) - problem.scaled(responses)
+        columns.append(change / step)
     return Surrogate(problem, point, responses, np.stack(columns, axis=1))
 
 

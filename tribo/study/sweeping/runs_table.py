@@ -58,8 +58,8 @@ def tables(
     table = pandas.DataFrame(rows)
     if "steps" in table:
         table["steps"] = table["steps"].astype("Int64")
-    last = [table.pop(name) for name in ("file", "message")]
-    table = pandas.concat([table, *last], axis=1)
+    last = ["file", "message"]
+    table = table[[*table.columns.difference(last, sort=False), *last]]
     return table, pandas.concat(saves) if saves else pandas.DataFrame(columns=["run", "save"])
 
 
