@@ -113,21 +113,6 @@ def test_a_loss_of_the_size_of_its_uncertainty_bounds_from_above_only():
     assert np.exp(high) == pytest.approx((1 + 0.8 * norm.ppf(0.975)) ** 0.25, rel=1e-3)
 
 
-def test_the_interval_of_a_response_keeps_within_that_of_what_it_depends_on():
-    """Of k² it is the square of that of k."""
-    made = Problem(
-        ("k",),
-        np.array([2.0]),
-        np.array([0.3]),
-        np.full(2, True),
-        np.full(1, -np.inf),
-        np.full(1, np.inf),
-    )
-    found = fit(lambda k: np.array([k[0], k[0] ** 2]), made, np.ones(1))
-    own, square = interval(found, np.ones(1), 0.95), interval(found, found.slopes[1], 0.95)
-    assert square == pytest.approx(2 * np.array(own), rel=1e-3)
-
-
 def test_an_interval_ends_at_the_bound():
     made = problem(np.array([1.0]), np.array([0.3]), names=("k",), start=np.ones(1), reach=0.1)
     low, high = interval(fit(lambda k: k, made, np.ones(1)), np.ones(1), 0.95)
@@ -183,10 +168,3 @@ def test_a_fit_that_comes_no_nearer_is_given_up():
     with pytest.raises(NumericalError, match=r"have not settled .*: χ² has come down to"):
         fit(rough, made, np.ones(1))
     assert rough.runs < 10
-
-
-def test_a_model_that_jumps_about_is_not_settled():
-    random = np.random.default_rng(0)
-    made = problem(np.array([1.0]), np.array([1e-6]), names=("k",), start=np.ones(1))
-    with pytest.raises(NumericalError, match="have not settled after"):
-        fit(lambda k: k * random.uniform(0.5, 2, 1), made, np.ones(1))

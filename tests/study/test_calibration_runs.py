@@ -204,6 +204,7 @@ def test_other_numbers_of_the_case_can_be_fitted(true_run):
     assert list(found.parameters["unit"]) == ["N"]
 
 
+@pytest.mark.slow
 def test_two_parameters_that_do_the_same_are_named():
     data = [
         measured("ball", "mass", mass(BALL)),
@@ -227,6 +228,7 @@ def test_a_balance_that_is_too_coarse_is_told(resolution, is_too_coarse):
     assert any("the balance is too coarse" in note for note in found.notes) == is_too_coarse
 
 
+@pytest.mark.slow
 def test_what_a_coarse_grid_cannot_tell_is_left_uncertain(fine_run):
     """Estimates and predictions cover what made the data, though those are far more exact."""
     scars = [("ball", "scar_along"), ("ball", "scar_across"), ("disk", "depth")]
@@ -299,6 +301,7 @@ def held():
     return calibrate(CASE, {"measured": data, "fit": fit})
 
 
+@pytest.mark.slow
 def test_an_estimate_held_by_its_bound_has_no_interval_and_data_and_model_disagree(held):
     ball, disk = held.parameters.itertuples()
     assert ball.value == pytest.approx(1.2 * BALL, rel=1e-6, abs=0)
@@ -313,6 +316,7 @@ def test_an_estimate_held_by_its_bound_has_no_interval_and_data_and_model_disagr
     assert not any("nothing is left to test" in note for note in held.notes)
 
 
+@pytest.mark.slow
 def test_only_what_depends_on_a_held_parameter_is_predicted_without_an_interval(held):
     """By Archard's law each volume is its own coefficient's; the groove's depth is of both."""
     ends = {(p.body, p.quantity): (p.lower, p.upper) for p in held.predictions.itertuples()}

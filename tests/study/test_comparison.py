@@ -129,6 +129,7 @@ def test_what_is_done_is_not_done_again(done):
     assert {path.name: path.stat().st_mtime_ns for path in done.iterdir()} == before
 
 
+@pytest.mark.slow
 def test_a_folder_with_another_case_is_left_alone_unless_told(done):
     with pytest.raises(CaseError, match="is the result of another case; choose another folder"):
         compare(case(load={"normal": 120}), CONTACTS, done)

@@ -43,6 +43,7 @@ def test_a_body_is_matched_as_told_else_by_name_else_by_role_else_in_order(
         ]
 
 
+@pytest.mark.slow
 def test_matched_bodies_are_compared_and_told(files, tmp_path):
     with compare(files("ball and disk", "plate and pin")) as comparison:
         one, other = comparison.results.values()
