@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 import time
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
@@ -93,23 +92,19 @@ def _executor(
 @contextmanager
 def _shown() -> Iterator[Callable[[int, int, int], None]]:
     """Show on stderr how many runs have ended, and how long the others will take."""
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
+    from tribo.observers.progress import progress_bar
 
-    live = sys.stderr.isatty()
-    columns = BarColumn(), MofNCompleteColumn(), "runs{task.description}", TimeRemainingColumn()
-    with Progress(
-        *columns, "left", console=Console(file=sys.stderr), transient=True, disable=not live
-    ) as bar:
+    with progress_bar() as bar:
         shown, told = bar.add_task("", total=None), time.monotonic()
 
         def tell(total: int, done: int, failed: int) -> None:
-            words, ended = f", {failed} failed" if failed else "", done + failed
+            ended, failures = done + failed, f", {failed} failed" if failed else ""
+            words = f"{ended} of {total} runs{failures}"
             bar.update(shown, total=total, completed=ended, description=words)
             nonlocal told
             now = time.monotonic()
-            if not live and (now - told > EVERY or ended == total):
+            if bar.disable and (now - told > EVERY or ended == total):
                 told = now
-                click.echo(f"{ended} of {total} runs{words}", err=True)
+                click.echo(words, err=True)
 
         yield tell

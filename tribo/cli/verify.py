@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict
@@ -100,15 +99,9 @@ def _verify_case(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
 @contextmanager
 def _progress(total: int) -> Iterator[Callable[[str], None]]:
     """Show on stderr what runs now, of how many; yield what to tell of each."""
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
+    from tribo.observers.progress import progress_bar
 
-    from tribo.cli.console import Console
-
-    columns = BarColumn(), MofNCompleteColumn(), TextColumn("{task.description}")
-    # Not what rich takes for a terminal: a pipe that colours are forced on is none to wipe.
-    silent = not sys.stderr.isatty()
-    console = Console(stderr=True)
-    with Progress(*columns, console=console, transient=True, disable=silent) as progress:
+    with progress_bar() as progress:
         task = progress.add_task("", total=total, completed=-1)
         yield lambda what: progress.update(task, advance=1, description=what)
 

@@ -6,6 +6,7 @@ import math
 import sys
 import time
 from collections.abc import Callable
+from typing import Any
 
 from pydantic import PrivateAttr
 from rich.console import Console
@@ -21,6 +22,23 @@ RENEWED = 0.1
 """Time between two renewals of the line, in s."""
 
 
+def progress_bar(**options: Any) -> Bar:
+    """Return a bar on stderr: the time to go, and what a task is described as.
+
+    It is gone at the end, and silent where stderr is no terminal, even where the
+    environment forces colours. `options` go to `rich.progress.Progress`.
+    """
+    return Bar(
+        BarColumn(16),
+        TimeRemainingColumn(compact=True),
+        TextColumn("left · {task.description}", table_column=Column(no_wrap=True)),
+        console=Console(file=sys.stderr),
+        transient=True,
+        disable=not sys.stderr.isatty(),
+        **options,
+    )
+
+
 class Progress(Observer):
     """A live line on stderr: time, step, pressure, worn depth, time to go.
 
@@ -30,8 +48,6 @@ class Progress(Observer):
 
     type = "progress"
 
-    # A line is renewed on a terminal only, even where the environment forces colours.
-    _on_terminal: bool = PrivateAttr(default_factory=lambda: sys.stderr.isatty())
     _clock: Callable[[], float] = PrivateAttr(default=time.monotonic)
     _bar: Bar | None = None
     _task: TaskID = TaskID(0)
@@ -42,15 +58,8 @@ class Progress(Observer):
     def on_start(self, run: RunInfo) -> None:
         """Start the clock."""
         self._run, self._begun = run, self._clock()
-        self._bar = Bar(
-            BarColumn(16),
-            TimeRemainingColumn(compact=True),
-            TextColumn("left · {task.description}", table_column=Column(no_wrap=True)),
-            console=Console(file=sys.stderr),
-            auto_refresh=False,
-            transient=True,
-            get_time=self._clock,
-            speed_estimate_period=math.inf,
+        self._bar = progress_bar(
+            auto_refresh=False, get_time=self._clock, speed_estimate_period=math.inf
         )
         before = run.resumed_from
         done = 0.0 if before is None else self._part(before)
@@ -59,11 +68,11 @@ class Progress(Observer):
 
     def on_step(self, snapshot: Snapshot) -> None:
         """Renew the line."""
-        now = self._clock()
-        if not self._on_terminal or now - self._begun < QUIET or now - self._renewed < RENEWED:
-            return
         assert self._run is not None
         assert self._bar is not None
+        now = self._clock()
+        if self._bar.disable or now - self._begun < QUIET or now - self._renewed < RENEWED:
+            return
         self._renewed = now
         self._bar.start()
         m = snapshot.measures
@@ -78,7 +87,8 @@ class Progress(Observer):
     def on_save(self, snapshot: Snapshot) -> None:
         """Print a plain line where there is no terminal."""
         assert self._run is not None
-        if not self._on_terminal and self._clock() - self._begun > QUIET:
+        assert self._bar is not None
+        if self._bar.disable and self._clock() - self._begun > QUIET:
             print(
                 f"{snapshot.measures.time:g} s of {self._run.end_time:g} s, "
                 f"step {snapshot.state.steps}",
