@@ -24,6 +24,7 @@ def test_it_gives_the_two_commands():
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", range(len(CODE)))
 def test_its_python_runs(number, monkeypatch, capsys):
     monkeypatch.chdir(ROOT)

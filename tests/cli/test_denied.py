@@ -19,6 +19,7 @@ from tribo.cli.main import tribo
 from tribo.core.errors import CaseError, OutputError
 from tribo.templates import template
 
+pytestmark = pytest.mark.slow
 NOBODY = 65534
 CODE = package.__file__
 QUICK = ["--set", "grid.cells=24", "--set", "grid.size=0.7 mm", "--set", "kinematics.duration=20"]

@@ -20,8 +20,8 @@ class Terminal(io.StringIO):
 
 SAVES = {
     "grid": Grid((1.2e-3, 1.2e-3), (32, 32)),
-    "kinematics": motion(duration=3000),
-    "save_times": tuple(range(200, 3000, 200)),
+    "kinematics": motion(duration=1600),
+    "save_times": tuple(range(100, 1600, 100)),
 }
 
 
@@ -62,4 +62,4 @@ def test_no_bar_is_drawn_into_what_is_no_terminal(monkeypatch, forced):
     text, _ = shown(monkeypatch, io.StringIO())
     assert "━" not in text
     assert "\x1b" not in text
-    assert text.count(" of 3000 s, step ") >= len(SAVES["save_times"])
+    assert text.count(" of 1600 s, step ") >= len(SAVES["save_times"])

@@ -66,9 +66,7 @@ def worn_section(result: Result) -> Figure:
     how much it enlarges heights and how deep the scars are.
     """
     last = number_of_saves(result) - 1
-    upper, lower = (result.body(name) for name in result.body_names)
-    if upper.swept and not lower.swept:
-        upper, lower = lower, upper
+    upper, lower = sorted(map(result.body, result.body_names), key=lambda body: body.swept)
     gone = [removed(result, body.name)[last] for body in (upper, lower)]
     depths = [float(np.max(depth)) for depth in gone]
     marked = np.zeros(result.grid.cells, dtype=bool)
