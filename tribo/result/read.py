@@ -7,7 +7,6 @@ import math
 from collections.abc import Mapping
 from io import BytesIO
 from pathlib import Path
-from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
 import h5py
@@ -99,12 +98,7 @@ class Result:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *error: object) -> None:
         self.close()
 
     def close(self) -> None:
@@ -261,12 +255,8 @@ class Result:
             If there is no body of that name.
         """
         index, density = self._index(name), self._scalars["density"]
-        kept = {kind: self.fields_of(kind, name) for kind in (STATE, EFFECT)}
         read, every = self._read, slice(None)
-        values = {
-            kind: {field.name: read(key, every, index) for key, field in found.items()}
-            for kind, found in kept.items()
-        }
+        state, effects = (self.fields_of(kind, name) for kind in (STATE, EFFECT))
         return BodyResult(
             name=name,
             swept=bool(self._scalars["swept"][index]),
@@ -274,10 +264,10 @@ class Result:
             height=read("height", index),
             wear_depth=read("wear_depth", every, index),
             plastic_depth=read("plastic_depth", every, index),
-            state=values[STATE],
-            state_fields=tuple(kept[STATE].values()),
-            effects=values[EFFECT],
-            effect_fields=tuple(kept[EFFECT].values()),
+            state={field.name: read(key, every, index) for key, field in state.items()},
+            state_fields=tuple(state.values()),
+            effects={field.name: read(key, every, index) for key, field in effects.items()},
+            effect_fields=tuple(effects.values()),
         )
 
     def table(self, name: str) -> dict[str, Array]:
@@ -389,14 +379,11 @@ class Result:
     def _read(self, name: str, *index: int | slice) -> Array:
         return np.asarray(self._file[name][index])
 
-    def _check_body(self, body: str) -> None:
+    def _index(self, body: str) -> int:
         if body not in self.body_names:
             raise CaseError(
                 f"{self.name} has no body {body!r}; its bodies are {', '.join(self.body_names)}"
             )
-
-    def _index(self, body: str) -> int:
-        self._check_body(body)
         return self.body_names.index(body)
 
 
