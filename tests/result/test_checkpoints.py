@@ -131,19 +131,19 @@ def test_every_bit_of_a_state_is_kept(killed, tmp_path):
     assert first == second
 
 
-def test_only_one_process_writes_a_result(tmp_path):
-    path = tmp_path / "run.h5"
-    with pytest.raises(Interrupted):
-        simulation().run(path, observers=[StopAfter()])
-    folder = RunFolder(path)
+def test_only_one_process_writes_a_result(killed, undisturbed):
+    folder = RunFolder(killed)
     before = folder.checkpoint.read_bytes()
-    with closing(ResultWriter(path)) as other:
+    with closing(ResultWriter(killed)) as other:
         other._folder.lock()
+        with Result.open(killed) as result:
+            assert result.status == "running"
         for write in (simulation().resume, lambda p: simulation().run(p, overwrite=True)):
-            with pytest.raises(CaseError, match="in use"):
-                write(path)
+            with pytest.raises(CaseError, match=r"in use: another process is writing it$"):
+                write(killed)
     assert folder.checkpoint.read_bytes() == before
-    simulation().resume(path).close()
+    with simulation().resume(killed) as result:
+        assert everything(result) == undisturbed
 
 
 def test_a_file_system_without_locks_is_told_of_once(tmp_path, monkeypatch):

@@ -8,6 +8,7 @@ import pytest
 from paper_models import motion, small
 
 from tribo import Grid, Result, Simulation, TriboError
+from tribo.case import Stop
 from tribo.result.store import ResultWriter
 
 
