@@ -59,8 +59,7 @@ def rate_times(factor):
 
 def one_rate_for_both(right):
     def rates(*given):
-        found = right(*given)
-        return dict.fromkeys(found, next(iter(found.values())))
+        return tuple(dict.fromkeys(at, next(iter(at.values()))) for at in right(*given))
 
     return rates
 

@@ -94,9 +94,9 @@ def test_the_pressure_is_a_plateau_along_and_rises_to_the_edges_across(result):
 def test_explicit_steps_agree():
     implicit, explicit = (
         paper("1.3 mm", 32, stepping=stepping)
-        for stepping in ({"type": "implicit"}, {"type": "explicit", "time_step": "2 s"})
+        for stepping in ({"type": "implicit"}, {"type": "explicit", "time_step": "4 s"})
     )
-    assert explicit.totals()["steps"] == 1800
+    assert explicit.totals()["steps"] == 900
     for a, b in zip(implicit.saves()[1:], explicit.saves()[1:], strict=True):
         for name in ("ball", "disk"):
             assert a["bodies"][name]["max_wear_depth_m"] == pytest.approx(
