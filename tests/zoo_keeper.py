@@ -1,11 +1,8 @@
 """Keep a zoo of faulty components: each knows what the one message about it must say."""
 
-from __future__ import annotations
-
-from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
@@ -52,8 +49,7 @@ SOUND = {
 SLOTS = {"contact_solver": "contact"}
 
 
-@dataclass(frozen=True)
-class Bad:
+class Bad(NamedTuple):
     """A faulty class, what the message about it holds, its exit code, whether a file is left."""
 
     cls: Any
@@ -65,65 +61,48 @@ class Bad:
 class Zoo:
     """Faulty components."""
 
-    def __init__(self) -> None:
-        self.kept: list[Bad] = []
+    def __init__(self):
+        self.kept = []
 
-    def bad(
-        self,
-        name: str,
-        base: type,
-        words: str = "",
-        code: int = 3,
-        saved: bool = False,
-        **parts: Any,
-    ) -> Any:
+    def bad(self, name, base, words="", code=3, saved=False, **parts):
         """Keep a class zoo.name that differs from `base` by some parts."""
         cls = type(name, (base,), {"__module__": __name__, "type": f"zoo.{name}", **parts})
         self.kept.append(Bad(cls, words, code, saved))
         return cls
 
     @property
-    def each(self) -> pytest.MarkDecorator:
+    def each(self):
         """A test of each of them, as the argument `bad`."""
         return pytest.mark.parametrize("bad", self.kept, ids=lambda bad: bad.cls.__name__)
 
-    def plugin(self) -> object:
+    def plugin(self):
         """Return a plugin that offers all of them."""
         plugin = ModuleType("zoo-tribo")
         classes = [bad.cls for bad in self.kept]
         plugin.tribo_components = hookimpl(specname="tribo_components")(lambda: classes)
         return plugin
 
-    def registry(self) -> Registry:
+    def registry(self):
         return Registry.with_plugins(self.plugin())
 
 
-def case_of(*classes: Any, **changes: str) -> str:
+def case_of(*classes, **changes):
     """Return a case that names `classes`, as TOML."""
     named = {SLOTS.get(c.kind(), c.kind()): f'"{c.type}"' for c in classes}
     return CASE.format(**SOUND | named | changes)
 
 
-@dataclass(frozen=True)
-class Ended:
-    """How a command ended: its exit code, what it said on stderr, and its result file."""
-
-    code: int
-    said: list[str]
-    path: Path
-
-
-def expect_one_message(ended: Ended, bad: Bad) -> None:
+def expect_one_message(done, bad):
     """One line, no traceback, names component and fault; what was saved is there to be read."""
-    line, *kept = ended.said
+    line, *kept = done.stderr.splitlines()
     assert len(kept) == bad.saved
     assert line.startswith("error: ")
     assert repr(bad.cls.type) in line
     assert bad.words in line
-    assert ended.code == bad.code
-    assert ended.path.exists() == bad.saved
+    assert done.returncode == bad.code
+    assert Path("case.h5").exists() == bad.saved
     if bad.saved:
-        with Result.open(ended.path) as result:
+        with Result.open("case.h5") as result:
             assert result.status == "failed"
             assert result.times[0] == 0
             assert all(
@@ -132,8 +111,8 @@ def expect_one_message(ended: Ended, bad: Bad) -> None:
             assert line.removeprefix("error: ") in result.notices[-1]
 
 
-def expect_harmless(ended: Ended) -> None:
+def expect_harmless(done):
     """Nothing was said, and the run came to its end."""
-    assert (ended.code, ended.said) == (0, [])
-    with Result.open(ended.path) as result:
+    assert (done.returncode, done.stderr) == (0, "")
+    with Result.open("case.h5") as result:
         assert result.status == "done"

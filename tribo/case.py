@@ -54,7 +54,7 @@ class Friction(Table):
 
 
 class Output(Table):
-    """What is kept."""
+    """The output times."""
 
     save_times: tuple[Annotated[float, Quantity("s", at_least=0)], ...] = ()
     """Times at which all fields are saved; t = 0 and the end always are."""
@@ -113,9 +113,9 @@ class Case(Table):
     """How the run moves on in time."""
     friction: Friction | None = None
     effects: tuple[Effect, ...] = ()
-    """What else the contact produces."""
+    """Effects, such as a temperature of the contact."""
     observers: tuple[Observer, ...] = ()
-    """Who watches the run."""
+    """Observers, which watch the run."""
     output: Output = Output()
     stop: Stop = Stop()
 

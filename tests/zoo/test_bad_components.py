@@ -37,7 +37,7 @@ def test_none_harms_a_case_that_names_another(run):
 def test_the_last_good_state_is_kept(run):
     zoo = Zoo()
     cls = zoo.bad("tires", Law, spoilt=lambda self, good, local: good if self._calls < 26 else None)
-    assert run(zoo, cls).code == 3
+    assert run(zoo, cls).returncode == 3
     with Result.open("case.h5") as result:
         last = result.saves()[-1]
     assert 0 < last["distance_m"] < 2
@@ -64,8 +64,8 @@ def test_what_a_component_refuses_is_bad_input_at_its_place(run, base, method, p
     zoo = Zoo()
     cls = zoo.bad("refuses", base, **{method: raising(CaseError("this is too small"))})
     ended = run(zoo, cls)
-    assert ended.code == 2
-    assert ended.said[0].startswith(f"error: {place}: this is too small")
+    assert ended.returncode == 2
+    assert ended.stderr.startswith(f"error: {place}: this is too small")
 
 
 def test_the_smallest_compliance_is_a_number(run):
@@ -131,7 +131,7 @@ def test_a_stopped_run_resumes_though_an_observer_forgot_its_case(run, command):
 
     zoo = Zoo()
     cls = zoo.bad("stops", Watcher, on_start=forgetting_the_case, on_step=stopping)
-    assert run(zoo, cls).code == 130
+    assert run(zoo, cls).returncode == 130
     expect_harmless(command(zoo, "resume", "case.h5"))
 
 
@@ -145,10 +145,10 @@ def ending_badly(zoo):
 def test_what_fails_at_the_end_costs_no_result(run):
     zoo = Zoo()
     ended = run(zoo, ending_badly(zoo))
-    assert ended.code == 3
-    (line,) = ended.said
+    assert ended.returncode == 3
+    (line,) = ended.stderr.splitlines()
     assert line.startswith(f"error: {LAST_WORDS}")
-    with Result.open(ended.path) as result:
+    with Result.open("case.h5") as result:
         assert result.status == "done"
 
 
@@ -158,10 +158,10 @@ def test_of_a_run_that_failed_already_the_first_cause_is_the_error(run):
 
     zoo = Zoo()
     ended = run(zoo, ending_badly(zoo), zoo.bad("fails", DcFft, solve=failing))
-    assert ended.code == 3
-    later, first, _ = ended.said
+    assert ended.returncode == 3
+    later, first, _ = ended.stderr.splitlines()
     assert later.startswith(f"warning: {LAST_WORDS}")
     assert first.startswith("error: contact solver 'zoo.fails' gave a NoneType")
-    with Result.open(ended.path) as result:
+    with Result.open("case.h5") as result:
         assert result.status == "failed"
         assert "zoo.fails'" in result.notices[-1]

@@ -1,4 +1,4 @@
-"""The one array type, parts of it, and how values become read-only."""
+"""Array types, regions of an array, and read-only views."""
 
 from __future__ import annotations
 

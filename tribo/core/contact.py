@@ -1,4 +1,4 @@
-"""What a contact solver is asked, and what it answers."""
+"""A contact problem and its solution."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class WearCompliance:
 
 @dataclass(frozen=True)
 class ContactSystem:
-    """What stays the same about a contact for a whole run.
+    """The constants of a contact during a run.
 
     Parameters
     ----------
@@ -105,7 +105,7 @@ class ContactProblem:
 
 @dataclass(frozen=True)
 class Residuals:
-    """How far a solution is from the conditions of its problem.
+    """Errors of a solution in the conditions of its problem.
 
     Parameters
     ----------

@@ -92,7 +92,7 @@ FRICTION_COEFFICIENT = Field(
 
 @dataclass(frozen=True)
 class LocalConditions:
-    """What a wear law knows: conditions at each point of the contact, for one body.
+    """The input of a wear law: conditions at each point of the contact, for one body.
 
     Arrays have shape (nx, ny), are in the contact frame and must not be
     written to.
@@ -121,7 +121,7 @@ class LocalConditions:
 
 @dataclass(frozen=True)
 class WearRate:
-    """What a wear law answers, arrays of the pressure's shape, or what broadcasts to it.
+    """The answer of a wear law: arrays of the pressure's shape, or that broadcast to it.
 
     Parameters
     ----------
@@ -145,7 +145,7 @@ class WearRate:
 
 @dataclass(frozen=True)
 class ContactConditions:
-    """What an effect knows: the whole contact at one moment.
+    """The input of an effect: the whole contact at one moment.
 
     Parameters
     ----------

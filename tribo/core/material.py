@@ -1,4 +1,4 @@
-"""What a body is made of."""
+"""Materials, and the contact modulus of two of them."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ class BodyMeasures:
 
 @dataclass(frozen=True)
 class Invariants:
-    """How far a step is from what must hold; all are 0 if it does.
+    """Errors of a step in what must hold; all are 0 if it does.
 
     Parameters
     ----------
@@ -108,7 +108,7 @@ def vertex(three: Array) -> float:
 
 
 def between_cells(field: Array) -> float:
-    """How far a smooth field rises above its largest cell, between that and its neighbours."""
+    """Height of a smooth field's top above its largest cell, by parabolas through neighbours."""
     i, j = np.unravel_index(np.argmax(field), field.shape)
     top = float(field[i, j])
     along, across = field[max(i - 1, 0) : i + 2, j], field[i, max(j - 1, 0) : j + 2]

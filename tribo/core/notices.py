@@ -1,4 +1,4 @@
-"""Notices: what a run tells its user once."""
+"""Notices, which a run gives its user once each."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ Kind = Literal["stability", "averaging", "chattering", "lap", "resolution", "sto
 
 @dataclass(frozen=True)
 class Notice:
-    """What a user should know about a run.
+    """A message about a run.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What else does the contact produce?"""
+"""The interface of effects: fields between the bodies, such as a temperature."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ FACTS = {
     "honours_cap": "Limits the pressure to a hardness",
     "periodic": "Repeats with the window",
 }
-"""What a class says of itself, and the words for it."""
+"""Words for the attributes of a class that its description tells."""
 
 
 def catalogue(registry: Registry) -> list[dict[str, str]]:

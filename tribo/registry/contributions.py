@@ -1,4 +1,4 @@
-"""What plugins add to reports, pictures, exports and templates."""
+"""Lab rows, figures, export formats and case templates of plugins."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The kinds of component, each known by its base class, and what their classes must fulfil."""
+"""The kinds of component by their base classes, and checks of the classes a plugin offers."""
 
 from __future__ import annotations
 

@@ -26,7 +26,7 @@ Status = Literal["available", "loaded", "disabled", "broken", "incompatible", "c
 
 @dataclass(eq=False)
 class Plugin:
-    """What is known about a plugin.
+    """The record of a plugin: where it is from, its status and its components.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What is the initial height map of a body?"""
+"""The interface of surfaces: the height of an unworn body."""
 
 from __future__ import annotations
 

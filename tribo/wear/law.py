@@ -1,4 +1,4 @@
-"""How deep does one metre of sliding wear this point, under these conditions?"""
+"""The interface of wear laws: depth per metre of sliding at a point."""
 
 from __future__ import annotations
 
