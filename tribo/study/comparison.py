@@ -1,4 +1,4 @@
-"""Results of variants of a case, or of any cases, side by side."""
+"""Compare results: of variants of a case, or from any files."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ MOST = 12
 
 @dataclass(frozen=True)
 class Comparison:
-    """Results side by side; the first is the one that the others are compared with.
+    """Results side by side; the others are compared with the first.
 
     Use it as a context manager, or `close` it.
 
@@ -38,7 +38,7 @@ class Comparison:
     results : Mapping
         The open results by their labels; bodies go by their names in the first.
     settings : Mapping
-        What sets each apart, by label: values by path; empty where not known.
+        The settings of each, by label: values by path; empty if not known.
     own_names : Mapping
         What the bodies of each result are called in its file, by label: names
         by those that they go by.
@@ -91,7 +91,7 @@ class Comparison:
 
     @property
     def notes(self) -> list[str]:
-        """What a reader must know of the comparison."""
+        """Remarks on the comparison: other grids, matched bodies, warnings of the runs."""
         first, last = self.results[self.reference], self.times[-1]
         apart = [label for label, result in self.results.items() if result.grid != first.grid]
         notes = []
@@ -203,13 +203,13 @@ def compare(
         `vary` a list of result files, named after their stems, or whole where
         stems are alike. The first is what the others are compared with.
     vary : Mapping or sequence of Mapping, optional
-        Values by path, every combination of which is a variant; or what sets
-        each variant apart, values by path.
+        Values by path, every combination of which is a variant; or the settings
+        of each variant, values by path.
     folder : str or Path, optional
-        Where the result files of variants go; what is done there already is
-        taken from there. In memory if left out.
+        Folder of the result files of variants; finished results in it are
+        reused. In memory if left out.
     labels : sequence of str, optional
-        What to call the variants; the values that differ if left out.
+        Names of the variants; the values that differ if left out.
     times : sequence of float, optional
         Times, in s, at which all variants must save, so that they can be shown.
     match : Mapping, optional

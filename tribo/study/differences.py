@@ -1,4 +1,4 @@
-"""How far the fields of one result are from those of another, at a time both saved."""
+"""Differences between the fields of two results at one time."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from tribo.result.read import Result
 
 
 class Difference(NamedTuple):
-    """A field f against that of the reference, f₀.
+    """Difference of a field f from that of the reference, f₀, relative to the latter.
 
     Parameters
     ----------
@@ -28,7 +28,7 @@ class Difference(NamedTuple):
 
 
 def differences(result: Result, reference: Result, time: float) -> dict[str, Difference]:
-    """Return how far the pressure and the wear depths are from the reference.
+    """Return the differences of pressure and wear depths from the reference.
 
     On the same grid the norms run over all cells; else over the sections along
     and across sliding through the centre, at those of the reference's positions
@@ -59,7 +59,7 @@ def differences(result: Result, reference: Result, time: float) -> dict[str, Dif
             values, expected = _sections(values, expected, result.grid, reference.grid)
         largest = float(np.max(np.abs(expected), initial=0.0))
         if largest > 0:
-            # Relative from here on, for squares of small depths may underflow.
+            # Squares of small depths may underflow, so scale first.
             off, expected = (values - expected) / largest, expected / largest
             found[name] = Difference(
                 l2=float(np.sqrt(np.sum(off**2) / np.sum(expected**2))),
@@ -74,7 +74,7 @@ def _sections(field: Array, expected: Array, grid: Grid, on: Grid) -> tuple[Arra
     for axis in (0, 1):
         own, positions = (grid.x, grid.y)[axis], (on.x, on.y)[axis]
         inside = np.abs(positions) <= 0.5 * grid.size[axis]
-        # A cell more at each end continues the line there; a single cell is even.
+        # One more cell at each end, for linear extrapolation; a single cell is constant.
         at, known = (
             np.pad(v, 1, "reflect", reflect_type="odd") for v in (own, profile(field, axis))
         )

@@ -1,4 +1,4 @@
-"""Which body of one result is which of another, whatever they are called."""
+"""Match the bodies of two results by name, role or order."""
 
 from __future__ import annotations
 

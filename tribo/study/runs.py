@@ -1,4 +1,4 @@
-"""Runs into files: what is finished is taken, what was begun goes on."""
+"""Run a case into a file: take a finished result, or continue a stopped run."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def is_done(path: Path, simulation: Simulation) -> bool:
 
 
 def complete(simulation: Simulation, path: Path, observers: Sequence[Observer]) -> Result:
-    """Go on with the run that a file was left by, or else run anew into it.
+    """Continue the stopped run of a file, or else run the case anew into it.
 
     A file that cannot be resumed is replaced, with a warning that says why.
 
@@ -50,7 +50,7 @@ def complete(simulation: Simulation, path: Path, observers: Sequence[Observer]) 
         try:
             go_on = simulation.reopen(path, observers=observers)
         except CaseError as error:
-            # No good checkpoint, or other versions of components.
+            # There is no sound checkpoint, or components have changed.
             warnings.warn(f"{path} is begun anew: {error}", TriboWarning, stacklevel=2)
         else:
             return go_on()
@@ -66,10 +66,10 @@ def run_variants(
     tell: Callable[[str], None] = lambda text: None,
     overwrite: bool = False,
 ) -> list[Result]:
-    """Run cases one after another, each into a file of a folder that is named after its label.
+    """Run cases one after another, each into a file of a folder, named after its label.
 
-    A file there that is the finished result of the same case is taken as it
-    is, and a run that was interrupted goes on; see `tribo.compare`.
+    Finished results of the same cases are taken as they are, and interrupted
+    runs are continued; see `tribo.compare`.
 
     Raises
     ------
@@ -116,7 +116,7 @@ def _check_own(folder: Path, simulations: Mapping[str, Simulation]) -> None:
     for path in sorted(folder.glob("*.h5")):
         if path.name not in simulations:
             raise CaseError(f"{folder} holds another comparison, {path.name}; {_OTHERWISE}")
-        # An empty file is what a killed run may leave.
+        # A killed run may leave an empty file.
         if not path.exists() or path.stat().st_size == 0:
             continue
         try:

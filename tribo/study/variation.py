@@ -17,7 +17,7 @@ from tribo.registry.registry import Registry
 from tribo.simulation.run import Simulation
 
 Point = dict[str, Any]
-"""What sets a variant apart: values by path."""
+"""The settings of a variant: values by path."""
 _NAMED = 3
 
 
@@ -53,8 +53,7 @@ def variants(
 ) -> dict[str, Case]:
     """Return the cases that follow from `data` with each of the points, by their labels.
 
-    All are validated and composed, so that none fails over its input once
-    others have run.
+    All are validated and composed first, so that wrong input costs no run.
 
     Raises
     ------
@@ -87,7 +86,7 @@ def valid_case(data: Mapping[str, Any], point: Point, registry: Registry | None 
     bodies = data.get("bodies")
     for path in point:
         key, *below = path_keys(path)
-        # A misspelt body would be read as a third one.
+        # A misspelt name would add a third body.
         if key == "bodies" and below and isinstance(bodies, Mapping) and below[0] not in bodies:
             raise unknown_body(below[0], bodies, path)
     case = validate_case(apply_settings(data, point), registry=registry)

@@ -35,7 +35,7 @@ from tribo.study.calibration.quantities import (
 from tribo.study.variation import unknown_body
 
 NOTABLE, TOO_FAR = 5.0, 300.0
-"""Factors between measured and computed: may be why a run fails, is refused.
+"""Factors between measured and computed: mentioned if a run fails, refused.
 
 A prefix is a factor of 1000; a start may be off by a few on top of it.
 """
@@ -111,7 +111,7 @@ def calibrate(
             runs[key] = found
         return runs[key]
 
-    # With the rounding that the fit, which works with logarithms, has.
+    # Rounded as in the fit, which works with logarithms.
     start = np.exp(np.log([p.start for p in parameters]))
     first = run(start)
     far = far_off(data, first.responses, parameters)
@@ -128,7 +128,7 @@ def calibrate(
         found = run(values).responses
         if on_run is not None:
             on_run(len(runs), float(np.sum(problem.residuals(found) ** 2)))
-        # A prediction may be 0, and is left out then.
+        # A prediction of 0 is left out.
         return np.where(problem.logged & (found <= 0), 1.0, found)
 
     try:
@@ -153,7 +153,7 @@ def calibrate(
 
 
 class Run(NamedTuple):
-    """What a run gives, the standard deviations with which its grid does, and its notices."""
+    """Responses of a run, their standard deviations due to the grid, and its notices."""
 
     responses: Array
     read_off: Array
@@ -169,13 +169,13 @@ def make_run(
     name: str = "run",
 ) -> Run:
     """Run a case with other values of its parameters, and read numbers off the result."""
-    # The logarithm that the fit works with may round to just beyond a bound.
+    # Taking logarithms may round to just beyond a bound.
     settings = {
         p.path: min(max(float(value), p.lower), p.upper)
         for p, value in zip(parameters, values, strict=True)
     }
     with warnings.catch_warnings():
-        # The notices of the run with the estimates say the same, once.
+        # The calibration has the notices of the last run.
         warnings.simplefilter("ignore", TriboWarning)
         try:
             case = validate_case(apply_settings(tables, settings), registry=registry)
@@ -189,10 +189,10 @@ def make_run(
 
 
 def far_off(data: pd.DataFrame, computed: Array, parameters: Sequence[Parameter]) -> list[str]:
-    """Return what is measured several times above or below what the first run gives, in words.
+    """Return a sentence for each entry that is several times larger or smaller than computed.
 
-    `computed` begins with the data as that run gives them. Raises CaseError,
-    one line an entry, from a factor of 300.
+    `computed` begins with the data as the first run gives them. CaseError if
+    the factor is above 300, one line per entry.
     """
     given = ", ".join(f"{p.path} = {in_si(p.start, p.unit)}" for p in parameters)
     sizes = data[["unit", "sigma"]].assign(
@@ -202,7 +202,7 @@ def far_off(data: pd.DataFrame, computed: Array, parameters: Sequence[Parameter]
     for place, unit, sigma, value, own in (
         sizes.groupby(data["place"], sort=False).max().itertuples()
     ):
-        # Of less than its uncertainty, as a null result, no more is known than that it is as small.
+        # A value below its uncertainty only says that the quantity is no larger than that.
         factor = max(value / own, own / max(value, sigma)) if own > 0 < value else 1.0
         text = (
             f"{place} was read as {in_si(value, unit)}, and the case gives {in_si(own, unit)} "
@@ -251,7 +251,7 @@ def _check_entry(model: Model, entry: Measured, place: str) -> None:
 
 
 def _not_measured(model: Model, measured: Sequence[Measured]) -> list[Reading]:
-    """Return all that the runs give at their end and was not measured then."""
+    """Return all quantities at the end of the run that were not measured."""
     known = {
         (entry.body, entry.quantity)
         for entry in measured

@@ -21,7 +21,7 @@ LEAP = np.log(100.0)
 REACH = np.log(1e4)
 """How far an interval is followed; beyond, the data leave it open."""
 SETTLED, HARDLY = 0.01, 0.1
-"""Change of the data, in standard deviations, that ends the fit; the second once χ² falls no more.
+"""Change of the data, in standard deviations, that ends the fit; the second if χ² stays the same.
 
 The first is also the part of χ² that counts as a fall.
 """
@@ -130,7 +130,7 @@ class Surrogate:
 
 
 def fit(model: Callable[[Array], Array], problem: Problem, start: Array) -> Surrogate:
-    """Fit the parameters by Gauss-Newton on a surrogate, a run of the model a round.
+    """Fit the parameters by Gauss-Newton on a surrogate, with one run of the model per round.
 
     Slopes come from differences about the first run, then from Broyden's
     formula, and from differences again about an estimate that lies far off.
@@ -200,7 +200,7 @@ def root_covariance(jacobian: Array) -> Array:
 
 
 def interval(here: Surrogate, direction: Array, level: float) -> tuple[float, float]:
-    """Return how far direction · point may lie below and above that of the surrogate's run.
+    """Return the interval of direction · point, relative to its value at the surrogate's run.
 
     By the profile likelihood: the least and the largest value at the points
     whose χ² is at most its minimum plus the quantile of χ²₁. It does not
@@ -220,7 +220,7 @@ def interval(here: Surrogate, direction: Array, level: float) -> tuple[float, fl
     rise = float(chdtri(1, 1 - level))
     least = float(np.sum(here.residuals(best) ** 2))
     root = root_covariance(here.jacobian(best))
-    # To first order χ² rises by the square of the length of z, where the point is best + root z.
+    # With point = best + root z, χ² rises to first order by |z|².
     gradient = np.sum(direction[:, None] * root, axis=0)
     spread = float(np.sqrt(np.sum(gradient**2)))
     if spread > REACH:
@@ -267,7 +267,7 @@ def _differenced(
     columns = []
     for i in range(len(point)):
         below, above = point[i] - problem.lower[i], problem.upper[i] - point[i]
-        # Where bounds leave no room for a whole step, the larger part of it.
+        # If bounds leave no room for a whole step, take the larger part of it.
         step = min(STEP, above) if above >= min(STEP, below) else -min(STEP, below)
         moved = point.copy()
         moved[i] += step

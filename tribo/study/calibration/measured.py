@@ -21,7 +21,7 @@ from tribo.study.calibration.quantities import PROFILES, QUANTITIES, in_words
 FINEST = 1e-6
 """Smallest uncertainty, relative to the value: runs are good to about a thousandth."""
 _BEYOND_NOISE = 3.0
-"""How many standard deviations a mean lies below 0 that noise does not explain."""
+"""Standard deviations below 0 from which noise does not explain a mean."""
 
 
 class Measured(Table):
@@ -162,10 +162,10 @@ class Measurements(Table):
     """The measured values."""
 
     def table(self) -> pd.DataFrame:
-        """Return a row a number: what was measured, of what, when, where and how well, in SI.
+        """Return the measured numbers in SI, one row each.
 
-        `place` is that of its entry in the file; `step_sigma` and `step_most`
-        are what the instrument's resolution, `step`, adds to its error.
+        `place` is the entry in the file; `step_sigma` and `step_most` are the
+        standard deviation and the largest error due to the resolution, `step`.
         """
         rows = []
         for i, each in enumerate(self.measured):

@@ -29,7 +29,7 @@ def notes(
     grid: Grid,
     spare: int,
 ) -> list[str]:
-    """Return what to bear in mind, a sentence or two each.
+    """Return the notes, one or two sentences each.
 
     `estimates` are those of a `Calibration`; `data` as well, with the columns
     of `Measurements.table` and `stated`, the standard deviation without that of
@@ -45,7 +45,7 @@ def notes(
 
 
 def _on_parameters(estimates: pd.DataFrame, data: pd.DataFrame, jacobian: Array) -> Iterator[str]:
-    """Say where a better instrument would help most, and what bounds a parameter has."""
+    """Name parameters on a bound or left open, and the instrument that limits each."""
     parts = (data["step_sigma"] / data["sigma"]).to_numpy()
     for each, effect in zip(estimates.itertuples(), np.linalg.pinv(jacobian), strict=True):
         is_open = {"below": each.lower == 0, "above": math.isinf(each.upper)}
@@ -69,7 +69,7 @@ def _on_parameters(estimates: pd.DataFrame, data: pd.DataFrame, jacobian: Array)
 
 
 def _entangled(paths: Sequence[str], jacobian: Array) -> Iterator[str]:
-    """Say which parameters change the data in the same way."""
+    """Name parameters that change the data in the same way."""
     scaled = jacobian / np.sqrt(np.sum(jacobian**2, axis=0))
     _, angles, directions = np.linalg.svd(scaled)
     for angle, direction in zip(angles, directions, strict=True):
@@ -107,7 +107,7 @@ def _on_misfit(data: pd.DataFrame, spare: int) -> Iterator[str]:
 
 
 def _on_instruments(data: pd.DataFrame, grid: Grid) -> Iterator[str]:
-    """Say which instruments are too coarse for what is measured, and for which the grid is."""
+    """Name quantities for which the instrument or the grid is too coarse."""
     largest = data["measured"].abs().groupby(data["place"]).transform("max")
     for entry in data.assign(largest=largest).drop_duplicates("place").itertuples():
         name = entry.quantity

@@ -1,4 +1,4 @@
-"""What a calibration found: estimates, intervals, residuals, predictions."""
+"""Result of a calibration: estimates, intervals, residuals, predictions."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ from tribo.study.calibration.parameters import Parameter
 from tribo.study.calibration.quantities import QUANTITIES, Reading
 
 AT_BOUND = 1e-6
-"""How near to a bound an estimate lies on it, relative."""
+"""Relative distance below which an estimate counts as on its bound."""
 
 
 @dataclass(frozen=True, eq=False)
 class Calibration:
-    """Estimates, what they rest on, and what they predict; in SI units.
+    """Estimates, the data behind them, and predictions; in SI units.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ class Calibration:
         parameters, largest first: each is the number of standard deviations
         by which a change by a factor e would show in the data.
     notes : tuple of str
-        What to bear in mind.
+        Remarks on what the data can tell.
     """
 
     level: float
@@ -116,7 +116,7 @@ def outcome(
     runs: int,
     notices: Sequence[str],
 ) -> Calibration:
-    """Return what a fit says of its parameters, data and predictions, in that order.
+    """Return the calibration that follows from a fit.
 
     `data` are what was measured, as `Measurements.table` has it; `predicted` the
     responses that are predictions, by their index; `read_off` the standard

@@ -1,4 +1,4 @@
-"""Which numbers of a case are fitted, and within what bounds."""
+"""The numbers of a case to fit, and their bounds."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from tribo.core.words import did_you_mean, shown, suggestion
 from tribo.study.calibration.measured import Fitted, Measured
 
 WITHIN = 1e-9
-"""How far within an open bound a parameter stays, relative."""
+"""Relative distance that a parameter keeps from an open bound."""
 
 
 class Parameter(NamedTuple):
@@ -98,7 +98,7 @@ def _bounded(place: str, entry: Fitted, value: float, mark: Quantity) -> Paramet
             "scale, so give a start above 0",
             f"{place}.start",
         )
-    # A run needs a value within bounds that a field does not take themselves.
+    # An open bound itself is no valid value, so stay inside.
     above = None if mark.above is None else mark.above + WITHIN * abs(mark.above)
     below = None if mark.below is None else mark.below - WITHIN * abs(mark.below)
     least = max(b for b in (above, mark.at_least, 0.0) if b is not None)

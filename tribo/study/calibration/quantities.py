@@ -1,4 +1,4 @@
-"""What a lab measures of a worn body, as a run gives it."""
+"""Quantities that a lab measures on a worn body, read off a result."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def percent(part: float) -> str:
 
 
 def read(result: Result, asked: Reading) -> tuple[float, float]:
-    """Return what a run gives, and the standard deviation with which its grid gives it."""
+    """Return the computed value, and its standard deviation due to the grid."""
     body = result.body(asked.body)
     save = -1 if math.isnan(asked.time_s) else result.save_at(asked.time_s)
     depth, spacing, name = body.wear_depth[save], result.grid.spacing, asked.quantity
@@ -110,7 +110,7 @@ def read(result: Result, asked: Reading) -> tuple[float, float]:
 
 
 def _crown(result: Result, body: BodyResult, save: int) -> tuple[float, float]:
-    """The unworn surface falls away at the feet of the chord, whose places are uncertain."""
+    """Crown; its error is that of the chord's ends times the slope of the surface there."""
     height, depth = profile(body.surface(save), 1), profile(body.wear_depth[save], 1)
     spacing = result.grid.spacing[1]
     half = 0.5 * diameter(body.wear_depth[save], 1, spacing)

@@ -1,4 +1,4 @@
-"""Have runs carried out by an executor, and see them through."""
+"""Submit runs to an executor, and repeat those whose worker died."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from tribo.study.sweeping.runs_table import Run
 from tribo.study.sweeping.worker import carry_out
 
 ATTEMPTS = 3
-"""How often a run is begun whose worker dies."""
+"""Attempts at a run whose worker dies."""
 TICK = 0.2
-"""Time between two looks at whether to stop, in s."""
+"""Interval between checks for Ctrl-C, in s."""
 _GOES_ON = "what is done is kept, and the same command goes on"
 
 
@@ -33,11 +33,11 @@ def carry(
     ended: Callable[[Run, str], None],
     patience: float | None = None,
 ) -> None:
-    """Have every run done; one whose worker dies is given to another one, a few times.
+    """Complete every run; if its worker dies, give it to another one, up to three times.
 
-    `stop` is the file that tells workers to stop, `ended` gets each run as it
-    ends and why if it failed, and `patience` is how long workers may take to
-    stop, in s.
+    The file `stop` tells workers to stop; `ended` is called with each run that
+    ends, and with the reason if it failed; `patience` is the time that workers
+    may take to stop, in s.
 
     Raises
     ------
@@ -65,7 +65,7 @@ def carry(
         while futures:
             done, _ = wait(futures, TICK, FIRST_COMPLETED)
             if guard.requested:
-                # Cancelling instead would lose sight of runs that dask has begun.
+                # Cancelling would lose track of runs that dask has started.
                 stop.touch()
                 try:
                     wait(futures, patience)
@@ -82,7 +82,7 @@ def carry(
 
 
 def _outcome(future: Future[tuple[str, str]], run: Run) -> tuple[str, bool]:
-    """Return why a run failed, nothing if it did not, and whether another worker may do better."""
+    """Return the reason of a failure, or "", and whether to try another worker."""
     try:
         status, why = future.result()
     except BrokenExecutor:

@@ -1,4 +1,4 @@
-"""What carries the runs of a sweep: processes on this machine, or the workers of dask."""
+"""Executors of a sweep: processes on this machine, or dask workers."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ PATIENCE = 15.0
 
 @contextmanager
 def processes(count: int | None = None) -> Iterator[Executor]:
-    """Carry calls out in single-threaded processes, one a core if not told.
+    """Run calls in single-threaded processes, by default one per core.
 
     They end at once if this process is killed, or the block raises.
     """
@@ -91,7 +91,7 @@ def on_scheduler(address: str, patience: float = PATIENCE) -> Iterator[Executor]
 
 
 class _Processes(ThreadPoolExecutor):
-    """Threads with a process each, so that the death of one costs only its own call."""
+    """Threads with one process each, so that a dying process loses only its own call."""
 
     def __init__(self, count: int, lifeline: Any) -> None:
         super().__init__(count)
@@ -127,9 +127,9 @@ def _cores() -> int:
 
 @contextmanager
 def _environment() -> Iterator[None]:
-    """Give processes that start now one thread each for linear algebra.
+    """Limit processes that start now to one thread each for linear algebra.
 
-    Python's helper that tidies up after this process, should it be killed, does so in silence.
+    Also silences Python's resource tracker, which would warn if this process is killed.
     """
     before = dict(os.environ)
     quiet = before.get("PYTHONWARNINGS"), "ignore:::multiprocessing.resource_tracker"
@@ -142,7 +142,7 @@ def _environment() -> Iterator[None]:
 
 
 def _begin(lifeline: Any) -> None:
-    """Prepare a process: its parent hears Ctrl-C, and it does not outlive its parent."""
+    """Prepare a process: ignore Ctrl-C, and end with the parent."""
 
     def end() -> None:
         wait([lifeline])
@@ -154,7 +154,7 @@ def _begin(lifeline: Any) -> None:
 
 
 def _be_quiet() -> None:
-    """Print no warnings of runs, which are in their results."""
+    """Print no warnings of runs; their results hold them."""
     warnings.simplefilter("ignore", TriboWarning)
 
 
@@ -165,7 +165,7 @@ def _distributed() -> Any:
         raise CaseError(
             "dask.distributed is not installed; install it with: pip install 'tribo[dask]'"
         ) from None
-    # The errors that follow say what it logs, tracebacks among it.
+    # Errors are reported as our own; dask would log them with tracebacks.
     for name in list(logging.root.manager.loggerDict):
         if name.split(".")[0] == "distributed":
             logging.getLogger(name).setLevel(logging.CRITICAL + 1)
@@ -173,17 +173,17 @@ def _distributed() -> Any:
 
 
 def _connected(distributed: Any, address: str, patience: float) -> Any:
-    """Return a client, in time whatever answers at the address."""
+    """Return a client, or give up in time whatever answers at the address."""
     answer: Future[Any] = Future()
 
     def connect() -> None:
         try:
             answer.set_result(distributed.Client(address, timeout=patience))
         except Exception as error:
-            # dask may raise anything of what is not a scheduler.
+            # If another program answers, dask may raise anything.
             answer.set_exception(error)
 
-    # Dask's own time limit ends with the connection, not with the first answer.
+    # Dask's own time limit covers the connection only, not the first answer.
     threading.Thread(target=connect, daemon=True).start()
     try:
         return answer.result(patience + 1.0)

@@ -1,4 +1,4 @@
-"""Tables of a sweep, read off its results: a row a run, and a row a save."""
+"""Tables of a sweep, made from its results: one row per run, and one per save."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The file of a study: a base case, what varies in it, and the points that follow."""
+"""The file of a study: a base case, what varies in it, and the resulting points."""
 
 from __future__ import annotations
 
@@ -200,7 +200,7 @@ def _spread(sample: Sample) -> Any:
             TriboWarning,
             stacklevel=2,
         )
-    # Of the points up to a power of two, the first ones are the same for any count.
+    # The first points of a longer sequence are those of a shorter one.
     return qmc.Sobol(len(sample.ranges), seed=sample.seed).random(above)[: sample.count]
 
 

@@ -27,15 +27,15 @@ from tribo.study.sweeping.worker import locked
 from tribo.study.variation import variants
 
 MANY = 1000
-"""More runs than these are only made when that is said to be meant."""
+"""Most runs without confirmation."""
 PATIENCE = 30.0
-"""How long runs on an executor of the user's may take to stop, in s."""
+"""Time that runs on an executor given by the user may take to stop, in s."""
 RUNS, SAVES, STOP, LOCK = "runs.csv", "saves.csv", "sweep.stop", "sweep.lock"
 
 
 @dataclass(frozen=True)
 class Sweep:
-    """What a sweep leaves.
+    """The results of a sweep.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ class Sweep:
     runs : tuple of Run
         In the order of the study.
     table : pandas.DataFrame
-        What ``runs.csv`` has of them, a row a run.
+        The table in ``runs.csv``, one row per run.
     """
 
     folder: Path
@@ -77,10 +77,9 @@ def sweep(
 ) -> Sweep:
     """Run all cases of a study, in parallel.
 
-    All are validated and composed before any is run. Nothing is done twice:
-    finished results of the same case and components are taken as they are,
-    stopped runs go on from their checkpoints. A failing run is recorded, and
-    the others go on.
+    All are validated and composed before any is run. Finished results of the
+    same case and components are reused, and stopped runs continue from their
+    checkpoints. A failing run is recorded, and the others continue.
 
     Parameters
     ----------
@@ -89,9 +88,9 @@ def sweep(
     output : str or Path, optional
         Folder of the results; named as the study, with ``-sweep``, if left out.
     executor : Executor, optional
-        What carries the runs; processes on this machine if left out. It gets
-        a function that its workers can import, and plain data. They must see
-        `output` under the same name. It is left open.
+        Runs the cases; processes on this machine if left out. It gets a
+        function that its workers can import, and plain data. They must see
+        `output` under the same path. It is left open.
     jobs : int, optional
         Number of processes if there is no `executor`; a core each if left out.
     retry : bool, optional
@@ -125,7 +124,7 @@ def sweep(
         before = {} if retry else failed_before(folder / RUNS)
         failures = {name: why for name, why in before.items() if name in names}
         for name in (RUNS, SAVES):
-            # A table that is there agrees with the results; while they change, there is none.
+            # A table must agree with the results, so there is none while they change.
             (folder / name).unlink(missing_ok=True)
         left = [
             run
@@ -160,7 +159,7 @@ def plan(study: Path, folder: Path, *, many: bool = False) -> tuple[list[Run], l
     settings = points(asked, data, math.inf if many else MANY)
     runs = []
     for i, (label, case) in enumerate(variants(data, settings).items(), start=1):
-        # The name stands for the case, so that a study may grow and nothing is done twice.
+        # Named after the case, so that a study may grow and nothing runs twice.
         name = fingerprint(case.model_dump(mode="json"))[:16]
         runs.append(Run(i, label, case, folder / "results" / f"{name}.h5"))
     return runs, list({path: None for point in settings for path in point})
@@ -168,11 +167,11 @@ def plan(study: Path, folder: Path, *, many: bool = False) -> tuple[list[Run], l
 
 @contextmanager
 def _holding(folder: Path) -> Iterator[None]:
-    """Make the folder, and keep other sweeps out of it."""
+    """Create the folder, and lock it against other sweeps."""
     try:
         with writing(folder):
             (folder / "results").mkdir(parents=True, exist_ok=True)
-            # It raises where the folder cannot be entered.
+            # This raises if the folder cannot be entered.
             os.listdir(folder / "results")
             with locked(folder / LOCK):
                 (folder / STOP).unlink(missing_ok=True)

@@ -1,4 +1,4 @@
-"""One run of a sweep, carried out wherever its executor has it done."""
+"""Run one case of a sweep in a worker."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from tribo.simulation.run import Simulation
 from tribo.study.runs import complete, is_done
 
 GLANCE = 0.5
-"""Time between two looks at whether to stop, in s."""
+"""Interval between checks of the stop file, in s."""
 
 
 def carry_out(case: dict[str, Any], path: str, stop: str) -> tuple[str, str]:
-    """Run a case into its file, or go on with what is there; never beside another worker.
+    """Run a case into its file, or continue a stopped run; waits for a worker already at it.
 
-    The run stops when there is a file `stop`. Return ``"done"``,
+    The run stops once the file `stop` exists. Return ``"done"``,
     ``"interrupted"``, or ``"failed"`` and why.
     """
     result = Path(path)
@@ -45,12 +45,12 @@ def carry_out(case: dict[str, Any], path: str, stop: str) -> tuple[str, str]:
 
 @contextmanager
 def locked(path: Path) -> Iterator[None]:
-    """Hold the lock that the file `path` stands for; it is made, and removed at the end.
+    """Hold a lock file; it is created, and removed at the end.
 
     Raises
     ------
     BusyError
-        If another process, or thread, holds it, or has just let it go.
+        If another process or thread holds it, or has just released it.
     OSError
         If the file cannot be made.
     """
@@ -67,12 +67,12 @@ def locked(path: Path) -> Iterator[None]:
         except FileNotFoundError:
             removed = True
         if removed:
-            # Its last holder has just done so, after it was opened here.
+            # Its last holder removed it after it was opened here.
             raise BusyError
         try:
             yield
         finally:
-            # Windows does not remove a file that is open.
+            # Windows cannot remove an open file.
             with suppress(PermissionError):
                 path.unlink(missing_ok=True)
 
@@ -89,7 +89,7 @@ def _composed(case: dict[str, Any]) -> Simulation:
 
 @contextmanager
 def _alone(path: Path, stop: Path) -> Iterator[None]:
-    """Wait for another worker that is at the same run, left over from a sweep that was killed."""
+    """Hold the lock of a run; a worker of a killed sweep may still be at it, so wait for it."""
     while not stop.exists():
         try:
             with locked(path.with_suffix(".lock")):
@@ -101,14 +101,14 @@ def _alone(path: Path, stop: Path) -> Iterator[None]:
 
 
 class _StopFile(Observer):
-    """Stops a run when a file appears."""
+    """Stop a run when a file appears."""
 
     type = "stop_file"
     path: Path
     _last: float = 0.0
 
     def on_step(self, snapshot: Snapshot) -> None:
-        """Now and then look for the file."""
+        """Look for the file every half second."""
         now = time.monotonic()
         if now - self._last > GLANCE:
             self._last = now
