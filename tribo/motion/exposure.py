@@ -175,3 +175,50 @@ class Track(Exposure):
         # A row that is yet to be touched has the derivative that its law gives nearby.
         mean = np.where(loaded, weighted, np.max(derivative, axis=0))
         return WearCompliance(np.zeros_like(derivative), mean / self._length)
+
+
+class Passing(Exposure):
+    """Points pass through the contact, which is solved at positions along their path.
+
+    The body has rows of its own, those of the window at every position. Its wear is r(x) =
+    Σₘ ωₘ Tₘᵀ r(pₘ), with ωₘ the share of the path at position m and Tₘᵀ laying the window on the
+    body where it is then. With all pₘ alike it is the average of `Track` at mid-stroke.
+
+    Parameters
+    ----------
+    grid : Grid
+        The window.
+    starts : sequence of int
+        The row of the body at which the window begins, at each position.
+    length : float
+        Length of the path, in m.
+    """
+
+    swept = True
+
+    def __init__(self, grid: Grid, starts: Sequence[int], length: float) -> None:
+        self.starts = tuple(starts)
+        self._rows = grid.cells[0] + max(starts)
+        self._cell_area = grid.cell_area
+        self._track = Track(grid, length)
+
+    @property
+    def rows(self) -> int:
+        """Cells along x on the body."""
+        return self._rows
+
+    def average(self, rate: Array) -> Array:
+        """Return `rate` itself: it is laid on the body at each position."""
+        return rate
+
+    def envelope(self, field: Array) -> Array:
+        """Return `field` itself."""
+        return field
+
+    def volume(self, depth: Array) -> float:
+        """Return the integral of `depth` over the body's rows, in m³."""
+        return float(np.sum(depth)) * self._cell_area
+
+    def compliance(self, derivative: Array, pressure: Array) -> WearCompliance:
+        """Return that of the average, which takes all positions to change alike."""
+        return self._track.compliance(derivative, pressure)

@@ -7,13 +7,14 @@ from collections.abc import Mapping, Sequence
 from typing import Annotated, Literal, Self
 
 import numpy as np
-from pydantic import ConfigDict, model_validator
+from pydantic import ConfigDict, Field, field_validator, model_validator
 
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.core.units import Quantity
 from tribo.motion.averaging import GOOD, NOTICED, good_stroke, groove_excess, too_deep
-from tribo.motion.exposure import Exposure
+from tribo.motion.cycle import Position, Speeds, Stroke
+from tribo.motion.exposure import Exposure, Passing, Track
 from tribo.motion.kinematics import Kinematics
 from tribo.motion.swept import one_swept_body
 
@@ -52,6 +53,9 @@ class Reciprocating(Kinematics):
     """How far it slides."""
     waveform: Literal["constant_speed", "sinusoidal"] = "constant_speed"
     """How the speed varies along the stroke."""
+    positions: Annotated[int, Field(ge=3)] | Literal["cells", "average"] = "average"
+    """In how many positions of a cycle the contact is solved, an odd number, or ``"cells"`` for
+    every cell of the stroke; ``"average"`` takes the track average for all of them."""
     swept: str | None = None
     """Name of the body whose points pass through the contact; the last body if left out."""
     allow_short_stroke: bool = False
@@ -62,6 +66,15 @@ class Reciprocating(Kinematics):
         if sum(end is not None for end in (self.duration, self.cycles, self.distance)) != 1:
             raise ValueError("give exactly one of duration, cycles and distance")
         return self
+
+    @field_validator("positions")
+    @classmethod
+    def _middle(cls, value: int | str) -> int | str:
+        if isinstance(value, int) and value % 2 == 0:
+            raise ValueError(
+                f"{value} is even; give an odd number, so that one lies at mid-stroke: {value + 1}"
+            )
+        return value
 
     @property
     def end_time(self) -> float:
@@ -100,9 +113,31 @@ class Reciprocating(Kinematics):
         largest = math.pi * self.stroke * self.frequency
         return [(largest * float(s), float(w)) for s, w in zip(sines, shares, strict=True)]
 
+    def cycle(self, grid: Grid) -> Sequence[Position]:
+        """Return the positions along the stroke, with the mean speed about each."""
+        if self.positions == "average":
+            return super().cycle(grid)
+        stroke = self._stroke(grid)
+        speeds: list[Speeds | None] = [None] * len(stroke.shares)
+        if self.waveform == "sinusoidal":
+            phases = np.arcsin(np.clip(stroke.bounds / (0.5 * self.stroke), -1, 1))
+            means = np.diff(stroke.bounds) / (np.diff(phases) / (2 * math.pi * self.frequency))
+            speeds = [[(float(speed), 1.0)] for speed in means]
+        return [
+            Position(float(share), speed)
+            for share, speed in zip(stroke.shares, speeds, strict=True)
+        ]
+
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
-        """Return a track as long as the stroke for the swept body."""
-        return one_swept_body(grid, bodies, self.swept, self.stroke)
+        """Return a track as long as the stroke for the swept body, or its rows along the stroke."""
+        if self.positions == "average":
+            return one_swept_body(grid, bodies, self.swept, Track(grid, self.stroke))
+        passing = Passing(grid, self._stroke(grid).starts, self.stroke)
+        return one_swept_body(grid, bodies, self.swept, passing)
+
+    def _stroke(self, grid: Grid) -> Stroke:
+        count = None if self.positions == "cells" else int(self.positions)
+        return Stroke(self.stroke, grid.spacing[0], count)
 
     def limitation(
         self, half_width_x: float, depth: float, approach: float, volume_ratio: float
@@ -110,7 +145,7 @@ class Reciprocating(Kinematics):
         """Return what the stroke average costs, once that is more than 5 % of the depth."""
         stroke, widths = self.stroke, self.stroke / half_width_x
         excess = groove_excess(stroke, half_width_x, depth, approach, volume_ratio)
-        if depth <= 0 or excess < NOTICED:
+        if depth <= 0 or excess < NOTICED or self.positions != "average":
             return None
         many = f"{widths:.2g} half-width" + ("" if f"{widths:.2g}" == "1" else "s")
         longer = good_stroke(stroke, half_width_x, depth, approach, volume_ratio)

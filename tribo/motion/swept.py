@@ -6,13 +6,13 @@ from collections.abc import Sequence
 
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
-from tribo.motion.exposure import Exposure, Stationary, Track
+from tribo.motion.exposure import Exposure, Stationary
 
 
 def one_swept_body(
-    grid: Grid, bodies: Sequence[str], swept: str | None, track_length: float
+    grid: Grid, bodies: Sequence[str], swept: str | None, exposure: Exposure
 ) -> dict[str, Exposure]:
-    """Return a `Track` for the swept body and `Stationary` for the others.
+    """Return `exposure` for the swept body and `Stationary` for the others.
 
     Parameters
     ----------
@@ -22,8 +22,8 @@ def one_swept_body(
         Names of the bodies.
     swept : str or None
         Name of the swept body; the last body if None.
-    track_length : float
-        In m.
+    exposure : Exposure
+        How the swept body meets the contact.
 
     Raises
     ------
@@ -35,4 +35,4 @@ def one_swept_body(
         raise CaseError(
             f"no body is called {name!r}; the bodies are {', '.join(bodies)}", "kinematics.swept"
         )
-    return {b: Track(grid, track_length) if b == name else Stationary(grid) for b in bodies}
+    return {b: exposure if b == name else Stationary(grid) for b in bodies}

@@ -11,7 +11,7 @@ from pydantic import ConfigDict, model_validator
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.core.units import Quantity
-from tribo.motion.exposure import Exposure
+from tribo.motion.exposure import Exposure, Track
 from tribo.motion.kinematics import Kinematics
 from tribo.motion.swept import one_swept_body
 
@@ -83,7 +83,7 @@ class Unidirectional(Kinematics):
 
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
         """Return the closed track for the swept body."""
-        return one_swept_body(grid, bodies, self.swept, self.lap)
+        return one_swept_body(grid, bodies, self.swept, Track(grid, self.lap))
 
     def limitation(
         self, half_width_x: float, depth: float, approach: float, volume_ratio: float

@@ -371,7 +371,7 @@ class GuardedExposure(Guard[Kinematics]):
         """Return the rate each point of the body sees."""
         asked = readonly(rate)
         answer = self.ask(self._asked.average, asked)
-        if answer is asked and not self.swept:
+        if answer is asked and (self.starts is not None or not self.swept):
             # What was held to the contract as a law's answer.
             return asked
         average, least, _ = self.field("an average", answer, self._own)
