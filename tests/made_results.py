@@ -52,7 +52,7 @@ def made(
         RunInfo(
             system=ContactSystem(grid, 1.137e11, 100.0, cap, curvature),
             bodies=tuple(
-                BodyInfo(name, is_swept, density, _height(grid, i))
+                BodyInfo(name, is_swept, density, _height(grid, i), grid.cells[0])
                 for i, (name, is_swept, _, density) in enumerate(bodies)
             ),
             end_time=3600.0,

@@ -36,3 +36,9 @@ def union(first: Region, second: Region) -> Region:
         slice(min(a.start, c.start), max(a.stop, c.stop)),
         slice(min(b.start, d.start), max(b.stop, d.stop)),
     )
+
+
+def middle_rows(field: Array, count: int) -> Array:
+    """Return the middle `count` rows of a field on a body's own surface; all, if it has fewer."""
+    first = max(0, (field.shape[0] - count) // 2)
+    return field[first : first + count]

@@ -120,6 +120,8 @@ class BodyInfo:
         In kg/m³.
     height : ndarray, shape (nx, ny)
         Its initial height outward, in m.
+    rows : int
+        Cells along x on its own surface.
     state_fields : tuple of Field, optional
         What its wear law keeps per material point.
     """
@@ -128,6 +130,7 @@ class BodyInfo:
     swept: bool
     density: float | None
     height: Array
+    rows: int
     state_fields: tuple[Field, ...] = ()
 
 

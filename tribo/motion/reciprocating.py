@@ -136,8 +136,19 @@ class Reciprocating(Kinematics):
         return one_swept_body(grid, bodies, self.swept, passing)
 
     def _stroke(self, grid: Grid) -> Stroke:
-        count = None if self.positions == "cells" else int(self.positions)
-        return Stroke(self.stroke, grid.spacing[0], count)
+        dx = grid.spacing[0]
+        if self.positions != "cells":
+            return Stroke(self.stroke, dx, int(self.positions))
+        cells = self.stroke / dx
+        if abs(cells - 2 * round(0.5 * cells)) > 1e-6 * cells:
+            near = 2e3 * dx * max(1, round(0.5 * cells))
+            raise CaseError(
+                f"{1e3 * self.stroke:.4g} mm are {cells:.4g} cells of {1e3 * dx:.4g} mm; with "
+                f'positions = "cells" give an even whole number of cells, as {near:.6g} mm, or a '
+                "number of positions",
+                "kinematics.stroke",
+            )
+        return Stroke(self.stroke, dx)
 
     def limitation(
         self, half_width_x: float, depth: float, approach: float, volume_ratio: float
@@ -158,7 +169,24 @@ class Reciprocating(Kinematics):
         )
 
     def check_contact(self, half_width_x: float) -> None:
-        """Refuse a stroke that is shorter than the half-width, unless the case allows it."""
+        """Refuse too few positions, and for the average a stroke shorter than the half-width.
+
+        The average of a short stroke is taken where the case allows it.
+        """
+        if self.positions == "average":
+            self._check_average(half_width_x)
+        elif self.positions != "cells":
+            apart = self.stroke / (self.positions - 1)
+            if apart > half_width_x:
+                least = 2 * math.ceil(0.5 * self.stroke / half_width_x) + 1
+                raise CaseError(
+                    f"{self.positions} positions lie every {1e3 * apart:.3g} mm, further apart "
+                    f"than the half-width of the first contact, {1e3 * half_width_x:.3g} mm; give "
+                    f"at least {least}",
+                    "kinematics.positions",
+                )
+
+    def _check_average(self, half_width_x: float) -> None:
         if self.stroke >= half_width_x or self.allow_short_stroke:
             return
         excess = groove_excess(self.stroke, half_width_x, 0.0, 0.0)

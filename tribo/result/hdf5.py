@@ -22,9 +22,11 @@ def empty_image(run: RunInfo, **changed: Any) -> bytes:
     with h5py.File(image, "w") as file:
         file.attrs.update(attributes(run) | changed)
         file["body"] = [body.name for body in run.bodies]
-        nx, ny = run.system.grid.cells
-        sizes = {"body": len(run.bodies), "time": 0, "step": 0, "x": nx, "y": ny}
         table = variables(run)
+        sizes = {"body": len(run.bodies), "time": 0, "step": 0}
+        for name, variable in table.items():
+            if variable.dims == (name,) and variable.values is not None:
+                sizes[name] = variable.values.size
         for name, variable in table.items():
             _create(file, name, variable, [sizes[dim] for dim in variable.dims])
         # netCDF takes the dimensions from these.

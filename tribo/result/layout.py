@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from tribo.core.arrays import Array
+from tribo.core.arrays import Array, middle_rows
 from tribo.core.measures import Measures
 from tribo.core.state import RunInfo, Snapshot
 from tribo.result.columns import BODY_COLUMNS, COLUMNS
 
 FORMAT = 2
 STATE, EFFECT = "state", "effect"
+TRACK = "track_depth"
 
 Rows = dict[str, Any]
 """What is added, by variable: numbers, or for a field an array."""
@@ -95,6 +96,13 @@ def variables(run: RunInfo) -> dict[str, Variable]:
         "wear_depth": Variable(_ON_BODY, "m", "Depth worn away"),
         "plastic_depth": Variable(_ON_BODY, "m", "Permanent displacement"),
     }
+    rows = max(body.rows for body in bodies)
+    if rows > grid.cells[0]:
+        x = np.asarray((np.arange(rows) - 0.5 * (rows - 1)) * grid.spacing[0])
+        table["track_x"] = Variable(("track_x",), "m", "Position along the track", x)
+        table[TRACK] = Variable(
+            ("time", "body", "track_x", "y"), "m", "Depth worn away along the whole track"
+        )
     for prefix, dim in (("", "time"), ("history_", "step")):
         for column in COLUMNS:
             table[prefix + column.name] = Variable((dim,), column.unit, column.description)
@@ -127,8 +135,12 @@ def save_row(snapshot: Snapshot, table: Mapping[str, Variable]) -> Rows:
         **_scalars(snapshot.measures),
         "pressure": state.contact.pressure,
         "wear_depth": _stacked(shape, {n: b.wear for n, b in state.bodies.items()}, state.bodies),
-        "plastic_depth": np.stack([body.plastic for body in state.bodies.values()]),
+        "plastic_depth": _stacked(
+            shape, {n: b.plastic for n, b in state.bodies.items()}, state.bodies
+        ),
     }
+    if TRACK in table:
+        row[TRACK] = _on_track([body.wear for body in state.bodies.values()], shape)
     for name, variable in table.items():
         if variable.kind == STATE:
             of_bodies = {n: state.bodies[n].law[variable.field] for n in variable.bodies}
@@ -156,7 +168,20 @@ def part_of(rows: Iterable[Rows]) -> Rows:
 def _stacked(
     shape: tuple[int, ...], of_bodies: Mapping[str, Array], bodies: Iterable[str]
 ) -> Array:
-    return np.stack([np.broadcast_to(of_bodies.get(name, np.nan), shape) for name in bodies])
+    missing = np.full((1, 1), np.nan)
+    fields = (middle_rows(of_bodies.get(name, missing), shape[0]) for name in bodies)
+    return np.stack([np.broadcast_to(field, shape) for field in fields])
+
+
+def _on_track(fields: Sequence[Array], shape: tuple[int, ...]) -> Array:
+    """Return fields on bodies' own surfaces, NaN but for those that are longer than the window."""
+    rows = max(field.shape[0] for field in fields)
+    stacked = np.full((len(fields), rows, shape[1]), np.nan)
+    for on_track, field in zip(stacked, fields, strict=True):
+        if field.shape[0] > shape[0]:
+            first = (rows - field.shape[0]) // 2
+            on_track[first : first + field.shape[0]] = field
+    return stacked
 
 
 def _scalars(measures: Measures) -> Rows:

@@ -11,9 +11,10 @@ import numpy as np
 from tribo.case import Body, Case
 from tribo.config.requirements import check_requirements
 from tribo.contact.solver import ContactSolver
-from tribo.core.arrays import readonly
+from tribo.core.arrays import Array, readonly
 from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError, located
+from tribo.core.grid import Grid
 from tribo.core.material import contact_modulus
 from tribo.simulation.effects import in_order
 from tribo.simulation.guards import (
@@ -46,16 +47,13 @@ def assemble(case: Case) -> Model:
     # Before the first array is made.
     check_memory(grid, memory_needed(case, plastic=cap is not None))
     surfaces, laws = {}, {}
-    gap = np.zeros(grid.cells)
     for name, body in bodies.items():
         with located(f"bodies.{name}.surface"):
-            surfaces[name] = GuardedSurface(body.surface, name, grid)
+            surfaces[name] = GuardedSurface(body.surface, name, _own_grid(grid, exposures[name]))
             _check_sliding(surfaces[name], exposures[name])
-        gap -= surfaces[name].height
         if body.wear is not None:
             with located(f"bodies.{name}.wear"):
                 laws[name] = GuardedLaw(body.wear, name, body.material)
-    gap -= float(np.min(gap))
     system = ContactSystem(
         grid=grid,
         modulus=contact_modulus([body.material for body in bodies.values()]),
@@ -87,7 +85,7 @@ def assemble(case: Case) -> Model:
         plastic_share=share,
         system=system,
         cycle=cycle,
-        gaps=(readonly(gap),) * len(cycle),
+        gaps=_gaps(grid, len(cycle), surfaces, exposures),
         end_time=end,
     )
     _check_ends(model)
@@ -124,6 +122,41 @@ def _plastic(
     return cap, {name: (1 / len(soft) if name in soft else 0.0) for name in bodies}
 
 
+def _own_grid(grid: Grid, exposure: GuardedExposure) -> Grid:
+    """Return the cells of a body's own surface: those of the window, and of its path beyond it."""
+    if exposure.starts is None:
+        return grid
+    (dx, _), (_, ny) = grid.spacing, grid.cells
+    return Grid(size=(exposure.rows * dx, grid.size[1]), cells=(exposure.rows, ny))
+
+
+def _gaps(
+    grid: Grid,
+    positions: int,
+    surfaces: Mapping[str, GuardedSurface],
+    exposures: Mapping[str, GuardedExposure],
+) -> tuple[Array, ...]:
+    """Return the initial gap at each position, 0 at the least in the middle of the cycle."""
+
+    def gap_at(position: int) -> Array:
+        gap = np.zeros(grid.cells)
+        for name, surface in surfaces.items():
+            starts = exposures[name].starts
+            first = 0 if starts is None else starts[position]
+            gap -= surface.height[first : first + grid.cells[0]]
+        return gap
+
+    middle = positions // 2
+    lowest = float(np.min(gap_at(middle)))
+    moving = any(
+        exposures[name].starts is not None and _varies_along_x(surface.height)
+        for name, surface in surfaces.items()
+    )
+    if not moving:
+        return (readonly(gap_at(middle) - lowest),) * positions
+    return tuple(readonly(gap_at(position) - lowest) for position in range(positions))
+
+
 def _curvature(surfaces: Mapping[str, GuardedSurface]) -> tuple[float, float] | None:
     """Return the curvature of the gap along x and y, in 1/m; None if a surface states none."""
     known = [surface.curvature for surface in surfaces.values()]
@@ -134,12 +167,17 @@ def _curvature(surfaces: Mapping[str, GuardedSurface]) -> tuple[float, float] | 
 
 def _check_sliding(surface: GuardedSurface, exposure: GuardedExposure) -> None:
     """Raise `CaseError` if the motion moves a shape that would not stay as it is."""
-    if not exposure.shape_stays and np.any(surface.height != surface.height[:1]):
+    stays = exposure.shape_stays or exposure.starts is not None
+    if not stays and _varies_along_x(surface.height):
         raise CaseError(
             f"body {surface.body!r} is swept along x, so its surface must not vary along x, as "
             f"{surface.component.type!r} does; let kinematics.swept name the other body, or use "
             "a 'flat' or a 'cylinder' with axis = 'x'"
         )
+
+
+def _varies_along_x(height: Array) -> bool:
+    return bool(np.any(height != height[:1]))
 
 
 def _check_ends(model: Model) -> None:

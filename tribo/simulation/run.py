@@ -262,7 +262,8 @@ class Simulation:
                     name=name,
                     swept=name in model.swept,
                     density=body.material.density,
-                    height=model.surfaces[name].height,
+                    height=model.under(name, model.surfaces[name].height, len(model.cycle) // 2),
+                    rows=model.exposures[name].rows,
                     state_fields=() if body.wear is None else tuple(body.wear.state_fields),
                 )
                 for name, body in model.bodies.items()

@@ -1,0 +1,101 @@
+"""Positions along a stroke: a quadrature whose nodes lie at whole cells."""
+
+import numpy as np
+import pytest
+from paper_models import motion, small
+
+from tribo import CaseError, Grid, Reciprocating
+from tribo.config.load import validate_case
+from tribo.motion.cycle import Stroke
+from tribo.motion.exposure import Passing
+from tribo.simulation.march import begin
+
+STROKES = [
+    Stroke(2e-3, 1e-4, 9),
+    Stroke(1.97e-3, 1e-4, 7),
+    Stroke(2.31e-3, 1e-4),
+    Stroke(3e-5, 1e-4),
+]
+
+
+@pytest.mark.parametrize("stroke", STROKES)
+def test_the_path_is_shared_evenly_about_mid_stroke(stroke):
+    cells, shares = stroke.cells, stroke.shares
+    assert sum(shares) == pytest.approx(1, abs=1e-14)
+    assert min(shares) > 0
+    np.testing.assert_allclose(shares, shares[::-1], rtol=1e-12)
+    np.testing.assert_array_equal(cells, -cells[::-1])
+    np.testing.assert_array_equal(cells, np.round(cells))
+    assert cells[len(cells) // 2] == 0
+    assert cells[-2] * stroke.dx < 0.5 * stroke.length <= cells[-1] * stroke.dx * (1 + 1e-12)
+
+
+def test_every_cell_of_the_stroke_is_a_position():
+    np.testing.assert_array_equal(Stroke(6e-4, 1e-4).cells, np.arange(-3, 4))
+    # More positions than there are cells would stand twice in one.
+    np.testing.assert_array_equal(Stroke(6e-4, 1e-4, 99).cells, np.arange(-3, 4))
+
+
+@pytest.mark.parametrize("length", [2e-3, 1.93e-3])
+def test_integrals_over_the_stroke_converge_in_second_order(length):
+    def error(cells):
+        stroke = Stroke(length, 1e-3 / cells)
+        x = stroke.cells * stroke.dx
+        exact = np.sin(0.5e3 * length) / (0.5e3 * length)
+        return abs(float(np.sum(stroke.shares * np.cos(1e3 * x))) - exact)
+
+    # A stroke of no whole number of cells makes the error jump about its order.
+    assert error(40) < 1.5e-4
+    assert np.log2(error(20) / error(160)) / 3 == pytest.approx(2, abs=0.15)
+
+
+def test_a_sine_spends_its_path_at_its_speeds():
+    motion = Reciprocating(
+        stroke="2 mm", frequency="25 Hz", cycles=10, waveform="sinusoidal", positions=41
+    )
+    cycle = motion.cycle(Grid(1e-3, 64))
+    speeds = np.array([position.speeds[0][0] for position in cycle])
+    assert max(speeds) == pytest.approx(np.pi * 2e-3 * 25, rel=1e-3)
+    assert min(speeds) == speeds[0] < 0.2 * max(speeds)
+    # The time that the parts take is that of half a cycle; trapezia, not parts, share the path.
+    pace = sum(p.share / p.speeds[0][0] for p in cycle)
+    assert pace == pytest.approx(1 / (2 * 2e-3 * 25), rel=1e-2)
+
+
+def test_a_passing_body_has_the_rows_of_all_its_positions():
+    grid = Grid(1e-3, 10)
+    exposures = Reciprocating(stroke="0.4 mm", frequency=25, cycles=1, positions="cells").exposures(
+        grid, ["ball", "disk"]
+    )
+    disk = exposures["disk"]
+    assert isinstance(disk, Passing)
+    assert (disk.rows, disk.starts) == (14, (4, 3, 2, 1, 0))
+    assert disk.volume(np.ones((14, 10))) == pytest.approx(1.4e-6)
+    assert exposures["ball"].starts is None
+
+
+@pytest.mark.parametrize(
+    ("stroke", "positions", "place", "words"),
+    [
+        ("2.05 mm", "cells", r"kinematics\.stroke", "20.5 cells of 0.1 mm"),
+        ("2 mm", 3, r"kinematics\.positions", "every 1 mm.*half-width of the first contact"),
+    ],
+)
+def test_positions_that_cannot_serve_the_contact_are_refused(stroke, positions, place, words):
+    kinematics = motion(stroke=stroke, positions=positions)
+    with pytest.raises(CaseError, match=rf"{place}: .*{words}"):
+        begin(small(grid=Grid((2e-3, 2e-3), (20, 20)), kinematics=kinematics))
+
+
+@pytest.mark.parametrize("given", [4, 1, "all", 2.5])
+def test_positions_are_an_odd_number_or_a_word(given):
+    motion = {"type": "reciprocating", "stroke": 2e-3, "frequency": 25, "cycles": 1}
+    body = {"surface": {"type": "flat"}, "material": {"young": 2e11, "poisson": 0.3}}
+    case = {
+        "grid": {"size": 1e-3, "cells": 16},
+        "load": {"normal": 1.0},
+        "bodies": {"a": body, "b": body},
+        "kinematics": motion | {"positions": given},
+    }
+    with pytest.raises(CaseError, match=r"kinematics\.positions"):
+        validate_case(case)

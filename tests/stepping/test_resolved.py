@@ -1,0 +1,191 @@
+"""A cycle resolved into positions, against plain loops and the average that is its limit."""
+
+import numpy as np
+import pytest
+from paper_models import (
+    FOUNDATION,
+    K,
+    archard,
+    case,
+    flat,
+    foundation,
+    half_space,
+    last,
+    motion,
+    named,
+    small,
+    sphere,
+    steel,
+)
+
+from tribo import Explicit, Grid, Implicit, Interrupted, Simulation
+from tribo.core.contact import ContactProblem
+from tribo.observers.observer import Observer
+from tribo.stepping.step import first_contact, geometry
+
+GRID = Grid((1.2e-3, 0.75e-3), (32, 20))
+STROKE = 12 * GRID.spacing[0]
+"""Three half-widths of the first contact."""
+
+
+def resolved(positions="cells", **changes):
+    kinematics = motion(stroke=STROKE, duration=600, positions=positions)
+    parts = {"grid": GRID, "contact": foundation(), "kinematics": kinematics, **changes}
+    return small(**parts)
+
+
+def plain_loop(distance, stroke=12, steps=3000):
+    """Wear ball and disk cell by cell of the stroke, each cycle jump by forward Euler."""
+    (nx, ny), (dx, dy) = GRID.cells, GRID.spacing
+    x, y = GRID.mesh
+    ball, disk = np.zeros((nx, ny)), np.zeros((nx + stroke, ny))
+    gap = 5e-3 - np.sqrt(25e-6 - x**2 - y**2)
+    share = np.full(stroke + 1, 1 / stroke)
+    share[[0, -1]] /= 2
+    slid = distance * np.diff(np.linspace(0, 1, steps + 1) ** 1.5)
+    for length in slid:
+        gaps = np.stack([gap + ball + disk[at : at + nx] for at in range(stroke + 1)])
+        p = pressed(gaps, 100 / (dx * dy * FOUNDATION))
+        ball += K * length * np.einsum("i,ijk->jk", share, p)
+        for at in range(stroke + 1):
+            disk[at : at + nx] += K * length * share[at] * p[at]
+    return ball, disk
+
+
+def pressed(gaps, total):
+    """Press a foundation on each gap until the overlaps add up to `total`, in m."""
+    lowest = gaps.min(axis=(1, 2))
+    low, high = lowest, lowest + total
+    for _ in range(50):
+        middle = 0.5 * (low + high)
+        more = np.maximum(middle[:, None, None] - gaps, 0).sum(axis=(1, 2)) < total
+        low, high = np.where(more, middle, low), np.where(more, high, middle)
+    return FOUNDATION * np.maximum(high[:, None, None] - gaps, 0)
+
+
+@pytest.fixture(scope="module")
+def every_cell():
+    return last(resolved())
+
+
+@pytest.mark.slow
+def test_both_bodies_wear_as_in_a_plain_loop_over_the_cells_of_the_stroke(every_cell):
+    ball, disk = plain_loop(every_cell.distance)
+    for found, expected in ((every_cell.bodies["ball"], ball), (every_cell.bodies["disk"], disk)):
+        assert found.wear.shape == expected.shape
+        assert np.max(np.abs(found.wear - expected)) < 5e-3 * expected.max()
+    # The ends of the groove differ from its middle, and the ball from the disk.
+    assert disk[22, 10] > 1.3 * disk[10, 10]
+
+
+@pytest.mark.slow
+def test_the_volumes_are_exact(every_cell):
+    asked = K * 100 * every_cell.distance
+    for name, body in every_cell.bodies.items():
+        volume = np.sum(body.wear) * GRID.cell_area
+        assert volume == pytest.approx(asked, rel=1e-12, abs=0), name
+
+
+@pytest.mark.slow
+def test_the_cycle_stays_symmetrical(every_cell):
+    disk = every_cell.bodies["disk"].wear
+    np.testing.assert_allclose(disk, disk[::-1], atol=1e-4 * disk.max())
+
+
+@pytest.mark.slow
+def test_which_body_is_called_moving_changes_nothing(every_cell):
+    kinematics = motion(stroke=STROKE, duration=600, positions="cells", swept="ball")
+    other = last(resolved(kinematics=kinematics))
+    ball, disk = (every_cell.bodies[name].wear for name in ("ball", "disk"))
+    # The window stays on the disk now, and the ball moves in it.
+    np.testing.assert_allclose(other.bodies["ball"].wear[6:-6], ball, atol=2e-3 * ball.max())
+    np.testing.assert_allclose(other.bodies["disk"].wear, disk[6:-6], atol=2e-3 * disk.max())
+
+
+@pytest.mark.slow
+def test_the_average_is_the_limit_of_a_long_stroke():
+    # A groove as deep as the approach, which the average makes 1.2 % too deep at 20 half-widths.
+    depths = {}
+    for positions in ("average", 41):
+        kinematics = motion(stroke=20 * 0.16e-3, duration=40, positions=positions)
+        state = last(resolved(kinematics=kinematics))
+        wear = state.bodies["disk"].wear
+        depths[positions] = np.max(wear[len(wear) // 2])
+    assert depths["average"] / depths[41] == pytest.approx(1.002, abs=0.004)
+
+
+@pytest.mark.slow
+def test_fewer_positions_converge_in_second_order(every_cell):
+    finest = every_cell.bodies["ball"].wear
+
+    def error(positions):
+        coarse = last(resolved(positions)).bodies["ball"].wear
+        return np.sqrt(np.mean((coarse - finest) ** 2))
+
+    assert error(5) < 0.05 * finest.max()
+    assert error(7) < 0.6 * error(5)
+
+
+def depth_after(steps, positions=7):
+    """Return the depth (m) of the ball after equal steps, which the passes carry out exactly."""
+    model = resolved(positions, stepping=Implicit(cycle_tolerance=1e-9))
+    state = first_contact(model)
+    for step in range(1, steps + 1):
+        state = model.stepping.step(model, state, 2.0 / steps, 80.0 * step / steps)
+    return float(state.bodies["ball"].wear.max())
+
+
+def test_a_resolved_step_is_of_first_order():
+    exact, coarse, fine = (depth_after(steps) for steps in (64, 2, 4))
+    assert (coarse - exact) / (fine - exact) == pytest.approx(2, abs=0.35)
+
+
+@pytest.mark.slow
+def test_explicit_steps_end_at_the_same_depth():
+    kinematics = motion(stroke=STROKE, duration=20, positions=5)
+    depths = [
+        last(resolved(kinematics=kinematics, stepping=stepping)).bodies["disk"].wear.max()
+        for stepping in (Implicit(), Explicit(time_step=0.2))
+    ]
+    assert depths[0] == pytest.approx(depths[1], rel=5e-3)
+
+
+@pytest.mark.slow
+def test_nothing_yields_twice_at_any_position():
+    kinematics = motion(stroke=STROKE, duration=5, positions=5)
+    bodies = [
+        named("ball", sphere(), steel(), archard()),
+        named("disk", flat(), steel(hardness=1.5e9), archard()),
+    ]
+    model = small(grid=GRID, contact=half_space(), kinematics=kinematics, bodies=bodies)
+    state = last(model)
+    deepest = state.bodies["disk"].plastic.max()
+    assert state.bodies["disk"].plastic.shape == (len(range(32)) + 12, 20)
+    assert deepest > 1e-8
+    for position in range(5):
+        gap = geometry(model, state.bodies, position)
+        again = model.contact.solve(ContactProblem(model.system, gap, model.load))
+        assert again.overlap.max() <= 1e-5 * deepest
+        assert again.pressure.max() <= 1.5e9 * (1 + 1e-9)
+
+
+class StopAfter(Observer):
+    steps: int = 5
+
+    def on_step(self, snapshot):
+        if snapshot.state.steps == self.steps:
+            raise KeyboardInterrupt
+
+
+def test_a_stopped_run_goes_on_to_the_same_bits_with_the_groove_along_its_track(tmp_path):
+    kinematics = motion(stroke=STROKE, duration=20, positions=5)
+    simulation = Simulation(case(grid=GRID, contact=foundation(), kinematics=kinematics))
+    with pytest.raises(Interrupted):
+        simulation.run(tmp_path / "run.h5", observers=[StopAfter()])
+    with simulation.resume(tmp_path / "run.h5") as resumed, simulation.run() as whole:
+        assert resumed.dataset.equals(whole.dataset)
+        track = resumed.track_depth.sel(body="disk").isel(time=-1)
+        assert track.sizes["track_x"] == 44
+        window = resumed.wear_depth.sel(body="disk").isel(time=-1)
+        np.testing.assert_array_equal(track.values[6:-6], window.values)
+        assert np.all(np.isnan(resumed.track_depth.sel(body="ball")))
