@@ -97,6 +97,8 @@ class Checks(ABC):
             sent = pickle.dumps(self._config)
             again = _other_process().submit(pickle.loads, sent).result()
         except Exception as error:
+            # The other process may have died of it.
+            _other_process.cache_clear()
             raise CheckFailed(
                 f"{error}; put the class in a module that can be imported by its name"
             ) from error
