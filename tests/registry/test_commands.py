@@ -68,7 +68,7 @@ def test_a_broken_plugin_costs_one_line_where_it_is_named_and_nothing_elsewhere(
 
 @pytest.mark.slow
 def test_the_doctor_tells_of_every_fault_and_none_hurts_a_list_or_a_check(folder, monkeypatch):
-    monkeypatch.setenv("TRIBO_PLUGIN_TIME_LIMIT", "3")
+    monkeypatch.setenv("TRIBO_PLUGINS", "endless,needy,left,right")
     install(folder, "endless", "while True: pass", name="odd.endless")
     install(folder, "needy", requires=["tribo<0.0.1"], name="odd.needy")
     install(folder, "left", name="odd.both")
@@ -80,16 +80,19 @@ def test_the_doctor_tells_of_every_fault_and_none_hurts_a_list_or_a_check(folder
     assert statuses["odd.endless"] == "available"
     assert statuses["odd.both"] == "conflict"
     assert f"hint: {hint}" in listed.stderr
-    checked = asked(folder, "plugins", "check", "odd.endless")
+    with monkeypatch.context() as patient:
+        patient.setenv("TRIBO_PLUGIN_TIME_LIMIT", "3")
+        checked = asked(folder, "plugins", "check", "odd.endless")
     assert checked.returncode == 2
     assert "endless 1.0, which is broken: its import did not end" in checked.stderr
     for verb in ("show", "check"):
         done = asked(folder, "plugins", verb, "odd.both")
         assert done.returncode == 2
         assert conflict in done.stderr
+    (folder / "endless.py").write_text("import os; os.abort()")
     doctor = asked(folder, "doctor")
     assert doctor.returncode == 3
-    assert "broken: its import did not end" in doctor.stdout
+    assert "broken: its import crashed the process (SIGABRT)" in doctor.stdout
     assert "incompatible: it requires tribo<0.0.1" in doctor.stdout
     assert conflict in doctor.stdout
     assert f"hint  {hint}" in doctor.stdout
