@@ -61,9 +61,7 @@ def test_a_result_given_for_a_case_is_told(monkeypatch, folder, command):
 
 @pytest.mark.parametrize("command", [c for n, c in RESULT.items() if n != "compare"])
 def test_a_case_given_for_a_result_is_told(monkeypatch, folder, command):
-    text = told(monkeypatch, folder, command, "case.toml")
-    assert "case.toml is not a whole tribo file but text" in text
-    assert "tribo run case.toml" in text
+    assert "tribo run case.toml" in told(monkeypatch, folder, command, "case.toml")
 
 
 @pytest.mark.parametrize(
@@ -81,7 +79,4 @@ def test_a_value_that_is_no_toml_is_mended(monkeypatch, folder, line, hint):
 
 @pytest.mark.parametrize("name", ["out.csv", "out.toml"])
 def test_a_result_is_not_written_under_the_name_of_another_format(monkeypatch, folder, name):
-    text = told(monkeypatch, folder, "run case.toml -o {}", name)
-    assert f"{name} would be an HDF5 file" in text
-    assert "name it out.h5" in text
-    assert "tribo export" in text
+    assert "name it out.h5" in told(monkeypatch, folder, "run case.toml -o {}", name)
