@@ -5,8 +5,6 @@ PYTHONPATH=tests python -m trust.full_disks --count 40 --seed 1
 
 import random
 import resource
-import subprocess
-from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -37,45 +35,40 @@ class FullDisks:
         return self.stopped == self.identical > 0 and not (self.other_exits + self.lost_saves)
 
 
-def fill_and_resume(count, seed, *, tmpfs=False):
-    """Stop `count` runs by less room than they need: a limit on file size, or a small tmpfs."""
+def fill_and_resume(count, seed):
+    """Stop `count` runs by less room than they need, which is a limit on the size of a file."""
     disks = FullDisks()
     chance = random.Random(seed)
     with TemporaryDirectory() as folder:
         path = whole(folder)
         undisturbed, most = contents(path), path.stat().st_size
         while disks.stopped + disks.other_exits < count:
-            # A part is smaller than the result, the folder of the run larger.
-            room = chance.randrange(most // 2, 5 * most if tmpfs else most)
-            _one(Path(folder), room, tmpfs, undisturbed, disks)
+            # A part is smaller than the result.
+            room = chance.randrange(most // 2, most)
+            _one(Path(folder) / "run.h5", room, undisturbed, disks)
     return disks
 
 
-def _one(folder, room, tmpfs, undisturbed, disks):
-    with small_disk(folder / "disk", room) if tmpfs else nullcontext(folder) as place:
-        path = place / "run.h5"
-        path.unlink(missing_ok=True)
-        work = run if tmpfs else limited(room)
-        code, told = start(work, path).wait()
-        if code == 0:
-            disks.finished += 1
-            return
-        if code != OUTPUT_ERROR:
-            disks.other_exits += 1
-            return
-        if len(told) == 0:
-            disks.not_begun += 1
-            return
-        disks.stopped += 1
-        with Result.open(path) as result:
-            disks.lost_saves += len(set(told) - set(result.times))
-        if tmpfs:
-            subprocess.run(["mount", "-o", "remount,size=64m", str(place)], check=True)
-        code, _ = start(resume, path).wait()
-        if code == 0 and same(contents(path), undisturbed):
-            disks.identical += 1
-        else:
-            disks.different += 1
+def _one(path, room, undisturbed, disks):
+    path.unlink(missing_ok=True)
+    code, told = start(limited(room), path).wait()
+    if code == 0:
+        disks.finished += 1
+        return
+    if code != OUTPUT_ERROR:
+        disks.other_exits += 1
+        return
+    if len(told) == 0:
+        disks.not_begun += 1
+        return
+    disks.stopped += 1
+    with Result.open(path) as result:
+        disks.lost_saves += len(set(told) - set(result.times))
+    code, _ = start(resume, path).wait()
+    if code == 0 and same(contents(path), undisturbed):
+        disks.identical += 1
+    else:
+        disks.different += 1
 
 
 def limited(room):
@@ -89,21 +82,5 @@ def limited(room):
     return worked
 
 
-@contextmanager
-def small_disk(folder, room):
-    """Mount a tmpfs of so many bytes; OSError where that is not allowed."""
-    folder.mkdir(exist_ok=True)
-    options = f"size={max(1, room // 4096) * 4096}"
-    mount = ["mount", "-t", "tmpfs", "-o", options, "tmpfs", str(folder)]
-    try:
-        subprocess.run(mount, check=True, capture_output=True)
-    except (OSError, subprocess.CalledProcessError) as error:
-        raise PermissionError(f"no tmpfs can be mounted: {error}") from error
-    try:
-        yield folder
-    finally:
-        subprocess.run(["umount", str(folder)], check=True)
-
-
 if __name__ == "__main__":
-    command(__doc__, fill_and_resume, 40, tmpfs="on a small tmpfs, as root")
+    command(__doc__, fill_and_resume, 40)

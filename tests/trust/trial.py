@@ -171,13 +171,11 @@ def whole(folder):
     return path
 
 
-def command(about, trial, count, **switches):
-    """Make a trial from the command line; `switches` has what each of its options means."""
+def command(about, trial, count):
+    """Make a trial from the command line."""
     parser = argparse.ArgumentParser(description=about)
     parser.add_argument("--count", type=int, default=count)
     parser.add_argument("--seed", type=int, default=1)
-    for name, meaning in switches.items():
-        parser.add_argument(f"--{name}", action="store_true", help=meaning)
     done = trial(**vars(parser.parse_args()))
     print(done)
     sys.exit(not done.good)

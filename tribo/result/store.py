@@ -70,7 +70,7 @@ class ResultWriter:
             raise CaseError("a result in memory cannot be resumed")
         self._folder.lock()
         try:
-            with Result.open(self._path) as stopped:
+            with Result(self._path, str(self._path)) as stopped:
                 self._begin(run, provenance=json.dumps(_gone_on_with(stopped, run)))
                 # Another version of a component may have added keys to the case of the run.
                 checkpoint = self._folder.read_checkpoint(stopped.case)
