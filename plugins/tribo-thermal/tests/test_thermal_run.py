@@ -134,12 +134,16 @@ def test_ten_to_one_needs_the_difference_that_it_says(ten_to_one):
 
 
 @pytest.mark.slow
-def test_ten_to_one_says_what_the_readme_shows(ten_to_one, capsys):
-    ten_to_one["main"]()
-    printed = capsys.readouterr().out.rstrip()
-    shared = [line.split() for line in printed.splitlines() if line.startswith("shared")]
-    assert [row[2:] for row in shared] == [["1", "1", "1"]] * 3
-    assert printed in (HERE.parent / "README.md").read_text()
+@pytest.mark.parametrize(
+    ("sharing", "friction", "energy"),
+    [("shared", 0.3, 100), ("ball all", 0.2, 100), ("held hot", 0.1, 25)],
+)
+def test_ten_to_one_says_what_the_readme_shows(ten_to_one, sharing, friction, energy):
+    rows = (HERE.parent / "README.md").read_text().splitlines()
+    (row,) = (row for row in rows if row.startswith(f"{sharing:<10}{friction:>9}"))
+    shown = row.split()[-3:][ten_to_one["ENERGIES"].index(energy)]
+    ratio = ten_to_one["ratio"](friction, energy, sharing)
+    assert f"{ten_to_one['rounded'](ratio):g}" == shown
 
 
 def test_the_lab_is_told_the_temperature_that_the_wear_followed():
