@@ -39,7 +39,7 @@ def json_schema(
     """
     known = registry or default_registry()
     for plugin in known.load_all():
-        _warn(f"{plugin} is left out: {plugin.reason}")
+        warnings.warn(f"{plugin} is left out: {plugin.reason}", TriboWarning, stacklevel=2)
     whole: Schema = model.model_json_schema(mode=mode)
     defs = whole.setdefault("$defs", {})
     waiting = list(_places(whole))
@@ -84,9 +84,11 @@ def _schema(registry: Registry, kind: str, name: str, mode: Mode) -> Schema | No
         raise
     except BaseException as error:
         (plugin,) = registry.claimants(name)
-        _warn(
+        warnings.warn(
             f"{kind.replace('_', ' ')} {name!r} of {plugin} is left out: making the schema of its "
-            f"configuration raised {said(error)}"
+            f"configuration raised {said(error)}",
+            TriboWarning,
+            stacklevel=3,
         )
         return None
     schema["required"] = ["type", *(key for key in schema.get("required", []) if key != "type")]
@@ -103,7 +105,3 @@ def _places(schema: Any) -> Iterator[Schema]:
     elif isinstance(schema, list):
         for part in schema:
             yield from _places(part)
-
-
-def _warn(message: str) -> None:
-    warnings.warn(message, TriboWarning, stacklevel=3)

@@ -34,7 +34,8 @@ class Registry:
     Parameters
     ----------
     plugins : iterable of Plugin
-        The plugins.
+        The plugins; the attribute `plugins` has their records, each with its
+        present status.
 
     Raises
     ------
