@@ -20,7 +20,11 @@ if TYPE_CHECKING:
     from tribo.verification.refinement import Refinement
 
 NOTHING = "–"
-COLOURS = {"holds": "green", "fails": "red"}
+VERDICTS = {
+    "holds": "[green]holds[/]",
+    "fails": "[red]fails[/]",
+    "not installed": "[dim]absent[/]",
+}
 
 
 @click.command()
@@ -121,16 +125,13 @@ def _print_suite(rows: Sequence[Row]) -> None:
 def _suite_table(rows: Sequence[Row], *, header: bool) -> Table:
     table = _table(header=header, quantity=0, expected=10, got=10, error=7, order=11, verdict=7)
     for row in rows:
-        if row.verdict == "not installed":
-            table.add_row(f"  {row.quantity}", NOTHING, NOTHING, NOTHING, NOTHING, "[dim]absent[/]")
-            continue
         table.add_row(
             f"  {_named(row.quantity, row.unit)}",
-            NOTHING if row.expected is None else f"{row.expected:.5g}",
-            NOTHING if row.got is None else f"{row.got:.5g}",
-            NOTHING if row.error is None else f"{row.error:.1e}",
+            _number(row.expected, ".5g"),
+            _number(row.got, ".5g"),
+            _number(row.error, ".1e"),
             NOTHING if row.order is None else f"{row.order:.2f} ({row.theory:g})",
-            f"[{COLOURS[row.verdict]}]{row.verdict}[/]",
+            VERDICTS[row.verdict],
         )
         if row.verdict == "fails" and row.note:
             table.add_row(f"    [dim]{row.note}[/]")
@@ -147,7 +148,7 @@ def _print_study(study: Refinement) -> None:
         table.add_row(
             _named(estimate.name, estimate.unit),
             f"{estimate.value:.5g}",
-            NOTHING if quoted is None else f"{quoted:.1e}",
+            _number(quoted, ".1e"),
             _percent(quoted, estimate.value),
             _order(estimate.grid),
             _percent(estimate.grid.gci),
@@ -190,6 +191,10 @@ def _order(found: Convergence) -> str:
 
 def _percent(part: float | None, of: float = 1.0) -> str:
     return NOTHING if part is None or not of else f"{100 * part / abs(of):.2f}"
+
+
+def _number(value: float | None, form: str) -> str:
+    return NOTHING if value is None else format(value, form)
 
 
 def _named(name: str, unit: str) -> str:
