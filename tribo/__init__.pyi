@@ -70,8 +70,11 @@ from tribo.study.sweeping.sweep import sweep as sweep
 from tribo.surfaces.cylinder import Cylinder as Cylinder
 from tribo.surfaces.flat import Flat as Flat
 from tribo.surfaces.paraboloid import Paraboloid as Paraboloid
+from tribo.surfaces.rough import Rough as Rough
 from tribo.surfaces.sphere import Sphere as Sphere
 from tribo.surfaces.surface import Surface as Surface
+from tribo.surfaces.texture import Texture as Texture
+from tribo.surfaces.waves import Waves as Waves
 from tribo.units import GPa as GPa
 from tribo.units import Hz as Hz
 from tribo.units import MPa as MPa

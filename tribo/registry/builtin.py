@@ -16,7 +16,10 @@ from tribo.result.export import export_csv
 from tribo.surfaces.cylinder import Cylinder
 from tribo.surfaces.flat import Flat
 from tribo.surfaces.paraboloid import Paraboloid
+from tribo.surfaces.rough import Rough
 from tribo.surfaces.sphere import Sphere
+from tribo.surfaces.texture import Texture
+from tribo.surfaces.waves import Waves
 from tribo.templates import TEMPLATES, template
 from tribo.wear.archard import Archard
 from tribo.wear.power import Power
@@ -29,7 +32,7 @@ def tribo_components() -> tuple[type[Component], ...]:
         *(DcFft, Periodic, Winkler),
         *(Archard, Power),
         *(Reciprocating, Unidirectional),
-        *(Sphere, Paraboloid, Cylinder, Flat),
+        *(Sphere, Paraboloid, Cylinder, Flat, Rough, Texture, Waves),
         *(Recorder, Progress),
     )
 

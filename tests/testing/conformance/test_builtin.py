@@ -14,7 +14,10 @@ from tribo.registry.registry import Registry
 from tribo.surfaces.cylinder import Cylinder
 from tribo.surfaces.flat import Flat
 from tribo.surfaces.paraboloid import Paraboloid
+from tribo.surfaces.rough import Rough
 from tribo.surfaces.sphere import Sphere
+from tribo.surfaces.texture import Texture
+from tribo.surfaces.waves import Waves
 from tribo.testing import parametrize_checks
 from tribo.wear.archard import Archard
 from tribo.wear.power import Power
@@ -44,6 +47,9 @@ test_sphere = parametrize_checks(Sphere, [{"radius": "5 mm"}])
 test_paraboloid = parametrize_checks(Paraboloid, [{"radius_x": "5 mm", "radius_y": "10 mm"}])
 test_cylinder = parametrize_checks(Cylinder, [{"radius": "5 mm"}, {"radius": "5 mm", "axis": "x"}])
 test_flat = parametrize_checks(Flat)
+test_rough = parametrize_checks(Rough)
+test_texture = parametrize_checks(Texture)
+test_waves = parametrize_checks(Waves)
 test_progress = parametrize_checks(Progress)
 test_recorder = parametrize_checks(Recorder)
 
