@@ -25,8 +25,14 @@ ONLY = {**os.environ, "TRIBO_PLUGINS": ",".join(NAMES.values())}
 
 
 def run(*command: str | Path, folder: Path, code: int = 0) -> str:
+    sources = os.pathsep.join(map(str, folder.glob("*/src")))
     done = subprocess.run(
-        command, cwd=folder, env=ONLY, capture_output=True, text=True, check=False
+        command,
+        cwd=folder,
+        env={**ONLY, "MYPYPATH": sources},
+        capture_output=True,
+        text=True,
+        check=False,
     )
     assert done.returncode == code, done.stdout + done.stderr
     return done.stderr if code else done.stdout
@@ -78,10 +84,12 @@ def test_their_code_is_clean(fresh: Fresh) -> None:
     folders = [str(folder) for folder in fresh.folders.values()]
     for command in (("check",), ("format", "--check")):
         run(sys.executable, "-m", "ruff", *command, "--no-cache", *folders, folder=fresh.scratch)
-    mypy = (sys.executable, "-m", "mypy", "--strict", "--python-executable", fresh.python)
-    run(*mypy, *(f"{folder}/src" for folder in folders), folder=fresh.scratch)
-    tests = [str(test) for test in fresh.scratch.glob("*/tests/test_*.py")]
-    run(*mypy, "--explicit-package-bases", *tests, folder=fresh.scratch)
+    bases = ("--strict", "--explicit-package-bases", "--python-executable", fresh.python)
+    code = [
+        str(path)
+        for path in (*fresh.scratch.glob("*/src"), *fresh.scratch.glob("*/tests/test_*.py"))
+    ]
+    run(sys.executable, "-m", "mypy", *bases, *code, folder=fresh.scratch)
 
 
 CASE = """
