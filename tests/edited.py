@@ -1,4 +1,4 @@
-"""Change a result file as tribo itself would, so that its checksum fits."""
+"""Look at the bytes of a result file, and change one so that its checksum fits."""
 
 from contextlib import contextmanager
 from io import BytesIO
@@ -6,6 +6,12 @@ from io import BytesIO
 import h5py
 
 from tribo.result.sealed import write_sealed
+
+
+def bits(result):
+    """Return the bytes of every variable of a result, read without xarray."""
+    with h5py.File(result.image()) as file:
+        return {name: values[()].tobytes() for name, values in file.items() if name != "body"}
 
 
 @contextmanager

@@ -7,6 +7,7 @@ from contextlib import closing
 
 import numpy as np
 import pytest
+from edited import bits
 from paper_models import case, motion
 
 from tribo import CaseError, Grid, Interrupted, Result, Simulation
@@ -34,11 +35,7 @@ def simulation():
 @pytest.fixture(scope="module")
 def undisturbed():
     with simulation().run() as result:
-        return everything(result)
-
-
-def everything(result):
-    return {name: values.values.tobytes() for name, values in result.dataset.items()}
+        return bits(result)
 
 
 @pytest.fixture(scope="module")
@@ -77,7 +74,7 @@ def test_a_killed_run_is_shown_as_far_as_it_came_and_goes_on_to_the_same_bits(ki
         assert len(result.table("history")["time_s"]) == 14
         assert float(result.pressure.sel(time=5).max()) > 0
     with simulation().resume(killed) as result:
-        assert everything(result) == undisturbed
+        assert bits(result) == undisturbed
     assert list(killed.parent.iterdir()) == [killed]
 
 
@@ -105,7 +102,7 @@ def test_a_run_that_ends_while_it_is_opened_is_read_whole(killed, monkeypatch, u
 
     monkeypatch.setattr(RunFolder, "read_checkpoint", ends)
     with Result.open(killed) as result:
-        assert everything(result) == undisturbed
+        assert bits(result) == undisturbed
 
 
 def test_a_damaged_result_is_not_resumed(killed):
@@ -144,7 +141,7 @@ def test_only_one_process_writes_a_result(killed, undisturbed):
             simulation().run(killed, overwrite=True)
     assert folder.checkpoint.read_bytes() == before
     with simulation().resume(killed) as result:
-        assert everything(result) == undisturbed
+        assert bits(result) == undisturbed
 
 
 def test_a_file_system_without_locks_is_told_of_once(tmp_path, monkeypatch):
@@ -177,4 +174,4 @@ def test_a_result_may_be_a_link(tmp_path, undisturbed):
     simulation().run(link, overwrite=True).close()
     assert link.is_symlink()
     with Result.open(there) as result:
-        assert everything(result) == undisturbed
+        assert bits(result) == undisturbed

@@ -26,6 +26,7 @@ def path(tmp_path_factory):
     return path
 
 
+@pytest.mark.slow
 def test_it_is_a_dataset_that_xarray_reads_without_tribo(path):
     with tribo.open(path) as result, xarray.open_dataset(path, engine="h5netcdf") as data:
         xarray.testing.assert_identical(result.dataset, data)
@@ -42,6 +43,7 @@ def test_it_is_a_dataset_that_xarray_reads_without_tribo(path):
         assert float(worn.max()) > 0
 
 
+@pytest.mark.slow
 def test_a_result_in_memory_is_the_same_dataset_and_can_be_saved(tmp_path):
     with made() as result:
         result.save(tmp_path / "saved.h5")

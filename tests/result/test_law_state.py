@@ -49,6 +49,7 @@ def test_it_lies_in_the_file_as_the_wear_depth_does(path):
         assert "slid" in slip.attrs["long_name"]
 
 
+@pytest.mark.slow
 def test_what_one_law_does_not_keep_is_nan_there_and_a_taken_name_gets_its_kind(tmp_path):
     class Named(RunningIn):
         state_fields = (Field("pressure", "m", "Slid under pressure."),)

@@ -159,6 +159,7 @@ Simulation(small(bodies=bodies)).run("piped.h5")
 """
 
 
+@pytest.mark.slow
 def test_a_law_piped_to_python_runs_and_its_source_is_said_not_to_be_available(tmp_path):
     environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[1])}
     done = subprocess.run(

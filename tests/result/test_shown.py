@@ -6,6 +6,7 @@ import pytest
 from tribo import CaseError
 
 
+@pytest.mark.slow
 def test_measures_and_plots_are_a_method_away(tmp_path):
     result = made_results.made()
     assert set(result.report().bodies) == {"ball", "disk"}

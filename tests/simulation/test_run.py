@@ -7,6 +7,7 @@ from unittest.mock import Mock
 
 import numpy as np
 import pytest
+from edited import bits
 from paper_models import K, archard, case, flat, motion, named, small, sphere, states, steel
 
 from tribo import CaseError, Grid, Interrupted, NumericalError, Result, Simulation
@@ -31,11 +32,6 @@ class Stopper(Observer):
     def on_step(self, snapshot):
         if snapshot.state.steps == self.after:
             os.kill(os.getpid(), self.number)
-
-
-def bits(result):
-    """Every variable of a result."""
-    return {name: variable.values.tobytes() for name, variable in result.dataset.items()}
 
 
 WATCHED = {"save_times": (20, 100)}
