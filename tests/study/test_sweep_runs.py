@@ -173,17 +173,20 @@ def test_a_worker_that_lacks_a_plugin_says_so(tmp_path):
 
 @pytest.mark.slow
 def test_a_stopped_run_goes_on_from_its_checkpoint(tmp_path, monkeypatch):
-    monkeypatch.setattr("tribo.study.sweeping.worker.GLANCE", 0.0)
     path = sweeps.study(tmp_path, sweeps.SLOW + '[grid]\nload.normal = ["50 N"]')
     folder = tmp_path / "study-sweep"
 
-    def stop_at_first_checkpoint():
-        while not list((folder / "results").glob("*.run/*.checkpoint")):
-            time.sleep(0.01)
-        os.kill(os.getpid(), signal.SIGINT)
+    def on_step(self, snapshot):
+        if snapshot.state.steps == 100:
+            os.kill(os.getpid(), signal.SIGINT)
+            end = time.monotonic() + 60
+            while not self.path.exists():
+                assert time.monotonic() < end
+                time.sleep(0.01)
+            raise KeyboardInterrupt
 
-    with ThreadPoolExecutor(2) as executor:
-        executor.submit(stop_at_first_checkpoint)
+    with ThreadPoolExecutor(1) as executor, monkeypatch.context() as patch:
+        patch.setattr("tribo.study.sweeping.worker._StopFile.on_step", on_step)
         with pytest.raises(Interrupted, match="same command"):
             sweep(path, executor=executor)
     table = pandas.read_csv(folder / "runs.csv")
