@@ -111,6 +111,7 @@ def test_a_place_that_cannot_be_written_is_an_output_error(tmp_path):
         figures.write_figures({}, tmp_path / "taken")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", ["pdf", ".svg"])
 def test_the_same_result_gives_the_same_file(suffix, tmp_path):
     pictures = {"map": partial(pressure_map, made((0.0,)))}
