@@ -11,6 +11,8 @@ from pydantic import ConfigDict, field_validator, model_serializer
 from testing.conformance.honest import Counts, Hill, Law, Motion, Solver, Traction
 
 from tribo import Field, Grid, NumericalError, Quantity, Residuals, Stationary, Track
+from tribo.motion.cycle import Position
+from tribo.motion.exposure import Passing
 from tribo.testing.compare import CheckFailed
 
 MUTANTS = []
@@ -252,6 +254,15 @@ def exposed(**parts):
     return {"track": type("WrongTrack", (Track,), parts)}
 
 
+def resolved(starts, rows=32):
+    """Return the parts of a motion of nine positions."""
+    body = type("WrongBody", (Passing,), {"rows": rows})
+    return {
+        "cycle": lambda self, grid: [Position(1 / 9)] * 9,
+        "track": lambda self, grid, stroke: body(grid, range(starts), stroke),
+    }
+
+
 def at_once(self, distance):
     return Motion.time_at(self, distance) if distance == 0 or distance > 2.9 else 0.0
 
@@ -294,6 +305,8 @@ wrong(
     ),
     ("envelope_covers_the_field", exposed(envelope=Track.average)),
     ("compliance_is_the_average_of_a_linear_law", exposed(compliance=as_if_it_stayed)),
+    ("windows_lie_on_the_body", resolved(8)),
+    ("windows_lie_on_the_body", resolved(9, rows=30)),
     ("larger_contacts_are_limited_no_less", {"limitation": lambda self, *track: 7}),
     ("larger_contacts_are_limited_no_less", {"check_contact": refusing}, ValueError),
     ("runs_a_case", {"time_at": at_once}),

@@ -38,6 +38,7 @@ test_reciprocating = parametrize_checks(
     [
         {**BACK_AND_FORTH, "duration": 200},
         {**BACK_AND_FORTH, "cycles": 5000, "waveform": "sinusoidal", "swept": "ball"},
+        {**BACK_AND_FORTH, "stroke": "1 mm", "duration": 200, "positions": 9},
     ],
 )
 test_unidirectional = parametrize_checks(
