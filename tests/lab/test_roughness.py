@@ -1,0 +1,118 @@
+"""Roughness parameters against closed forms and SurfaceTopography."""
+
+import math
+
+import numpy as np
+import pytest
+
+from tribo import Grid
+from tribo.lab.roughness import (
+    areal_parameters,
+    is_rough,
+    material_ratio,
+    profile_parameters,
+    roughness,
+    without_form,
+)
+from tribo.surfaces.cylinder import Cylinder
+from tribo.surfaces.rough import Rough
+from tribo.surfaces.sphere import Sphere
+
+GRID = Grid("1 mm", 100)
+A = 50e-9
+WAVES = A * np.sin(2 * np.pi * (np.arange(100) + 0.5) / 25)
+
+
+def random_waves():
+    return Rough(sq=A, cut_off="50 um", roll_off="0.2 mm", seed=3).height(GRID)
+
+
+def test_a_sine_has_its_textbook_parameters():
+    sa, sq, sz, ssk, sku = areal_parameters(np.tile(WAVES, (40, 1)))
+    assert sa == pytest.approx(2 * A / math.pi, rel=3e-3, abs=0)
+    assert sq == pytest.approx(A / math.sqrt(2), rel=1e-12, abs=0)
+    assert sz == pytest.approx(2 * A, rel=1e-2, abs=0)
+    assert abs(ssk) < 1e-12
+    assert sku == pytest.approx(1.5, rel=1e-12, abs=0)
+
+
+def test_profiles_are_rough_across_the_lay_only():
+    grooves = np.tile(WAVES, (40, 1))
+    assert max(profile_parameters(grooves, 0)) < 1e-12 * A
+    across = profile_parameters(grooves, 1)
+    assert across == pytest.approx((2 * A / math.pi, A / math.sqrt(2)), rel=3e-3, abs=0)
+
+
+def test_short_lines_at_the_rim_of_a_mask_do_not_count():
+    masked = np.tile(WAVES, (40, 1))
+    masked[0, 30:] = np.nan
+    assert profile_parameters(masked, 1) == profile_parameters(masked[1:], 1)
+
+
+@pytest.mark.parametrize("masked", [False, True])
+def test_a_parabola_is_removed_exactly(masked):
+    x, y = GRID.mesh
+    height = 3e-6 - 40 * x**2 - 90 * y**2 + 30 * x * y + 1e-3 * x + 2e-3 * y
+    if masked:
+        height[x**2 + y**2 > 0.3e-3**2] = np.nan
+    relief = without_form(height)
+    np.testing.assert_array_equal(np.isnan(relief), np.isnan(height))
+    assert np.nanmax(np.abs(relief)) == 0
+
+
+def test_one_line_is_levelled_too():
+    height = np.full((5, 100), np.nan)
+    height[2] = 1e-6 * np.arange(100) ** 2
+    assert np.nanmax(np.abs(without_form(height))) == 0
+
+
+def test_a_map_with_fewer_cells_than_the_form_has_terms_has_no_roughness():
+    height = np.full((5, 5), np.nan)
+    height[2] = 1e-6
+    assert all(np.isnan(roughness(height)))
+
+
+def test_gaussian_heights_have_kurtosis_3():
+    noise = A * np.random.default_rng(1).standard_normal((400, 400))
+    # Of n normal deviates the standard errors are sqrt(6/n) and sqrt(24/n).
+    measured = roughness(noise)
+    assert measured.Sq_m == pytest.approx(A, rel=0.01, abs=0)
+    assert measured.Sa_m == pytest.approx(A * math.sqrt(2 / math.pi), rel=0.01, abs=0)
+    assert abs(measured.Ssk) < 3 * math.sqrt(6 / noise.size)
+    assert measured.Sku == pytest.approx(3, abs=3 * math.sqrt(24 / noise.size))
+
+
+def test_the_material_ratio_of_a_ramp_is_straight():
+    ramp = np.linspace(0, 1e-6, 200).reshape(10, 20)
+    ratio, height = material_ratio(np.where(ramp > 0, ramp, np.nan))
+    assert ratio[0] == pytest.approx(0.5 / 199, rel=1e-12, abs=0)
+    np.testing.assert_allclose(np.diff(ratio, 2), 0, atol=1e-12)
+    np.testing.assert_allclose(np.diff(height, 2), 0, atol=1e-18)
+    assert np.all(np.diff(height) < 0)
+
+
+@pytest.mark.parametrize("form", [Sphere(radius="5 mm"), Cylinder(radius="5 mm")])
+def test_roughness_on_a_form_is_that_without_it(form):
+    bare = roughness(random_waves())
+    on_form = roughness(form.height(GRID) + random_waves())
+    # What the second order leaves of a ball here is 10 nm rms, independent of 50.
+    assert on_form.Sq_m == pytest.approx(bare.Sq_m, rel=0.05, abs=0)
+    assert on_form.Ra_across_m == pytest.approx(bare.Ra_across_m, rel=0.05, abs=0)
+
+
+@pytest.mark.parametrize("form", [Sphere(radius="5 mm"), Cylinder(radius="5 mm"), None])
+def test_a_body_is_rough_where_it_is_more_than_its_form(form):
+    height = np.zeros(GRID.cells) if form is None else form.height(GRID)
+    assert not is_rough(height)
+    assert is_rough(height + 0.1 * random_waves())
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_surface_topography_agrees():
+    topography = pytest.importorskip("SurfaceTopography").Topography
+    height = random_waves() + Sphere(radius="5 mm").height(GRID)
+    theirs = topography(height, GRID.size).detrend(detrend_mode="curvature")
+    ours = roughness(height)
+    np.testing.assert_allclose(without_form(height), theirs.heights(), rtol=0, atol=1e-17)
+    assert ours.Sq_m == pytest.approx(theirs.rms_height_from_area(), rel=1e-9, abs=0)
+    assert ours.Sa_m == pytest.approx(np.mean(np.abs(theirs.heights())), rel=1e-9, abs=0)

@@ -1,0 +1,155 @@
+"""Roughness of a height map, after ISO 25178-2 and ISO 21920-2.
+
+A map has shape (nx, ny), x along the sliding direction, heights in m; NaN marks a cell that was
+not measured, or is masked. `without_form` comes first: the parameters take heights as they are.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tribo.core.arrays import Array
+
+ROUND_OFF = 1e-12
+"""Part of the heights' range below which what a form leaves is 0."""
+FINE_FORM = 6
+"""Order of the polynomial that leaves nothing of a ball or cylinder in a contact's window."""
+ROUGH = 1e-5
+"""Part of the heights' range above which what `FINE_FORM` leaves is roughness."""
+
+
+class Roughness(NamedTuple):
+    """Roughness parameters of a surface; NaN where it has too few cells, or no relief at all.
+
+    Areal, about the mean plane: arithmetical mean height Sa, root mean square height Sq, maximum
+    height Sz, skewness Ssk, kurtosis Sku. Of the profiles along and across the sliding direction,
+    each about its own mean line and then averaged: arithmetical mean Ra and root mean square Rq.
+    """
+
+    Sa_m: float
+    Sq_m: float
+    Sz_m: float
+    Ssk: float
+    Sku: float
+    Ra_along_m: float
+    Rq_along_m: float
+    Ra_across_m: float
+    Rq_across_m: float
+
+
+def roughness(height: Array) -> Roughness:
+    """Return the parameters of a height map, its form removed.
+
+    References
+    ----------
+    ISO 25178-2:2021, 4.2 (areal); ISO 21920-2:2021 (profiles).
+    """
+    relief = without_form(height)
+    return Roughness(
+        *areal_parameters(relief), *profile_parameters(relief, 0), *profile_parameters(relief, 1)
+    )
+
+
+def without_form(height: Array, order: int = 2) -> Array:
+    """Return heights less the polynomial of least squares in x and y.
+
+    Parameters
+    ----------
+    height : ndarray, shape (nx, ny)
+        In m; NaN where missing.
+    order : int, optional
+        Largest total power. 0 removes the mean, 1 the plane, and 2 the curvature as well: that of
+        a ball or a cylinder, but for the square of the map's half-width over the radius.
+
+    Returns
+    -------
+    ndarray, shape (nx, ny)
+        In m; NaN where `height` is, and all NaN where it has fewer cells than the polynomial has
+        terms.
+    """
+    known = np.isfinite(height)
+    relief = np.full(height.shape, np.nan)
+    powers = [(i, j) for i in range(order + 1) for j in range(order + 1 - i)]
+    if np.count_nonzero(known) < len(powers):
+        return relief
+    heights = height[known] - np.mean(height[known])
+    along, across = (
+        np.polynomial.legendre.legvander(_scaled(cells), order).T for cells in np.nonzero(known)
+    )
+    terms = np.stack([along[i] * across[j] for i, j in powers])
+    # By sums, whose bits do not depend on the number of threads as those of a product do.
+    products = np.einsum("kn,ln->kl", terms, terms)
+    # A map that is one line wide leaves the powers across it open.
+    inverse = np.linalg.pinv(products, hermitian=True)
+    weights = np.einsum("kl,l->k", inverse, np.einsum("kn,n->k", terms, heights))
+    left = heights - np.einsum("k,kn->n", weights, terms)
+    left[np.abs(left) <= ROUND_OFF * np.ptp(heights)] = 0.0
+    relief[known] = left
+    return relief
+
+
+def areal_parameters(height: Array) -> tuple[float, float, float, float, float]:
+    """Return Sa, Sq and Sz in m, Ssk and Sku, about the mean (ISO 25178-2).
+
+    Ssk and Sku are NaN of a plane, and all are where no height is known.
+    """
+    known = height[np.isfinite(height)]
+    if not known.size:
+        return (np.nan,) * 5
+    z = known - np.mean(known)
+    square = float(np.mean(z**2))
+    sq = square**0.5
+    skewness, kurtosis = np.nan, np.nan
+    if sq > 0:
+        skewness, kurtosis = float(np.mean((z / sq) ** 3)), float(np.mean((z / sq) ** 4))
+    return float(np.mean(np.abs(z))), sq, float(np.ptp(z)), skewness, kurtosis
+
+
+def profile_parameters(height: Array, axis: int) -> tuple[float, float]:
+    """Return Ra and Rq of the profiles along an axis, each the mean over the lines (ISO 21920-2).
+
+    Heights count from the mean of their line. Lines with less than half the cells of the longest,
+    as at the rim of a scar, are left out. NaN where no height is known.
+    """
+    lines = height if axis == 1 else height.T
+    known = np.isfinite(lines)
+    count = np.count_nonzero(known, axis=1)
+    longest = int(np.max(count, initial=0))
+    if not longest:
+        return np.nan, np.nan
+    lines = lines[count >= 0.5 * longest]
+    z = lines - np.nanmean(lines, axis=1, keepdims=True)
+    ra, rq = np.nanmean(np.abs(z), axis=1), np.sqrt(np.nanmean(z**2, axis=1))
+    return float(np.mean(ra)), float(np.mean(rq))
+
+
+def material_ratio(height: Array) -> tuple[Array, Array]:
+    """Return the material ratio (Abbott-Firestone) curve of a height map (ISO 25178-2).
+
+    Returns
+    -------
+    ratio : ndarray, shape (cells,)
+        Part of the area that is at least so high, rising from 0 to 1; each cell counts from its
+        middle.
+    height : ndarray, shape (cells,)
+        In m, falling.
+    """
+    known = height[np.isfinite(height)]
+    ratio = (np.arange(known.size) + 0.5) / max(known.size, 1)
+    return ratio, np.sort(known)[::-1]
+
+
+def is_rough(height: Array) -> bool:
+    """Whether a height map is more than a smooth form, as that of a ball, a cylinder or a flat."""
+    relief = without_form(height, FINE_FORM)
+    span = float(np.nanmax(height) - np.nanmin(height))
+    return areal_parameters(relief)[1] > ROUGH * span
+
+
+def _scaled(cells: NDArray[np.intp]) -> Array:
+    """Return numbers of cells as positions between -1 and 1."""
+    first, last = int(np.min(cells)), int(np.max(cells))
+    return np.asarray((2.0 * cells - first - last) / max(last - first, 1))
