@@ -56,7 +56,7 @@ def results(folder):
 
 
 def half_done(folder):
-    return list(results(folder).glob("*.run/*.checkpoint"))
+    return list(results(folder).glob("*.run/checkpoint"))
 
 
 def is_done(path):
