@@ -120,7 +120,7 @@ def test_a_sweep_survives_a_killed_worker_ctrl_c_and_a_killed_parent(tmp_path, w
     os.killpg(process.pid, signal.SIGINT)
     assert_stopped(tmp_path, process)
     killed = sweeps.tribo(*command, cwd=tmp_path)
-    children = until(lambda: len(workers(killed)) == 2 and workers(killed), "two workers")
+    children = until(lambda: workers(killed), "worker")
     killed.kill()
     # Python's own helper, too, goes without a word.
     assert all(line.endswith(" of 4 runs") for line in killed.communicate()[1].splitlines())

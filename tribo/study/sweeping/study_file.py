@@ -78,7 +78,7 @@ def load_study(path: str | Path) -> tuple[Study, dict[str, Any]]:
             f"{path} is a case, not a study; a study names a case, as case = {path.name!r}, and "
             "says what varies in it, in [grid] say"
         )
-    study = validate_study(tables)
+    study = _validated(tables)
     try:
         base = read_toml(path.parent / study.case)
     except CaseError as error:
@@ -86,23 +86,15 @@ def load_study(path: str | Path) -> tuple[Study, dict[str, Any]]:
     return study, apply_settings(base, study.settings)
 
 
-def validate_study(data: Mapping[str, Any]) -> Study:
-    """Turn tables into a study; a path may be a quoted key, or tables in each other.
-
-    Raises
-    ------
-    CaseError
-        If anything in `data` is wrong; one line an error.
-    """
-    data = dict(data)
+def _validated(data: dict[str, Any]) -> Study:
     for key in ("settings", "grid", "zip"):
         if key in data:
             data[key] = _by_path(data[key], key)
     if isinstance(data.get("list"), list):
         data["list"] = [_by_path(point, f"list[{i}]") for i, point in enumerate(data["list"])]
     sample = data.get("sample")
-    if isinstance(sample, Mapping) and "ranges" in sample:
-        data["sample"] = {**sample, "ranges": _by_path(sample["ranges"], "sample.ranges")}
+    if isinstance(sample, dict) and "ranges" in sample:
+        sample["ranges"] = _by_path(sample["ranges"], "sample.ranges")
     try:
         study = Study.model_validate(data)
     except ValidationError as error:
@@ -144,7 +136,7 @@ def points(study: Study, data: Mapping[str, Any], most: float = math.inf) -> lis
 
 
 def _by_path(table: Any, where: str, prefix: str = "") -> Any:
-    """Return values by path, of tables that may lie in each other as those of the case do."""
+    """Return values by path; a path may be a quoted key, or tables in each other."""
     if not isinstance(table, Mapping):
         return table
     found: dict[str, Any] = {}
