@@ -78,6 +78,7 @@ def test_a_passing_body_has_the_rows_of_all_its_positions():
     ("stroke", "positions", "place", "words"),
     [
         ("2.05 mm", "cells", r"kinematics\.stroke", "20.5 cells of 0.1 mm"),
+        ("0.18 mm", 3, r"kinematics\.stroke", "0.18 mm is under two cells of 0.1 mm"),
         ("2 mm", 3, r"kinematics\.positions", "every 1 mm.*half-width of the first contact"),
     ],
 )

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tribo.core.arrays import Array
+from tribo.core.errors import CaseError
 
 Speeds = Sequence[tuple[float, float]]
 """Sliding speeds in m/s, each with a share of the path."""
@@ -68,17 +69,9 @@ class Stroke:
 
     @property
     def shares(self) -> Array:
-        """Part of the path at each position, shape (positions,)."""
-        x = self.cells * self.dx
-        shares = np.zeros_like(x)
-        # Parts of the stroke between two positions; the outermost may be cut short.
-        cut = np.clip(x, -0.5 * self.length, 0.5 * self.length)
-        gap = np.diff(x)
-        low, high = (cut[:-1] - x[:-1]) / gap, (cut[1:] - x[:-1]) / gap
-        towards_next = 0.5 * gap * (high**2 - low**2)
-        shares[1:] += towards_next
-        shares[:-1] += gap * (high - low) - towards_next
-        return shares / self.length
+        """Part of an even path at each position, shape (positions,)."""
+        half = 0.5 * self.length
+        return near(self.cells * self.dx, np.array([-half, half])) / self.length
 
     @property
     def bounds(self) -> Array:
@@ -86,3 +79,52 @@ class Stroke:
         x = self.cells * self.dx
         ends = np.concatenate([x[:1], 0.5 * (x[1:] + x[:-1]), x[-1:]])
         return np.asarray(np.clip(ends, -0.5 * self.length, 0.5 * self.length))
+
+    def check_cells(self, place: str) -> None:
+        """Refuse a stroke that is under two cells; `place` names it."""
+        if self.length < 2 * self.dx * (1 - 1e-9):
+            raise CaseError(
+                f"{1e3 * self.length:.4g} mm is under two cells of {1e3 * self.dx:.4g} mm, too few "
+                "to resolve the cycle; make grid.cells larger along x, or the window smaller",
+                place,
+            )
+
+
+def check_spacing(length: float, count: int, half_width: float) -> None:
+    """Refuse too few positions along a stroke (m) for a contact of this half-width (m)."""
+    apart = length / (count - 1)
+    if apart > half_width:
+        least = 2 * int(np.ceil(0.5 * length / half_width)) + 1
+        raise CaseError(
+            f"{count} positions lie every {1e3 * apart:.3g} mm, further apart than the half-width "
+            f"of the first contact, {1e3 * half_width:.3g} mm; give at least {least}",
+            "kinematics.positions",
+        )
+
+
+def near(nodes: Array, path: Array, weights: Array | float = 1.0) -> Array:
+    """Return the length of a path that falls to each node, shape (nodes,).
+
+    A node's part falls in a straight line from the node to the next ones, so that the sum of what a
+    field is at the nodes, times these lengths, is the integral along the path of straight lines
+    between them.
+
+    Parameters
+    ----------
+    nodes : ndarray, shape (nodes,)
+        Where the nodes lie, in increasing order, in m.
+    path : ndarray, shape (samples,)
+        Where the path goes, between the first and the last node, in m.
+    weights : ndarray, shape (samples - 1,), or float, optional
+        Weight of each part of the path between two samples.
+    """
+    lengths = np.zeros_like(nodes)
+    low, high = np.minimum(path[:-1], path[1:]), np.maximum(path[:-1], path[1:])
+    for node in range(len(nodes) - 1):
+        gap = nodes[node + 1] - nodes[node]
+        begin, end = np.clip(low, *nodes[node : node + 2]), np.clip(high, *nodes[node : node + 2])
+        passed = weights * (end - begin)
+        to_next = float(np.sum(passed * (0.5 * (begin + end) - nodes[node]) / gap))
+        lengths[node + 1] += to_next
+        lengths[node] += float(np.sum(passed)) - to_next
+    return lengths

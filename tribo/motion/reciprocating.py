@@ -13,7 +13,7 @@ from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.core.units import Quantity
 from tribo.motion.averaging import GOOD, NOTICED, good_stroke, groove_excess, too_deep
-from tribo.motion.cycle import Position, Speeds, Stroke
+from tribo.motion.cycle import Position, Speeds, Stroke, check_spacing
 from tribo.motion.exposure import Exposure, Passing, Track
 from tribo.motion.kinematics import Kinematics
 from tribo.motion.swept import one_swept_body
@@ -33,7 +33,8 @@ class Reciprocating(Kinematics):
     The track average is the paper's model, and makes a groove too deep at mid-stroke. One as deep
     as the elastic approach is 4 % too deep where S is 10 half-widths of the contact and 12 % where
     it is 4; one several times deeper, twice as much, where both bodies wear alike (see
-    `tribo.motion.averaging`).
+    `tribo.motion.averaging`). Resolved into `positions` it holds for any stroke of two cells and
+    more, gross slip in fretting among them.
     """
 
     model_config = ConfigDict(
@@ -137,8 +138,11 @@ class Reciprocating(Kinematics):
 
     def _stroke(self, grid: Grid) -> Stroke:
         dx = grid.spacing[0]
-        if self.positions != "cells":
-            return Stroke(self.stroke, dx, int(self.positions))
+        count = None if self.positions == "cells" else int(self.positions)
+        stroke = Stroke(self.stroke, dx, count)
+        stroke.check_cells("kinematics.stroke")
+        if count is not None:
+            return stroke
         cells = self.stroke / dx
         if abs(cells - 2 * round(0.5 * cells)) > 1e-6 * cells:
             near = 2e3 * dx * max(1, round(0.5 * cells))
@@ -148,7 +152,7 @@ class Reciprocating(Kinematics):
                 "number of positions",
                 "kinematics.stroke",
             )
-        return Stroke(self.stroke, dx)
+        return stroke
 
     def limitation(
         self, half_width_x: float, depth: float, approach: float, volume_ratio: float
@@ -176,15 +180,7 @@ class Reciprocating(Kinematics):
         if self.positions == "average":
             self._check_average(half_width_x)
         elif self.positions != "cells":
-            apart = self.stroke / (self.positions - 1)
-            if apart > half_width_x:
-                least = 2 * math.ceil(0.5 * self.stroke / half_width_x) + 1
-                raise CaseError(
-                    f"{self.positions} positions lie every {1e3 * apart:.3g} mm, further apart "
-                    f"than the half-width of the first contact, {1e3 * half_width_x:.3g} mm; give "
-                    f"at least {least}",
-                    "kinematics.positions",
-                )
+            check_spacing(self.stroke, self.positions, half_width_x)
 
     def _check_average(self, half_width_x: float) -> None:
         if self.stroke >= half_width_x or self.allow_short_stroke:
@@ -194,7 +190,7 @@ class Reciprocating(Kinematics):
             f"{1e3 * self.stroke:.3g} mm is shorter than the half-width of the first contact, "
             f"{1e3 * half_width_x:.3g} mm: averaged over the stroke, even a shallow groove would "
             f"be {too_deep(excess)}; give a stroke of at least {1e3 * half_width_x:.3g} mm to run "
-            "at all (tribo check then says how much too deep), or set "
-            "kinematics.allow_short_stroke = true",
+            "at all (tribo check then says how much too deep), resolve the cycle, as by "
+            'kinematics.positions = "cells", or set kinematics.allow_short_stroke = true',
             "kinematics.stroke",
         )
