@@ -48,6 +48,7 @@ from tribo.motion.exposure import Exposure as Exposure
 from tribo.motion.exposure import Stationary as Stationary
 from tribo.motion.exposure import Track as Track
 from tribo.motion.kinematics import Kinematics as Kinematics
+from tribo.motion.measured import Measured as Measured
 from tribo.motion.reciprocating import Reciprocating as Reciprocating
 from tribo.motion.unidirectional import Unidirectional as Unidirectional
 from tribo.observers.observer import Observer as Observer

@@ -6,6 +6,7 @@ from tribo.component import Component
 from tribo.contact.dcfft import DcFft
 from tribo.contact.periodic import Periodic
 from tribo.contact.winkler import Winkler
+from tribo.motion.measured import Measured
 from tribo.motion.reciprocating import Reciprocating
 from tribo.motion.unidirectional import Unidirectional
 from tribo.observers.progress import Progress
@@ -31,7 +32,7 @@ def tribo_components() -> tuple[type[Component], ...]:
     return (
         *(DcFft, Periodic, Winkler),
         *(Archard, Power),
-        *(Reciprocating, Unidirectional),
+        *(Measured, Reciprocating, Unidirectional),
         *(Sphere, Paraboloid, Cylinder, Flat, Rough, Texture, Waves),
         *(Recorder, Progress),
     )

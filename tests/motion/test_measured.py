@@ -1,0 +1,150 @@
+"""A motion as it was measured: what is slid, where, and how fast."""
+
+import numpy as np
+import pytest
+from paper_models import foundation, last, motion, small
+
+from tribo import CaseError, Grid, Measured, Reciprocating, Simulation
+from tribo.config.load import validate_case
+from tribo.motion.cycle import near
+
+PATH = [(1, 0.0), (2, 0.0), (3, 4e-4), (5, 4e-4), (6, 2e-4), (8, 8e-4), (9, 0.0), (12, 0.0)]
+"""It rests thrice and turns round thrice: 2 mm in 11 s."""
+
+
+def test_the_sliding_distance_is_the_total_variation():
+    measured = Measured(path=PATH)
+    assert measured.end_time == 11
+    assert measured.distance_at(11) == pytest.approx(2e-3)
+    np.testing.assert_allclose(
+        [measured.distance_at(t) for t in (0.5, 1.5, 3, 4, 5, 6, 7.5, 10)],
+        [0, 2e-4, 4e-4, 4e-4, 6e-4, 9e-4, 1.6e-3, 2e-3],
+        atol=1e-18,
+    )
+
+
+def test_a_distance_is_reached_before_the_rest_that_follows():
+    measured = Measured(path=PATH, cycles=3)
+    assert measured.time_at(0) == 0
+    for distance, time in ((2e-4, 1.5), (4e-4, 2), (2e-3, 8), (2.4e-3, 13), (6e-3, 30)):
+        assert measured.time_at(distance) == pytest.approx(time), distance
+    assert measured.end_time == 33
+
+
+def test_lengths_near_nodes_integrate_straight_lines_along_a_path():
+    nodes, path = np.array([-2.0, -0.5, 1.0, 3.0]), np.array([0.3, -1.7, 2.9, 2.9, 1.1])
+    lengths = near(nodes, path)
+    assert sum(lengths) == pytest.approx(np.sum(np.abs(np.diff(path))))
+    # Of the position itself: the sum of the means of its parts.
+    moments = np.abs(np.diff(path)) * 0.5 * (path[1:] + path[:-1])
+    assert np.sum(lengths * nodes) == pytest.approx(np.sum(moments))
+
+
+@pytest.mark.parametrize("positions", [9, "cells"])
+def test_a_triangle_in_time_is_a_stroke_at_constant_speed(positions):
+    grid = Grid(1e-3, 50)
+    triangle = Measured(path=[(0, 0), (0.02, 4e-4), (0.04, 0)], positions=positions)
+    stroke = Reciprocating(stroke=4e-4, frequency=25, cycles=1, positions=positions)
+    found, expected = triangle.cycle(grid), stroke.cycle(grid)
+    assert [p.share for p in found] == pytest.approx([p.share for p in expected])
+    assert [p.speeds for p in found] == [[(pytest.approx(0.02), 1.0)]] * len(expected)
+    bodies = ["ball", "disk"]
+    rows = [m.exposures(grid, bodies)["disk"].starts for m in (triangle, stroke)]
+    assert rows[0] == rows[1]
+
+
+def test_a_position_has_the_speed_at_which_it_is_passed():
+    # Slowly over the first half and fast over the second, with a rest where they meet.
+    path = [(0, 0), (4, 4e-4), (9, 4e-4), (10, 8e-4), (11, 4e-4), (15, 0)]
+    cycle = Measured(path=path, positions=9).cycle(Grid(1e-3, 50))
+    speeds = [position.speeds[0][0] for position in cycle]
+    assert speeds == pytest.approx([1e-4] * 4 + [1.6e-4] + [4e-4] * 4)
+
+
+def test_a_sampled_sine_spends_its_path_as_the_sine_does():
+    t = np.linspace(0, 0.04, 400)
+    samples = list(zip(t, -1e-3 * np.cos(2 * np.pi * 25 * t), strict=True))
+    grid = Grid(1e-3, 50)
+    sine = motion(waveform="sinusoidal", positions=21).cycle(grid)
+    found = Measured(path=samples, positions=21).cycle(grid)
+    assert [p.share for p in found] == pytest.approx([p.share for p in sine], rel=2e-3)
+    # Inside the stroke; near its ends the two take different means of a speed that falls to 0.
+    assert [p.speeds[0][0] for p in found[2:-2]] == pytest.approx(
+        [p.speeds[0][0] for p in sine[2:-2]], rel=0.03
+    )
+
+
+@pytest.mark.parametrize("name", ["path.csv", "path.npy"])
+def test_a_path_may_lie_in_a_file(tmp_path, name):
+    file = tmp_path / name
+    if name.endswith("npy"):
+        np.save(file, PATH)
+    else:
+        np.savetxt(file, PATH, delimiter=",", header="time [s],position [m]", comments="")
+    assert Measured(path=file) == Measured(path=str(file)) == Measured(path=PATH)
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"path": "nowhere.csv"}, "no file nowhere.csv"),
+        ({"path": [[0, 0]]}, "at least 2"),
+        ({"path": [[0, 0], [0, 1e-3]]}, "time must increase.* 0 s is followed by 0 s"),
+        ({"path": [[0, 1e-3], [1, 1e-3]]}, "never changes"),
+        ({"path": [[0, 0], [1, 1e-3]], "cycles": 2}, "must end where it begins"),
+        ({"cycles": 2, "duration": 5}, "duration or cycles, not both"),
+        ({"positions": 8}, "8 is even"),
+    ],
+)
+def test_a_path_that_is_none_is_refused(changes, words):
+    body = {"surface": {"type": "flat"}, "material": {"young": 2e11, "poisson": 0.3}}
+    case = {
+        "grid": {"size": 1e-3, "cells": 16},
+        "load": {"normal": 1.0},
+        "bodies": {"a": body, "b": body},
+        "kinematics": {"type": "measured", "path": PATH, **changes},
+    }
+    with pytest.raises(CaseError, match=f"kinematics.*{words}"):
+        validate_case(case)
+
+
+@pytest.mark.parametrize("rows", ["0,0,1\n1,2,3\n", "0,0\n1,x\n", "0,0\n1\n"])
+def test_a_file_of_other_columns_is_refused(tmp_path, rows):
+    file = tmp_path / "path.csv"
+    file.write_text(rows, encoding="utf-8")
+    with pytest.raises(CaseError, match="two columns of numbers"):
+        Measured(path=file)
+
+
+GRID = Grid((1.2e-3, 0.75e-3), (32, 20))
+
+
+def run(**path):
+    kinematics = Measured(positions="cells", **path)
+    return small(grid=GRID, contact=foundation(), kinematics=kinematics)
+
+
+@pytest.mark.slow
+def test_a_body_wears_more_where_it_is_passed_more_often():
+    cells = 4 * GRID.spacing[0]
+    # Twice as often over one half of the stroke as over the other.
+    often = [(0, 0), (1, cells), (3, 3 * cells), (4, 2 * cells), (5, 3 * cells), (6, 0)]
+    state = last(run(path=often, cycles=100))
+    disk = state.bodies["disk"].wear
+    assert len(disk) == 32 + 12
+    for body in state.bodies.values():
+        volume = np.sum(body.wear) * GRID.cell_area
+        assert volume == pytest.approx(3.11e-16 * 100 * state.distance, rel=1e-12, abs=0)
+    # As the disk moves to positive x, the window lies further to negative x of it.
+    assert disk[:22].sum() > 1.1 * disk[22:].sum()
+
+
+@pytest.mark.slow
+def test_saves_may_fall_into_rests():
+    case = small(
+        grid=GRID, contact=foundation(), kinematics=Measured(path=PATH, cycles=100, positions=9),
+        save_times=(0.5, 2.5, 550.5, 1099.5),
+    ).case  # fmt: skip
+    with Simulation(case).run() as result:
+        assert list(result.times) == [0, 0.5, 2.5, 550.5, 1099.5, 1100]
+        np.testing.assert_allclose(result.distances, [0, 0, 4e-4, 0.1, 0.2, 0.2], atol=1e-15)

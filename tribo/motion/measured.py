@@ -1,0 +1,191 @@
+"""Back and forth as it was measured: positions over time, from a file or from Python."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self
+
+import numpy as np
+from pydantic import ConfigDict, Field, field_validator, model_validator
+
+from tribo.core.arrays import Array
+from tribo.core.errors import CaseError
+from tribo.core.grid import Grid
+from tribo.core.units import Quantity
+from tribo.motion.cycle import Position, Stroke, check_spacing, near
+from tribo.motion.exposure import Exposure, Passing
+from tribo.motion.kinematics import Kinematics
+from tribo.motion.swept import one_swept_body
+
+CLOSED = 0.01
+"""Largest distance between the ends of a path that repeats, of its range."""
+
+Sample = tuple[Annotated[float, Quantity("s")], Annotated[float, Quantity("m")]]
+
+
+class Measured(Kinematics):
+    """A measured path: where the swept body is along x, over time, with rests and reversals.
+
+    Between two samples it moves at constant speed. The sliding distance is the total variation of
+    the position: noise of the sensor counts as sliding, so smooth it before. The cycle is resolved
+    into positions, each with the share of the whole path that is slid near it and the mean speed
+    of that; in which order they come is not kept.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "examples": [{"path": [[0, 0], [1, 1e-3], [2, 1e-3], [4, 0]], "cycles": 100}]
+        }
+    )
+
+    type = "measured"
+    path: Annotated[tuple[Sample, ...], Field(min_length=2)]
+    """Pairs of time and position, or the name of a CSV or .npy file with these two columns, in s
+    and m; a relative name starts at the current directory."""
+    duration: Annotated[float, Quantity("s", above=0)] | None = None
+    """How long it runs, the path repeated; once through the path if left out."""
+    cycles: Annotated[float, Quantity("1", above=0)] | None = None
+    """How many times it runs through the path."""
+    positions: Annotated[int, Field(ge=3)] | Literal["cells"] = 33
+    """In how many positions the contact is solved, an odd number, or ``"cells"`` for every cell
+    along the path."""
+    swept: str | None = None
+    """Name of the body whose points pass through the contact; the last body if left out."""
+
+    @field_validator("path", mode="before")
+    @classmethod
+    def _from_file(cls, value: Any) -> Any:
+        return _read(Path(value)) if isinstance(value, str | Path) else value
+
+    @field_validator("path")
+    @classmethod
+    def _moves_on(cls, path: tuple[Sample, ...]) -> tuple[Sample, ...]:
+        times, places = np.array(path).T
+        back = np.flatnonzero(np.diff(times) <= 0)
+        if len(back):
+            raise ValueError(
+                f"time must increase from sample to sample, but {times[back[0]]:g} s is followed "
+                f"by {times[back[0] + 1]:g} s"
+            )
+        if np.all(places == places[0]):
+            raise ValueError("the position never changes; give a path that slides")
+        return path
+
+    @field_validator("positions")
+    @classmethod
+    def _middle(cls, value: int | str) -> int | str:
+        if isinstance(value, int) and value % 2 == 0:
+            raise ValueError(
+                f"{value} is even; give an odd number, so that one lies in the middle: {value + 1}"
+            )
+        return value
+
+    @model_validator(mode="after")
+    def _one_end(self) -> Self:
+        if self.duration is not None and self.cycles is not None:
+            raise ValueError("give duration or cycles, not both")
+        first, last = self.path[0][1], self.path[-1][1]
+        if self.end_time > self._period * (1 + 1e-9) and abs(last - first) > CLOSED * self._range:
+            raise ValueError(
+                f"the path begins at {1e3 * first:.4g} mm and ends at {1e3 * last:.4g} mm; to "
+                "repeat, it must end where it begins"
+            )
+        return self
+
+    @cached_property
+    def _samples(self) -> tuple[Array, Array, Array]:
+        """Times from 0, positions about the middle of the path, and the distance slid by then."""
+        times, places = np.array(self.path).T
+        slid = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(places)))])
+        return times - times[0], places - 0.5 * (np.min(places) + np.max(places)), slid
+
+    @property
+    def _period(self) -> float:
+        return float(self._samples[0][-1])
+
+    @property
+    def _range(self) -> float:
+        places = self._samples[1]
+        return float(np.max(places) - np.min(places))
+
+    @property
+    def end_time(self) -> float:
+        """Time at which the motion ends, in s."""
+        if self.duration is not None:
+            return self.duration
+        return self._period if self.cycles is None else self.cycles * self._period
+
+    def distance_at(self, time: float) -> float:
+        """Return the sliding distance until `time`, in m."""
+        times, _, slid = self._samples
+        whole = math.floor(time / self._period)
+        rest = np.interp(time - whole * self._period, times, slid)
+        return float(whole * slid[-1] + rest)
+
+    def time_at(self, distance: float) -> float:
+        """Return the first time at which `distance` is reached, in s."""
+        times, _, slid = self._samples
+        if distance <= 0:
+            return 0.0
+        whole = max(0, math.ceil(distance / slid[-1]) - 1)
+        rest = min(distance - whole * slid[-1], slid[-1])
+        # The first sample by which it has come so far, so that it moves on to it.
+        after = max(1, int(np.searchsorted(slid, rest)))
+        to_go = slid[after] - rest
+        pace = (times[after] - times[after - 1]) / (slid[after] - slid[after - 1])
+        return float(whole * self._period + times[after] - to_go * pace)
+
+    def cycle(self, grid: Grid) -> Sequence[Position]:
+        """Return the positions along the path, with the mean speed about each."""
+        times, places, slid = self._samples
+        nodes = self._stroke(grid).cells * grid.spacing[0]
+        moving = np.diff(slid) > 0
+        pace = np.zeros_like(slid[1:])
+        pace[moving] = np.diff(times)[moving] / np.diff(slid)[moving]
+        lengths, lasting = near(nodes, places), near(nodes, places, pace)
+        return [
+            Position(float(length / slid[-1]), [(float(length / time), 1.0)])
+            for length, time in zip(lengths, lasting, strict=True)
+        ]
+
+    def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
+        """Return its rows along the path for the swept body."""
+        passing = Passing(grid, self._stroke(grid).starts, self._range)
+        return one_swept_body(grid, bodies, self.swept, passing)
+
+    def check_contact(self, half_width_x: float) -> None:
+        """Refuse positions further apart than the half-width."""
+        if self.positions != "cells":
+            check_spacing(self._range, self.positions, half_width_x)
+
+    def _stroke(self, grid: Grid) -> Stroke:
+        count = None if self.positions == "cells" else self.positions
+        stroke = Stroke(self._range, grid.spacing[0], count)
+        stroke.check_cells("kinematics.path")
+        return stroke
+
+
+def _read(file: Path) -> list[list[float]]:
+    """Return the rows of a CSV file, with or without a header, or of a .npy file."""
+    if not file.is_file():
+        where = "" if file.is_absolute() else f" in {Path.cwd()}, where tribo was started"
+        raise CaseError(f"there is no file {file}{where}; correct path")
+    try:
+        if file.suffix == ".npy":
+            rows = np.load(file, allow_pickle=False)
+        else:
+            rows = np.genfromtxt(file, delimiter=",", ndmin=2, encoding="utf-8-sig")
+    except ValueError as error:
+        raise CaseError(f"{file} cannot be read as two columns of numbers: {error}") from None
+    if rows.ndim == 2 and np.all(np.isnan(rows[:1])):
+        rows = rows[1:]
+    if rows.ndim != 2 or rows.shape[1] != 2 or not np.all(np.isfinite(rows)):
+        raise CaseError(
+            f"{file} must have two columns of numbers, time in s and position in m, separated by "
+            f"commas and below one header at most, but has the shape {rows.shape}"
+            + ("" if np.all(np.isfinite(rows)) else " and values that are not numbers")
+        )
+    return [[float(time), float(place)] for time, place in rows]
