@@ -4,7 +4,14 @@ import numpy as np
 
 from tribo.core.contact import ContactSolution, ContactSystem, Residuals
 from tribo.core.grid import Grid
-from tribo.core.measures import BodyMeasures, Measures, centre, contact_area, half_widths
+from tribo.core.measures import (
+    BodyMeasures,
+    Measures,
+    centre,
+    contact_area,
+    half_widths,
+    plastic_area,
+)
 from tribo.core.state import BodyInfo, BodyState, RunInfo, Snapshot, State
 from tribo.result.provenance import provenance
 from tribo.result.store import ResultWriter
@@ -61,7 +68,7 @@ def made(
             provenance=provenance({}),
         )
     )
-    looks = bodies, plastic, power, shape, grid, texture
+    looks = bodies, plastic, power, shape, grid, texture, cap
     for before, time in zip((0.0, *times), times, strict=False):
         snapshot = _snapshot(time, *looks)
         # Two steps to each save.
@@ -90,7 +97,7 @@ def _height(grid, body):
     return -(x**2 + y**2) / (2 * RADIUS) if body == 0 else np.zeros(grid.cells)
 
 
-def _snapshot(time, bodies, plastic, power, shape, grid, texture):
+def _snapshot(time, bodies, plastic, power, shape, grid, texture, cap):
     x, y = grid.mesh
     a = half_width(time)
     inside = np.maximum(1 - ((x / shape[0]) ** 2 + (y / shape[1]) ** 2) / a**2, 0.0)
@@ -126,6 +133,7 @@ def _snapshot(time, bodies, plastic, power, shape, grid, texture):
             half_width_x=width,
             half_width_y=breadth,
             area=contact_area(pressure, grid),
+            plastic_area=plastic_area(pressure, cap, grid),
             approach=1e-6,
             residuals=SETTLED,
             contact_solves=1,

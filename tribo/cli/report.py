@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
+from math import isfinite
 from typing import Any
 
 from rich.markup import escape
@@ -13,6 +14,7 @@ from rich.text import Text
 from tribo.cli.console import Console, titled
 from tribo.lab.inferred import InferredVolume
 from tribo.lab.report import BodyReport, lab_report
+from tribo.lab.running_in import rough_bodies, worn_roughness
 from tribo.result.read import Result
 
 COLUMNS = (
@@ -27,6 +29,17 @@ COLUMNS = (
 """Name, unit, key in a save, factor to the unit, and format of each column."""
 DISPENSABLE = ("area", "p centre", "path", "along", "across")
 """Columns left out on a narrow terminal, in this order."""
+ROUGHNESS = (
+    ("Sa", "Sa_m", 1e9, ".3g"),
+    ("Sq", "Sq_m", 1e9, ".3g"),
+    ("Sz", "Sz_m", 1e9, ".3g"),
+    ("Ssk", "Ssk", 1, ".2f"),
+    ("Sku", "Sku", 1, ".2f"),
+    ("Ra along", "Ra_along_m", 1e9, ".3g"),
+    ("Ra across", "Ra_across_m", 1e9, ".3g"),
+)
+"""Name, key, factor to nm, and format of each column."""
+WHERE = {"scar": "scar", "unworn": "at first", "beside": "beside"}
 WIDE = 10_000
 """More characters than any table needs."""
 NOTHING = "–"
@@ -38,9 +51,16 @@ def print_report(result: Result, console: Console | None = None) -> None:
     lab = lab_report(result)
     _print_saves(result, console)
     console.print(_bodies(result, lab.bodies))
+    if rough := rough_bodies(result):
+        console.print(_roughness(result, rough))
     if lab.inferred:
         console.print(_inferred(lab.inferred))
     console.print(lab.first_contact_words, markup=False)
+    saves = result.saves()
+    plastic = [save["plastic_area_m2"] / save["contact_area_m2"] for save in (saves[0], saves[-1])]
+    if max(plastic) > 0:
+        first, last = (f"{100 * part:.2g} %" for part in plastic)
+        console.print(f"At the hardness: {first} of the contact at first, {last} at the end.")
     for row in lab.rows:
         console.print(f"{row.label}: {row.value:.4g} {row.unit}".rstrip(), markup=False)
     for line in _effects(result):
@@ -168,6 +188,18 @@ def _worn(body: BodyReport, save: Mapping[str, float]) -> dict[str, str]:
     if scarred and body.scar_along_m is None:
         cells["scar along sliding, mm"] = "whole track"
     return cells
+
+
+def _roughness(result: Result, bodies: Sequence[str]) -> Table:
+    """Set the roughness of rough bodies in their scars against what it was, and beside them."""
+    table = titled("Roughness in nm, form removed", *(column[0] for column in ROUGHNESS))
+    for body in bodies:
+        measured = worn_roughness(result, body, -1)
+        for where, values in measured._asdict().items():
+            cells = [(factor * getattr(values, key), form) for _, key, factor, form in ROUGHNESS]
+            shown = [f"{cell:{form}}" if isfinite(cell) else NOTHING for cell, form in cells]
+            table.add_row(f"{escape(body)}: {WHERE[where]}", *shown)
+    return table
 
 
 def _inferred(volumes: Sequence[InferredVolume]) -> Table:

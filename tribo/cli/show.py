@@ -22,11 +22,16 @@ def show(output: Path, as_json: bool) -> None:
     """
     from tribo.cli.report import print_provenance, print_report
     from tribo.lab.report import lab_report
+    from tribo.lab.running_in import worn_surfaces
     from tribo.result.read import Result
 
     with Result.open(output) as result:
         if as_json:
-            echo_json({**result.summary(), "lab": lab_report(result).as_json()})
+            summary = result.summary()
+            for name in result.body_names:
+                for save, more in zip(summary["saves"], worn_surfaces(result, name), strict=True):
+                    save["bodies"][name] |= more
+            echo_json({**summary, "lab": lab_report(result).as_json()})
         else:
             print_report(result)
             print_provenance(result)

@@ -56,6 +56,7 @@ class Measures:
     half_width_x: float
     half_width_y: float
     area: float
+    plastic_area: float
     approach: float
     residuals: Residuals
     contact_solves: int
@@ -80,6 +81,11 @@ def half_widths(contact: ContactSolution, grid: Grid) -> tuple[float, float]:
 def contact_area(pressure: Array, grid: Grid) -> float:
     """Area of the cells that carry pressure, in m²."""
     return int(np.count_nonzero(pressure > 0)) * grid.cell_area
+
+
+def plastic_area(pressure: Array, cap: float | None, grid: Grid) -> float:
+    """Area of the cells whose pressure is at the cap, in m²."""
+    return 0.0 if cap is None else int(np.count_nonzero(pressure >= cap)) * grid.cell_area
 
 
 def reaches_border(pressure: Array) -> bool:

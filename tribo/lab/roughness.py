@@ -40,14 +40,14 @@ class Roughness(NamedTuple):
     Rq_across_m: float
 
 
-def roughness(height: Array) -> Roughness:
-    """Return the parameters of a height map, its form removed.
+def roughness(height: Array, order: int = 2) -> Roughness:
+    """Return the parameters of a height map, its form of an `order` removed by `without_form`.
 
     References
     ----------
     ISO 25178-2:2021, 4.2 (areal); ISO 21920-2:2021 (profiles).
     """
-    relief = without_form(height)
+    relief = without_form(height, order)
     return Roughness(
         *areal_parameters(relief), *profile_parameters(relief, 0), *profile_parameters(relief, 1)
     )

@@ -45,6 +45,9 @@ COLUMNS: tuple[Column[Measures], ...] = (
         "contact_half_width_y", "m", "Half the contact's extent along y", lambda m: m.half_width_y
     ),
     Column("contact_area", "m^2", "Area of the cells in contact", lambda m: m.area),
+    Column(
+        "plastic_area", "m^2", "Area of the cells at the hardness limit", lambda m: m.plastic_area
+    ),
     Column("approach", "m", "Rigid approach of the bodies", lambda m: m.approach),
     Column("force_error", "1", "Relative error of the load carried", lambda m: m.residuals.force),
     Column(

@@ -276,7 +276,9 @@ class Result:
         A body's columns are called ``bodies.NAME.wear_volume_m3`` and so on.
         """
         prefix = "" if name == "saves" else "history_"
-        columns = {column.label: self._scalars[prefix + column.name] for column in COLUMNS}
+        # One that a file lacks was not recorded yet when that was made.
+        missing = np.full(self._scalars[prefix + "time"].shape, np.nan)
+        columns = {c.label: self._scalars.get(prefix + c.name, missing) for c in COLUMNS}
         for index, body in enumerate(self.body_names):
             for part in BODY_COLUMNS:
                 label = f"bodies.{body}.{part.label}"

@@ -4,7 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from tribo.core.measures import BodyMeasures, Measures, centre, contact_area, half_widths
+from tribo.core.measures import (
+    BodyMeasures,
+    Measures,
+    centre,
+    contact_area,
+    half_widths,
+    plastic_area,
+)
 from tribo.core.state import State
 from tribo.simulation.model import Model
 
@@ -31,6 +38,7 @@ def measure(model: Model, state: State) -> Measures:
         half_width_x=width,
         half_width_y=breadth,
         area=contact_area(touched, model.grid),
+        plastic_area=plastic_area(touched, model.system.cap, model.grid),
         approach=state.contact.approach - model.closest,
         residuals=state.contact.residuals,
         contact_solves=state.contact_solves,

@@ -1,0 +1,116 @@
+"""Roughness of worn bodies in a result."""
+
+import json
+from importlib.resources import files
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from made_results import made, written
+
+import tribo
+from tribo import Simulation, load_case
+from tribo.cli.show import show
+from tribo.lab.roughness import roughness
+from tribo.lab.running_in import outlined, rough_bodies, scar_cells, worn_roughness
+
+WAVES = 'type = "rough", sq = "50 nm", cut_off = "0.125 mm", roll_off = "0.25 mm"'
+ROUGH = [
+    "grid.size='1 mm'",
+    "grid.cells=32",
+    f"bodies.ball.surface={{ {WAVES}, seed = 1, on = {{ type = 'sphere', radius = '5 mm' }} }}",
+    f"bodies.disk.surface={{ {WAVES}, seed = 2 }}",
+    "kinematics.stroke='1 mm'",
+    "kinematics.positions=9",
+    "kinematics.duration='10 s'",
+    "output.save_times=[0, 10]",
+]
+
+
+@pytest.fixture(scope="module")
+def path(tmp_path_factory):
+    """A rough ball on a rough disk, the cycle resolved."""
+    path = tmp_path_factory.mktemp("rough") / "rough.h5"
+    template = files("tribo.templates") / "ball_on_disk.toml"
+    Simulation(load_case(template, overrides=ROUGH)).run(path).close()
+    return path
+
+
+def shown(path, *options):
+    return CliRunner().invoke(show, [str(path), *options], catch_exceptions=False).stdout
+
+
+def test_a_scar_has_its_unworn_valleys_too():
+    x, y = np.indices((40, 30)) - 15
+    scar = (x / 12) ** 2 + (y / 8) ** 2 < 1
+    filled = outlined(scar & (np.random.default_rng(1).random(scar.shape) < 0.5))
+    assert np.all(filled <= scar)
+    assert np.count_nonzero(filled) > 0.85 * np.count_nonzero(scar)
+    assert not outlined(np.zeros((3, 3), dtype=bool)).any()
+
+
+def test_running_in_polishes_the_scar_and_leaves_the_rest(path):
+    with tribo.open(path) as result:
+        assert rough_bodies(result) == ["ball", "disk"]
+        for name in ("ball", "disk"):
+            first, last = (worn_roughness(result, name, save) for save in (0, 1))
+            # Before any wear the surface under the contact is the unworn one.
+            assert first.scar == first.unworn
+            assert last.scar.Sq_m < last.unworn.Sq_m
+            assert last.scar.Sz_m < last.unworn.Sz_m
+            # Nothing touches the rest, 50 nm rough in all.
+            assert last.beside.Sq_m == pytest.approx(50e-9, rel=0.2, abs=0)
+            worn = scar_cells(result, name, 1)
+            height = np.where(worn, result.body(name).surface(1), np.nan)
+            assert last.scar == roughness(height, 4)
+
+
+def test_a_smooth_scar_is_not_rough():
+    result = made()
+    assert rough_bodies(result) == []
+    for name in ("ball", "disk"):
+        measured = worn_roughness(result, name, -1)
+        # Of a ball worn flat, and a groove as round as it, the form is removed.
+        assert measured.beside.Sq_m < 1e-9
+        assert measured.scar.Sq_m < 5e-9
+
+
+def test_json_has_the_roughness_and_the_track_of_each_body_at_each_save(path):
+    saves = json.loads(shown(path, "--json"))["saves"]
+    for save in saves:
+        for body in save["bodies"].values():
+            measured = body["roughness"]
+            assert 0 < measured["Sa_m"] < measured["Sq_m"] < measured["Sz_m"]
+            assert {"Ssk", "Sku", "Ra_along_m", "Rq_across_m"} <= set(measured)
+            assert (
+                set(measured["beside"])
+                == set(measured["unworn"])
+                == set(measured)
+                - {
+                    "beside",
+                    "unworn",
+                }
+            )
+    ball, disk = (saves[-1]["bodies"][name] for name in ("ball", "disk"))
+    assert "track_x_m" not in ball
+    x, depth = disk["track_x_m"], disk["track_depth_m"]
+    # The window and the stroke, both 1 mm.
+    assert x[-1] - x[0] == pytest.approx(2e-3 - 1e-3 / 32, rel=1e-9, abs=0)
+    assert max(depth) == pytest.approx(disk["max_wear_depth_m"], rel=0.5, abs=0)
+    assert depth[0] == depth[-1] == 0
+
+
+def test_the_table_has_roughness_of_rough_bodies_only(path, tmp_path):
+    assert "ball: scar" in shown(path)
+    assert "Roughness" not in shown(written(tmp_path / "smooth.h5"))
+
+
+def test_the_part_of_the_contact_at_the_hardness_is_told(tmp_path):
+    assert "At the hardness" not in shown(written(tmp_path / "elastic.h5"))
+    path = written(tmp_path / "hard.h5", cap=1e8)
+    assert "At the hardness" in shown(path)
+    with tribo.open(path) as result:
+        last = result.saves()[-1]
+    # The pressure of made() is Hertz's, of 144 MPa at last.
+    part = last["plastic_area_m2"] / last["contact_area_m2"]
+    assert part == pytest.approx(1 - (1 / 1.44) ** 2, abs=0.05)

@@ -1,0 +1,105 @@
+"""Running-in: the roughness of worn bodies, in the scar and beside it."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribo.core.arrays import Array, Mask
+from tribo.lab.roughness import Roughness, is_rough, roughness
+from tribo.result.export import profile
+from tribo.result.layout import TRACK
+from tribo.result.read import Result
+
+FORM = 4
+"""Order of the form removed.
+
+The second leaves 40 nm rms of a smooth groove 2 µm deep, and of a ball beside its scar; the
+fourth, 4 nm and 0.2 nm.
+"""
+SIDES = 32
+WORN = 0.1
+"""Part of the largest depth from which a cell is in the scar: its edge is form."""
+
+
+class WornRoughness(NamedTuple):
+    """Roughness of a body at a save, its form removed; NaN where there are too few cells.
+
+    `scar` is the surface in the scar, or in the contact where nothing is worn; `unworn` what it
+    was there at first; `beside` the surface outside of all wear.
+    """
+
+    scar: Roughness
+    unworn: Roughness
+    beside: Roughness
+
+
+def worn_roughness(result: Result, name: str, save: int) -> WornRoughness:
+    """Return the roughness of a body at a save."""
+    body, scar = result.body(name), scar_cells(result, name, save)
+    surface = body.surface(save)
+    gone = body.wear_depth[save] + body.plastic_depth[save]
+    beside = ~outlined(scar | (gone > 0))
+    return WornRoughness(_in(scar, surface), _in(scar, body.height), _in(beside, surface))
+
+
+def scar_cells(result: Result, name: str, save: int) -> Mask:
+    """Return the scar of a body at a save, shape (nx, ny), its unworn valleys included.
+
+    It is the outline of the cells worn to a tenth of the largest depth; of those in contact, where
+    nothing is worn.
+    """
+    depth = result.field("wear_depth", save, name)
+    deepest = float(np.max(depth))
+    if deepest > 0:
+        return outlined(depth >= WORN * deepest)
+    return outlined(result.field("pressure", save) > 0)
+
+
+def outlined(cells: Mask) -> Mask:
+    """Return the cells inside the convex outline of some, as seen from `SIDES` sides."""
+    inside = np.full(cells.shape, bool(cells.any()))
+    x, y = np.ogrid[: cells.shape[0], : cells.shape[1]]
+    if not inside.any():
+        return inside
+    for angle in np.arange(0.5 * SIDES) * (2 * np.pi / SIDES):
+        distance = x * np.cos(angle) + y * np.sin(angle)
+        ends = distance[cells]
+        inside &= (distance > np.min(ends) - 0.01) & (distance < np.max(ends) + 0.01)
+    return inside
+
+
+def rough_bodies(result: Result) -> list[str]:
+    """Return the names of the bodies that are rough at first."""
+    return [name for name in result.body_names if is_rough(result.body(name).height)]
+
+
+def worn_surfaces(result: Result, name: str) -> list[dict[str, Any]]:
+    """Return what ``tribo show --json`` tells of a body's surface at each save.
+
+    ``roughness`` has the parameters in the scar, and under ``unworn`` and ``beside`` those to
+    compare with. For a body that passes through a resolved cycle ``track_x_m`` and
+    ``track_depth_m`` are the depth at y = 0 along its whole track.
+    """
+    rows: list[dict[str, Any]] = []
+    for save in range(len(result.times)):
+        scar, unworn, beside = worn_roughness(result, name, save)
+        more = {"unworn": unworn._asdict(), "beside": beside._asdict()}
+        rows.append({"roughness": scar._asdict() | more, **_track(result, name, save)})
+    return rows
+
+
+def _track(result: Result, name: str, save: int) -> dict[str, list[float]]:
+    if TRACK not in dir(result):
+        return {}
+    depth = profile(result.field(TRACK, save, name), 0)
+    known = np.isfinite(depth)
+    if not known.any():
+        return {}
+    x = (np.arange(depth.size) - 0.5 * (depth.size - 1)) * result.grid.spacing[0]
+    return {"track_x_m": x[known].tolist(), "track_depth_m": depth[known].tolist()}
+
+
+def _in(cells: Mask, height: Array) -> Roughness:
+    return roughness(np.where(cells, height, np.nan), FORM)
