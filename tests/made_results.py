@@ -47,11 +47,13 @@ def made(
     status="done",
     grid=GRID,
     texture=0.0,
+    relief=0.0,
 ):
     """Return a result in which the contact grows as that of a ball worn flat.
 
     The pressure goes as ``(1 - r²/a²)**power``; `shape` are the half-widths along x and y in
-    parts of a, `texture` the part of the pressure that comes and goes from cell to cell.
+    parts of a, `texture` the part of the pressure that comes and goes from cell to cell, `relief`
+    the amplitude in m of waves on the first body.
     """
     bodies = tuple(zip(names, swept, worn, densities, strict=True))
     writer = ResultWriter()
@@ -59,7 +61,7 @@ def made(
         RunInfo(
             system=ContactSystem(grid, 1.137e11, 100.0, cap, curvature),
             bodies=tuple(
-                BodyInfo(name, is_swept, density, _height(grid, i), grid.cells[0])
+                BodyInfo(name, is_swept, density, _height(grid, i, relief), grid.cells[0])
                 for i, (name, is_swept, _, density) in enumerate(bodies)
             ),
             end_time=3600.0,
@@ -92,9 +94,10 @@ def half_width(time):
     return 1.5e-4 * (1 + time / 20) ** 0.25
 
 
-def _height(grid, body):
+def _height(grid, body, relief):
     x, y = grid.mesh
-    return -(x**2 + y**2) / (2 * RADIUS) if body == 0 else np.zeros(grid.cells)
+    waves = relief * np.cos(4e4 * x) * np.cos(3e4 * y)
+    return waves - (x**2 + y**2) / (2 * RADIUS) if body == 0 else np.zeros(grid.cells)
 
 
 def _snapshot(time, bodies, plastic, power, shape, grid, texture, cap):

@@ -10,12 +10,16 @@ from made_results import SHAPES, TIMES, made
 from matplotlib.image import imread
 
 from tribo.core.errors import CaseError, OutputError
+from tribo.core.grid import Grid
 from tribo.plotting import figures, pressure_map, pressure_sections, save_figures
 
 CONTACT = ["pressure_map", "pressure_map_early", "pressure_sections"]
 OVER_TIME = ["wear_history", "contact_history"]
 WORN = ["disk_groove", "worn_section"]
 BALL = ["ball_along", "ball_across"]
+RELIEF = ["ball_height_map", "ball_material_ratio"]
+ROUGH = {"relief": 2e-7}
+COARSE = {**ROUGH, "grid": Grid((2e-3, 1.6e-3), (10, 8)), "times": (0.0, 200.0)}
 EARLY = [CONTACT[0], CONTACT[2]]
 INTERRUPTED = {"times": (0.0, 123.4567), "status": "interrupted"}
 TWIN = {"swept": (True, True), "names": ("wheel-1", "Wheel_β"), "densities": (7850.0, 3200.0)}
@@ -56,6 +60,8 @@ def test_the_pictures_are_images_of_the_width_of_a_column(tmp_path):
             [*CONTACT, *BALL, "disk_along", "disk_across", "worn_section", *OVER_TIME],
         ),
         (INDENTED, [*EARLY, *BALL, *WORN]),
+        (COARSE, [*EARLY, *BALL, *WORN, *OVER_TIME]),
+        (ROUGH, [*CONTACT, *BALL, "disk_groove", *RELIEF, "worn_section", *OVER_TIME]),
     ],
 )
 def test_each_result_gets_the_pictures_that_make_sense(changes, expected, monkeypatch, tmp_path):
@@ -63,12 +69,13 @@ def test_each_result_gets_the_pictures_that_make_sense(changes, expected, monkey
     assert save_figures(made(**changes), tmp_path) == expected
 
 
-UNITS = tuple(f"({unit})" for unit in ("mm", "µm", "nm", "pm", "MPa", "s", "mm³", "mg"))
+UNITS = tuple(f"({unit})" for unit in ("mm", "µm", "nm", "pm", "MPa", "s", "mm³", "mg", "%"))
 LAID_OUT = {
     "interrupted": INTERRUPTED,
     "indented": INDENTED,
     "twin disks": TWIN,
     "many saves": MANY,
+    "rough": ROUGH,
     **{name: SHAPES[name] for name in ("flat pin", "long window", "1:1000", "hard")},
 }
 

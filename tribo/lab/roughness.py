@@ -47,7 +47,11 @@ def roughness(height: Array, order: int = 2) -> Roughness:
     ----------
     ISO 25178-2:2021, 4.2 (areal); ISO 21920-2:2021 (profiles).
     """
-    relief = without_form(height, order)
+    return parameters(without_form(height, order))
+
+
+def parameters(relief: Array) -> Roughness:
+    """Return the parameters of heights as they are."""
     return Roughness(
         *areal_parameters(relief), *profile_parameters(relief, 0), *profile_parameters(relief, 1)
     )

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
 
 from tribo.core.arrays import Array, Mask
-from tribo.lab.roughness import Roughness, is_rough, roughness
+from tribo.lab.roughness import Roughness, is_rough, parameters, without_form
 from tribo.result.export import profile
 from tribo.result.layout import TRACK
 from tribo.result.read import Result
 
+T = TypeVar("T")
 FORM = 4
 """Order of the form removed.
 
@@ -23,25 +24,31 @@ WORN = 0.1
 """Part of the largest depth from which a cell is in the scar: its edge is form."""
 
 
-class WornRoughness(NamedTuple):
-    """Roughness of a body at a save, its form removed; NaN where there are too few cells.
+class Worn(NamedTuple, Generic[T]):
+    """Something of a worn body in three places.
 
-    `scar` is the surface in the scar, or in the contact where nothing is worn; `unworn` what it
-    was there at first; `beside` the surface outside of all wear.
+    `scar` is of the surface in the scar, or in the contact where nothing is worn; `unworn` of what
+    was there at first; `beside` of the surface outside of all wear.
     """
 
-    scar: Roughness
-    unworn: Roughness
-    beside: Roughness
+    scar: T
+    unworn: T
+    beside: T
 
 
-def worn_roughness(result: Result, name: str, save: int) -> WornRoughness:
-    """Return the roughness of a body at a save."""
+def worn_roughness(result: Result, name: str, save: int) -> Worn[Roughness]:
+    """Return the roughness of a body at a save; NaN where there are too few cells."""
+    return Worn(*map(parameters, reliefs(result, name, save)))
+
+
+def reliefs(result: Result, name: str, save: int) -> Worn[Array]:
+    """Return the heights of a body at a save, form removed and NaN elsewhere, in m."""
     body, scar = result.body(name), scar_cells(result, name, save)
     surface = body.surface(save)
     gone = body.wear_depth[save] + body.plastic_depth[save]
     beside = ~outlined(scar | (gone > 0))
-    return WornRoughness(_in(scar, surface), _in(scar, body.height), _in(beside, surface))
+    places = (scar, surface), (scar, body.height), (beside, surface)
+    return Worn(*(without_form(np.where(cells, z, np.nan), FORM) for cells, z in places))
 
 
 def scar_cells(result: Result, name: str, save: int) -> Mask:
@@ -99,7 +106,3 @@ def _track(result: Result, name: str, save: int) -> dict[str, list[float]]:
         return {}
     x = (np.arange(depth.size) - 0.5 * (depth.size - 1)) * result.grid.spacing[0]
     return {"track_x_m": x[known].tolist(), "track_depth_m": depth[known].tolist()}
-
-
-def _in(cells: Mask, height: Array) -> Roughness:
-    return roughness(np.where(cells, height, np.nan), FORM)

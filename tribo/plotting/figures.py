@@ -13,9 +13,11 @@ from matplotlib.figure import Figure
 
 from tribo.core.errors import CaseError
 from tribo.core.files import writing
+from tribo.lab.running_in import reliefs, rough_bodies
 from tribo.plotting.history import contact_history, wear_history
 from tribo.plotting.pressure import pressure_map, pressure_sections
 from tribo.plotting.profiles import body_profiles, groove, worn_section
+from tribo.plotting.relief import height_map, material_ratio_curves
 from tribo.plotting.sections import number_of_saves, removed
 from tribo.plotting.style import house_style
 from tribo.registry.contributions import from_plugins_of
@@ -46,7 +48,8 @@ def save_figures(result: Result, folder: Path, suffix: str = "png") -> list[Path
         The files: ``pressure_map`` of the last save, ``pressure_map_early`` of
         the first after the beginning, ``pressure_sections``, ``NAME_along``
         and ``NAME_across`` of each worn body NAME, or ``NAME_groove`` of a
-        swept one, ``worn_section``, ``wear_history`` and ``contact_history``;
+        swept one, ``NAME_height_map`` and ``NAME_material_ratio`` of each rough
+        one, ``worn_section``, ``wear_history`` and ``contact_history``;
         besides those of the plugins of the result's models.
 
     Raises
@@ -96,6 +99,11 @@ def _pictures(result: Result) -> dict[str, Callable[[], Figure]]:
         else:
             pictures[f"{name}_along"] = partial(body_profiles, result, name, 0)
             pictures[f"{name}_across"] = partial(body_profiles, result, name, 1)
+    for name in rough_bodies(result) if count > 1 else ():
+        # A scar of a few cells has no relief.
+        if np.isfinite(reliefs(result, name, -1).scar).any():
+            pictures[f"{name}_height_map"] = partial(height_map, result, name)
+            pictures[f"{name}_material_ratio"] = partial(material_ratio_curves, result, name)
     if worn:
         pictures["worn_section"] = partial(worn_section, result)
     history = result.table("history")
