@@ -66,6 +66,17 @@ def test_every_number_has_a_checksum_for_other_programs(path):
         assert all(file[name].fletcher32 for name in names)
 
 
+def test_a_column_that_a_file_lacks_is_nan():
+    image = made().image()
+    with h5py.File(image, "r+") as file:
+        del file["plastic_area"], file["history_plastic_area"]
+    with Result(image, "older.h5") as result:
+        for table in ("saves", "history"):
+            columns = result.table(table)
+            assert np.isnan(columns["plastic_area_m2"]).all()
+            assert np.isfinite(columns["contact_area_m2"]).all()
+
+
 def test_the_result_says_what_made_it(path):
     with Result.open(path) as result:
         made = result.provenance
