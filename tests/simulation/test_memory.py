@@ -35,6 +35,8 @@ MEASURE = """
     if case == "flat punch":
         bodies = [named(n, flat(), steel(), archard()) for n in "ab"]
         parts |= dict(bodies=bodies, ends_at_window=True)
+    if case == "resolved":
+        parts["kinematics"] = motion(duration=2, positions=17)
     def most():
         # Not ru_maxrss, which begins with that of the process this one was forked from.
         lines = open("/proc/self/status").read().splitlines()
@@ -44,13 +46,13 @@ MEASURE = """
     Simulation(model.case).run(sys.argv[3]).close()
     peak = most()
     plastic = model.system.cap is not None
-    needed = memory_needed(model.case, plastic=plastic)
+    needed = memory_needed(model.case, model.exposures, plastic=plastic)
     print(json.dumps([1024 * (peak - first), needed]))
 """
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("case", ["ball", "periodic", "plastic", "flat punch"])
+@pytest.mark.parametrize("case", ["ball", "periodic", "plastic", "flat punch", "resolved"])
 def test_the_estimate_is_above_the_peak_and_not_far(case, tmp_path):
     script = [sys.executable, "-c", textwrap.dedent(MEASURE), case, "320", str(tmp_path / "r.h5")]
     done = subprocess.run(script, cwd=TESTS, capture_output=True, text=True, check=True)
@@ -75,7 +77,7 @@ def test_more_than_there_is_is_refused_with_the_estimate(tight):
 
 def test_the_file_that_is_made_in_memory_counts():
     few, many = small(save_times=()), small(save_times=tuple(range(1, 101)))
-    sizes = [memory_needed(model.case, plastic=False) for model in (few, many)]
+    sizes = [memory_needed(model.case, model.exposures, plastic=False) for model in (few, many)]
     # Of each save the pressure, and the wear and plastic depth of two bodies.
     cells = few.grid.cells[0] * few.grid.cells[1]
     assert sizes[1] - sizes[0] == 100 * 5 * 8 * cells

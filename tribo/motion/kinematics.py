@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
+from typing import Self
 
 from tribo.component import Component
 from tribo.core.grid import Grid
@@ -61,6 +62,13 @@ class Kinematics(Component):
             The window.
         """
         return [Position(speeds=self.speeds())]
+
+    def averaged(self) -> Self:
+        """Return the motion with an average in place of positions, to estimate with.
+
+        Itself, unless overridden.
+        """
+        return self
 
     @abstractmethod
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:

@@ -129,6 +129,10 @@ class Reciprocating(Kinematics):
             for share, speed in zip(stroke.shares, speeds, strict=True)
         ]
 
+    def averaged(self) -> Self:
+        """Return the motion with the track average."""
+        return self.model_copy(update={"positions": "average", "allow_short_stroke": True})
+
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
         """Return a track as long as the stroke for the swept body, or its rows along the stroke."""
         if self.positions == "average":

@@ -45,7 +45,7 @@ def assemble(case: Case) -> Model:
         cycle = motion.cycle(grid)
     cap, share = _plastic(bodies, case.contact)
     # Before the first array is made.
-    check_memory(grid, memory_needed(case, plastic=cap is not None))
+    check_memory(grid, memory_needed(case, exposures, plastic=cap is not None))
     surfaces, laws = {}, {}
     for name, body in bodies.items():
         with located(f"bodies.{name}.surface"):

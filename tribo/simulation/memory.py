@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import psutil
@@ -10,6 +10,9 @@ import psutil
 from tribo.case import Case
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
+from tribo.simulation.guards import GuardedExposure
+
+Exposures = Mapping[str, GuardedExposure]
 
 FIELDS = 60
 """Arrays of the window's size that a run holds at its peak; 56 were measured."""
@@ -17,11 +20,13 @@ FIELDS_IF_PLASTIC = 16
 """What yielding takes besides; 14 were measured."""
 FIELDS_PER_FIELD = 8
 """What each state field of a law, or each field of an effect, takes besides; 7 were measured."""
+FIELDS_PER_POSITION = 34
+"""What each position of a resolved cycle takes; 27 were measured, and 30 where bodies yield."""
 BESIDES = 16 * 2.0**20
 """What does not grow with the grid, in bytes; 10 MiB were measured."""
 
 
-def memory_needed(case: Case, *, plastic: bool) -> float:
+def memory_needed(case: Case, exposures: Exposures, *, plastic: bool) -> float:
     """Return the most memory that a run takes beyond what the process has, in bytes.
 
     `plastic` is whether a body may yield.
@@ -29,11 +34,15 @@ def memory_needed(case: Case, *, plastic: bool) -> float:
     fields = sum(len(body.wear.state_fields) for body in case.bodies.values() if body.wear)
     fields += len(case.bodies) * sum(len(effect.provides) for effect in case.effects)
     arrays = FIELDS + FIELDS_IF_PLASTIC * plastic + FIELDS_PER_FIELD * fields
+    positions = max(len(exposure.starts or (0,)) for exposure in exposures.values())
+    if positions > 1:
+        arrays += FIELDS_PER_POSITION * positions
+    window = 8.0 * case.grid.cells[0] * case.grid.cells[1]
     # At its end a run makes its file in memory.
-    return BESIDES + 8.0 * case.grid.cells[0] * case.grid.cells[1] * arrays + size_of_fields(case)
+    return BESIDES + window * arrays + size_of_fields(case, exposures)
 
 
-def size_of_fields(case: Case) -> float:
+def size_of_fields(case: Case, exposures: Exposures) -> float:
     """Return the size of all fields that a result keeps, before they are compressed, in bytes."""
     bodies = case.bodies.values()
     states = {field for body in bodies if body.wear for field in body.wear.state_fields}
@@ -41,7 +50,11 @@ def size_of_fields(case: Case) -> float:
     # The pressure, and for each body wear, plastic depth and what its models keep.
     each = 1 + len(bodies) * (2 + effects + len(states))
     saves = 2 + len(case.output.save_times)
-    return 8.0 * case.grid.cells[0] * case.grid.cells[1] * (len(bodies) + saves * each)
+    nx, ny = case.grid.cells
+    # And all bodies' rows along a track that is longer than the window.
+    longest = max(exposure.rows for exposure in exposures.values())
+    track = len(bodies) * longest if longest > nx else 0
+    return 8.0 * ny * (nx * len(bodies) + saves * (nx * each + track))
 
 
 def memory_left() -> tuple[float, str]:

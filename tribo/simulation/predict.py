@@ -141,8 +141,8 @@ def predict(model: Model) -> Prediction:
         last=last,
         window_holds=holds,
         limitation=coarse.limitation,
-        memory=memory_needed(model.case, plastic=model.system.cap is not None),
-        file_size=BARE_FILE + size_of_fields(model.case),
+        memory=memory_needed(model.case, model.exposures, plastic=model.system.cap is not None),
+        file_size=BARE_FILE + size_of_fields(model.case, model.exposures),
         facts={place: stated for place, stated in facts.items() if stated},
         problems=tuple(problem for problem in problems if problem is not None),
         exit_code=next((code for code, text in stopping if text is not None and code), 0),
@@ -195,7 +195,8 @@ def _coarsened(model: Model, margin: float) -> Model:
     nx, ny = (max(8, 2 * round(0.5 * COARSE * size / largest)) for size in model.grid.size)
     lx, ly = (margin * size for size in model.grid.size)
     grid = Grid((lx, ly), (nx, ny), ends_at_window=True)
-    return assemble(varied(model.case, grid=grid, stepping=LOOSE, output=Output()))
+    changes = {"kinematics": model.case.kinematics.averaged(), "stepping": LOOSE}
+    return assemble(varied(model.case, grid=grid, output=Output(), **changes))
 
 
 def _coarse_run(model: Model) -> CoarseRun:
