@@ -49,6 +49,7 @@ class DcFft(ContactSolver):
 
     accepts_wear_compliance: ClassVar[bool] = True
     honours_cap: ClassVar[bool] = True
+    mirrors: ClassVar[bool] = True
 
     def check(self, system: ContactSystem) -> None:
         """Raise `CaseError` if the window cannot bear the load at the pressure cap."""

@@ -21,6 +21,9 @@ class ContactSolver(Component):
     periodic: ClassVar[bool] = False
     """Whether the contact repeats with the window, so that it may reach the window's edge."""
 
+    mirrors: ClassVar[bool] = False
+    """Whether a problem mirrored along x has the mirrored solution: it is not solved anew then."""
+
     plasticity: bool = True
     """Whether the pressure is limited to the hardness of the softer body; `system.cap` is None
     where it is not."""

@@ -25,7 +25,7 @@ from tribo.stepping.step import (
     moment_after,
     rested,
     rests,
-    solve,
+    solve_cycle,
     start_sliding,
     wear_compliance,
     worn_bodies,
@@ -105,15 +105,13 @@ class Explicit(Scheme):
         worn = worn_depths(model, rates, increment)
         law = law_states_after(model, law_states(state), rates, increment)
         bodies = worn_bodies(state, worn, law)
-        contacts = [
-            solve(model, geometry(model, bodies, position), None, start)
-            for position, start in enumerate(_extrapolated(state))
-        ]
+        gaps = [geometry(model, bodies, position) for position in range(len(model.cycle))]
+        contacts, solves = solve_cycle(model, gaps, [None] * len(gaps), _extrapolated(state))
         kept = replace(
             state, rates=(), invariants=wear_balance(model, worn, rates, increment, state)
         )
         iterations = sum(contact.iterations for contact in contacts)
-        return accepted(model, kept, bodies, contacts, moment, len(contacts), iterations)
+        return accepted(model, kept, bodies, contacts, moment, solves, iterations)
 
     def _instability(self, model: Model, state: State, moment: Moment) -> str | None:
         """Return a warning of a step that is beyond the limit where the case allows it.

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 # Each pass is one warm solve; a groove in a much softer body takes over a thousand.
 SETTLE_PASSES = 5000
 SETTLED = 1e-6
+MIRRORED = 1e-12
+"""Of the range of the gap: by less two positions may differ that mirror each other."""
 SMALLEST = 1e-12
 """Of the distance until the next stop: a shorter step would drown in rounding."""
 
@@ -90,6 +92,56 @@ def solve(
 ) -> ContactSolution:
     """Solve the contact of the case at a gap, shape (nx, ny), in m."""
     return model.solver.solve(ContactProblem(model.system, gap, model.system.load, wear), start)
+
+
+def solve_cycle(
+    model: Model,
+    gaps: Sequence[Array],
+    wear: Sequence[WearCompliance | None],
+    starts: Sequence[ContactSolution],
+) -> tuple[list[ContactSolution], int]:
+    """Solve the contact at each position of a cycle, from gaps of shape (nx, ny), in m.
+
+    A position that mirrors another along x, as on a stroke of smooth bodies, takes its solution.
+
+    Returns
+    -------
+    list of ContactSolution
+        By position.
+    int
+        How many were solved.
+    """
+    contacts: list[ContactSolution] = []
+    solves = 0
+    for position, (gap, compliance, start) in enumerate(zip(gaps, wear, starts, strict=True)):
+        other = len(gaps) - 1 - position
+        if (
+            other < position
+            and model.contact.mirrors
+            and _mirrors(gap, gaps[other])
+            and _compliance_mirrors(compliance, wear[other])
+        ):
+            contacts.append(_mirrored(contacts[other]))
+        else:
+            contacts.append(solve(model, gap, compliance, start))
+            solves += 1
+    return contacts, solves
+
+
+def _mirrors(field: Array, other: Array) -> bool:
+    least = MIRRORED * float(np.ptp(field))
+    return bool(np.max(np.abs(field[::-1] - other)) <= least)
+
+
+def _compliance_mirrors(one: WearCompliance | None, other: WearCompliance | None) -> bool:
+    if one is None or other is None:
+        return one is other
+    return _mirrors(one.local, other.local) and bool(np.all(one.swept == other.swept))
+
+
+def _mirrored(contact: ContactSolution) -> ContactSolution:
+    pressure, overlap = contact.pressure[::-1].copy(), contact.overlap[::-1].copy()
+    return replace(contact, pressure=pressure, overlap=overlap, iterations=0)
 
 
 def moment_after(state: State, increment: float, time: float) -> Moment:
@@ -243,19 +295,17 @@ def _settle(model: Model, state: State) -> State:
             name: replace(body, plastic=_drawn_out(model, name, body.plastic))
             for name, body in state.bodies.items()
         }
-        contacts = tuple(
-            solve(model, geometry(model, drawn, position), None, contact)
-            for position, contact in enumerate(state.contacts)
-        )
+        gaps = [geometry(model, drawn, position) for position in range(len(model.cycle))]
+        contacts, solves = solve_cycle(model, gaps, [None] * len(gaps), state.contacts)
         deepest = max(float(np.max(body.plastic)) for body in drawn.values())
         still = max(float(np.max(contact.overlap)) for contact in contacts)
         settled = still <= SETTLED * deepest
         state = replace(
             state,
             bodies=drawn if settled else _yielded(model, drawn, contacts),
-            contacts=contacts,
+            contacts=tuple(contacts),
             rates=(),
-            contact_solves=state.contact_solves + len(contacts),
+            contact_solves=state.contact_solves + solves,
             solver_iterations=state.solver_iterations + sum(c.iterations for c in contacts),
         )
         if settled:
