@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 SETTLE_PASSES = 5000
 SETTLED = 1e-6
 MIRRORED = 1e-12
-"""Of the range of the gap: by less two positions may differ that mirror each other."""
+"""Relative difference below which two positions mirror each other: rounding."""
 SMALLEST = 1e-12
 """Of the distance until the next stop: a shorter step would drown in rounding."""
 
@@ -129,14 +129,16 @@ def solve_cycle(
 
 
 def _mirrors(field: Array, other: Array) -> bool:
-    least = MIRRORED * float(np.ptp(field))
+    least = MIRRORED * float(np.max(np.abs(field)))
     return bool(np.max(np.abs(field[::-1] - other)) <= least)
 
 
 def _compliance_mirrors(one: WearCompliance | None, other: WearCompliance | None) -> bool:
     if one is None or other is None:
         return one is other
-    return _mirrors(one.local, other.local) and bool(np.all(one.swept == other.swept))
+    return _mirrors(one.local, other.local) and np.allclose(
+        one.swept, other.swept, rtol=MIRRORED, atol=0
+    )
 
 
 def _mirrored(contact: ContactSolution) -> ContactSolution:
