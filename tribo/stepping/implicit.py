@@ -11,13 +11,13 @@ import numpy as np
 from pydantic import Field
 
 from tribo.core.arrays import Array
-from tribo.core.contact import ContactSolution
+from tribo.core.contact import ContactSolution, WearCompliance
 from tribo.core.errors import BadValues, NumericalError, PluginError
 from tribo.core.state import State
 from tribo.core.units import Quantity
 from tribo.stepping.invariants import wear_balance
 from tribo.stepping.mixing import Mixing
-from tribo.stepping.rates import LawStates, Moment, law_states, wear_rates
+from tribo.stepping.rates import CycleRates, LawStates, Moment, law_states, wear_rates
 from tribo.stepping.repeated import check_repeatable
 from tribo.stepping.scheme import Scheme
 from tribo.stepping.step import (
@@ -47,6 +47,8 @@ little at the default."""
 LATE = 0.003
 """Depth of a step, of the depth worn so far, below which its volume need not be as exact."""
 SAFETY = 0.9
+MIXED = 3
+"""Passes of a resolved cycle that are mixed; more were not found to save any."""
 SHRINK, GROW = 0.2, 2.5
 MAX_REJECTIONS = 40
 
@@ -84,6 +86,21 @@ class Errors:
             1 / self.volume if self.volume > 0 else GROW,
         )
         return min(GROW, max(SHRINK, wanted))
+
+
+@dataclass(frozen=True)
+class Guess:
+    """What a step would wear if its contacts were these.
+
+    `worn` and `law` have the depth and the state of the law by body, on the body's surface;
+    `depths` what they add to the gap at each position, shape (nx, ny), in m.
+    """
+
+    contacts: Sequence[ContactSolution]
+    rates: CycleRates
+    worn: Mapping[str, Array]
+    law: LawStates
+    depths: Sequence[Array]
 
 
 class Implicit(Scheme):
@@ -177,39 +194,46 @@ class Implicit(Scheme):
             If the passes or a solve do not converge.
         """
         moment = moment_after(state, increment, time)
-        cycle = range(len(model.cycle))
-        base = [geometry(model, state.bodies, position) for position in cycle]
-        dx = model.grid.spacing[0]
+        resolved = len(model.cycle) > 1
+        # One position alone converges fast by the slope of its law.
+        mixing = Mixing(MIXED if resolved else 0)
+        tolerance = self.cycle_tolerance if resolved else self.nonlinear_tolerance
+        base = [geometry(model, state.bodies, position) for position in range(len(model.cycle))]
         before = law_states(state)
-        law, contacts = before, list(state.contacts)
-        tolerance = self.nonlinear_tolerance if len(cycle) == 1 else self.cycle_tolerance
-        passes = solves = iterations = 0
-        implied: list[Array] = []
-        remainder: Array | None = None
-        mixing = Mixing()
-        forward: dict[str, Array] = {}
-        asked_again = False
-        mismatch = drift = np.inf
-        rates = state.rates
+        rates = state.rates or wear_rates(model, state.contacts, before, moment)
+        guess = _guess(model, before, state.contacts, rates, increment)
+        forward = guess.worn
+        law, passes, solves, iterations = before, 0, 0, 0
         while True:
-            if implied or not rates:
+            gaps, compliances = _linearised(model, base, guess, mixing, increment)
+            try:
+                contacts, solved = solve_cycle(model, gaps, compliances, guess.contacts)
+            except PluginError:
+                raise
+            except NumericalError as error:
+                raise StepRejected(str(error)) from error
+            implied = [
+                gap - unworn + compliance.depth(contact.pressure, model.grid.spacing[0])
+                for gap, unworn, compliance, contact in zip(
+                    gaps, base, compliances, contacts, strict=True
+                )
+            ]
+            passes, solves = passes + 1, solves + solved
+            iterations += sum(contact.iterations for contact in contacts)
+            law = guess.law
+            for _ in range(2):
                 rates = wear_rates(model, contacts, law, moment)
-            worn = worn_depths(model, rates, increment)
-            settled = law_states_after(model, before, rates, increment)
-            depths = [lost(model, worn, position) for position in cycle]
-            if implied:
-                off = [np.abs(depth - guess) for depth, guess in zip(depths, implied, strict=True)]
-                mismatch = _largest(off) if len(cycle) == 1 else _loaded_mean(model, contacts, off)
-                drift = _largest_change(law, settled)
-                if mismatch <= tolerance * _largest(depths):
-                    if drift <= tolerance:
-                        break
-                    if not asked_again:
-                        # The law may wear the same at the state it has now come to: no solve then.
-                        law, asked_again = settled, True
-                        continue
-            else:
-                forward = worn
+                guess = _guess(model, before, contacts, rates, increment)
+                off = [np.abs(depth - d) for depth, d in zip(guess.depths, implied, strict=True)]
+                mismatch = _loaded_mean(model, contacts, off) if resolved else _largest(off)
+                drift = _largest_change(law, guess.law)
+                met = mismatch <= tolerance * _largest(guess.depths)
+                if not met or drift <= tolerance:
+                    break
+                # The law may wear the same at the state it has now come to: no solve then.
+                law = guess.law
+            if met and drift <= tolerance:
+                break
             if passes == self.max_passes:
                 raise StepRejected(
                     f"the implicit step of {increment:.3g} m at {state.distance:.6g} m did not "
@@ -217,45 +241,12 @@ class Implicit(Scheme):
                     f"state of a law by {drift:.2g} of its largest; raise stepping.max_passes or "
                     "lower stepping.pressure_tolerance"
                 )
-            asked_again = False
-            compliances = [
-                wear_compliance(model, of_bodies, contact.pressure, increment)
-                for of_bodies, contact in zip(rates, contacts, strict=True)
-            ]
-            beyond = np.stack(
-                [
-                    depth - compliance.depth(contact.pressure, dx)
-                    for depth, compliance, contact in zip(
-                        depths, compliances, contacts, strict=True
-                    )
-                ]
-            )
-            # One position alone converges fast by the slope of its law.
-            if remainder is None or len(cycle) == 1:
-                remainder = beyond
-            else:
-                remainder = mixing.next(remainder, beyond)
-            try:
-                gaps = [base[position] + remainder[position] for position in cycle]
-                contacts, solved = solve_cycle(model, gaps, compliances, contacts)
-            except PluginError:
-                raise
-            except NumericalError as error:
-                raise StepRejected(str(error)) from error
-            implied = [
-                remainder[position] + compliances[position].depth(contact.pressure, dx)
-                for position, contact in enumerate(contacts)
-            ]
-            iterations += sum(contact.iterations for contact in contacts)
-            solves += solved
-            law = settled
-            passes += 1
-        bodies = worn_bodies(state, worn, settled)
+        bodies = worn_bodies(state, guess.worn, guess.law)
         # Set first: settling a groove leaves the pressure that these rates belong to.
         kept = replace(
             state,
             rates=rates,
-            invariants=wear_balance(model, worn, rates, increment, state),
+            invariants=wear_balance(model, guess.worn, rates, increment, state),
         )
         after = accepted(model, kept, bodies, contacts, moment, solves, iterations)
         return Trial(after, forward)
@@ -318,6 +309,39 @@ class Implicit(Scheme):
             return remaining
         # Two equal steps rather than a full one and a sliver.
         return 0.5 * remaining if remaining < 2 * increment else increment
+
+
+def _guess(
+    model: Model,
+    before: LawStates,
+    contacts: Sequence[ContactSolution],
+    rates: CycleRates,
+    increment: float,
+) -> Guess:
+    worn = worn_depths(model, rates, increment)
+    law = law_states_after(model, before, rates, increment)
+    depths = [lost(model, worn, position) for position in range(len(contacts))]
+    return Guess(contacts, rates, worn, law, depths)
+
+
+def _linearised(
+    model: Model, base: Sequence[Array], guess: Guess, mixing: Mixing, increment: float
+) -> tuple[list[Array], list[WearCompliance]]:
+    """Return gap and wear compliance at each position: together the wear of `guess` there."""
+    dx = model.grid.spacing[0]
+    compliances = [
+        wear_compliance(model, of_bodies, contact.pressure, increment)
+        for of_bodies, contact in zip(guess.rates, guess.contacts, strict=True)
+    ]
+    beyond = [
+        depth - compliance.depth(contact.pressure, dx)
+        for depth, compliance, contact in zip(
+            guess.depths, compliances, guess.contacts, strict=True
+        )
+    ]
+    remainders = mixing.next(np.stack(beyond))
+    gaps = [unworn + remainder for unworn, remainder in zip(base, remainders, strict=True)]
+    return gaps, compliances
 
 
 def _first_increment(model: Model, state: State, remaining: float) -> float:
