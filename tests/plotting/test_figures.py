@@ -18,7 +18,7 @@ OVER_TIME = ["wear_history", "contact_history"]
 WORN = ["disk_groove", "worn_section"]
 BALL = ["ball_along", "ball_across"]
 RELIEF = ["ball_height_map", "ball_material_ratio"]
-ROUGH = {"relief": 2e-7}
+ROUGH = {"relief": 2e-7, "cap": 4e8}
 COARSE = {**ROUGH, "grid": Grid((2e-3, 1.6e-3), (10, 8)), "times": (0.0, 200.0)}
 EARLY = [CONTACT[0], CONTACT[2]]
 INTERRUPTED = {"times": (0.0, 123.4567), "status": "interrupted"}
@@ -60,8 +60,8 @@ def test_the_pictures_are_images_of_the_width_of_a_column(tmp_path):
             [*CONTACT, *BALL, "disk_along", "disk_across", "worn_section", *OVER_TIME],
         ),
         (INDENTED, [*EARLY, *BALL, *WORN]),
-        (COARSE, [*EARLY, *BALL, *WORN, *OVER_TIME]),
-        (ROUGH, [*CONTACT, *BALL, "disk_groove", *RELIEF, "worn_section", *OVER_TIME]),
+        (COARSE, [*EARLY, *BALL, *WORN, *OVER_TIME, "real_contact"]),
+        (ROUGH, [*CONTACT, *BALL, WORN[0], *RELIEF, WORN[1], *OVER_TIME, "real_contact"]),
     ],
 )
 def test_each_result_gets_the_pictures_that_make_sense(changes, expected, monkeypatch, tmp_path):
@@ -69,7 +69,7 @@ def test_each_result_gets_the_pictures_that_make_sense(changes, expected, monkey
     assert save_figures(made(**changes), tmp_path) == expected
 
 
-UNITS = tuple(f"({unit})" for unit in ("mm", "µm", "nm", "pm", "MPa", "s", "mm³", "mg", "%"))
+UNITS = tuple(f"({unit})" for unit in ("mm", "µm", "nm", "pm", "MPa", "s", "mm³", "mg", "%", "mm²"))
 LAID_OUT = {
     "interrupted": INTERRUPTED,
     "indented": INDENTED,

@@ -5,6 +5,7 @@ import pytest
 from made_results import made
 
 from tribo.lab.running_in import reliefs
+from tribo.plotting.history import real_contact
 from tribo.plotting.relief import height_map, material_ratio_curves
 
 
@@ -35,3 +36,13 @@ def test_material_ratio_curves_fall_through_all_heights(rough):
             (1e9 * np.nanmax(relief), 1e9 * np.nanmin(relief))
         )
         assert 0 < ratio[0] < 1 < 99 < ratio[-1] < 100
+
+
+def test_the_real_contact_is_drawn_with_its_part_at_the_hardness():
+    result = made(relief=2e-7, cap=4e8)
+    (axes,) = real_contact(result).axes
+    history = result.table("history")
+    for line, column in zip(axes.lines, ("contact_area_m2", "plastic_area_m2"), strict=True):
+        np.testing.assert_allclose(line.get_ydata(), 1e6 * history[column])
+    (line,) = real_contact(made()).axes[0].lines
+    assert line.get_label() == "all"

@@ -1,16 +1,20 @@
 """Pictures of a result, for print and for notebooks."""
 
 from tribo.plotting.figures import save_figures
-from tribo.plotting.history import contact_history, wear_history
+from tribo.plotting.history import contact_history, real_contact, wear_history
 from tribo.plotting.pressure import pressure_map, pressure_sections
 from tribo.plotting.profiles import body_profiles, groove, worn_section
+from tribo.plotting.relief import height_map, material_ratio_curves
 
 __all__ = [
     "body_profiles",
     "contact_history",
     "groove",
+    "height_map",
+    "material_ratio_curves",
     "pressure_map",
     "pressure_sections",
+    "real_contact",
     "save_figures",
     "wear_history",
     "worn_section",

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from tribo.core.errors import CaseError
 from tribo.core.files import writing
 from tribo.lab.running_in import reliefs, rough_bodies
-from tribo.plotting.history import contact_history, wear_history
+from tribo.plotting.history import contact_history, real_contact, wear_history
 from tribo.plotting.pressure import pressure_map, pressure_sections
 from tribo.plotting.profiles import body_profiles, groove, worn_section
 from tribo.plotting.relief import height_map, material_ratio_curves
@@ -49,8 +49,8 @@ def save_figures(result: Result, folder: Path, suffix: str = "png") -> list[Path
         the first after the beginning, ``pressure_sections``, ``NAME_along``
         and ``NAME_across`` of each worn body NAME, or ``NAME_groove`` of a
         swept one, ``NAME_height_map`` and ``NAME_material_ratio`` of each rough
-        one, ``worn_section``, ``wear_history`` and ``contact_history``;
-        besides those of the plugins of the result's models.
+        one, ``worn_section``, ``wear_history``, ``contact_history`` and, of rough
+        bodies, ``real_contact``; besides those of the plugins of the result's models.
 
     Raises
     ------
@@ -99,7 +99,8 @@ def _pictures(result: Result) -> dict[str, Callable[[], Figure]]:
         else:
             pictures[f"{name}_along"] = partial(body_profiles, result, name, 0)
             pictures[f"{name}_across"] = partial(body_profiles, result, name, 1)
-    for name in rough_bodies(result) if count > 1 else ():
+    rough = rough_bodies(result)
+    for name in rough if count > 1 else ():
         # A scar of a few cells has no relief.
         if np.isfinite(reliefs(result, name, -1).scar).any():
             pictures[f"{name}_height_map"] = partial(height_map, result, name)
@@ -111,4 +112,6 @@ def _pictures(result: Result) -> dict[str, Callable[[], Figure]]:
         pictures["wear_history"] = partial(wear_history, result)
     if len(history["time_s"]) > 1:
         pictures["contact_history"] = partial(contact_history, result)
+        if rough:
+            pictures["real_contact"] = partial(real_contact, result)
     return pictures

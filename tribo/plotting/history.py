@@ -117,6 +117,24 @@ def contact_history(result: Result) -> Figure:
     return figure
 
 
+def real_contact(result: Result) -> Figure:
+    """Draw the real contact area against time, and the part of it at the hardness."""
+    number_of_saves(result)
+    history, unit = result.table("history"), time_unit(result.times)
+    areas = {"all": history["contact_area_m2"], "at the hardness": history["plastic_area_m2"]}
+    with house_style():
+        figure = new_figure(55.0)
+        axes = figure.subplots()
+        for (label, area), look in zip(areas.items(), (UNDER, OVER), strict=True):
+            if np.any(area > 0):
+                axes.plot(history["time_s"] / size(unit), area / size("mm²"), label=label, **look)
+        axes.set_ylabel("Real contact area (mm²)")
+        axes.set_xlabel(f"Time ({unit})")
+        _from_zero(axes)
+        axes.legend(loc="best")
+    return figure
+
+
 def _steps(width: Array, cell: float) -> Mask:
     """Return the moments between which a line is nowhere more than a cell from a width.
 
