@@ -56,16 +56,16 @@ def test_a_scar_has_its_unworn_valleys_too():
 def test_running_in_polishes_the_scar_and_leaves_the_rest(path):
     with tribo.open(path) as result:
         assert rough_bodies(result) == ["ball", "disk"]
-        for name in ("ball", "disk"):
-            first, last = (worn_roughness(result, name, save) for save in (0, 1))
+        for body in map(result.body, result.body_names):
+            first, last = (worn_roughness(result, body, save) for save in (0, 1))
             # Before any wear the surface under the contact is the unworn one.
             assert first.scar == first.unworn
             assert last.scar.Sq_m < last.unworn.Sq_m
             assert last.scar.Sz_m < last.unworn.Sz_m
             # Nothing touches the rest, 50 nm rough in all.
             assert last.beside.Sq_m == pytest.approx(50e-9, rel=0.2, abs=0)
-            worn = scar_cells(result, name, 1)
-            height = np.where(worn, result.body(name).surface(1), np.nan)
+            worn = scar_cells(result, body, 1)
+            height = np.where(worn, body.surface(1), np.nan)
             assert last.scar == roughness(height, 4)
 
 
@@ -73,7 +73,7 @@ def test_a_smooth_scar_is_not_rough():
     result = made()
     assert rough_bodies(result) == []
     for name in ("ball", "disk"):
-        measured = worn_roughness(result, name, -1)
+        measured = worn_roughness(result, result.body(name), -1)
         # Of a ball worn flat, and a groove as round as it, the form is removed.
         assert measured.beside.Sq_m < 1e-9
         assert measured.scar.Sq_m < 5e-9

@@ -16,7 +16,7 @@ def rough():
 
 def test_height_maps_are_of_the_scar_before_and_after_in_one_scale(rough):
     maps = height_map(rough, "ball").axes
-    scar, unworn, _ = reliefs(rough, "ball", -1)
+    scar, unworn, _ = reliefs(rough, rough.body("ball"), -1)
     assert [axes.get_title(loc="left") for axes in maps] == ["ball, unworn", "ball, t = 3600 s"]
     for axes, relief in zip(maps, (unworn, scar), strict=True):
         (image,) = axes.images
@@ -29,7 +29,7 @@ def test_height_maps_are_of_the_scar_before_and_after_in_one_scale(rough):
 def test_material_ratio_curves_fall_through_all_heights(rough):
     (axes,) = material_ratio_curves(rough, "ball").axes
     assert [line.get_label() for line in axes.lines] == ["scar, 3600 s", "unworn", "beside"]
-    for line, relief in zip(axes.lines, reliefs(rough, "ball", -1), strict=True):
+    for line, relief in zip(axes.lines, reliefs(rough, rough.body("ball"), -1), strict=True):
         ratio, height = line.get_xydata().T
         assert np.all(np.diff(height) <= 0)
         assert (height[0], height[-1]) == pytest.approx(

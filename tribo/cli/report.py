@@ -194,7 +194,7 @@ def _roughness(result: Result, bodies: Sequence[str]) -> Table:
     """Set the roughness of rough bodies in their scars against what it was, and beside them."""
     table = titled("Roughness in nm, form removed", *(column[0] for column in ROUGHNESS))
     for body in bodies:
-        measured = worn_roughness(result, body, -1)
+        measured = worn_roughness(result, result.body(body), -1)
         for where, values in measured._asdict().items():
             cells = [(factor * getattr(values, key), form) for _, key, factor, form in ROUGHNESS]
             shown = [f"{cell:{form}}" if isfinite(cell) else NOTHING for cell, form in cells]

@@ -8,6 +8,7 @@ import numpy as np
 
 from tribo.core.arrays import Array, Mask
 from tribo.lab.roughness import Roughness, is_rough, parameters, without_form
+from tribo.result.body import BodyResult
 from tribo.result.export import profile
 from tribo.result.layout import TRACK
 from tribo.result.read import Result
@@ -25,7 +26,7 @@ WORN = 0.1
 
 
 class Worn(NamedTuple, Generic[T]):
-    """Something of a worn body in three places.
+    """What is measured of a worn body in three places.
 
     `scar` is of the surface in the scar, or in the contact where nothing is worn; `unworn` of what
     was there at first; `beside` of the surface outside of all wear.
@@ -36,28 +37,27 @@ class Worn(NamedTuple, Generic[T]):
     beside: T
 
 
-def worn_roughness(result: Result, name: str, save: int) -> Worn[Roughness]:
+def worn_roughness(result: Result, body: BodyResult, save: int) -> Worn[Roughness]:
     """Return the roughness of a body at a save; NaN where there are too few cells."""
-    return Worn(*map(parameters, reliefs(result, name, save)))
+    return Worn(*map(parameters, reliefs(result, body, save)))
 
 
-def reliefs(result: Result, name: str, save: int) -> Worn[Array]:
+def reliefs(result: Result, body: BodyResult, save: int) -> Worn[Array]:
     """Return the heights of a body at a save, form removed and NaN elsewhere, in m."""
-    body, scar = result.body(name), scar_cells(result, name, save)
-    surface = body.surface(save)
+    scar, surface = scar_cells(result, body, save), body.surface(save)
     gone = body.wear_depth[save] + body.plastic_depth[save]
     beside = ~outlined(scar | (gone > 0))
     places = (scar, surface), (scar, body.height), (beside, surface)
     return Worn(*(without_form(np.where(cells, z, np.nan), FORM) for cells, z in places))
 
 
-def scar_cells(result: Result, name: str, save: int) -> Mask:
+def scar_cells(result: Result, body: BodyResult, save: int) -> Mask:
     """Return the scar of a body at a save, shape (nx, ny), its unworn valleys included.
 
     It is the outline of the cells worn to a tenth of the largest depth; of those in contact, where
     nothing is worn.
     """
-    depth = result.field("wear_depth", save, name)
+    depth = body.wear_depth[save]
     deepest = float(np.max(depth))
     if deepest > 0:
         return outlined(depth >= WORN * deepest)
@@ -90,8 +90,9 @@ def worn_surfaces(result: Result, name: str) -> list[dict[str, Any]]:
     ``track_depth_m`` are the depth at y = 0 along its whole track.
     """
     rows: list[dict[str, Any]] = []
+    body = result.body(name)
     for save in range(len(result.times)):
-        scar, unworn, beside = worn_roughness(result, name, save)
+        scar, unworn, beside = worn_roughness(result, body, save)
         more = {"unworn": unworn._asdict(), "beside": beside._asdict()}
         rows.append({"roughness": scar._asdict() | more, **_track(result, name, save)})
     return rows

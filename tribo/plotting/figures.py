@@ -102,7 +102,7 @@ def _pictures(result: Result) -> dict[str, Callable[[], Figure]]:
     rough = rough_bodies(result)
     for name in rough if count > 1 else ():
         # A scar of a few cells has no relief.
-        if np.isfinite(reliefs(result, name, -1).scar).any():
+        if np.isfinite(reliefs(result, result.body(name), -1).scar).any():
             pictures[f"{name}_height_map"] = partial(height_map, result, name)
             pictures[f"{name}_material_ratio"] = partial(material_ratio_curves, result, name)
     if worn:

@@ -22,7 +22,7 @@ BESIDE: style.Look = {"color": "#b05a00", "linewidth": 1.2, "linestyle": (0.0, (
 def height_map(result: Result, name: str) -> Figure:
     """Draw the heights of a body in its scar, unworn and at the last save, form removed."""
     last = number_of_saves(result) - 1
-    scar, unworn, _ = reliefs(result, name, last)
+    scar, unworn, _ = reliefs(result, result.body(name), last)
     low, high = np.nanmin([scar, unworn]), np.nanmax([scar, unworn])
     unit = height_unit(max(abs(low), abs(high)))
     moments = "unworn", f"t = {time_labels(result.times)[last]}"
@@ -42,7 +42,7 @@ def material_ratio_curves(result: Result, name: str) -> Figure:
     That of its scar at the last save, of what was there at first, and of the surface beside.
     """
     last = number_of_saves(result) - 1
-    worn = reliefs(result, name, last)
+    worn = reliefs(result, result.body(name), last)
     labels = f"scar, {time_labels(result.times)[last]}", "unworn", "beside"
     looks = style.OVER, style.UNDER, BESIDE
     unit = height_unit(max(float(np.nanmax(np.abs(part))) for part in (worn.scar, worn.unworn)))
