@@ -173,7 +173,8 @@ class Reciprocating(Kinematics):
             f"mid-stroke, because tribo averages over the stroke ({1e3 * stroke:.3g} mm, {many} of "
             f"the {2e3 * half_width_x:.3g} mm contact); over the same sliding distance about "
             f"{100 * GOOD:.0f} % with a stroke of {1e3 * longer:.2g} mm "
-            f"(frequency {self.frequency * stroke / longer:.3g} Hz)"
+            f"(frequency {self.frequency * stroke / longer:.3g} Hz); or resolve the stroke: "
+            "kinematics.positions = 33"
         )
 
     def check_contact(self, half_width_x: float) -> None:
