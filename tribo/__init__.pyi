@@ -50,6 +50,7 @@ from tribo.motion.exposure import Track as Track
 from tribo.motion.kinematics import Kinematics as Kinematics
 from tribo.motion.measured import Measured as Measured
 from tribo.motion.reciprocating import Reciprocating as Reciprocating
+from tribo.motion.rotating import Rotating as Rotating
 from tribo.motion.unidirectional import Unidirectional as Unidirectional
 from tribo.observers.observer import Observer as Observer
 from tribo.registry.contributions import CaseTemplate as CaseTemplate

@@ -112,7 +112,7 @@ def test_a_path_that_is_none_is_refused(changes, words):
 def test_a_file_of_other_columns_is_refused(tmp_path, rows):
     file = tmp_path / "path.csv"
     file.write_text(rows, encoding="utf-8")
-    with pytest.raises(CaseError, match="two columns of numbers"):
+    with pytest.raises(ValueError, match="two columns of numbers"):
         Measured(path=file)
 
 
@@ -124,7 +124,6 @@ def run(**path):
     return small(grid=GRID, contact=foundation(), kinematics=kinematics)
 
 
-@pytest.mark.slow
 def test_a_body_wears_more_where_it_is_passed_more_often():
     cells = 4 * GRID.spacing[0]
     # Twice as often over one half of the stroke as over the other.
@@ -139,7 +138,6 @@ def test_a_body_wears_more_where_it_is_passed_more_often():
     assert disk[:22].sum() > 1.1 * disk[22:].sum()
 
 
-@pytest.mark.slow
 def test_saves_may_fall_into_rests():
     case = small(
         grid=GRID, contact=foundation(), kinematics=Measured(path=PATH, cycles=100, positions=9),

@@ -133,8 +133,8 @@ class Track(Exposure):
     ----------
     grid : Grid
         The window.
-    length : float
-        Track length ℓ, in m: the stroke, or the circumference.
+    length : float or ndarray, shape (ny,)
+        Track length ℓ, in m: the stroke, or the circumference, that of each row where they differ.
     shape_stays : bool, optional
         Whether the body turns, so that its shape stands still while its
         points pass: the disks of a twin-disk tester.
@@ -142,15 +142,15 @@ class Track(Exposure):
 
     swept = True
 
-    def __init__(self, grid: Grid, length: float, *, shape_stays: bool = False) -> None:
+    def __init__(self, grid: Grid, length: float | Array, *, shape_stays: bool = False) -> None:
         self._rows = grid.cells[1]
         self._dx, self._dy = grid.spacing
         self._length = length
         self.shape_stays = shape_stays
 
     @property
-    def length(self) -> float:
-        """Track length ℓ, in m."""
+    def length(self) -> float | Array:
+        """Track length ℓ, in m, of each row where they differ."""
         return self._length
 
     def average(self, rate: Array) -> Array:
@@ -163,9 +163,9 @@ class Track(Exposure):
         return np.asarray(np.max(field, axis=0, keepdims=True))
 
     def volume(self, depth: Array) -> float:
-        """Return the track length times the area of its cross-section, in m³."""
+        """Return the area of the track's cross-section times its length, row by row, in m³."""
         section = np.max(np.broadcast_to(depth, (depth.shape[0], self._rows)), axis=0)
-        return float(np.sum(section)) * self._dy * self._length
+        return float(np.sum(section * self._length)) * self._dy
 
     def compliance(self, derivative: Array, pressure: Array) -> WearCompliance:
         """Return the load-weighted mean derivative of each row as a swept compliance."""

@@ -8,6 +8,7 @@ from tribo.contact.periodic import Periodic
 from tribo.contact.winkler import Winkler
 from tribo.motion.measured import Measured
 from tribo.motion.reciprocating import Reciprocating
+from tribo.motion.rotating import Rotating
 from tribo.motion.unidirectional import Unidirectional
 from tribo.observers.progress import Progress
 from tribo.observers.recorder import Recorder
@@ -32,7 +33,7 @@ def tribo_components() -> tuple[type[Component], ...]:
     return (
         *(DcFft, Periodic, Winkler),
         *(Archard, Power),
-        *(Measured, Reciprocating, Unidirectional),
+        *(Measured, Reciprocating, Rotating, Unidirectional),
         *(Sphere, Paraboloid, Cylinder, Flat, Rough, Texture, Waves),
         *(Recorder, Progress),
     )

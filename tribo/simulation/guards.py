@@ -260,9 +260,18 @@ class GuardedMotion(Guard[Kinematics]):
                 f"{self} gave shares of the path that add up to {sum(shares):g}, not to 1"
             )
         return tuple(
-            Position(share, self._speeds(position.speeds))
+            Position(share, self._speeds(position.speeds), self._reach(position.reach, grid))
             for share, position in zip(shares, answer, strict=True)
         )
+
+    def _reach(self, answer: Array | None, grid: Grid) -> Array | None:
+        if answer is None:
+            return None
+        what = "a sliding distance of each row"
+        reach, least, _ = self.field(what, answer, grid.cells[1:])
+        if least <= 0:
+            raise BadValues(f"{self} gave {what} of which one is not positive ({least:.3g})")
+        return reach
 
     def _speeds(self, answer: Speeds | None) -> Speeds | None:
         if answer is None:

@@ -67,25 +67,25 @@ def wear_rates(
 def _rates_at(
     model: Model, position: int, contact: ContactSolution, law_states: LawStates, moment: Moment
 ) -> dict[str, WearRate]:
-    """Return the rates at a position: the mean over its speeds."""
+    """Return the rates at a position per metre of the motion: the mean over its speeds."""
     under = {
         name: {field: model.under(name, values, position) for field, values in of.items()}
         for name, of in law_states.items()
         if of
     }
-    speeds = model.cycle[position].speeds
-    if speeds is None:
-        return _rates_of(model, contact, under, moment)
+    place = model.cycle[position]
     rates: dict[str, WearRate] = {}
-    for speed, share in speeds:
+    for speed, share in place.speeds or [(moment.speed, 1.0)]:
         at_speed = _rates_of(model, contact, under, replace(moment, speed=speed))
         for name, rate in at_speed.items():
-            part = _times(share, rate)
+            part = rate if share == 1 else _times(share, rate)
             rates[name] = _sum(rates[name], part) if name in rates else part
-    return rates
+    if place.reach is None:
+        return rates
+    return {name: _times(place.reach, rate) for name, rate in rates.items()}
 
 
-def _times(share: float, rate: WearRate) -> WearRate:
+def _times(share: float | Array, rate: WearRate) -> WearRate:
     state = {name: share * values for name, values in rate.state_rates.items()}
     return WearRate(share * rate.depth_rate, share * rate.depth_slope, state)
 

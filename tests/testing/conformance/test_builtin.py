@@ -7,6 +7,7 @@ from tribo.contact.periodic import Periodic
 from tribo.contact.winkler import Winkler
 from tribo.motion.measured import Measured
 from tribo.motion.reciprocating import Reciprocating
+from tribo.motion.rotating import Rotating
 from tribo.motion.unidirectional import Unidirectional
 from tribo.observers.progress import Progress
 from tribo.observers.recorder import Recorder
@@ -25,6 +26,7 @@ from tribo.wear.power import Power
 
 REFERENCE = {"k": "3e-16 1/Pa", "reference_pressure": "1 GPa"}
 BACK_AND_FORTH = {"stroke": "2 mm", "frequency": "25 Hz"}
+ROUND = {"speed": "0.1 m/s", "track_radius": "16 mm", "distance": "10 m"}
 LAYER = {"thickness": 1e-4, "young": 1e10, "poisson": 0.3}
 
 test_archard = parametrize_checks(Archard, [{"k": "3e-16 1/Pa"}, {"K": 1e-6}])
@@ -49,9 +51,8 @@ test_measured = parametrize_checks(
         {"path": [(2, 0), (5, 3e-4), (6, 1e-4), (9, 7e-4)], "positions": "cells", "swept": "ball"},
     ],
 )
-test_unidirectional = parametrize_checks(
-    Unidirectional, [{"speed": "0.1 m/s", "track_radius": "16 mm", "distance": "10 m"}]
-)
+test_rotating = parametrize_checks(Rotating, [ROUND])
+test_unidirectional = parametrize_checks(Unidirectional, [ROUND])
 test_sphere = parametrize_checks(Sphere, [{"radius": "5 mm"}])
 test_paraboloid = parametrize_checks(Paraboloid, [{"radius_x": "5 mm", "radius_y": "10 mm"}])
 test_cylinder = parametrize_checks(Cylinder, [{"radius": "5 mm"}, {"radius": "5 mm", "axis": "x"}])

@@ -1,0 +1,64 @@
+"""A pin on a disk so small that its path is longer and faster away from the axis."""
+
+import numpy as np
+import pytest
+from paper_models import archard, flat, foundation, last, named, small, sphere, steel
+
+from tribo import CaseError, Grid, Rotating, Unidirectional
+
+K, LOAD, RADIUS = 3e-16, 100.0, 2e-3
+GRID = Grid((0.75e-3, 1e-3), (20, 25))
+RADII = RADIUS + GRID.mesh[1][0]
+
+
+def run(pin, worn=("pin", "disk"), motion=Rotating, ends_at_window=False, **end):
+    surfaces = {"pin": pin, "disk": flat()}
+    return small(
+        grid=GRID,
+        ends_at_window=ends_at_window,
+        bodies=[
+            named(name, surface, steel(), archard(K) if name in worn else None)
+            for name, surface in surfaces.items()
+        ],
+        contact=foundation(),
+        kinematics=motion(speed=0.1, **{"track_radius": RADIUS, **end}),
+    )
+
+
+def test_both_bodies_lose_what_their_points_slide():
+    # So short that the pressure stays as it is.
+    revolutions = 1e-4
+    state = last(run(sphere(), revolutions=revolutions))
+    (dx, _), p = GRID.spacing, state.contact.pressure
+    # A pin's point slides once round the axis in a revolution; a disk's once through the contact.
+    pin = revolutions * K * p * 2 * np.pi * RADII
+    disk = revolutions * K * np.sum(p, axis=0, keepdims=True) * dx
+    np.testing.assert_allclose(state.bodies["pin"].wear, pin, atol=1e-4 * pin.max())
+    np.testing.assert_allclose(state.bodies["disk"].wear, disk, atol=1e-4 * disk.max())
+
+
+def test_a_flat_pin_ends_under_a_pressure_that_falls_as_its_path_grows():
+    # Worn evenly, p r is the same everywhere, under the load.
+    model = run(flat(), worn=("pin",), distance=2000, ends_at_window=True)
+    state = last(model)
+    mean = LOAD / (GRID.size[0] * GRID.size[1])
+    even = mean / np.mean(1 / RADII) / RADII
+    assert even.max() > 1.2 * mean
+    np.testing.assert_allclose(state.contact.pressure, np.tile(even, (20, 1)), rtol=2e-3)
+    volume = np.sum(state.bodies["pin"].wear) * GRID.cell_area
+    at_first = K * LOAD * state.distance
+    assert volume == pytest.approx(at_first / (np.mean(1 / RADII) * RADIUS), rel=5e-3, abs=0)
+
+
+def test_far_from_the_axis_it_is_a_straight_track():
+    worn = [
+        last(run(sphere(), motion=motion, track_radius=1.0, distance=50)).bodies["disk"].wear
+        for motion in (Rotating, Unidirectional)
+    ]
+    np.testing.assert_allclose(worn[0], worn[1], atol=1e-3 * worn[0].max())
+
+
+def test_an_axis_in_the_window_is_refused():
+    motion = Rotating(speed=0.1, track_radius="0.5 mm", distance=1)
+    with pytest.raises(CaseError, match=r"kinematics\.track_radius: 0\.5 mm must be more than"):
+        small(grid=GRID, kinematics=motion)
