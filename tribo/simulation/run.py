@@ -198,9 +198,11 @@ class Simulation:
         snapshot = self._snapshot(state)
         info = self._info(snapshot if resumed else None, wall_time)
         reason = "failed"
+        begun = False
         try:
             with InterruptGuard() as guard:
                 audience.start(info)
+                begun = True
                 if not resumed:
                     _announce((), state.notices)
                     snapshot = self._with_effects(snapshot)
@@ -218,7 +220,7 @@ class Simulation:
             # For whoever opens the result: it says why it ends here.
             failed = snapshot.state.with_notice("failed", str(error))
             snapshot = replace(snapshot, state=failed)
-            if recorder.path:
+            if recorder.path and begun:
                 error.add_note(
                     f"{recorder.path} holds what was saved until then; 'tribo run' replaces it "
                     "with --force."
@@ -309,6 +311,8 @@ def _announce(before: Sequence[Notice], after: Sequence[Notice]) -> None:
 def _held(path: Path) -> str:
     """Return what an existing file is, as the end of a sentence."""
     with suppress(CaseError), Result.open(path) as result:
+        if result.status == "running":
+            return "is written by a run that goes on"
         if result.status != "done":
             return f"holds a run that is {result.status} (tribo resume {path} goes on with it)"
     return "exists"
