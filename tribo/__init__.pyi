@@ -71,6 +71,7 @@ from tribo.study.sweeping.sweep import Sweep as Sweep
 from tribo.study.sweeping.sweep import sweep as sweep
 from tribo.surfaces.cylinder import Cylinder as Cylinder
 from tribo.surfaces.flat import Flat as Flat
+from tribo.surfaces.height_map import HeightMap as HeightMap
 from tribo.surfaces.paraboloid import Paraboloid as Paraboloid
 from tribo.surfaces.rough import Rough as Rough
 from tribo.surfaces.sphere import Sphere as Sphere

@@ -7,6 +7,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+import numpy as np
+
+from tribo.core.arrays import Array
 from tribo.core.errors import OutputError
 
 
@@ -72,3 +75,28 @@ def wait_for_disk(path: Path) -> None:
         os.fsync(opened)
     finally:
         os.close(opened)
+
+
+def read_numbers(file: Path) -> Array:
+    """Return the numbers of a CSV file, with or without a header, or of a .npy file.
+
+    Raises
+    ------
+    ValueError
+        If there is no such file, or something else in it; the message says so.
+    """
+    if not file.is_file():
+        where = "" if file.is_absolute() else f" in {Path.cwd()}, where tribo was started"
+        raise ValueError(f"there is no file {file}{where}; correct path")
+    try:
+        if file.suffix == ".npy":
+            numbers = np.load(file, allow_pickle=False)
+        else:
+            numbers = np.genfromtxt(file, delimiter=",", ndmin=2, encoding="utf-8-sig")
+            if np.all(np.isnan(numbers[:1])):
+                numbers = numbers[1:]
+    except ValueError as error:
+        raise ValueError(f"{file} cannot be read as a table of numbers: {error}") from None
+    if numbers.dtype.kind not in "fiu" or not np.all(np.isfinite(numbers)):
+        raise ValueError(f"{file} has values that are not numbers, or are not finite")
+    return np.asarray(numbers, dtype=np.float64)

@@ -12,6 +12,7 @@ import numpy as np
 from pydantic import ConfigDict, Field, field_validator, model_validator
 
 from tribo.core.arrays import Array
+from tribo.core.files import read_numbers
 from tribo.core.grid import Grid
 from tribo.core.units import Quantity
 from tribo.motion.cycle import Position, Stroke, check_spacing, near
@@ -168,23 +169,11 @@ class Measured(Kinematics):
 
 
 def _read(file: Path) -> list[list[float]]:
-    """Return the rows of a CSV file, with or without a header, or of a .npy file."""
-    if not file.is_file():
-        where = "" if file.is_absolute() else f" in {Path.cwd()}, where tribo was started"
-        raise ValueError(f"there is no file {file}{where}; correct path")
-    try:
-        if file.suffix == ".npy":
-            rows = np.load(file, allow_pickle=False)
-        else:
-            rows = np.genfromtxt(file, delimiter=",", ndmin=2, encoding="utf-8-sig")
-    except ValueError as error:
-        raise ValueError(f"{file} cannot be read as two columns of numbers: {error}") from None
-    if rows.ndim == 2 and np.all(np.isnan(rows[:1])):
-        rows = rows[1:]
-    if rows.ndim != 2 or rows.shape[1] != 2 or not np.all(np.isfinite(rows)):
+    """Return the two columns of a file."""
+    rows = read_numbers(file)
+    if rows.ndim != 2 or rows.shape[1] != 2:
         raise ValueError(
             f"{file} must have two columns of numbers, time in s and position in m, separated by "
             f"commas and below one header at most, but has the shape {rows.shape}"
-            + ("" if np.all(np.isfinite(rows)) else " and values that are not numbers")
         )
     return [[float(time), float(place)] for time, place in rows]

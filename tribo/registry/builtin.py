@@ -17,6 +17,7 @@ from tribo.registry.hookspecs import hookimpl
 from tribo.result.export import export_csv
 from tribo.surfaces.cylinder import Cylinder
 from tribo.surfaces.flat import Flat
+from tribo.surfaces.height_map import HeightMap
 from tribo.surfaces.paraboloid import Paraboloid
 from tribo.surfaces.rough import Rough
 from tribo.surfaces.sphere import Sphere
@@ -34,7 +35,7 @@ def tribo_components() -> tuple[type[Component], ...]:
         *(DcFft, Periodic, Winkler),
         *(Archard, Power),
         *(Measured, Reciprocating, Rotating, Unidirectional),
-        *(Sphere, Paraboloid, Cylinder, Flat, Rough, Texture, Waves),
+        *(Sphere, Paraboloid, Cylinder, Flat, HeightMap, Rough, Texture, Waves),
         *(Recorder, Progress),
     )
 

@@ -15,6 +15,7 @@ from tribo.registry.kinds import KINDS
 from tribo.registry.registry import Registry
 from tribo.surfaces.cylinder import Cylinder
 from tribo.surfaces.flat import Flat
+from tribo.surfaces.height_map import HeightMap
 from tribo.surfaces.paraboloid import Paraboloid
 from tribo.surfaces.rough import Rough
 from tribo.surfaces.sphere import Sphere
@@ -57,6 +58,7 @@ test_sphere = parametrize_checks(Sphere, [{"radius": "5 mm"}])
 test_paraboloid = parametrize_checks(Paraboloid, [{"radius_x": "5 mm", "radius_y": "10 mm"}])
 test_cylinder = parametrize_checks(Cylinder, [{"radius": "5 mm"}, {"radius": "5 mm", "axis": "x"}])
 test_flat = parametrize_checks(Flat)
+test_array = parametrize_checks(HeightMap)
 test_rough = parametrize_checks(Rough)
 test_texture = parametrize_checks(Texture)
 test_waves = parametrize_checks(Waves)
