@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 from paper_models import archard, flat, foundation, motion, named, small, states, steel
 
-from tribo import Cylinder, Grid
+from tribo import Cylinder, Grid, Measured
+from tribo.simulation.assembly import assemble
+from tribo.simulation.predict import predict
 
 RADIUS, LINE_LOAD, K = 10e-3, 137e3, 1e-15
 DX = 20e-6
@@ -58,3 +60,15 @@ def test_steps_of_hundreds_of_cycles_come_out_of_the_error_control(worn):
     assert np.min(cycles) > 500
     assert np.median(cycles) > 3000
     assert len(steps) < 80
+
+
+@pytest.mark.parametrize("path", [None, [(0, 0), (0.02, 2 * DX), (0.04, 0)]])
+def test_check_estimates_the_worn_depth_and_blames_no_average(worn, path):
+    model, (*_, end) = worn
+    if path is not None:
+        measured = Measured(path=path, duration=20000, positions="cells")
+        model = assemble(model.case.model_copy(update={"kinematics": measured}))
+    prediction = predict(model)
+    assert prediction.problems == ()
+    for name, body in prediction.last.bodies.items():
+        assert body.max_wear_depth == pytest.approx(end.bodies[name].wear.max(), rel=0.05), name

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
-from typing import Self
 
 from tribo.component import Component
 from tribo.core.grid import Grid
@@ -63,10 +62,15 @@ class Kinematics(Component):
         """
         return [Position(speeds=self.speeds())]
 
-    def averaged(self) -> Self:
-        """Return the motion with an average in place of positions, to estimate with.
+    def coarsened(self, half_width_x: float) -> Kinematics:
+        """Return the motion to estimate with: few positions, or an average in place of them.
 
         Itself, unless overridden.
+
+        Parameters
+        ----------
+        half_width_x : float
+            Half the extent of the first contact along x, in m.
         """
         return self
 

@@ -18,6 +18,7 @@ from tribo.core.units import Quantity
 from tribo.motion.cycle import Position, Stroke, check_spacing, near
 from tribo.motion.exposure import Exposure, Passing
 from tribo.motion.kinematics import Kinematics
+from tribo.motion.reciprocating import Reciprocating
 from tribo.motion.swept import one_swept_body
 
 CLOSED = 0.01
@@ -160,6 +161,18 @@ class Measured(Kinematics):
         """Refuse positions further apart than the half-width."""
         if self.positions != "cells":
             check_spacing(self._range, self.positions, half_width_x)
+
+    def coarsened(self, half_width_x: float) -> Kinematics:
+        """Return back and forth sliding over the range of the path at its mean speed."""
+        slid = float(self._samples[2][-1])
+        strokes = Reciprocating(
+            stroke=self._range,
+            frequency=slid / (2 * self._range * self._period),
+            duration=self.end_time,
+            positions="cells",
+            swept=self.swept,
+        )
+        return strokes.coarsened(half_width_x)
 
     def _stroke(self, grid: Grid) -> Stroke:
         count = None if self.positions == "cells" else self.positions

@@ -18,6 +18,8 @@ from tribo.motion.exposure import Exposure, Passing, Track
 from tribo.motion.kinematics import Kinematics
 from tribo.motion.swept import one_swept_body
 
+LONG, FEW = 4.0, 9
+"""Stroke in half-widths up to which an estimate takes positions, and how many."""
 PHASES = 6
 """Speeds of a sinusoidal cycle: means of its powers up to the third are exact to 1e-6."""
 
@@ -60,7 +62,8 @@ class Reciprocating(Kinematics):
     swept: str | None = None
     """Name of the body whose points pass through the contact; the last body if left out."""
     allow_short_stroke: bool = False
-    """Whether a stroke shorter than the first contact's half-width is accepted."""
+    """Whether a stroke is accepted that is shorter than the first contact's half-width or, where
+    the cycle is resolved, than two cells."""
 
     @model_validator(mode="after")
     def _one_end(self) -> Self:
@@ -129,9 +132,12 @@ class Reciprocating(Kinematics):
             for share, speed in zip(stroke.shares, speeds, strict=True)
         ]
 
-    def averaged(self) -> Self:
-        """Return the motion with the track average."""
-        return self.model_copy(update={"positions": "average", "allow_short_stroke": True})
+    def coarsened(self, half_width_x: float) -> Reciprocating:
+        """Return the motion with the track average, or a few positions of a short stroke."""
+        if self.positions == "average":
+            return self
+        few = "average" if self.stroke > LONG * half_width_x else FEW
+        return self.model_copy(update={"positions": few, "allow_short_stroke": True})
 
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
         """Return a track as long as the stroke for the swept body, or its rows along the stroke."""
@@ -144,7 +150,8 @@ class Reciprocating(Kinematics):
         dx = grid.spacing[0]
         count = None if self.positions == "cells" else int(self.positions)
         stroke = Stroke(self.stroke, dx, count)
-        stroke.check_cells("kinematics.stroke")
+        if not self.allow_short_stroke:
+            stroke.check_cells("kinematics.stroke")
         if count is not None:
             return stroke
         cells = self.stroke / dx

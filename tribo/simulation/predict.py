@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from tribo.case import Output
 from tribo.core.errors import CaseError, NumericalError, PluginError
@@ -107,7 +107,7 @@ def predict(model: Model) -> Prediction:
     first = measure(model, state)
     hertz = hertz_contact(model.system)
     dx, dy = model.grid.spacing
-    coarse = _coarse_run(model)
+    coarse = _coarse_run(model, first)
     last = coarse.last
     holds = None if last is None else _inside(model, last) or model.may_reach_edge
     across = None if hertz is None else (2 * hertz.half_width_x / dx, 2 * hertz.half_width_y / dy)
@@ -189,17 +189,17 @@ def _inside(model: Model, measures: Measures) -> bool:
     return measures.half_width_x < lx / 2 - dx and measures.half_width_y < ly / 2 - dy
 
 
-def _coarsened(model: Model, margin: float) -> Model:
+def _coarsened(model: Model, first: Measures, margin: float) -> Model:
     """Return `model` on a coarse grid, in a window `margin` times as wide."""
     largest = max(model.grid.size)
     nx, ny = (max(8, 2 * round(0.5 * COARSE * size / largest)) for size in model.grid.size)
     lx, ly = (margin * size for size in model.grid.size)
     grid = Grid((lx, ly), (nx, ny), ends_at_window=True)
-    changes = {"kinematics": model.case.kinematics.averaged(), "stepping": LOOSE}
+    changes = {"kinematics": model.case.kinematics.coarsened(first.half_width_x), "stepping": LOOSE}
     return assemble(varied(model.case, grid=grid, output=Output(), **changes))
 
 
-def _coarse_run(model: Model) -> CoarseRun:
+def _coarse_run(model: Model, first: Measures) -> CoarseRun:
     if not model.contact.accepts_wear_compliance:
         return CoarseRun(None)
     failed: CaseError | NumericalError | None = None
@@ -207,7 +207,7 @@ def _coarse_run(model: Model) -> CoarseRun:
     for margin in (1.0,) if model.may_reach_edge else MARGINS:
         outgrown = None
         try:
-            coarse = _coarsened(model, margin)
+            coarse = _coarsened(model, first, margin)
             state = begin(coarse)
             for accepted in march(coarse, state):
                 state = accepted.state
@@ -216,5 +216,9 @@ def _coarse_run(model: Model) -> CoarseRun:
         except (CaseError, NumericalError) as error:
             failed = failed or error
             continue
-        return CoarseRun(measure(coarse, state), outgrown, limitation(coarse, state))
+        return CoarseRun(
+            measure(coarse, state),
+            outgrown,
+            limitation(replace(coarse, motion=model.motion), state),
+        )
     return CoarseRun(None, error=failed)
