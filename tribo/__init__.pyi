@@ -44,7 +44,9 @@ from tribo.core.state import State as State
 from tribo.core.table import Table as Table
 from tribo.core.units import Quantity as Quantity
 from tribo.effects.effect import Effect as Effect
+from tribo.motion.cycle import Position as Position
 from tribo.motion.exposure import Exposure as Exposure
+from tribo.motion.exposure import Passing as Passing
 from tribo.motion.exposure import Stationary as Stationary
 from tribo.motion.exposure import Track as Track
 from tribo.motion.kinematics import Kinematics as Kinematics

@@ -10,9 +10,17 @@ import numpy as np
 from pydantic import ConfigDict, field_validator, model_serializer
 from testing.conformance.honest import Counts, Hill, Law, Motion, Solver, Traction
 
-from tribo import Field, Grid, NumericalError, Quantity, Residuals, Stationary, Track
-from tribo.motion.cycle import Position
-from tribo.motion.exposure import Passing
+from tribo import (
+    Field,
+    Grid,
+    NumericalError,
+    Passing,
+    Position,
+    Quantity,
+    Residuals,
+    Stationary,
+    Track,
+)
 from tribo.testing.compare import CheckFailed
 
 MUTANTS = []
