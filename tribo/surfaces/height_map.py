@@ -68,8 +68,7 @@ class HeightMap(Laid):
             raise CaseError(
                 f"{_mm(self.size)} of heights do not reach over {_mm(grid.size)}, the window (and "
                 "the path of a body that passes through it); give a larger map, or make grid.size "
-                "smaller",
-                "size",
+                "smaller"
             )
         given = np.array(self.heights)
         places = [

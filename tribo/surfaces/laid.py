@@ -36,6 +36,5 @@ def check_resolved(shortest: float, spacing: float, field: str) -> None:
         raise CaseError(
             f"{1e6 * shortest:.4g} µm are {shortest / spacing:.2g} cells of "
             f"{1e6 * spacing:.4g} µm, and {FEWEST} at least are needed; raise grid.cells, or give "
-            f"a longer {field}",
-            field,
+            f"a longer {field}"
         )
