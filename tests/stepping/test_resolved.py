@@ -18,9 +18,10 @@ from paper_models import (
     steel,
 )
 
-from tribo import Explicit, Grid, Implicit, Interrupted, Simulation
+from tribo import CaseError, Explicit, Grid, Implicit, Interrupted, Simulation
 from tribo.core.contact import ContactProblem
 from tribo.observers.observer import Observer
+from tribo.plotting.profiles import along_track
 from tribo.stepping.step import first_contact, geometry
 
 GRID = Grid((1.2e-3, 0.75e-3), (32, 20))
@@ -189,3 +190,12 @@ def test_a_stopped_run_goes_on_to_the_same_bits_with_the_groove_along_its_track(
         window = resumed.wear_depth.sel(body="disk").isel(time=-1)
         np.testing.assert_array_equal(track.values[6:-6], window.values)
         assert np.all(np.isnan(resumed.track_depth.sel(body="ball")))
+        line = along_track(whole, "disk").axes[0].lines[-1]
+        depth = -1e9 * track.values[:, 9:11].mean(axis=1)
+        np.testing.assert_allclose(line.get_ydata(), depth, atol=1e-9 * np.ptp(depth))
+
+
+def test_the_average_has_no_picture_along_the_track():
+    simulation = Simulation(case(grid=GRID, contact=foundation(), kinematics=motion(duration=1)))
+    with simulation.run() as result, pytest.raises(CaseError, match="not resolved"):
+        along_track(result, "disk")

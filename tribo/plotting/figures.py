@@ -16,7 +16,7 @@ from tribo.core.files import writing
 from tribo.lab.running_in import reliefs, rough_bodies
 from tribo.plotting.history import contact_history, real_contact, wear_history
 from tribo.plotting.pressure import pressure_map, pressure_sections
-from tribo.plotting.profiles import body_profiles, groove, worn_section
+from tribo.plotting.profiles import along_track, body_profiles, groove, worn_section
 from tribo.plotting.relief import height_map, material_ratio_curves
 from tribo.plotting.sections import number_of_saves, removed
 from tribo.plotting.style import house_style
@@ -96,6 +96,8 @@ def _pictures(result: Result) -> dict[str, Callable[[], Figure]]:
     for name in worn:
         if result.body(name).swept:
             pictures[f"{name}_groove"] = partial(groove, result, name)
+            if "track_depth" in result.dataset:
+                pictures[f"{name}_along_track"] = partial(along_track, result, name)
         else:
             pictures[f"{name}_along"] = partial(body_profiles, result, name, 0)
             pictures[f"{name}_across"] = partial(body_profiles, result, name, 1)

@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from tribo.core.errors import CaseError
+from tribo.core.grid import Grid
 from tribo.plotting.sections import (
     draw_profiles,
     number_of_saves,
@@ -54,6 +55,21 @@ def groove(result: Result, name: str) -> Figure:
             f"{name} is not swept in {result.name}, so that it has no groove; draw body_profiles"
         )
     return body_profiles(result, name, 1)
+
+
+def along_track(result: Result, name: str) -> Figure:
+    """Draw the groove along the whole track of a body that passes through a resolved cycle."""
+    if "track_depth" not in result.dataset:
+        raise CaseError(f"the cycle is not resolved in {result.name}; draw the groove instead")
+    count = number_of_saves(result)
+    track = result.track_depth.sel(body=name)
+    rows, columns = track.sizes["track_x"], track.sizes["y"]
+    (dx, _), (_, breadth) = result.grid.spacing, result.grid.size
+    grid = Grid((rows * dx, breadth), (rows, columns))
+    depths = [np.nan_to_num(track.isel(time=save).values) for save in range(count)]
+    scar = scar_mask(depths[-1])
+    section = through_centre(0, [(grid, -depth, scar) for depth in depths])
+    return draw_profiles([section], save_looks(count), time_labels(result.times), name)
 
 
 def worn_section(result: Result) -> Figure:
