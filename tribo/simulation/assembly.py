@@ -17,11 +17,10 @@ from tribo.core.errors import CaseError, located
 from tribo.core.grid import Grid
 from tribo.core.material import contact_modulus
 from tribo.simulation.effects import in_order
+from tribo.simulation.guarded_motion import GuardedExposure, GuardedMotion
 from tribo.simulation.guards import (
     GuardedEffect,
-    GuardedExposure,
     GuardedLaw,
-    GuardedMotion,
     GuardedSolver,
     GuardedSurface,
 )

@@ -10,7 +10,7 @@ import psutil
 from tribo.case import Case
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
-from tribo.simulation.guards import GuardedExposure
+from tribo.simulation.guarded_motion import GuardedExposure
 
 Exposures = Mapping[str, GuardedExposure]
 

@@ -17,11 +17,10 @@ from tribo.core.grid import Grid
 from tribo.core.measures import between_cells
 from tribo.motion.cycle import Position
 from tribo.simulation.guard import calling
+from tribo.simulation.guarded_motion import GuardedExposure, GuardedMotion
 from tribo.simulation.guards import (
     GuardedEffect,
-    GuardedExposure,
     GuardedLaw,
-    GuardedMotion,
     GuardedSolver,
     GuardedSurface,
 )

@@ -11,7 +11,7 @@ from tribo.case import Stop
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
-from tribo.simulation.guards import GuardedExposure, GuardedMotion
+from tribo.simulation.guarded_motion import GuardedExposure, GuardedMotion
 from tribo.testing import samples
 from tribo.testing.checks import Checks
 from tribo.testing.compare import apply_if, expect_close, require
