@@ -11,16 +11,6 @@ from typing import Any
 from IPython.display import Markdown
 
 FIGURES = Path(os.environ["TRIBO_REPOSITORY"]) / "docs" / "_data" / "moving_contact.json"
-RESOLVED = FIGURES.with_name("resolved_hour.json")
-RESOLVED_QUANTITIES = (
-    ("groove at mid-stroke, µm", "groove_um"),
-    ("at its end, µm", "end_of_stroke_um"),
-    ("ball, µm", "ball_um"),
-    ("crown, µm", "crown_um"),
-    ("contact along, mm", "along_mm"),
-    ("centre pressure, MPa", "centre_MPa"),
-    ("times the average's time", "times"),
-)
 QUANTITIES = {
     "groove of the disk, µm": "groove_{}_um",
     "ball depth, µm": "ball_{}_um",
@@ -38,16 +28,6 @@ def hours() -> Markdown:
         [name, *(_cell(row[key.format(how)]) for row in rows for how in ("average", "resolved"))]
         for name, key in QUANTITIES.items()
     ]
-    return _table(lines)
-
-
-def positions() -> Markdown:
-    """Return the paper's hour with its cycle resolved, beside the average, on two grids."""
-    found = json.loads(RESOLVED.read_text(encoding="utf-8"))["tables"]["resolved hour"]
-    lines = [["", "cells", "positions", *(name for name, _ in RESOLVED_QUANTITIES)]]
-    for row in found:
-        cells = [f"{row[key]:.3g}" for _, key in RESOLVED_QUANTITIES]
-        lines.append([row["case"], str(row["cells"]), str(row["positions"]), *cells])
     return _table(lines)
 
 
