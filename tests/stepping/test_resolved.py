@@ -7,7 +7,6 @@ from paper_models import (
     K,
     archard,
     case,
-    flat,
     foundation,
     half_space,
     last,
@@ -18,8 +17,23 @@ from paper_models import (
     steel,
 )
 
-from tribo import CaseError, Explicit, Grid, Implicit, Interrupted, Simulation
+from tribo import (
+    CaseError,
+    Explicit,
+    Grid,
+    Implicit,
+    Interrupted,
+    NumericalError,
+    Passing,
+    Periodic,
+    Position,
+    Simulation,
+    Waves,
+)
 from tribo.core.contact import ContactProblem
+from tribo.core.errors import PluginError
+from tribo.lab.inferred import track_section
+from tribo.motion.exposure import Stationary
 from tribo.observers.observer import Observer
 from tribo.plotting.profiles import along_track
 from tribo.stepping.step import first_contact, geometry
@@ -152,22 +166,63 @@ def test_explicit_steps_end_at_the_same_depth():
 
 
 @pytest.mark.slow
-def test_nothing_yields_twice_at_any_position():
+@pytest.mark.parametrize("soft", ["ball", "disk"])
+def test_nothing_yields_twice_at_any_position(soft):
     kinematics = motion(stroke=STROKE, duration=5, positions=5)
+    waves = Waves(amplitude=2e-7, wavelength=4 * GRID.spacing[0], along="x")
+    steels = {name: steel(1.5e9 if name == soft else None) for name in ("ball", "disk")}
     bodies = [
-        named("ball", sphere(), steel(), archard()),
-        named("disk", flat(), steel(hardness=1.5e9), archard()),
+        named("ball", sphere(), steels["ball"], archard()),
+        named("disk", waves, steels["disk"], archard()),
     ]
     model = small(grid=GRID, contact=half_space(), kinematics=kinematics, bodies=bodies)
     state = last(model)
-    deepest = state.bodies["disk"].plastic.max()
-    assert state.bodies["disk"].plastic.shape == (len(range(32)) + 12, 20)
+    deepest = state.bodies[soft].plastic.max()
+    assert state.bodies["disk"].plastic.shape == (32 + 12, 20)
     assert deepest > 1e-8
     for position in range(5):
         gap = geometry(model, state.bodies, position)
         again = model.contact.solve(ContactProblem(model.system, gap, model.load))
         assert again.overlap.max() <= 1e-5 * deepest
         assert again.pressure.max() <= 1.5e9 * (1 + 1e-9)
+
+
+def test_a_contact_that_leaves_the_window_away_from_mid_stroke_ends_the_run():
+    narrow = Grid((0.75e-3, 0.75e-3), (20, 20))
+    kinematics = motion(stroke=10 * narrow.spacing[0], duration=2000, positions=9, swept="ball")
+    with pytest.raises((CaseError, NumericalError), match="edge of the window"):
+        last(small(grid=narrow, contact=foundation(), kinematics=kinematics))
+
+
+def test_a_contact_that_repeats_is_not_resolved():
+    kinematics = motion(stroke=GRID.size[0], positions=9)
+    with pytest.raises(CaseError, match=r"kinematics\.positions: .*repeats with the window"):
+        resolved(kinematics=kinematics, contact=Periodic())
+
+
+@pytest.mark.parametrize("starts", [(2, 1), (3, 1, 0), (2, 2, 0), (2, 1, -1)])
+def test_starts_that_do_not_fit_the_cycle_are_refused(starts):
+    class Odd(type(motion())):
+        type = "test.odd"
+
+        def cycle(self, grid):
+            return [Position(1 / 3)] * 3
+
+        def exposures(self, grid, bodies):
+            passing = Passing(grid, (2, 1, 0), 1e-3)
+            passing.starts = starts
+            return {bodies[0]: Stationary(grid), bodies[1]: passing}
+
+    with pytest.raises(PluginError, match="starts"):
+        resolved(kinematics=Odd(stroke=1e-3, frequency=1.0, cycles=1))
+
+
+def test_the_section_of_the_track_is_that_at_mid_stroke():
+    kinematics = motion(stroke=STROKE, duration=20, positions=9)
+    with Simulation(case(grid=GRID, contact=foundation(), kinematics=kinematics)).run() as result:
+        depth = result.wear_depth.sel(body="disk").isel(time=-1).values[15]
+        section = track_section(result, result.body("disk"))
+    assert section == pytest.approx(np.sum(depth) * GRID.spacing[1], rel=1e-9, abs=0)
 
 
 class StopAfter(Observer):

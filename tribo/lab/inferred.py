@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tribo.core.arrays import middle_rows
 from tribo.lab.ball import ball_cap_volume, conforming_ball_volume, flat_along_ball_volume
 from tribo.lab.scar import scar
 from tribo.lab.track import circular_groove_area, groove_radius, planimetric_area
@@ -86,7 +87,8 @@ def track_section(result: Result, body: BodyResult, save: int = -1) -> float | N
     """Return the area of a track's section, in m²; None for a body that is not swept."""
     if not body.swept:
         return None
-    return planimetric_area(body.wear_depth[save, 0], result.grid.spacing[1])
+    middle = middle_rows(body.wear_depth[save], 1)[0]
+    return planimetric_area(middle, result.grid.spacing[1])
 
 
 def _ball_and_flat(result: Result) -> tuple[BodyResult, BodyResult, float] | None:

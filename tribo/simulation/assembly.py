@@ -42,6 +42,15 @@ def assemble(case: Case) -> Model:
     with located("kinematics"):
         exposures = motion.exposures(grid, list(bodies))
         cycle = motion.cycle(grid)
+        for exposure in exposures.values():
+            exposure.check_starts(len(cycle))
+    if case.contact.periodic and len(cycle) > 1:
+        raise CaseError(
+            f"contact.type = {case.contact.type!r} repeats with the window, but a body that passes "
+            'through the positions of a cycle does not; use positions = "average", or a contact '
+            "that does not repeat",
+            "kinematics.positions",
+        )
     cap, share = _plastic(bodies, case.contact)
     # Before the first array is made.
     check_memory(grid, memory_needed(case, exposures, plastic=cap is not None))

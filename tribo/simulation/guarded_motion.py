@@ -156,6 +156,24 @@ class GuardedExposure(Guard[Kinematics]):
         """Return what messages call it."""
         return f"{super().__str__()}, for body {self._whose!r},"
 
+    def check_starts(self, positions: int) -> None:
+        """Hold `starts` to one row for each position, in the body's rows, the middle one midway."""
+        if self.starts is None:
+            return
+        beyond = self.rows - self._cells[0]
+        starts = [int(self.number("a start", start)) for start in self.starts]
+        if (
+            len(starts) != positions
+            or min(starts) < 0
+            or max(starts) > beyond
+            or starts[positions // 2] != beyond // 2
+        ):
+            raise PluginError(
+                f"{self} has starts {starts!s:.60} of {len(starts)} positions on {self.rows} rows; "
+                f"one is needed for each of {positions} positions, from 0 to {beyond}, with "
+                f"{beyond // 2} in the middle"
+            )
+
     def average(self, rate: Array) -> Array:
         """Return the rate each point of the body sees."""
         asked = readonly(rate)

@@ -132,9 +132,10 @@ def _depth(model: Model, state: State) -> float:
 
 
 def _check_window(model: Model, state: State) -> None:
-    if model.may_reach_edge or not reaches_border(state.contact.pressure):
+    reaching = [each for each in state.contacts if reaches_border(each.pressure)]
+    if model.may_reach_edge or not reaching:
         return
-    width, breadth = half_widths(state.contact, model.grid)
+    width, breadth = half_widths(reaching[0], model.grid)
     raise NumericalError(
         f"at {state.time:.6g} s ({state.distance:.6g} m) the contact, "
         f"{2e3 * width:.3g} × {2e3 * breadth:.3g} mm, reached the edge of the window of "

@@ -131,6 +131,12 @@ class Model:
         return frozenset(name for name, exposure in self.exposures.items() if exposure.swept)
 
     @cached_property
+    def apart(self) -> float:
+        """Largest distance between neighbouring positions of the cycle, in m; 0 of an average."""
+        steps = [np.diff(e.starts) for e in self.exposures.values() if e.starts is not None]
+        return max((float(np.max(np.abs(s))) for s in steps), default=0.0) * self.grid.spacing[0]
+
+    @cached_property
     def end_distance(self) -> float:
         """Sliding distance at the end of the run, in m."""
         return self.motion.distance_at(self.end_time)

@@ -57,9 +57,7 @@ def short_of_a_lap(model: Model) -> str | None:
     """Say so if the whole run slides over a part of a body's track only."""
     distance = model.end_distance
     for name in [name for name in model.laws if name in model.swept]:
-        # What one metre of depth all along the track takes, over the breadth of the window.
-        depth = np.ones((1, model.grid.cells[1]))
-        length = model.exposures[name].volume(depth) / model.grid.size[1]
+        length = _track_length(model, name)
         if distance < WHOLE * length:
             return (
                 f"the run slides {distance:.3g} m, {distance / length:.2g} of the track of {name}, "
@@ -68,6 +66,15 @@ def short_of_a_lap(model: Model) -> str | None:
                 "average to hold many times"
             )
     return None
+
+
+def _track_length(model: Model, name: str) -> float:
+    starts = model.exposures[name].starts
+    if starts is not None:
+        return (max(starts) - min(starts)) * model.grid.spacing[0]
+    # What one metre of depth all along the track takes, over the breadth of the window.
+    depth = np.ones((1, model.grid.cells[1]))
+    return model.exposures[name].volume(depth) / model.grid.size[1]
 
 
 def check_stroke(model: Model, state: State) -> None:

@@ -176,7 +176,8 @@ def _steepest(model: Model, rates: Mapping[str, WearRate], contact: ContactSolut
     near = contact.extent
     compliance = wear_compliance(model, rates, contact.pressure, 1.0)
     touching = contact.pressure[near] > 0
-    length = np.count_nonzero(touching, axis=0) * model.grid.spacing[0]
+    # A point of a body that passes wears in steps of the positions.
+    length = np.count_nonzero(touching, axis=0) * model.grid.spacing[0] + model.apart
     local = float(np.max(compliance.local[near], where=touching, initial=0.0))
     return local + float((compliance.swept[near[1]] * length).max())
 

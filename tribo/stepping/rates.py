@@ -128,8 +128,11 @@ def _rates_of(
 
 def effect_fields(model: Model, state: State) -> dict[str, dict[str, Array]]:
     """Return what the effects make of `state`, by field and body, shape (nx, ny)."""
-    moment = Moment(state.time, state.distance, state.speed)
-    fields = local_fields(model, state.contact.pressure, moment)
+    speeds = model.cycle[len(model.cycle) // 2].speeds
+    # Of an average's speeds none is that of the pressure shown.
+    here = speeds if len(model.cycle) > 1 else None
+    speed = state.speed if here is None else 1 / sum(share / v for v, share in here)
+    fields = local_fields(model, state.contact.pressure, Moment(state.time, state.distance, speed))
     return {field.name: fields[field.name] for e in model.effects for field in e.provides}
 
 

@@ -288,9 +288,11 @@ def _yielded(
 
 def _settle(model: Model, state: State) -> State:
     """Draw grooves out along the track and re-solve until nothing yields any more."""
-    if not any(
+    drawn_out = any(
         name in model.swept and np.any(body.plastic > 0) for name, body in state.bodies.items()
-    ):
+    )
+    # What yields at one position alters the others, whichever body it is.
+    if not drawn_out and not (len(model.cycle) > 1 and yields(state.contacts)):
         return state
     for _ in range(SETTLE_PASSES):
         drawn = {
