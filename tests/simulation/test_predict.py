@@ -5,7 +5,7 @@ import re
 import pytest
 from paper_models import K, archard, flat, half_space, motion, named, small, sphere, steel
 
-from tribo import CaseError, Grid, NumericalError, Simulation
+from tribo import CaseError, Grid, NumericalError, Simulation, Waves
 from tribo.simulation.predict import predict
 from tribo.stepping import step
 from tribo.stepping.explicit import Explicit
@@ -101,3 +101,14 @@ def test_a_groove_that_does_not_settle_is_foreseen(monkeypatch):
 def test_a_contact_too_long_for_the_stroke_is_a_problem():
     problem = only_problem(small(kinematics=motion(stroke="0.6 mm", frequency=83)))
     assert re.search(r"too deep at mid-stroke, .* about 3 % with a stroke of", problem)
+
+
+def test_a_rough_body_on_a_resolved_track_is_estimated_without_its_relief():
+    grid = Grid((0.8e-3, 0.8e-3), (64, 64))
+    relief = Waves(amplitude=1e-8, wavelength=4 * grid.spacing[0], along="x")
+    kinematics = motion(stroke="4 mm", positions=65)
+    both = [named("ball", sphere(), steel(), archard()), named("disk", relief, steel(), archard())]
+    found = predict(small(grid=grid, bodies=both, kinematics=kinematics))
+    smooth = predict(small(grid=grid, kinematics=motion(stroke="4 mm")))
+    assert found.last.bodies == smooth.last.bodies
+    assert not any("trial run" in problem for problem in found.problems)

@@ -15,7 +15,7 @@ from tribo.core.grid import Grid
 class Exposure(ABC):
     """Maps rates in the contact frame on to a body's own surface.
 
-    Fields on a body's surface have shape (`rows`, ny).
+    Fields on a body's surface have shape (rows, ny).
     """
 
     swept: bool = False

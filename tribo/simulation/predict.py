@@ -195,8 +195,12 @@ def _coarsened(model: Model, first: Measures, margin: float) -> Model:
     nx, ny = (max(8, 2 * round(0.5 * COARSE * size / largest)) for size in model.grid.size)
     lx, ly = (margin * size for size in model.grid.size)
     grid = Grid((lx, ly), (nx, ny), ends_at_window=True)
+    bodies = {
+        name: body.model_copy(update={"surface": body.surface.smoothed()})
+        for name, body in model.bodies.items()
+    }
     changes = {"kinematics": model.case.kinematics.coarsened(first.half_width_x), "stepping": LOOSE}
-    return assemble(varied(model.case, grid=grid, output=Output(), **changes))
+    return assemble(varied(model.case, grid=grid, bodies=bodies, output=Output(), **changes))
 
 
 def _coarse_run(model: Model, first: Measures) -> CoarseRun:

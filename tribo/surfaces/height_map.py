@@ -15,6 +15,7 @@ from tribo.core.files import read_numbers
 from tribo.core.grid import Grid, Length
 from tribo.core.units import Quantity
 from tribo.surfaces.laid import Laid
+from tribo.surfaces.surface import Surface
 
 COVERED = 1e-9
 Line = Annotated[tuple[Annotated[float, Quantity("m")], ...], Field(min_length=2)]
@@ -54,6 +55,10 @@ class HeightMap(Laid):
         if len({len(line) for line in heights}) > 1:
             raise ValueError("the rows of heights are not all of one length")
         return heights
+
+    def smoothed(self) -> Surface:
+        """Return the surface itself: its heights may be all of its form."""
+        return self
 
     def relief(self, grid: Grid) -> Array:
         """Return the heights between those given, on lines; the map must reach over the window.

@@ -25,6 +25,10 @@ class Laid(Surface):
         height: Array = self.on.height(grid) + self.relief(grid)
         return height
 
+    def smoothed(self) -> Surface:
+        """Return the surface that the relief lies on."""
+        return self.on.smoothed()
+
     @abstractmethod
     def relief(self, grid: Grid) -> Array:
         """Return what is added to the height of `on`, shape (nx, ny), in m."""

@@ -32,6 +32,13 @@ class Surface(Component):
             If the surface does not reach over the window.
         """
 
+    def smoothed(self) -> Surface:
+        """Return the surface without relief that a coarse grid cannot show, to estimate with.
+
+        Itself, unless overridden.
+        """
+        return self
+
     @property
     def curvature(self) -> tuple[float, float] | None:
         """Curvature at the highest point along x and y, in 1/m, or None if not known.
