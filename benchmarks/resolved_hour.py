@@ -83,7 +83,7 @@ def runs(options: argparse.Namespace) -> Iterator[Row]:
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add grids, positions and duration."""
     parser.add_argument("--cells", type=int, nargs="+", default=[48, 96])
-    parser.add_argument("--positions", type=int, nargs="+", default=[21, 33])
+    parser.add_argument("--positions", type=int, nargs="+", default=[33])
     parser.add_argument("--duration", type=float, default=3600.0, help="in s")
 
 

@@ -147,9 +147,9 @@ def test_the_efficiency_of_a_sweep_is_measured():
 
 @pytest.mark.slow
 def test_resolved_hour(tmp_path):
-    options = ["--cells", "24", "--positions", "33", "--duration", "0.2"]
+    options = ["--cells", "24", "--positions", "37", "--duration", "0.2"]
     rows = figures("resolved_hour", tmp_path, *options)["resolved hour"]
-    assert [row["positions"] for row in rows] == 2 * ["average", 33]
+    assert [row["positions"] for row in rows] == 2 * ["average", 37]
     assert all(row["times"] >= 1 for row in rows)
 
 

@@ -1,5 +1,7 @@
 """Positions along a stroke: a quadrature whose nodes lie at whole cells."""
 
+import re
+
 import numpy as np
 import pytest
 from paper_models import motion, small
@@ -56,10 +58,38 @@ def test_a_sine_spends_its_path_at_its_speeds():
     cycle = motion.cycle(Grid(1e-3, 64))
     speeds = np.array([position.speeds[0][0] for position in cycle])
     assert max(speeds) == pytest.approx(np.pi * 2e-3 * 25, rel=1e-3)
-    assert min(speeds) == speeds[0] < 0.2 * max(speeds)
-    # The time that the parts take is that of half a cycle; trapezia, not parts, share the path.
+    assert min(speeds) == pytest.approx(speeds[0], rel=1e-12, abs=0)
+    assert speeds[0] < 0.2 * max(speeds)
+
+
+@pytest.mark.parametrize(
+    ("stroke", "positions"),
+    # With the last two positions a cell apart, and 1.5e-9 cells over a whole number of them.
+    [(2e-3, 5), (64.3e-5, 33), (64.3e-5, 65), (64e-5 + 1.5e-14, "cells"), (2.5e-5, 3)],
+)
+def test_a_sine_takes_half_a_cycle_for_its_stroke(stroke, positions):
+    sine = motion(stroke=stroke, waveform="sinusoidal", positions=positions)
+    cycle = sine.cycle(Grid(64e-5, 64))
+    assert sum(p.share for p in cycle) == pytest.approx(1, abs=1e-14)
+    speeds = [p.speeds[0][0] for p in cycle]
+    assert min(speeds) > 0
+    assert speeds == pytest.approx(speeds[::-1], rel=1e-12, abs=0)
+    # Mean speed 2 S f.
     pace = sum(p.share / p.speeds[0][0] for p in cycle)
-    assert pace == pytest.approx(1 / (2 * 2e-3 * 25), rel=1e-2)
+    assert pace == pytest.approx(1 / (2 * stroke * 25), rel=1e-10)
+
+
+@pytest.mark.parametrize("stroke", np.geomspace(0.34e-3, 3e-3, 9))
+def test_a_stroke_of_whole_cells_is_taken_as_it_is_advised(stroke):
+    def cycle(stroke):
+        return motion(stroke=stroke, positions="cells").cycle(Grid(1.3e-3, 77))
+
+    with pytest.raises(CaseError, match="even whole number of cells") as refused:
+        cycle(stroke)
+    advised = re.search(r"as (\S+ mm)", str(refused.value))[1]
+    cells = Grid(1.3e-3, 77).spacing[0]
+    # No cell is left over, at either end.
+    assert len(cycle(advised)) == 1 + round(float(advised.split()[0]) * 1e-3 / cells)
 
 
 def test_a_passing_body_has_the_rows_of_all_its_positions():
@@ -79,7 +109,8 @@ def test_a_passing_body_has_the_rows_of_all_its_positions():
     [
         ("2.05 mm", "cells", r"kinematics\.stroke", "20.5 cells of 0.1 mm"),
         ("0.18 mm", 3, r"kinematics\.stroke", "0.18 mm is under two cells of 0.1 mm"),
-        ("2 mm", 3, r"kinematics\.positions", "every 1 mm.*half-width of the first contact"),
+        # A half-width of 0.2 mm.
+        ("2 mm", 19, r"kinematics\.positions", "every 0.111 mm.*first contact.*at least 21"),
     ],
 )
 def test_positions_that_cannot_serve_the_contact_are_refused(stroke, positions, place, words):

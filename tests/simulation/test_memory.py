@@ -36,7 +36,7 @@ MEASURE = """
         bodies = [named(n, flat(), steel(), archard()) for n in "ab"]
         parts |= dict(bodies=bodies, ends_at_window=True)
     if case == "resolved":
-        parts["kinematics"] = motion(duration=2, positions=17)
+        parts["kinematics"] = motion(stroke="1.1 mm", duration=2, positions=17)
     def most():
         # Not ru_maxrss, which begins with that of the process this one was forked from.
         lines = open("/proc/self/status").read().splitlines()

@@ -12,6 +12,8 @@ from tribo.core.errors import CaseError
 
 Speeds = Sequence[tuple[float, float]]
 """Sliding speeds in m/s, each with a share of the path."""
+WHOLE = 1e-6
+"""Of a stroke: within it a stroke counts as an even whole number of cells."""
 
 
 @dataclass(frozen=True)
@@ -48,19 +50,20 @@ class Stroke:
         The stroke S, in m.
     dx : float
         Length of a cell, in m.
-    count : int or None
-        Number of positions, odd; every cell if None.
+    count : int or str, optional
+        Number of positions, odd; ``"cells"`` for every cell.
     """
 
     length: float
     dx: float
-    count: int | None = None
+    count: int | str = "cells"
 
     @property
     def cells(self) -> Array:
         """Offsets from mid-stroke, shape (positions,), in whole cells; the ends reach over it."""
-        half = max(1, int(np.ceil(0.5 * self.length / self.dx * (1 - 1e-9))))
-        sides = half if self.count is None else min(half, self.count // 2)
+        given = 0.5 * self.length / self.dx
+        half = max(1, round(given) if self.is_whole else int(np.ceil(given)))
+        sides = half if isinstance(self.count, str) else min(half, self.count // 2)
         right = np.round(np.linspace(0, half, sides + 1))
         return np.asarray(np.concatenate([-right[:0:-1], right]))
 
@@ -72,21 +75,48 @@ class Stroke:
         return [int(cells[-1] - cell) for cell in cells]
 
     @property
-    def shares(self) -> Array:
-        """Part of an even path at each position, shape (positions,)."""
-        half = 0.5 * self.length
-        return near(self.cells * self.dx, np.array([-half, half])) / self.length
+    def is_whole(self) -> bool:
+        """Whether the stroke is an even whole number of cells."""
+        half = 0.5 * self.length / self.dx
+        return abs(half - round(half)) <= WHOLE * half
 
     @property
-    def bounds(self) -> Array:
-        """Ends of the part of the stroke that each position stands for, (positions + 1,), in m."""
-        x = self.cells * self.dx
-        ends = np.concatenate([x[:1], 0.5 * (x[1:] + x[:-1]), x[-1:]])
-        return np.asarray(np.clip(ends, -0.5 * self.length, 0.5 * self.length))
+    def ends(self) -> Array:
+        """Where the path turns round, from mid-stroke, shape (2,), in m."""
+        half = min(0.5 * self.length, float(self.cells[-1]) * self.dx)
+        return np.array([-half, half])
+
+    @property
+    def shares(self) -> Array:
+        """Part of an even path at each position, shape (positions,)."""
+        return near(self.cells * self.dx, self.ends) / np.ptp(self.ends)
+
+    def passed(self, times: Array, places: Array) -> list[Position]:
+        """Return the positions of a path over the stroke, each with the mean speed near it.
+
+        Parameters
+        ----------
+        times : ndarray, shape (samples,)
+            In increasing order, in s.
+        places : ndarray, shape (samples,)
+            Where the path is then, from mid-stroke, in m.
+        """
+        nodes = self.cells * self.dx
+        # A stroke that counts as whole cells may go a little beyond the last one.
+        places = places * (np.ptp(self.ends) / self.length)
+        steps = np.abs(np.diff(places))
+        pace = np.zeros_like(steps)
+        np.divide(np.diff(times), steps, out=pace, where=steps > 0)
+        lengths, lasting = near(nodes, places), near(nodes, places, pace)
+        shares = lengths / np.sum(lengths)
+        return [
+            Position(float(share), [(float(length / time), 1.0)])
+            for share, length, time in zip(shares, lengths, lasting, strict=True)
+        ]
 
     def check_cells(self, place: str) -> None:
         """Refuse a stroke that is under two cells; `place` names it."""
-        if self.length < 2 * self.dx * (1 - 1e-9):
+        if self.length < 2 * self.dx * (1 - WHOLE):
             raise CaseError(
                 f"{1e3 * self.length:.4g} mm is under two cells of {1e3 * self.dx:.4g} mm, too few "
                 "to resolve the cycle; make grid.cells larger along x, or the window smaller",
@@ -94,14 +124,26 @@ class Stroke:
             )
 
 
-def check_spacing(length: float, count: int, half_width: float) -> None:
+def odd(count: int | str) -> int | str:
+    """Return a number of positions, or the word for it; raise ValueError for an even number."""
+    if isinstance(count, int) and count % 2 == 0:
+        raise ValueError(
+            f"{count} is even; give an odd number, so that one lies in the middle: {count + 1}"
+        )
+    return count
+
+
+def check_spacing(length: float, count: int | str, half_width: float) -> None:
     """Refuse too few positions along a stroke (m) for a contact of this half-width (m)."""
+    if isinstance(count, str):
+        return
     apart = length / (count - 1)
-    if apart > half_width:
-        least = 2 * int(np.ceil(0.5 * length / half_width)) + 1
+    # Further apart they leave ripples of up to 10 % of its depth in the groove.
+    if apart > 0.5 * half_width * (1 + 1e-9):
+        least = 2 * int(np.ceil(length / half_width * (1 - 1e-9))) + 1
         raise CaseError(
-            f"{count} positions lie every {1e3 * apart:.3g} mm, further apart than the half-width "
-            f"of the first contact, {1e3 * half_width:.3g} mm; give at least {least}",
+            f"{count} positions lie every {1e3 * apart:.3g} mm, further apart than half the "
+            f"half-width of the first contact, {1e3 * half_width:.3g} mm; give at least {least}",
             "kinematics.positions",
         )
 
@@ -128,7 +170,7 @@ def near(nodes: Array, path: Array, weights: Array | float = 1.0) -> Array:
         gap = nodes[node + 1] - nodes[node]
         begin, end = np.clip(low, *nodes[node : node + 2]), np.clip(high, *nodes[node : node + 2])
         passed = weights * (end - begin)
-        to_next = float(np.sum(passed * (0.5 * (begin + end) - nodes[node]) / gap))
-        lengths[node + 1] += to_next
-        lengths[node] += float(np.sum(passed)) - to_next
+        middle = 0.5 * (begin + end)
+        lengths[node] += np.sum(passed * (nodes[node + 1] - middle)) / gap
+        lengths[node + 1] += np.sum(passed * (middle - nodes[node])) / gap
     return lengths

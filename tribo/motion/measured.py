@@ -15,7 +15,7 @@ from tribo.core.arrays import Array
 from tribo.core.files import read_numbers
 from tribo.core.grid import Grid
 from tribo.core.units import Quantity
-from tribo.motion.cycle import Position, Stroke, check_spacing, near
+from tribo.motion.cycle import Position, Stroke, check_spacing, odd
 from tribo.motion.exposure import Exposure, Passing
 from tribo.motion.kinematics import Kinematics
 from tribo.motion.reciprocating import Reciprocating
@@ -75,14 +75,7 @@ class Measured(Kinematics):
             raise ValueError("the position never changes; give a path that slides")
         return path
 
-    @field_validator("positions")
-    @classmethod
-    def _middle(cls, value: int | str) -> int | str:
-        if isinstance(value, int) and value % 2 == 0:
-            raise ValueError(
-                f"{value} is even; give an odd number, so that one lies in the middle: {value + 1}"
-            )
-        return value
+    _middle = field_validator("positions")(odd)
 
     @model_validator(mode="after")
     def _one_end(self) -> Self:
@@ -131,7 +124,8 @@ class Measured(Kinematics):
         times, _, slid = self._samples
         if distance <= 0:
             return 0.0
-        whole = max(0, math.ceil(distance / slid[-1]) - 1)
+        # The end of a pass, but for rounding, comes before the rest with which the next may begin.
+        whole = max(0, math.ceil(distance / slid[-1] * (1 - 1e-12)) - 1)
         rest = min(distance - whole * slid[-1], slid[-1])
         # The first sample by which it has come so far, so that it moves on to it.
         after = max(1, int(np.searchsorted(slid, rest)))
@@ -141,16 +135,8 @@ class Measured(Kinematics):
 
     def cycle(self, grid: Grid) -> Sequence[Position]:
         """Return the positions along the path, with the mean speed about each."""
-        times, places, slid = self._samples
-        nodes = self._stroke(grid).cells * grid.spacing[0]
-        moving = np.diff(slid) > 0
-        pace = np.zeros_like(slid[1:])
-        pace[moving] = np.diff(times)[moving] / np.diff(slid)[moving]
-        lengths, lasting = near(nodes, places), near(nodes, places, pace)
-        return [
-            Position(float(length / slid[-1]), [(float(length / time), 1.0)])
-            for length, time in zip(lengths, lasting, strict=True)
-        ]
+        times, places, _ = self._samples
+        return self._stroke(grid).passed(times, places)
 
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
         """Return its rows along the path for the swept body."""
@@ -158,9 +144,8 @@ class Measured(Kinematics):
         return one_swept_body(grid, bodies, self.swept, passing)
 
     def check_contact(self, half_width_x: float) -> None:
-        """Refuse positions further apart than the half-width."""
-        if self.positions != "cells":
-            check_spacing(self._range, self.positions, half_width_x)
+        """Refuse positions further apart than half the half-width."""
+        check_spacing(self._range, self.positions, half_width_x)
 
     def coarsened(self, half_width_x: float) -> Kinematics:
         """Return back and forth sliding over the range of the path at its mean speed."""
@@ -175,8 +160,7 @@ class Measured(Kinematics):
         return strokes.coarsened(half_width_x)
 
     def _stroke(self, grid: Grid) -> Stroke:
-        count = None if self.positions == "cells" else self.positions
-        stroke = Stroke(self._range, grid.spacing[0], count)
+        stroke = Stroke(self._range, grid.spacing[0], self.positions)
         stroke.check_cells("kinematics.path")
         return stroke
 

@@ -13,15 +13,17 @@ from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.core.units import Quantity
 from tribo.motion.averaging import GOOD, NOTICED, good_stroke, groove_excess, too_deep
-from tribo.motion.cycle import Position, Speeds, Stroke, check_spacing
+from tribo.motion.cycle import Position, Stroke, check_spacing, odd
 from tribo.motion.exposure import Exposure, Passing, Track
 from tribo.motion.kinematics import Kinematics
 from tribo.motion.swept import one_swept_body
 
-LONG, FEW = 4.0, 9
+LONG, FEW = 4.0, 17
 """Stroke in half-widths up to which an estimate takes positions, and how many."""
 PHASES = 6
 """Speeds of a sinusoidal cycle: means of its powers up to the third are exact to 1e-6."""
+SAMPLES = 16
+"""Of a sinusoidal half cycle, between two positions."""
 
 
 class Reciprocating(Kinematics):
@@ -71,14 +73,7 @@ class Reciprocating(Kinematics):
             raise ValueError("give exactly one of duration, cycles and distance")
         return self
 
-    @field_validator("positions")
-    @classmethod
-    def _middle(cls, value: int | str) -> int | str:
-        if isinstance(value, int) and value % 2 == 0:
-            raise ValueError(
-                f"{value} is even; give an odd number, so that one lies at mid-stroke: {value + 1}"
-            )
-        return value
+    _middle = field_validator("positions")(odd)
 
     @property
     def end_time(self) -> float:
@@ -122,15 +117,16 @@ class Reciprocating(Kinematics):
         if self.positions == "average":
             return super().cycle(grid)
         stroke = self._stroke(grid)
-        speeds: list[Speeds | None] = [None] * len(stroke.shares)
-        if self.waveform == "sinusoidal":
-            phases = np.arcsin(np.clip(stroke.bounds / (0.5 * self.stroke), -1, 1))
-            means = np.diff(stroke.bounds) / (np.diff(phases) / (2 * math.pi * self.frequency))
-            speeds = [[(float(speed), 1.0)] for speed in means]
-        return [
-            Position(float(share), speed)
-            for share, speed in zip(stroke.shares, speeds, strict=True)
-        ]
+        if self.waveform == "constant_speed":
+            return [Position(float(share)) for share in stroke.shares]
+        half = len(stroke.cells) // 2
+        # From mid-stroke to a reversal, in as many samples between any two positions.
+        places = stroke.cells[half:-1] * grid.spacing[0]
+        at = [*np.arcsin(places / (0.5 * self.stroke)), 0.5 * math.pi]
+        right = np.interp(np.linspace(0, half, SAMPLES * half + 1), np.arange(half + 1), at)
+        phases = np.concatenate([-right[:0:-1], right])
+        times = phases / (2 * math.pi * self.frequency)
+        return stroke.passed(times, 0.5 * self.stroke * np.sin(phases))
 
     def coarsened(self, half_width_x: float) -> Reciprocating:
         """Return the motion with the track average, or a few positions of a short stroke."""
@@ -148,18 +144,15 @@ class Reciprocating(Kinematics):
 
     def _stroke(self, grid: Grid) -> Stroke:
         dx = grid.spacing[0]
-        count = None if self.positions == "cells" else int(self.positions)
-        stroke = Stroke(self.stroke, dx, count)
+        stroke = Stroke(self.stroke, dx, self.positions)
         if not self.allow_short_stroke:
             stroke.check_cells("kinematics.stroke")
-        if count is not None:
-            return stroke
-        cells = self.stroke / dx
-        if abs(cells - 2 * round(0.5 * cells)) > 1e-6 * cells:
+        if self.positions == "cells" and not stroke.is_whole:
+            cells = self.stroke / dx
             near = 2e3 * dx * max(1, round(0.5 * cells))
             raise CaseError(
-                f"{1e3 * self.stroke:.4g} mm are {cells:.4g} cells of {1e3 * dx:.4g} mm; with "
-                f'positions = "cells" give an even whole number of cells, as {near:.6g} mm, or a '
+                f"{1e3 * self.stroke:.7g} mm are {cells:.7g} cells of {1e3 * dx:.7g} mm; with "
+                f'positions = "cells" give an even whole number of cells, as {near:.9g} mm, or a '
                 "number of positions",
                 "kinematics.stroke",
             )
@@ -191,7 +184,7 @@ class Reciprocating(Kinematics):
         """
         if self.positions == "average":
             self._check_average(half_width_x)
-        elif self.positions != "cells":
+        else:
             check_spacing(self.stroke, self.positions, half_width_x)
 
     def _check_average(self, half_width_x: float) -> None:

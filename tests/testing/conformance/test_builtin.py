@@ -42,13 +42,13 @@ test_reciprocating = parametrize_checks(
     [
         {**BACK_AND_FORTH, "duration": 200},
         {**BACK_AND_FORTH, "cycles": 5000, "waveform": "sinusoidal", "swept": "ball"},
-        {**BACK_AND_FORTH, "stroke": "1 mm", "duration": 200, "positions": 9},
+        {**BACK_AND_FORTH, "stroke": "1 mm", "duration": 200, "positions": 15},
     ],
 )
 test_measured = parametrize_checks(
     Measured,
     [
-        {"path": [(0, 0), (1, 1e-3), (3, 1e-3), (4, 0)], "cycles": 200, "positions": 9},
+        {"path": [(0, 0), (1, 1e-3), (3, 1e-3), (4, 0)], "cycles": 200, "positions": 15},
         {"path": [(2, 0), (5, 3e-4), (6, 1e-4), (9, 7e-4)], "positions": "cells", "swept": "ball"},
     ],
 )
