@@ -78,12 +78,13 @@ def test_a_case_is_named_as_such(tmp_path):
         Result.open(path)
 
 
-def test_another_format_is_refused_with_both_numbers(sound, tmp_path):
+@pytest.mark.parametrize("number", [1, [2, 2]])
+def test_another_format_is_refused_with_both_numbers(sound, tmp_path, number):
     path = tmp_path / "old.h5"
     path.write_bytes(sound.read_bytes())
     with edited(path) as file:
-        file.attrs["tribo_format"] = 1
-    with pytest.raises(CaseError, match="has format 1, and this tribo reads format 2"):
+        file.attrs["tribo_format"] = number
+    with pytest.raises(CaseError, match=r"has format (1|\[2 2\]), and this tribo reads format 2"):
         Result.open(path)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -76,38 +76,54 @@ def attributes(run: RunInfo) -> dict[str, Any]:
     return {name: value for name, value in values.items() if value is not None}
 
 
+def _fixed() -> dict[str, Variable]:
+    table = {
+        "x": Variable(("x",), "m", "Position along the sliding direction"),
+        "y": Variable(("y",), "m", "Position across the sliding direction"),
+        "step": Variable(("step",), "1", "Number of the step"),
+        "swept": Variable(("body",), "1", "Whether its points pass through the contact"),
+        "density": Variable(("body",), "kg/m^3", "Density"),
+        "height": Variable(("body", "x", "y"), "m", "Initial height, outward"),
+        "pressure": Variable(_ON_WINDOW, "Pa", "Contact pressure"),
+        "wear_depth": Variable(_ON_BODY, "m", "Depth worn away"),
+        "plastic_depth": Variable(_ON_BODY, "m", "Permanent displacement"),
+        "track_x": Variable(("track_x",), "m", "Position along the track"),
+        TRACK: Variable(
+            ("time", "body", "track_x", "y"), "m", "Depth worn away along the whole track"
+        ),
+    }
+    for prefix, dim in (("", "time"), ("history_", "step")):
+        for column in COLUMNS:
+            table[prefix + column.name] = Variable((dim,), column.unit, column.description)
+        for part in BODY_COLUMNS:
+            table[prefix + part.name] = Variable((dim, "body"), part.unit, part.description)
+    return table
+
+
+FIXED = _fixed()
+"""What every result has by name, but for the two of a track, and no fields of models."""
+
+
 def variables(run: RunInfo) -> dict[str, Variable]:
     """Return the variables of a run by name, the fields of its models among them.
 
     A field whose name is taken has ``effect_`` or ``state_`` before it.
     """
     grid, bodies = run.system.grid, run.bodies
-    swept = np.array([float(body.swept) for body in bodies])
-    density = np.array([np.nan if b.density is None else b.density for b in bodies])
-    height = np.stack([body.height for body in bodies])
-    table = {
-        "x": Variable(("x",), "m", "Position along the sliding direction", grid.x),
-        "y": Variable(("y",), "m", "Position across the sliding direction", grid.y),
-        "step": Variable(("step",), "1", "Number of the step"),
-        "swept": Variable(("body",), "1", "Whether its points pass through the contact", swept),
-        "density": Variable(("body",), "kg/m^3", "Density", density),
-        "height": Variable(("body", "x", "y"), "m", "Initial height, outward", height),
-        "pressure": Variable(_ON_WINDOW, "Pa", "Contact pressure"),
-        "wear_depth": Variable(_ON_BODY, "m", "Depth worn away"),
-        "plastic_depth": Variable(_ON_BODY, "m", "Permanent displacement"),
+    values = {
+        "x": grid.x,
+        "y": grid.y,
+        "swept": np.array([float(body.swept) for body in bodies]),
+        "density": np.array([np.nan if b.density is None else b.density for b in bodies]),
+        "height": np.stack([body.height for body in bodies]),
     }
+    table = dict(FIXED)
     rows = max(body.rows for body in bodies)
     if rows > grid.cells[0]:
-        x = np.asarray((np.arange(rows) - 0.5 * (rows - 1)) * grid.spacing[0])
-        table["track_x"] = Variable(("track_x",), "m", "Position along the track", x)
-        table[TRACK] = Variable(
-            ("time", "body", "track_x", "y"), "m", "Depth worn away along the whole track"
-        )
-    for prefix, dim in (("", "time"), ("history_", "step")):
-        for column in COLUMNS:
-            table[prefix + column.name] = Variable((dim,), column.unit, column.description)
-        for part in BODY_COLUMNS:
-            table[prefix + part.name] = Variable((dim, "body"), part.unit, part.description)
+        values["track_x"] = np.asarray((np.arange(rows) - 0.5 * (rows - 1)) * grid.spacing[0])
+    else:
+        del table["track_x"], table[TRACK]
+    table |= {name: replace(table[name], values=array) for name, array in values.items()}
     everybody = tuple(body.name for body in bodies)
     fields = {(EFFECT, field): everybody for field in run.effect_fields}
     for body in bodies:
@@ -115,7 +131,7 @@ def variables(run: RunInfo) -> dict[str, Variable]:
             fields[STATE, field] = (*fields.get((STATE, field), ()), body.name)
     for (kind, field), owners in fields.items():
         name = field.name
-        while name in table or name == "body":
+        while name in FIXED or name in table or name == "body":
             name = f"{kind}_{name}"
         table[name] = Variable(
             _ON_BODY, field.unit, field.description, None, kind, field.name, owners

@@ -8,9 +8,11 @@ from io import BytesIO
 from pathlib import Path
 
 import h5py
+import numpy as np
 
 from tribo.core.errors import CaseError
 from tribo.result.checkpoint import RunFolder
+from tribo.result.checks import interpreting
 from tribo.result.hdf5 import filled_image
 from tribo.result.layout import FORMAT
 from tribo.result.sealed import open_sealed
@@ -27,20 +29,21 @@ def source_of(path: Path) -> Path | BytesIO:
     if not is_unfinished(path):
         return path
     folder = RunFolder(path.resolve())
-    try:
-        return _saved_so_far(path, folder)
-    except (CaseError, OSError) as error:
-        # The run may have ended since, and taken its folder with it.
-        if not is_unfinished(path):
-            return path
-        remedy = (
-            "try again, for another process is writing it"
-            if folder.busy()
-            else "start again with 'tribo run --force'"
-        )
-        raise CaseError(
-            f"{path}: what its run has saved cannot be read: {error}; {remedy}"
-        ) from error
+    with interpreting(str(path)):
+        try:
+            return _saved_so_far(path, folder)
+        except (CaseError, OSError) as error:
+            # The run may have ended since, and taken its folder with it.
+            if not is_unfinished(path):
+                return path
+            remedy = (
+                "try again, for another process is writing it"
+                if folder.busy()
+                else "start again with 'tribo run --force'"
+            )
+            raise CaseError(
+                f"{path}: what its run has saved cannot be read: {error}; {remedy}"
+            ) from error
 
 
 def is_unfinished(path: Path) -> bool:
@@ -58,9 +61,9 @@ def is_unfinished(path: Path) -> bool:
                 f"{path} is no result of tribo, or its beginning is damaged{hint}"
             ) from error
         raise
-    with h5py.File(path) as file:
+    with interpreting(str(path)), h5py.File(path) as file:
         written = file.attrs.get("tribo_format")
-        if written != FORMAT:
+        if not np.array_equal(written, FORMAT):
             raise CaseError(
                 f"{path} has format {written}, and this tribo reads format {FORMAT}: read it with "
                 "the tribo that wrote it, or run its case again"

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Mapping
+from contextlib import ExitStack
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
@@ -18,6 +18,7 @@ from tribo.core.errors import CaseError
 from tribo.core.fields import Field
 from tribo.core.grid import Grid
 from tribo.core.words import did_you_mean, suggestion
+from tribo.result import checks
 from tribo.result.body import BodyResult, checked_save
 from tribo.result.columns import BODY_COLUMNS, COLUMNS, INVARIANTS, labelled
 from tribo.result.layout import EFFECT, STATE
@@ -52,21 +53,13 @@ class Result:
     def __init__(self, source: Path | BytesIO, name: str) -> None:
         self.name = name
         self._source = source
-        self._file = h5py.File(source)
-        self._header = dict(self._file.attrs)
-        self._case = json.loads(self._header["case"])
-        self._provenance = json.loads(self._header["provenance"])
-        self._variables = list(self._file)
-        self._scalars: dict[str, Array] = {
-            name: values[()]
-            for name, values in self._file.items()
-            if values.ndim <= 2 and name != "body"
-        }
-        self._kept = {
-            name: (str(values.attrs["kind"]), _field(values.attrs), list(values.attrs["bodies"]))
-            for name, values in self._file.items()
-            if "kind" in values.attrs
-        }
+        with checks.interpreting(name), ExitStack() as unsound:
+            self._file = unsound.enter_context(h5py.File(source))
+            self._header = checks.read_attributes(self._file.attrs)
+            self._variables = checks.read_variables(self._file, self.body_names)
+            small = [name for name, values in self._variables.items() if len(values.dims) <= 2]
+            self._scalars = {name: self._read(name, ...) for name in small}
+            unsound.pop_all()
         self._dataset: xr.Dataset | None = None
 
     @classmethod
@@ -107,12 +100,19 @@ class Result:
             self._dataset.close()
         self._file.close()
 
+    def check(self) -> None:
+        """Check the numbers of every field, one save at a time; CaseError if some make no sense."""
+        for name in self._variables.keys() - self._scalars.keys():
+            for index in range(len(self._file[name])):
+                self._read(name, index)
+
     @property
     def dataset(self) -> xr.Dataset:
         """All of the result, as `xarray.open_dataset` gives it."""
         if self._dataset is None:
             import xarray as xr
 
+            self.check()
             self._dataset = xr.open_dataset(self._source, engine="h5netcdf")
         return self._dataset
 
@@ -154,17 +154,17 @@ class Result:
     @property
     def case(self) -> dict[str, Any]:
         """The full configuration, as plain data."""
-        return dict(self._case)
+        return dict(self._header["case"])
 
     @property
     def provenance(self) -> dict[str, Any]:
         """Versions and classes that made the result."""
-        return dict(self._provenance)
+        return dict(self._header["provenance"])
 
     @property
     def notices(self) -> tuple[str, ...]:
         """Warnings given during the run."""
-        return tuple(json.loads(self._header["notices"]))
+        return tuple(self._header["notices"])
 
     @property
     def system(self) -> ContactSystem:
@@ -373,13 +373,17 @@ class Result:
     def fields_of(self, kind: str, body: str | None = None) -> dict[str, Field]:
         """Return the fields of a kind, ``"state"`` or ``"effect"``, by variable; of one body."""
         return {
-            name: field
-            for name, (its, field, bodies) in self._kept.items()
-            if its == kind and (body is None or body in bodies)
+            name: Field(its.field, its.unit, its.meaning)
+            for name, its in self._variables.items()
+            if its.kind == kind and (body is None or body in its.bodies)
         }
 
-    def _read(self, name: str, *index: int | slice) -> Array:
-        return np.asarray(self._file[name][index])
+    def _read(self, name: str, *index: Any) -> Array:
+        values = self._file[name]
+        with checks.interpreting(self.name):
+            read = np.asarray(values[index])
+            checks.check_values(name, self._variables[name], read)
+        return read
 
     def _index(self, body: str) -> int:
         if body not in self.body_names:
@@ -387,11 +391,6 @@ class Result:
                 f"{self.name} has no body {body!r}; its bodies are {', '.join(self.body_names)}"
             )
         return self.body_names.index(body)
-
-
-def _field(attributes: Mapping[str, Any]) -> Field:
-    name, unit, meaning = (str(attributes[key]) for key in ("field", "units", "long_name"))
-    return Field(name, unit, meaning)
 
 
 open = Result.open

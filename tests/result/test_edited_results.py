@@ -1,0 +1,174 @@
+"""A result that was changed, its checksum too, is read with care: one line says what is wrong."""
+
+import json
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from edited import edited
+from made_results import made
+
+import tribo
+from tribo import CaseError
+from tribo.cli.main import tribo as command_line
+
+COMMANDS = {
+    "show": ("show", "x.h5"),
+    "show as JSON": ("show", "x.h5", "--json"),
+    "export": ("export", "x.h5"),
+    "plot": ("plot", "x.h5"),
+    "compare": ("compare", "x.h5", "sound.h5", "--no-plots"),
+}
+BODIES = {"ball": {}, "disk": {}}
+# Five saves, nine steps, 50 × 40 cells, two bodies.
+FIELD = (5, 50, 40)
+ON_BODIES = (5, 2, 50, 40)
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    with made() as result:
+        for name in ("x.h5", "sound.h5"):
+            result.save(tmp_path / name)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def refusal(folder, edit, *command):
+    with edited(folder / "x.h5") as file:
+        edit(file)
+    ended = CliRunner().invoke(command_line, command)
+    assert isinstance(ended.exception, CaseError), repr(ended.exception)
+    assert "\n" not in str(ended.exception)
+    assert "Infinity" not in ended.stdout
+    return str(ended.exception)
+
+
+def attribute(name, value):
+    return lambda file: file.attrs.__setitem__(name, value)
+
+
+def text(name, data):
+    return attribute(name, json.dumps(data))
+
+
+def dataset(name, values):
+    def edit(file):
+        attributes = dict(file[name].attrs) if name in file else {}
+        file.pop(name, None)
+        file[name] = values
+        for key in attributes.keys() & {"kind", "field", "units", "long_name", "bodies"}:
+            file[name].attrs[key] = attributes[key]
+
+    return edit
+
+
+def number(name, value):
+    """One number among the others."""
+    return lambda file: file[name].__setitem__((-1,) * file[name].ndim, value)
+
+
+def field(values, **changes):
+    """A field that an effect provides."""
+
+    def edit(file):
+        file["film"] = values
+        attributes = {"kind": "effect", "field": "film", "units": "1", "long_name": "Film"}
+        file["film"].attrs.update({**attributes, "bodies": ["ball", "disk"], **changes})
+
+    return edit
+
+
+EDITS = {
+    "a case that is no JSON": attribute("case", "{nope"),
+    "a case that nests deeply": attribute("case", '{"bodies":' * 5000 + "1" + "}" * 5000),
+    "a case that is a number": attribute("case", 1.0),
+    "bodies that are not in the file": text("case", {"bodies": {"a": {}, "b": {}}}),
+    "a contact that is text": text("case", {"bodies": BODIES, "contact": "x"}),
+    "no provenance": text("provenance", {}),
+    "notices that are no texts": text("notices", [1]),
+    "an unknown status": attribute("status", "odd"),
+    "no status": lambda file: file.attrs.pop("status"),
+    "a wall time that is not finite": attribute("wall_time_s", np.inf),
+    "a load that is text": attribute("load_N", "x"),
+    "a negative load": attribute("load_N", -1.0),
+    "a window of one number": attribute("window_m", [1.0]),
+    "a modulus that is not a number": attribute("modulus_Pa", np.nan),
+    "a cap of 0": attribute("cap_Pa", 0.0),
+    "a curvature of one number": attribute("curvature_1_m", 1.0),
+    "no cells": dataset("x", np.zeros(0)),
+    "other bodies": dataset("body", [b"ball", b"block"]),
+    "bodies that are a group": lambda file: (file.pop("body"), file.create_group("body")),
+    "more times than saves": dataset("time", np.arange(9.0)),
+    "times in a table": dataset("time", np.ones((5, 2))),
+    "one time as a number": dataset("time", 1.0),
+    "times that do not grow": dataset("time", np.zeros(5)),
+    "a time that is not finite": number("time", np.inf),
+    "steps that do not grow": number("history_time", 0.0),
+    "no history": lambda file: file.pop("history_time"),
+    "a short history": dataset("history_contact_solves", np.ones(2)),
+    "a history that is not finite": number("history_contact_solves", np.nan),
+    "a short column": dataset("wear_volume", np.ones((1, 2))),
+    "a pressure of another shape": dataset("pressure", np.ones((5, 3, 3))),
+    "a pressure that is text": dataset("pressure", np.full(FIELD, b"a")),
+    "a pressure that is complex": dataset("pressure", np.full(FIELD, 1j)),
+    "a pressure that is not finite": number("pressure", np.nan),
+    "a negative pressure": number("pressure", -1.0),
+    "a wear depth of another shape": dataset("wear_depth", np.ones((5, 3))),
+    "a wear depth beyond all measure": number("wear_depth", 1e300),
+    "a negative wear depth": number("wear_depth", -1e-9),
+    "a plastic depth that is not finite": number("plastic_depth", np.inf),
+    "a negative plastic depth": number("plastic_depth", -1e-9),
+    "a track without its positions": dataset("track_depth", np.ones(ON_BODIES)),
+    "a height that is not finite": number("height", np.nan),
+    "a density below 0": number("density", -1.0),
+    "an effect that is infinite": field(np.full(ON_BODIES, np.inf)),
+    "an effect of another shape": field(np.ones(FIELD)),
+    "an effect without a meaning": lambda file: file["pressure"].attrs.update({"kind": "effect"}),
+}
+
+
+@pytest.mark.parametrize("edit", EDITS.values(), ids=EDITS)
+def test_what_does_not_fit_is_told(folder, edit):
+    assert "x.h5 is damaged: " in refusal(folder, edit, "show", "x.h5", "--json")
+
+
+@pytest.mark.parametrize("command", COMMANDS.values(), ids=COMMANDS)
+@pytest.mark.parametrize(
+    "bodies",
+    [{}, {"ball": {}}, {**BODIES, "pin": {}}, [1]],
+    ids=["none", "one", "three", "list"],
+)
+def test_every_command_refuses_a_case_without_its_two_bodies(folder, command, bodies):
+    assert "x.h5 is damaged: 'case" in refusal(folder, text("case", {"bodies": bodies}), *command)
+
+
+@pytest.mark.parametrize("command", COMMANDS.values(), ids=COMMANDS)
+def test_every_command_refuses_a_pressure_that_is_not_finite(folder, command):
+    assert "x.h5 is damaged: 'pressure'" in refusal(folder, number("pressure", np.inf), *command)
+
+
+@pytest.mark.parametrize("name", ["time", "wear_depth"])
+def test_a_claim_of_more_than_the_file_can_hold_takes_no_memory(folder, name):
+    def claims(file):
+        file.pop(name)
+        file.create_dataset(name, (10**12,), chunks=(4096,), dtype="f8")
+
+    assert "x.h5 is damaged: " in refusal(folder, claims, "show", "x.h5")
+
+
+def test_xarray_gives_no_field_that_makes_no_sense(folder):
+    with edited(folder / "x.h5") as file:
+        number("pressure", np.nan)(file)
+    with tribo.open("x.h5") as result, pytest.raises(CaseError, match="damaged: 'pressure'"):
+        _ = result.dataset
+
+
+def test_a_case_that_was_only_added_to_and_an_effect_that_failed_are_shown(folder):
+    with edited(folder / "x.h5") as file:
+        text("case", {**json.loads(file.attrs["case"]), "later": 1})(file)
+        field(np.full(ON_BODIES, np.nan))(file)
+    shown = CliRunner().invoke(command_line, ["show", "x.h5", "--json"])
+    assert shown.exception is None
+    save = json.loads(shown.stdout)["saves"][0]
+    assert save["bodies"]["ball"]["effects"] == {"film": {"min": None, "max": None}}
