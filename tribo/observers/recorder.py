@@ -35,6 +35,7 @@ class Recorder(Observer):
     """Wall time between checkpoints; one is also written at a save, at most once a second."""
 
     _writer: ResultWriter = PrivateAttr()
+    _begun: bool = False
     _effects: bool = False
     _clock: float = 0.0
     _spent_before: float = 0.0
@@ -54,10 +55,12 @@ class Recorder(Observer):
                 self._spent_before, self._last_checkpoint = run.wall_time, self._clock
                 self._saved = run.resumed_from.state.time
                 self._writer.reopen(run)
+                self._begun = True
                 return
             if self.path is not None and os.path.exists(self.path) and not self.overwrite:
                 raise CaseError(f"{self.path} exists; choose another path, or set overwrite = true")
             self._writer.create(run)
+            self._begun = True
 
     def on_step(self, snapshot: Snapshot) -> None:
         """Add to the history; now and then write a checkpoint."""
@@ -83,6 +86,11 @@ class Recorder(Observer):
                 self._writer.finish(reason, self._spent(), notices)
         finally:
             self._writer.close()
+
+    @property
+    def holds(self) -> Path | None:
+        """The file that holds what was saved, if it was begun."""
+        return self.path if self._begun else None
 
     def result(self) -> Result:
         """Return what was recorded, for reading."""

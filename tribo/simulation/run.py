@@ -198,11 +198,9 @@ class Simulation:
         snapshot = self._snapshot(state)
         info = self._info(snapshot if resumed else None, wall_time)
         reason = "failed"
-        begun = False
         try:
             with InterruptGuard() as guard:
                 audience.start(info)
-                begun = True
                 if not resumed:
                     _announce((), state.notices)
                     snapshot = self._with_effects(snapshot)
@@ -220,9 +218,9 @@ class Simulation:
             # For whoever opens the result: it says why it ends here.
             failed = snapshot.state.with_notice("failed", str(error))
             snapshot = replace(snapshot, state=failed)
-            if recorder.path and begun:
+            if recorder.holds:
                 error.add_note(
-                    f"{recorder.path} holds what was saved until then; 'tribo run' replaces it "
+                    f"{recorder.holds} holds what was saved until then; 'tribo run' replaces it "
                     "with --force."
                 )
             raise
