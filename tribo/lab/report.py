@@ -53,7 +53,7 @@ class LabReport:
     """The bodies after the last save, by name, and the first contact.
 
     `first_contact_words` set it against Hertz and the onset of yield. `inferred`
-    are the volumes by a lab's formulas, beside those worn; `rows` what the
+    are the volumes by a lab's formulas, beside those worn; ``rows`` what the
     plugins of its models add.
     """
 
