@@ -22,8 +22,9 @@ class BodyState:
         Depth worn away, in m; on the body's own surface: shape (nx, ny),
         (1, ny) on a body that the average sweeps along a track, and (rows, ny)
         on one that passes through a resolved cycle.
-    plastic : ndarray, shape (nx, ny) or (rows, ny)
-        Permanent displacement by plastic flow, in m, positive into the body.
+    plastic : ndarray
+        Permanent displacement by plastic flow, in m, positive into the body; shape (nx, ny), or
+        (rows, ny) on a body that passes through a resolved cycle.
     law : Mapping[str, ndarray]
         State fields of the body's wear law, shaped as `wear`.
     """
