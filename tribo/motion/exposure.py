@@ -110,7 +110,7 @@ class Stationary(Exposure):
         return field
 
     def volume(self, depth: Array) -> float:
-        """Return the integral of `depth` over the window, in m³."""
+        """Return the integral of `depth` over the body's rows, in m³."""
         return float(np.sum(depth)) * self._cell_area
 
     def compliance(self, derivative: Array, pressure: Array) -> WearCompliance:
@@ -177,12 +177,13 @@ class Track(Exposure):
         return WearCompliance(np.zeros_like(derivative), mean / self._length)
 
 
-class Passing(Exposure):
+class Passing(Stationary):
     """Points pass through the contact, which is solved at positions along their path.
 
     The body has rows of its own, those of the window at every position. Its wear is r(x) =
     Σₘ ωₘ Tₘᵀ r(pₘ), with ωₘ the share of the path at position m and Tₘᵀ laying the window on the
-    body where it is then. With all pₘ alike it is the average of `Track` at mid-stroke.
+    body where it is then. With all pₘ alike it is the average of `Track` at mid-stroke. On its own
+    rows its points stay, so that averages, envelopes and volumes are those of `Stationary`.
 
     Parameters
     ----------
@@ -197,27 +198,15 @@ class Passing(Exposure):
     swept = True
 
     def __init__(self, grid: Grid, starts: Sequence[int], length: float) -> None:
+        super().__init__(grid)
         self.starts = tuple(starts)
         self._rows = grid.cells[0] + max(starts)
-        self._cell_area = grid.cell_area
         self._track = Track(grid, length)
 
     @property
     def rows(self) -> int:
         """Cells along x on the body."""
         return self._rows
-
-    def average(self, rate: Array) -> Array:
-        """Return `rate` itself: it is laid on the body at each position."""
-        return rate
-
-    def envelope(self, field: Array) -> Array:
-        """Return `field` itself."""
-        return field
-
-    def volume(self, depth: Array) -> float:
-        """Return the integral of `depth` over the body's rows, in m³."""
-        return float(np.sum(depth)) * self._cell_area
 
     def compliance(self, derivative: Array, pressure: Array) -> WearCompliance:
         """Return that of the average, which takes all positions to change alike."""
