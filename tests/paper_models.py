@@ -47,7 +47,9 @@ def foundation(**values):
 
 
 def motion(**values):
-    return Reciprocating(**{"stroke": "2 mm", "frequency": 25, "duration": 200, **values})
+    return Reciprocating(
+        **{"stroke": "2 mm", "frequency": 25, "duration": 200, "positions": "average", **values}
+    )
 
 
 def named(name, surface, material, wear=None):

@@ -5,12 +5,11 @@ import io
 import numpy as np
 import pytest
 from made_results import made
-from paper_models import archard, case, flat, foundation, named, sphere, steel
+from paper_models import archard, case, flat, foundation, motion, named, sphere, steel
 
 from tribo import Effect, Field, Grid, Simulation
 from tribo.cli.console import Console
 from tribo.cli.report import print_report
-from tribo.motion.reciprocating import Reciprocating
 
 
 def printed(result, width=80):
@@ -29,7 +28,7 @@ def brief(**changes):
         named("ball", sphere(), steel(4e9), archard()),
         named("disk", flat(), steel(4e9), archard()),
     ]
-    kinematics = Reciprocating(stroke=2e-3, frequency=25, duration=1)
+    kinematics = motion(duration=1)
     return Simulation(case(**{"bodies": bodies, "kinematics": kinematics, **changes})).run()
 
 

@@ -60,7 +60,12 @@ CASE = """
 grid = {size = "2 mm", cells = 64}
 load.normal = "100 N"
 contact.type = "dcfft"
-kinematics = {type = "reciprocating", stroke = "2 mm", frequency = "25 Hz", duration = "1 h"}
+[kinematics]
+type = "reciprocating"
+stroke = "2 mm"
+frequency = "25 Hz"
+duration = "1 h"
+positions = "average"
 [bodies.ball]
 surface = {type = "sphere", radius = "5 mm"}
 material = {young = "207 GPa", poisson = 0.3}

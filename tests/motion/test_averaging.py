@@ -4,10 +4,10 @@ import json
 from pathlib import Path
 
 import pytest
+from paper_models import motion
 
 from tribo.core.errors import CaseError
 from tribo.motion.averaging import groove_excess
-from tribo.motion.reciprocating import Reciprocating
 from tribo.motion.unidirectional import Unidirectional
 
 FIGURES = Path(__file__).parents[2] / "docs" / "_data" / "moving_contact.json"
@@ -15,7 +15,7 @@ TABLES = json.loads(FIGURES.read_text(encoding="utf-8"))["tables"]
 
 
 def stroke(value="2 mm", **more):
-    return Reciprocating(stroke=value, frequency="25 Hz", duration="1 h", **more)
+    return motion(stroke=value, duration="1 h", **more)
 
 
 @pytest.mark.parametrize("row", TABLES["paper"], ids=lambda row: row["case"])

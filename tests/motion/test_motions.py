@@ -2,6 +2,7 @@ import math
 
 import numpy as np
 import pytest
+from paper_models import motion
 from pydantic import ValidationError
 
 from tribo.core.errors import CaseError
@@ -14,8 +15,7 @@ GRID = Grid((1e-3, 1e-3), (10, 10))
 
 
 def reciprocating(**values):
-    values = {"stroke": "2 mm", "frequency": "25 Hz", "duration": "1 h", **values}
-    return Reciprocating(**values)
+    return motion(**{"duration": "1 h", **values})
 
 
 def test_the_papers_hour_is_360_metres():

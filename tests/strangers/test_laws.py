@@ -46,6 +46,7 @@ def case(law, **changes):
             "type": "reciprocating",
             "stroke": "4 mm",
             "frequency": "12.5 Hz",
+            "positions": "average",
             "duration": "60 s",
         },
         "friction": {"coefficient": 0.4},

@@ -150,6 +150,7 @@ CASE = {
         "type": "reciprocating",
         "stroke": "4 mm",
         "frequency": "12.5 Hz",
+        "positions": "average",
         "duration": "60 s",
     },
 }

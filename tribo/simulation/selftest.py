@@ -25,7 +25,13 @@ _CASE = {
             "wear": {"type": "archard", "k": 3.11e-16},
         },
     },
-    "kinematics": {"type": "reciprocating", "stroke": 2e-3, "frequency": 25.0, "duration": 20.0},
+    "kinematics": {
+        "type": "reciprocating",
+        "stroke": 2e-3,
+        "frequency": 25.0,
+        "duration": 20.0,
+        "positions": "average",
+    },
 }
 
 

@@ -217,7 +217,9 @@ class _Limit(Observer):
 
 def sliding(distance: float) -> Reciprocating:
     """Return back and forth sliding of 2 mm strokes."""
-    return Reciprocating(stroke=2e-3, frequency=SPEED / 4e-3, distance=distance)
+    return Reciprocating(
+        stroke=2e-3, frequency=SPEED / 4e-3, distance=distance, positions="average"
+    )
 
 
 def _friction(given: Mapping[str, FieldValue]) -> float:

@@ -23,6 +23,7 @@ def solve(contact: str, load: float, width: float, cells: int) -> tuple[ContactS
                 "stroke": "2 mm",
                 "frequency": "25 Hz",
                 "duration": "1 s",
+                "positions": "average",
                 "swept": "disk",
             },
             "stepping": {"type": "explicit", "time_step": "1 s"},

@@ -39,6 +39,7 @@ def first_contact(contact, load, width):
             "stroke": "2 mm",
             "frequency": "25 Hz",
             "duration": "1 s",
+            "positions": "average",
             "swept": "disk",
         },
         "stepping": {"type": "explicit", "time_step": "1 s"},

@@ -45,6 +45,7 @@ def case(path: Path, span: float) -> dict[str, object]:
             "stroke": "2 mm",
             "frequency": "25 Hz",
             "duration": "50 s",
+            "positions": "average",
             "swept": "disk",
         },
     }

@@ -148,6 +148,7 @@ type = "reciprocating"
 stroke = "2 mm"
 frequency = "25 Hz"
 distance = "0.2 m"
+positions = "average"
 """
 
 
