@@ -15,6 +15,7 @@ from tribo.core.arrays import Array, readonly
 from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError, located
 from tribo.core.grid import Grid
+from tribo.core.loads import Loads
 from tribo.core.material import contact_modulus
 from tribo.simulation.effects import in_order
 from tribo.simulation.guarded_motion import GuardedExposure, GuardedMotion
@@ -92,6 +93,7 @@ def assemble(case: Case) -> Model:
         exposures=exposures,
         plastic_share=share,
         system=system,
+        loads=Loads.constant(case.load.normal, len(cycle)),
         cycle=cycle,
         gaps=_gaps(grid, len(cycle), surfaces, exposures),
         end_time=end,

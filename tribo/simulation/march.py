@@ -67,9 +67,9 @@ def march(model: Model, state: State) -> Iterator[Accepted]:
 
 
 def _march(model: Model, state: State, limit: float) -> Iterator[Accepted]:
-    # Which saves are left follows from the time alone, so a resumed run sees the same.
-    saves = [t for t in model.case.output.save_times if 0 < t < model.end_time]
-    for until in [*saves, model.end_time]:
+    # Which stops are left follows from the time alone, so a resumed run sees the same.
+    edges = {time for time in model.loads.edges if time < model.end_time}
+    for until in sorted(model.saves | edges):
         while state.time < until:
             state = _advanced(model, state, until, limit)
             worn_out = _depth(model, state) >= limit
@@ -82,7 +82,7 @@ def _march(model: Model, state: State, limit: float) -> Iterator[Accepted]:
                     f"ended at {state.time:.6g} s, where the wear depth reached "
                     f"{1e6 * limit:.4g} µm",
                 )
-            save = last or state.time >= until
+            save = last or (state.time >= until and until in model.saves)
             if save:
                 state = replace(state, saves=state.saves + 1)
             yield Accepted(state, save, last)

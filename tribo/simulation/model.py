@@ -14,6 +14,7 @@ from tribo.contact.solver import ContactSolver
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSystem
 from tribo.core.grid import Grid
+from tribo.core.loads import Loads
 from tribo.core.measures import between_cells
 from tribo.motion.cycle import Position
 from tribo.simulation.guard import calling
@@ -55,6 +56,8 @@ class Model:
         Part of the plastic overlap that each body, by name, takes.
     system : ContactSystem
         The constants of the contact.
+    loads : Loads
+        The normal load over time, at each position of the cycle.
     cycle : tuple of Position
         The positions of a cycle in which the contact is solved.
     gaps : tuple of ndarray, shape (nx, ny)
@@ -73,6 +76,7 @@ class Model:
     exposures: Mapping[str, GuardedExposure]
     plastic_share: Mapping[str, float]
     system: ContactSystem
+    loads: Loads
     cycle: tuple[Position, ...]
     gaps: tuple[Array, ...]
     end_time: float
@@ -97,7 +101,7 @@ class Model:
 
     @property
     def load(self) -> float:
-        """Normal load, in N."""
+        """Normal load of the first contact, in N."""
         return self.system.load
 
     @property
@@ -135,6 +139,12 @@ class Model:
         """Largest distance between neighbouring positions of the cycle, in m; 0 of an average."""
         steps = [np.diff(e.starts) for e in self.exposures.values() if e.starts is not None]
         return max((float(np.max(np.abs(s))) for s in steps), default=0.0) * self.grid.spacing[0]
+
+    @cached_property
+    def saves(self) -> frozenset[float]:
+        """Times after t = 0 at which all fields are saved, in s."""
+        times = self.case.output.save_times
+        return frozenset({*(t for t in times if 0 < t < self.end_time), self.end_time})
 
     @cached_property
     def end_distance(self) -> float:

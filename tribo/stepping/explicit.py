@@ -87,7 +87,7 @@ class Explicit(Scheme):
         if until - time < 1e-6 * self.time_step:
             time = until
         if rests(model, state, time):
-            return rested(state, time)
+            return rested(model, state, time)
         state = start_sliding(model, state)
         increment = distance_until(model, state, time) - state.distance
         moment = moment_after(state, increment, time)
@@ -106,12 +106,13 @@ class Explicit(Scheme):
         law = law_states_after(model, law_states(state), rates, increment)
         bodies = worn_bodies(state, worn, law)
         gaps = [geometry(model, bodies, position) for position in range(len(model.cycle))]
-        contacts, solves = solve_cycle(model, gaps, [None] * len(gaps), _extrapolated(state))
+        loads = model.loads.before(time)
+        contacts, solves = solve_cycle(model, gaps, loads, [None] * len(gaps), _extrapolated(state))
         kept = replace(
             state, rates=(), invariants=wear_balance(model, worn, rates, increment, state)
         )
         iterations = sum(contact.iterations for contact in contacts)
-        return accepted(model, kept, bodies, contacts, moment, solves, iterations)
+        return accepted(model, kept, bodies, contacts, loads, moment, solves, iterations)
 
     def _instability(self, model: Model, state: State, moment: Moment) -> str | None:
         """Return a warning of a step that is beyond the limit where the case allows it.

@@ -133,14 +133,15 @@ class Implicit(Scheme):
             If steps are rejected down to a length that drowns in rounding.
         """
         if rests(model, state, until):
-            return rested(state, until)
+            return rested(model, state, until)
         state = start_sliding(model, state)
         target = distance_until(model, state, until)
+        settle = self.settle if until in model.saves else 0.0
         remaining = target - state.distance
         natural = state.increment or _first_increment(model, state, remaining)
         rejected = 0
         while True:
-            increment = self._fitted(natural, remaining, target)
+            increment = _fitted(natural, remaining, settle * target)
             last = increment == remaining
             time = until if last else _time_at(model, state, state.distance + increment, until)
             try:
@@ -181,7 +182,9 @@ class Implicit(Scheme):
         The step's wear enters the contact problem as compliance; where that is
         not the law's exact wear (a law not linear in pressure, a field that
         depends on it), the remainder is put into the gap and the solve repeated
-        until it is.
+        until it is. It is that under the mean load of the step, so that the volume
+        is that of a load which changes along it; the contact it ends with is
+        solved anew under the load at its end.
 
         Parameters
         ----------
@@ -202,12 +205,14 @@ class Implicit(Scheme):
         before = law_states(state)
         rates = state.rates or wear_rates(model, state.contacts, before, moment)
         guess = _guess(model, before, state.contacts, rates, increment)
-        forward = guess.worn
+        loads = model.loads.mean(state.time, time)
+        heavier = loads[0] / model.loads.after(state.time)[0]
+        forward = {name: heavier * depth for name, depth in guess.worn.items()}
         law, passes, solves, iterations = before, 0, 0, 0
         while True:
             gaps, compliances = _linearised(model, base, guess, mixing, increment)
             try:
-                contacts, solved = solve_cycle(model, gaps, compliances, guess.contacts)
+                contacts, solved = solve_cycle(model, gaps, loads, compliances, guess.contacts)
             except PluginError:
                 raise
             except NumericalError as error:
@@ -248,7 +253,7 @@ class Implicit(Scheme):
             rates=rates,
             invariants=wear_balance(model, guess.worn, rates, increment, state),
         )
-        after = accepted(model, kept, bodies, contacts, moment, solves, iterations)
+        after = accepted(model, kept, bodies, contacts, loads, moment, solves, iterations)
         return Trial(after, forward)
 
     def errors(self, model: Model, before: State, trial: Trial) -> Errors:
@@ -298,17 +303,17 @@ class Implicit(Scheme):
             volume_error / (VOLUME * self.depth_tolerance),
         )
 
-    def _fitted(self, natural: float, remaining: float, target: float) -> float:
-        """Return the increment to take with `remaining` metres to a save at `target`.
 
-        Before a save the increments are halved down to ``settle * target``, which
-        lets the pressure catch up with the wear.
-        """
-        increment = min(natural, max(0.5 * remaining, self.settle * target))
-        if remaining <= increment * (1 + 1e-9):
-            return remaining
-        # Two equal steps rather than a full one and a sliver.
-        return 0.5 * remaining if remaining < 2 * increment else increment
+def _fitted(natural: float, remaining: float, last: float) -> float:
+    """Return the increment to take with `remaining` metres to go.
+
+    They are halved down to `last` metres, which lets the pressure catch up with the wear.
+    """
+    increment = min(natural, max(0.5 * remaining, last)) if last else natural
+    if remaining <= increment * (1 + 1e-9):
+        return remaining
+    # Two equal steps rather than a full one and a sliver.
+    return 0.5 * remaining if remaining < 2 * increment else increment
 
 
 def _guess(

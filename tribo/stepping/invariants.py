@@ -6,7 +6,7 @@ in `tribo.simulation.guards`.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from math import isfinite
 from typing import TYPE_CHECKING
@@ -29,6 +29,8 @@ CONDITIONS = 1e-2
 VOLUME = 1e-6
 SMALL = 1e-9
 """Part of the volume worn so far below which that of a step drowns in rounding."""
+ONE_LOAD = 1e-3
+"""Relative change of the load from which on it, and not chattering, moves the pressure."""
 CHATTERING = 0.5
 """On smooth and rough balls implicit steps were seen to hand back up to 0.012 of the load, stable
 explicit ones, as they begin, 0.28; unstable ones come to between 0.6 and 0.9."""
@@ -101,7 +103,7 @@ def hold(model: Model, before: State | None, after: State) -> State:
     """
     if before is not None:
         after = replace(after, previous=tuple(each.pressure for each in before.contacts))
-        if before.previous:
+        if before.previous and _one_load(before.previous, before, after):
             share = max(map(_chattering, before.previous, before.contacts, after.contacts))
             after = replace(after, invariants=replace(after.invariants, chattering=share))
     broken = broken_by(after)
@@ -154,6 +156,16 @@ def handed_back(first: Array, second: Array, third: Array) -> float:
     low -= second
     np.abs(low, out=low)
     return 0.5 * float(np.sum(low)) / float(np.sum(second))
+
+
+def _one_load(previous: Sequence[Array], before: State, after: State) -> bool:
+    """Whether each position carries one load in three states that follow one another."""
+    for two_ago, between, latest in zip(previous, before.contacts, after.contacts, strict=True):
+        carried = float(np.sum(between.pressure))
+        others = float(np.sum(two_ago)), float(np.sum(latest.pressure))
+        if any(abs(other - carried) > ONE_LOAD * carried for other in others):
+            return False
+    return True
 
 
 def _chattering(before: Array, between: ContactSolution, after: ContactSolution) -> float:

@@ -13,6 +13,7 @@ from tribo.core.arrays import Array
 from tribo.core.contact import ContactProblem, ContactSolution, WearCompliance
 from tribo.core.errors import CaseError, NumericalError, PluginError
 from tribo.core.fields import WearRate
+from tribo.core.loads import ByPosition
 from tribo.core.measures import Invariants, reaches_border
 from tribo.core.state import BodyState, State
 from tribo.stepping.rates import CycleRates, LawStates, Moment
@@ -39,12 +40,14 @@ def first_contact(model: Model) -> State:
     NumericalError
         If the solver fails.
     """
-    solved: dict[int, ContactSolution] = {}
-    for gap in model.gaps:
+    solved: dict[tuple[int, float], ContactSolution] = {}
+    loads = model.loads.after(0.0)
+    asked = [(id(gap), load) for gap, load in zip(model.gaps, loads, strict=True)]
+    for gap, load, key in zip(model.gaps, loads, asked, strict=True):
         # Where nothing varies along the path, one solve serves all positions.
-        if id(gap) not in solved:
-            solved[id(gap)] = solve(model, gap, None, *list(solved.values())[-1:])
-    contacts = tuple(solved[id(gap)] for gap in model.gaps)
+        if key not in solved:
+            solved[key] = solve(model, gap, load, None, *list(solved.values())[-1:])
+    contacts = tuple(solved[key] for key in asked)
     if any(reaches_border(each.pressure) for each in contacts) and not model.may_reach_edge:
         raise CaseError(
             "the first contact reaches the edge of the window of "
@@ -87,22 +90,25 @@ def geometry(model: Model, bodies: Mapping[str, BodyState], position: int = 0) -
 def solve(
     model: Model,
     gap: Array,
+    load: float,
     wear: WearCompliance | None = None,
     start: ContactSolution | None = None,
 ) -> ContactSolution:
-    """Solve the contact of the case at a gap, shape (nx, ny), in m."""
-    return model.solver.solve(ContactProblem(model.system, gap, model.system.load, wear), start)
+    """Solve the contact of the case at a gap, shape (nx, ny), in m, under a load, in N."""
+    return model.solver.solve(ContactProblem(model.system, gap, load, wear), start)
 
 
 def solve_cycle(
     model: Model,
     gaps: Sequence[Array],
+    loads: ByPosition,
     wear: Sequence[WearCompliance | None],
     starts: Sequence[ContactSolution],
 ) -> tuple[list[ContactSolution], int]:
     """Solve the contact at each position of a cycle, from gaps of shape (nx, ny), in m.
 
-    A position that mirrors another along x, as on a stroke of smooth bodies, takes its solution.
+    `loads` are in N. A position that mirrors another along x, as on a stroke of smooth bodies,
+    takes its solution.
 
     Returns
     -------
@@ -113,17 +119,20 @@ def solve_cycle(
     """
     contacts: list[ContactSolution] = []
     solves = 0
-    for position, (gap, compliance, start) in enumerate(zip(gaps, wear, starts, strict=True)):
+    for position, (gap, load, compliance, start) in enumerate(
+        zip(gaps, loads, wear, starts, strict=True)
+    ):
         other = len(gaps) - 1 - position
         if (
             other < position
             and model.contact.mirrors
+            and load == loads[other]
             and _mirrors(gap, gaps[other])
             and _compliance_mirrors(compliance, wear[other])
         ):
             contacts.append(_mirrored(contacts[other]))
         else:
-            contacts.append(solve(model, gap, compliance, start))
+            contacts.append(solve(model, gap, load, compliance, start))
             solves += 1
     return contacts, solves
 
@@ -171,8 +180,11 @@ def rests(model: Model, state: State, time: float) -> bool:
     )
 
 
-def rested(state: State, time: float) -> State:
-    """Return `state` at a later time (s), as it is."""
+def rested(model: Model, state: State, time: float) -> State:
+    """Return `state` at a later time (s), under the load of then."""
+    loads = model.loads.before(time)
+    if loads != model.loads.before(state.time):
+        state = _under(model, state, loads)
     return replace(state, time=time, steps=state.steps + 1, invariants=Invariants())
 
 
@@ -236,32 +248,63 @@ def accepted(
     before: State,
     bodies: Mapping[str, BodyState],
     contacts: Sequence[ContactSolution],
+    loads: ByPosition,
     moment: Moment,
     solves: int,
     iterations: int,
 ) -> State:
-    """Return the state of the worn bodies in contact, after what yields has come to rest."""
+    """Return the state of the worn bodies in contact, after what yields has come to rest.
+
+    The contacts carry `loads`, in N; they are solved anew where those at the end are others.
+    """
     state = replace(
         before,
         time=moment.time,
         distance=moment.distance,
         speed=moment.speed,
-        bodies=_yielded(model, bodies, contacts),
+        bodies=bodies,
         contacts=tuple(contacts),
         steps=before.steps + 1,
         contact_solves=before.contact_solves + solves,
         solver_iterations=before.solver_iterations + iterations,
     )
-    return _settle(model, state) if yields(contacts) else state
+    at_end = model.loads.before(moment.time)
+    return _at_rest(model, state, loads) if loads == at_end else _under(model, state, at_end)
 
 
 def start_sliding(model: Model, state: State) -> State:
-    """Return `state` with the first indentation drawn out along the track.
+    """Return `state` as a step begins: under the load after a jump, its indentation drawn out.
 
     At s = 0 plastic displacement is local; once a body slides, its groove is
     the envelope along the track, and the contact in it is solved anew.
     """
-    return _settle(model, state) if state.distance == 0 else state
+    loads = model.loads.after(state.time)
+    if loads != model.loads.before(state.time):
+        # How far a step may go under the load before says little.
+        state = replace(_under(model, state, loads), increment=0.0)
+    return _settle(model, state, loads) if state.distance == 0 else state
+
+
+def _under(model: Model, state: State, loads: ByPosition) -> State:
+    """Return `state` with its contacts solved anew under other loads (N), and nothing worn."""
+    gaps = [geometry(model, state.bodies, position) for position in range(len(model.cycle))]
+    contacts, solves = solve_cycle(model, gaps, loads, [None] * len(gaps), state.contacts)
+    anew = replace(
+        state,
+        contacts=tuple(contacts),
+        rates=(),
+        contact_solves=state.contact_solves + solves,
+        solver_iterations=state.solver_iterations + sum(c.iterations for c in contacts),
+    )
+    return _at_rest(model, anew, loads)
+
+
+def _at_rest(model: Model, state: State, loads: ByPosition) -> State:
+    """Return `state` after what yields in its contacts, under `loads`, has come to rest."""
+    if not yields(state.contacts):
+        return state
+    yielded = replace(state, bodies=_yielded(model, state.bodies, state.contacts))
+    return _settle(model, yielded, loads) if state.distance > 0 else yielded
 
 
 def yields(contacts: Sequence[ContactSolution]) -> bool:
@@ -286,7 +329,7 @@ def _yielded(
     return yielded
 
 
-def _settle(model: Model, state: State) -> State:
+def _settle(model: Model, state: State, loads: ByPosition) -> State:
     """Draw grooves out along the track and re-solve until nothing yields any more."""
     drawn_out = any(
         name in model.swept and np.any(body.plastic > 0) for name, body in state.bodies.items()
@@ -300,7 +343,7 @@ def _settle(model: Model, state: State) -> State:
             for name, body in state.bodies.items()
         }
         gaps = [geometry(model, drawn, position) for position in range(len(model.cycle))]
-        contacts, solves = solve_cycle(model, gaps, [None] * len(gaps), state.contacts)
+        contacts, solves = solve_cycle(model, gaps, loads, [None] * len(gaps), state.contacts)
         deepest = max(float(np.max(body.plastic)) for body in drawn.values())
         still = max(float(np.max(contact.overlap)) for contact in contacts)
         settled = still <= SETTLED * deepest
@@ -317,7 +360,7 @@ def _settle(model: Model, state: State) -> State:
     raise NumericalError(
         f"at {state.distance:.6g} m the groove still yields after {SETTLE_PASSES} passes of the "
         f"contact, by {still:.2g} m a pass: sliding under "
-        f"{model.system.load:g} N does not come to rest at a hardness of "
+        f"{max(loads):g} N does not come to rest at a hardness of "
         f"{1e-9 * (model.system.cap or 0):g} GPa; lower load.normal, or set contact.plasticity = "
         "false"
     )
