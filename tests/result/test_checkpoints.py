@@ -2,7 +2,9 @@
 
 import errno
 import os
+import re
 import shutil
+import warnings
 from contextlib import closing
 
 import numpy as np
@@ -13,9 +15,9 @@ from paper_models import case, motion
 from tribo import CaseError, Grid, Interrupted, Result, Simulation
 from tribo.core import locks
 from tribo.core.errors import OutputError, TriboWarning
-from tribo.observers import recorder
 from tribo.observers.observer import Observer
 from tribo.result.checkpoint import RunFolder, _load, _store
+from tribo.result.sealed import open_sealed
 from tribo.result.store import ResultWriter
 
 
@@ -40,10 +42,9 @@ def undisturbed():
 
 @pytest.fixture(scope="module")
 def left(tmp_path_factory):
-    """A folder left by a killed run."""
+    """A folder left by a killed run: a checkpoint at its second save, and one at its end."""
     folder = tmp_path_factory.mktemp("left")
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(recorder, "SAVES_WAIT", 0.0)
 
         def full(*_):
             raise OSError(errno.ENOSPC, "No space left on device")
@@ -78,11 +79,73 @@ def test_a_killed_run_is_shown_as_far_as_it_came_and_goes_on_to_the_same_bits(ki
     assert list(killed.parent.iterdir()) == [killed]
 
 
-@pytest.mark.parametrize("name", ["checkpoint", "000000.part"])
-def test_what_is_damaged_is_named_and_not_resumed(killed, name):
-    flip(RunFolder(killed).path / name, 2000)
-    with pytest.raises(CaseError, match=rf"{name} is damaged.*tribo run --force"):
+@pytest.mark.parametrize(
+    ("name", "at"),
+    [("checkpoint", 0), ("checkpoint", 2000), ("checkpoint", -1), ("000002.part", 1000)],
+)
+def test_where_the_newest_checkpoint_is_damaged_the_one_before_is_used(
+    killed, undisturbed, name, at
+):
+    flip(RunFolder(killed).path / name, at)
+    with Result.open(killed) as result:
+        np.testing.assert_array_equal(result.times, [0, 5])
+        assert re.search(rf"{name} is (damaged|not a whole).*holds$", result.notices[-1])
+    with pytest.warns(TriboWarning, match=rf"{name} is .*from the .* before, at 5 s$") as told:
+        go_on = simulation().reopen(killed)
+    assert len(told) == 1
+    with go_on() as result:
+        assert bits(result) == undisturbed
+
+
+def test_a_damaged_checkpoint_is_told_of_once_and_never_the_only_one(killed, undisturbed):
+    folder = RunFolder(killed)
+    flip(folder.checkpoint, 2000)
+    for steps in (14, 15):
+        with (
+            warnings.catch_warnings(record=True, action="always") as told,
+            pytest.raises(Interrupted),
+        ):
+            simulation().resume(killed, observers=[StopAfter(steps=steps)])
+        assert sum("checkpoint" in str(each.message) for each in told) == (steps == 14)
+        for path in (folder.checkpoint, folder.previous):
+            open_sealed(path).close()
+    flip(folder.checkpoint, 2000)
+    with (
+        pytest.warns(TriboWarning, match="going on from the checkpoint before"),
+        simulation().resume(killed) as result,
+    ):
+        assert bits(result) == undisturbed
+
+
+@pytest.mark.parametrize("names", [("checkpoint", "checkpoint.previous"), ("000000.part",)])
+def test_where_no_checkpoint_is_sound_the_run_is_not_resumed(killed, names):
+    for name in names:
+        flip(RunFolder(killed).path / name, 2000)
+    with pytest.raises(CaseError, match=r"tribo run --force") as raised:
         simulation().resume(killed)
+    for name in names:
+        assert str(raised.value).count(f"{name} is damaged") == 1
+
+
+def test_killed_between_two_checkpoints_the_one_before_is_used(killed, undisturbed):
+    RunFolder(killed).checkpoint.unlink()
+    with Result.open(killed) as result:
+        assert result.status == "killed"
+        assert not any("checkpoint" in notice for notice in result.notices)
+    with simulation().resume(killed) as result:
+        assert bits(result) == undisturbed
+
+
+def test_a_save_is_on_the_disk_once_observers_are_told_of_it(tmp_path):
+    path = tmp_path / "run.h5"
+
+    class Reads(Observer):
+        def on_save(self, snapshot):
+            with Result.open(path) as result:
+                assert result.times[-1] == snapshot.state.time
+
+    with simulation().run(path, observers=[Reads()]) as result:
+        np.testing.assert_array_equal(result.times, [0, 5, 20, 60])
 
 
 def test_what_a_killed_run_has_saved_is_not_shown_where_it_is_damaged(killed):
@@ -113,16 +176,17 @@ def test_a_damaged_result_is_not_resumed(killed):
 
 def test_a_checkpoint_of_another_version_of_tribo_is_refused(killed):
     folder = RunFolder(killed)
-    data = _load(folder.checkpoint)
-    data["state"]["invariants"]["unheard_of"] = 1.0
-    _store(folder.checkpoint, data)
+    for path in (folder.checkpoint, folder.previous):
+        data = _load(path)
+        data["state"]["invariants"]["unheard_of"] = 1.0
+        _store(path, data)
     with pytest.raises(CaseError, match=r"another version.*unheard_of"):
         simulation().resume(killed)
 
 
 def test_every_bit_of_a_state_is_kept(killed, tmp_path):
     folder = RunFolder(killed)
-    kept = folder.read_checkpoint(simulation().model.data)
+    kept, _ = folder.read_checkpoint(simulation().model.data)
     _store(tmp_path / "again", kept)
     first, second = folder.checkpoint.read_bytes(), (tmp_path / "again").read_bytes()
     assert first == second

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from trust.damages import flip
 from trust.trial import command, contents, dying, resume, run, same, start, whole
 
 from tribo import CaseError, Result
@@ -26,6 +27,8 @@ class Kills:
     killed: int = 0
     finished: int = 0
     """Done before the signal came."""
+    checkpoints_damaged: int = 0
+    """Had their newest checkpoint damaged after the kill, and went on from the one before."""
     identical: int = 0
     lost_saves: int = 0
     unreadable: int = 0
@@ -45,7 +48,8 @@ class Kills:
 def kill_and_resume(count, seed):
     """Kill `count` runs, each at a moment of its own, and resume each.
 
-    Every other one dies in the middle of a write, and half of them once more as they go on.
+    Every other one dies in the middle of a write, and half of them once more as they go on. A
+    bit of the newest checkpoint is flipped in every other one that has two.
     """
     kills = Kills()
     chance = random.Random(seed)
@@ -80,6 +84,10 @@ def _one(path, chance, duration, undisturbed, kills):
         if not RunFolder(path).path.exists():
             # It was done.
             break
+        if chance.random() < 0.5 and _damaged(path, chance):
+            kills.checkpoints_damaged += 1
+            # What the newest had is computed again, as long as it is not killed before.
+            acknowledged = _times(path)
         if chance.random() < 0.5:
             told, code = _killed(resume, path, chance, duration, kills.killed % 2)
         else:
@@ -102,6 +110,17 @@ def _killed(work, path, chance, duration, writing):
         child.kill()
     code, told = child.wait()
     return list(told), code
+
+
+def _damaged(path, chance):
+    """Flip a bit of the newest of two checkpoints; return whether there are two."""
+    folder = RunFolder(path)
+    if not (folder.checkpoint.exists() and folder.previous.exists()):
+        return False
+    data = bytearray(folder.checkpoint.read_bytes())
+    flip(data, chance)
+    folder.checkpoint.write_bytes(data)
+    return True
 
 
 def _times(path):

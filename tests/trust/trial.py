@@ -18,7 +18,6 @@ from strangers.running_in import RunningIn
 import tribo.simulation.run
 from tribo import Grid, Simulation
 from tribo.core.errors import TriboError
-from tribo.observers import recorder
 from tribo.observers.observer import Observer
 from tribo.observers.recorder import Recorder
 from tribo.result import checkpoint, store
@@ -105,7 +104,6 @@ def start(work, *args):
     try:
         os.close(reading)
         warnings.simplefilter("ignore")
-        recorder.SAVES_WAIT = 0.0
         tribo.simulation.run.Recorder = partial(Recorder, checkpoint_every=CHECKPOINTS)
         work(*args, writing)
         code = 0

@@ -1,4 +1,4 @@
-"""Write the result file and its checkpoint."""
+"""Write the result file and its checkpoints."""
 
 from __future__ import annotations
 
@@ -19,9 +19,6 @@ from tribo.observers.observer import Observer
 from tribo.result.read import Result
 from tribo.result.store import ResultWriter
 
-SAVES_WAIT = 1.0
-"""Wall time between the checkpoints of saves that follow one another quickly, in s."""
-
 
 class Recorder(Observer):
     """Writes a result file, and beside it checkpoints to resume from."""
@@ -32,7 +29,7 @@ class Recorder(Observer):
     overwrite: bool = False
     """Whether an existing file may be replaced."""
     checkpoint_every: Annotated[float, Quantity("s", at_least=0)] = 10.0
-    """Wall time between checkpoints; one is also written at a save, at most once a second."""
+    """Wall time between checkpoints; one is also written at every save."""
 
     _writer: ResultWriter = PrivateAttr()
     _begun: bool = False
@@ -65,16 +62,16 @@ class Recorder(Observer):
     def on_step(self, snapshot: Snapshot) -> None:
         """Add to the history; now and then write a checkpoint."""
         self._writer.append_step(snapshot.measures)
+        due = time.monotonic() - self._last_checkpoint >= self.checkpoint_every
         # A state that counts a save still to be written has its checkpoint with that.
-        if snapshot.state.saves == self._writer.saves:
-            waits = SAVES_WAIT if self._writer.waiting else self.checkpoint_every
-            self._checkpoint(snapshot, waits)
+        if due and snapshot.state.saves == self._writer.saves:
+            self._checkpoint(snapshot)
 
     def on_save(self, snapshot: Snapshot) -> None:
-        """Add the fields, and write a checkpoint."""
+        """Write the fields and a checkpoint; when this returns, the disk has the save."""
         self._writer.append_save(snapshot)
         self._saved = snapshot.state.time
-        self._checkpoint(snapshot, SAVES_WAIT)
+        self._checkpoint(snapshot)
 
     def on_finish(self, snapshot: Snapshot | None, reason: str) -> None:
         """Write what is left; keep the checkpoint unless the run is done."""
@@ -106,18 +103,15 @@ class Recorder(Observer):
             writer.append_save(snapshot)
             self._saved = state.time
         if writer.saves == state.saves:
-            self._checkpoint(snapshot, 0.0)
+            self._checkpoint(snapshot)
         if state.time != self._saved:
             # For the user to see; it belongs to no checkpoint.
             writer.append_save(snapshot)
 
-    def _checkpoint(self, snapshot: Snapshot, wait: float) -> None:
-        """Write a checkpoint if the last one is older than `wait`, in s."""
-        now = time.monotonic()
-        if now - self._last_checkpoint >= wait:
-            with self._writing():
-                self._writer.checkpoint(snapshot.state, self._spent())
-            self._last_checkpoint = now
+    def _checkpoint(self, snapshot: Snapshot) -> None:
+        with self._writing():
+            self._writer.checkpoint(snapshot.state, self._spent())
+        self._last_checkpoint = time.monotonic()
 
     def _spent(self) -> float:
         return self._spent_before + time.monotonic() - self._clock

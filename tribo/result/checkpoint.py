@@ -1,9 +1,9 @@
-"""The files of a run that is not done: its parts and its checkpoint.
+"""The files of a run that is not done: its parts and its last two checkpoints.
 
 Beside `my.h5` a folder `my.h5.run` holds them. A part has the rows that the
-run added since the one before, and never changes. The checkpoint has the whole
-state and says how many parts belong to it. It is replaced whole, and both wait
-for the disk.
+run added since the one before, and never changes. A checkpoint has the whole
+state and says how many parts belong to it. Both wait for the disk. The
+checkpoint before the newest is kept for the case that the newest is damaged.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ import json
 import shutil
 import warnings
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, fields
 from hashlib import sha256
 from io import BytesIO
@@ -70,6 +71,7 @@ class RunFolder:
     def __init__(self, result: Path) -> None:
         self.path = result.with_name(result.name + ".run")
         self.checkpoint = self.path / "checkpoint"
+        self.previous = self.path / "checkpoint.previous"
         self._result = result
         self._lock: IO[bytes] | None = None
 
@@ -118,8 +120,8 @@ class RunFolder:
             return True
 
     def clear(self) -> None:
-        """Remove the checkpoint and the parts."""
-        for path in (self.checkpoint, *self.path.glob("*.part")):
+        """Remove the checkpoints and the parts."""
+        for path in (self.checkpoint, self.previous, *self.path.glob("*.part")):
             path.unlink(missing_ok=True)
 
     def remove(self) -> None:
@@ -141,24 +143,59 @@ class RunFolder:
         """Write a part."""
         _store(self.part(number), rows)
 
+    @property
+    def has_checkpoint(self) -> bool:
+        """Whether there is a checkpoint, sound or not."""
+        return self.checkpoint.exists() or self.previous.exists()
+
     def write_checkpoint(self, checkpoint: Checkpoint) -> None:
-        """Replace the checkpoint, after its parts are written."""
+        """Write a checkpoint, after its parts are written, and keep the one before."""
+        with suppress(FileNotFoundError):
+            self.checkpoint.replace(self.previous)
         _store(self.checkpoint, checkpoint)
 
-    def read_checkpoint(self, case: Mapping[str, object]) -> Checkpoint:
-        """Return the checkpoint of a case.
+    def drop_newest(self) -> None:
+        """Put the checkpoint before in the place of the newest."""
+        self.previous.replace(self.checkpoint)
+
+    def read_checkpoint(self, case: Mapping[str, object]) -> tuple[Checkpoint, str]:
+        """Return the newest sound checkpoint of a case.
+
+        Returns
+        -------
+        tuple of Checkpoint and str
+            A checkpoint that is whole, as all its parts are, and what is
+            damaged of a newer one; empty if nothing is.
 
         Raises
         ------
         CaseError
-            If there is none, or it is damaged or of another case.
+            If there is none, or none that is sound and of this case.
         """
+        damage = []
+        for path in (self.checkpoint, self.previous):
+            try:
+                checkpoint = self._sound(path, case)
+            except (OSError, CaseError) as error:
+                damage.append(str(error))
+                continue
+            if checkpoint is not None:
+                return checkpoint, "; ".join(damage)
+        raise CaseError(
+            "; ".join(dict.fromkeys(damage)) or "its run was stopped before the first was written"
+        )
+
+    def _sound(self, path: Path, case: Mapping[str, object]) -> Checkpoint | None:
+        """Return a checkpoint after reading all that belongs to it; None if there is no file."""
         try:
-            checkpoint = _checkpoint(_load(self.checkpoint))
+            data = _load(path)
         except FileNotFoundError:
-            raise CaseError("its run was stopped before the first was written") from None
+            return None
+        checkpoint = _checkpoint(data)
         if checkpoint.case != fingerprint(case):
             raise CaseError("it belongs to another case")
+        for number in range(checkpoint.parts):
+            open_sealed(self.part(number)).close()
         return checkpoint
 
 
@@ -229,6 +266,9 @@ def _contact(data: dict[str, Any]) -> ContactSolution:
 def read_checkpoint(result: Path, case: Mapping[str, object]) -> tuple[State, float]:
     """Return the last good state of a stopped run, and the time spent until then.
 
+    Where the newest checkpoint is damaged, it is the state of the one before;
+    a warning says so, and the run goes on as if the newest had not been written.
+
     Parameters
     ----------
     result : Path
@@ -246,16 +286,22 @@ def read_checkpoint(result: Path, case: Mapping[str, object]) -> tuple[State, fl
     if folder.path.is_dir():
         # What a run that goes on has saved changes as it is read.
         folder.lock()
-        folder.unlock()
     try:
-        checkpoint = folder.read_checkpoint(case)
-        for _ in folder.parts(checkpoint.parts):
-            """Each is sound, or it raises."""
-    except (OSError, CaseError) as error:
+        checkpoint, damage = folder.read_checkpoint(case)
+        if damage:
+            warnings.warn(
+                f"{damage}; going on from the checkpoint before, at {checkpoint.state.time:.6g} s",
+                TriboWarning,
+                stacklevel=2,
+            )
+            folder.drop_newest()
+    except CaseError as error:
         raise CaseError(
             f"{result} has no checkpoint to resume from: {error}; start again with "
             "'tribo run --force'"
         ) from error
+    finally:
+        folder.unlock()
     return checkpoint.state, checkpoint.wall_time
 
 

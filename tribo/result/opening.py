@@ -75,11 +75,15 @@ def _saved_so_far(path: Path, folder: RunFolder) -> BytesIO:
     """Return the file that the run would write now, with who writes it as its status."""
     status = "running" if folder.busy() else "killed"
     empty = path.read_bytes()
-    if not folder.checkpoint.exists():
+    if not folder.has_checkpoint:
         return filled_image(empty, (), 0, 0, status=status)
     with h5py.File(BytesIO(empty)) as file:
         case = json.loads(file.attrs["case"])
-    kept = folder.read_checkpoint(case)
-    notices = json.dumps([str(notice) for notice in kept.state.notices])
+    kept, damage = folder.read_checkpoint(case)
+    notices = [str(notice) for notice in kept.state.notices]
+    if damage:
+        notices.append(f"checkpoint: {damage}; this is what the checkpoint before it holds")
     parts = folder.parts(kept.parts)
-    return filled_image(empty, parts, kept.saves, kept.rows, status=status, notices=notices)
+    return filled_image(
+        empty, parts, kept.saves, kept.rows, status=status, notices=json.dumps(notices)
+    )

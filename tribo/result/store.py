@@ -73,17 +73,12 @@ class ResultWriter:
             with Result(self._path, str(self._path)) as stopped:
                 self._begin(run, provenance=json.dumps(_gone_on_with(stopped, run)))
                 # Another version of a component may have added keys to the case of the run.
-                checkpoint = self._folder.read_checkpoint(stopped.case)
+                checkpoint, _ = self._folder.read_checkpoint(stopped.case)
             self._write(BytesIO(self._empty))
         except BaseException:
             self._folder.unlock()
             raise
         self._count, self.saves, self.rows = checkpoint.parts, checkpoint.saves, checkpoint.rows
-
-    @property
-    def waiting(self) -> bool:
-        """Whether a save waits for the next checkpoint."""
-        return bool(self._saves)
 
     def append_step(self, measures: Measures) -> None:
         """Add a row to the history; it is written with the next checkpoint."""
