@@ -59,7 +59,7 @@ def test_the_papers_end_is_said_with_a_number_and_a_remedy():
         "the groove of disk is about 18 % too deep at mid-stroke, because tribo averages over the "
         "stroke (2 mm, 4 half-widths of the 1 mm contact); over the same sliding distance about "
         "3 % with a stroke of 4.9 mm (frequency 10.3 Hz); or resolve the stroke: "
-        "kinematics.positions = 33"
+        'kinematics.positions = "auto"'
     )
 
 

@@ -92,6 +92,8 @@ def _facts(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
             yield "yield", yield_words(pressure, hardness, line=hertz.is_line)
         across = [f"{n:.0f}" for n in prediction.cells_across if math.isfinite(n)]
         yield "cells across the contact", " × ".join(across)
+    if model.chosen is not None or prediction.positions > 1:
+        yield "positions", model.chosen or f"the cycle is resolved at {prediction.positions}"
     if last is None:
         yield "final scar", "not estimated"
     else:

@@ -5,7 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-Kind = Literal["stability", "averaging", "chattering", "lap", "resolution", "stop", "failed"]
+Kind = Literal[
+    "positions", "stability", "averaging", "chattering", "lap", "resolution", "stop", "failed"
+]
 
 
 @dataclass(frozen=True)

@@ -140,12 +140,17 @@ def check_spacing(length: float, count: int | str, half_width: float) -> None:
     apart = length / (count - 1)
     # Further apart they leave ripples of up to 10 % of its depth in the groove.
     if apart > 0.5 * half_width * (1 + 1e-9):
-        least = 2 * int(np.ceil(length / half_width * (1 - 1e-9))) + 1
         raise CaseError(
             f"{count} positions lie every {1e3 * apart:.3g} mm, further apart than half the "
-            f"half-width of the first contact, {1e3 * half_width:.3g} mm; give at least {least}",
+            f"half-width of the first contact, {1e3 * half_width:.3g} mm; give at least "
+            f"{least_positions(length, half_width)}",
             "kinematics.positions",
         )
+
+
+def least_positions(length: float, half_width: float) -> int:
+    """Return how many positions along a stroke (m) lie half of a half-width (m) apart, or less."""
+    return max(3, 2 * int(np.ceil(length / half_width * (1 - 1e-9))) + 1)
 
 
 def near(nodes: Array, path: Array, weights: Array | float = 1.0) -> Array:

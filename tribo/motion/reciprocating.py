@@ -58,9 +58,11 @@ class Reciprocating(Kinematics):
     """How far it slides."""
     waveform: Literal["constant_speed", "sinusoidal"] = "constant_speed"
     """How the speed varies along the stroke."""
-    positions: Annotated[int, Field(ge=3)] | Literal["cells", "average"] = "average"
+    positions: Annotated[int, Field(ge=3)] | Literal["cells", "average", "auto"] = "average"
     """In how many positions of a cycle the contact is solved, an odd number, or ``"cells"`` for
-    every cell of the stroke; ``"average"`` takes the track average for all of them."""
+    every cell of the stroke; ``"average"`` takes the track average for all of them. ``"auto"`` is
+    as many as are needed, or the average where that costs under 1 % of the depth; the motion itself
+    takes the average until a case is composed with it."""
     swept: str | None = None
     """Name of the body whose points pass through the contact; the last body if left out."""
     allow_short_stroke: bool = False
@@ -114,7 +116,7 @@ class Reciprocating(Kinematics):
 
     def cycle(self, grid: Grid) -> Sequence[Position]:
         """Return the positions along the stroke, with the mean speed about each."""
-        if self.positions == "average":
+        if self._averages:
             return super().cycle(grid)
         stroke = self._stroke(grid)
         if self.waveform == "constant_speed":
@@ -130,17 +132,19 @@ class Reciprocating(Kinematics):
 
     def coarsened(self, half_width_x: float) -> Reciprocating:
         """Return the motion with the track average, or a few positions of a short stroke."""
-        if self.positions == "average":
-            return self
-        few = "average" if self.stroke > LONG * half_width_x else FEW
+        few = "average" if self._averages or self.stroke > LONG * half_width_x else FEW
         return self.model_copy(update={"positions": few, "allow_short_stroke": True})
 
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
         """Return a track as long as the stroke for the swept body, or its rows along the stroke."""
-        if self.positions == "average":
+        if self._averages:
             return one_swept_body(grid, bodies, self.swept, Track(grid, self.stroke))
         passing = Passing(grid, self._stroke(grid).starts, self.stroke)
         return one_swept_body(grid, bodies, self.swept, passing)
+
+    @property
+    def _averages(self) -> bool:
+        return self.positions in ("average", "auto")
 
     def _stroke(self, grid: Grid) -> Stroke:
         dx = grid.spacing[0]
@@ -164,7 +168,7 @@ class Reciprocating(Kinematics):
         """Return what the stroke average costs, once that is more than 5 % of the depth."""
         stroke, widths = self.stroke, self.stroke / half_width_x
         excess = groove_excess(stroke, half_width_x, depth, approach, volume_ratio)
-        if depth <= 0 or excess < NOTICED or self.positions != "average":
+        if depth <= 0 or excess < NOTICED or not self._averages:
             return None
         many = f"{widths:.2g} half-width" + ("" if f"{widths:.2g}" == "1" else "s")
         longer = good_stroke(stroke, half_width_x, depth, approach, volume_ratio)
@@ -174,7 +178,7 @@ class Reciprocating(Kinematics):
             f"the {2e3 * half_width_x:.3g} mm contact); over the same sliding distance about "
             f"{100 * GOOD:.0f} % with a stroke of {1e3 * longer:.2g} mm "
             f"(frequency {self.frequency * stroke / longer:.3g} Hz); or resolve the stroke: "
-            "kinematics.positions = 33"
+            'kinematics.positions = "auto"'
         )
 
     def check_contact(self, half_width_x: float) -> None:
@@ -182,7 +186,7 @@ class Reciprocating(Kinematics):
 
         The average of a short stroke is taken where the case allows it.
         """
-        if self.positions == "average":
+        if self._averages:
             self._check_average(half_width_x)
         else:
             check_spacing(self.stroke, self.positions, half_width_x)
@@ -195,7 +199,7 @@ class Reciprocating(Kinematics):
             f"{1e3 * self.stroke:.3g} mm is shorter than the half-width of the first contact, "
             f"{1e3 * half_width_x:.3g} mm: averaged over the stroke, even a shallow groove would "
             f"be {too_deep(excess)}; give a stroke of at least {1e3 * half_width_x:.3g} mm to run "
-            "at all (tribo check then says how much too deep), resolve the cycle, as by "
-            'kinematics.positions = "cells", or set kinematics.allow_short_stroke = true',
+            "at all (tribo check then says how much too deep), resolve the cycle by "
+            'kinematics.positions = "auto", or set kinematics.allow_short_stroke = true',
             "kinematics.stroke",
         )

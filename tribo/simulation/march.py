@@ -44,6 +44,8 @@ def begin(model: Model) -> State:
         state = hold(model, None, first_contact(model))
         check_stroke(model, state)
         model.stepping.check(model, state)
+    if model.chosen is not None:
+        state = state.with_notice("positions", model.chosen)
     return _noticed(model, replace(state, saves=1, speed=model.end_distance / model.end_time))
 
 

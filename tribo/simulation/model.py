@@ -65,6 +65,8 @@ class Model:
         for all where it is the same.
     end_time : float
         When the run ends if no depth stops it earlier, in s.
+    chosen : str or None, optional
+        Which positions were taken where the case left them open, and why, if that is to be told.
     """
 
     case: Case
@@ -80,6 +82,7 @@ class Model:
     cycle: tuple[Position, ...]
     gaps: tuple[Array, ...]
     end_time: float
+    chosen: str | None = None
 
     @cached_property
     def closest(self) -> float:

@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from tribo.case import Output
 from tribo.core.errors import CaseError, NumericalError, PluginError
-from tribo.core.grid import Grid
 from tribo.core.measures import Measures
 from tribo.core.state import State
 from tribo.lab.first_contact import HertzContact, hertz_contact
 from tribo.result.provenance import stated_facts
-from tribo.simulation.assembly import assemble, varied
+from tribo.simulation.coarse import MARGINS, coarsened
 from tribo.simulation.doubt import doubting, too_deep, unusual
 from tribo.simulation.guard import calling
 from tribo.simulation.march import begin, march
@@ -26,12 +24,9 @@ from tribo.simulation.validity import (
     short_of_a_lap,
     too_wide,
 )
-from tribo.stepping.implicit import Implicit
 from tribo.stepping.step import first_contact, start_sliding
 
 COARSE = 72
-MARGINS = (1.5, 1.0)
-LOOSE = Implicit(depth_tolerance=2e-2, pressure_tolerance=0.5, settle=0.1)
 BARE_FILE = 1e6
 
 
@@ -54,6 +49,8 @@ class Prediction:
         Whether the contact stays inside the window; None where unknown.
     limitation : str or None
         Why the motion's averaging will not hold, if so.
+    positions : int
+        In how many positions of a cycle the contact is solved; 1 for an average.
     memory, file_size : float
         In bytes; upper estimates.
     facts : Mapping[str, Mapping[str, str]]
@@ -70,6 +67,7 @@ class Prediction:
     last: Measures | None
     window_holds: bool | None
     limitation: str | None
+    positions: int
     memory: float
     file_size: float
     facts: Mapping[str, Mapping[str, str]]
@@ -141,6 +139,7 @@ def predict(model: Model) -> Prediction:
         last=last,
         window_holds=holds,
         limitation=coarse.limitation,
+        positions=len(model.cycle),
         memory=memory_needed(model.case, model.exposures, plastic=model.system.cap is not None),
         file_size=BARE_FILE + size_of_fields(model.case, model.exposures),
         facts={place: stated for place, stated in facts.items() if stated},
@@ -189,20 +188,6 @@ def _inside(model: Model, measures: Measures) -> bool:
     return measures.half_width_x < lx / 2 - dx and measures.half_width_y < ly / 2 - dy
 
 
-def _coarsened(model: Model, first: Measures, margin: float) -> Model:
-    """Return `model` on a coarse grid, in a window `margin` times as wide."""
-    largest = max(model.grid.size)
-    nx, ny = (max(8, 2 * round(0.5 * COARSE * size / largest)) for size in model.grid.size)
-    lx, ly = (margin * size for size in model.grid.size)
-    grid = Grid((lx, ly), (nx, ny), ends_at_window=True)
-    bodies = {
-        name: body.model_copy(update={"surface": body.surface.smoothed()})
-        for name, body in model.bodies.items()
-    }
-    changes = {"kinematics": model.case.kinematics.coarsened(first.half_width_x), "stepping": LOOSE}
-    return assemble(varied(model.case, grid=grid, bodies=bodies, output=Output(), **changes))
-
-
 def _coarse_run(model: Model, first: Measures) -> CoarseRun:
     if not model.contact.accepts_wear_compliance:
         return CoarseRun(None)
@@ -211,7 +196,7 @@ def _coarse_run(model: Model, first: Measures) -> CoarseRun:
     for margin in (1.0,) if model.may_reach_edge else MARGINS:
         outgrown = None
         try:
-            coarse = _coarsened(model, first, margin)
+            coarse = coarsened(model.case, COARSE, margin, first.half_width_x)
             state = begin(coarse)
             for accepted in march(coarse, state):
                 state = accepted.state

@@ -23,7 +23,6 @@ from tribo.registry.registry import Registry, default_registry
 from tribo.result.checkpoint import read_checkpoint, tidied
 from tribo.result.provenance import changed_components, origin, provenance
 from tribo.result.read import Result
-from tribo.simulation.assembly import assemble
 from tribo.simulation.audience import Audience
 from tribo.simulation.doubt import doubting
 from tribo.simulation.effects import MissingFieldError
@@ -32,6 +31,7 @@ from tribo.simulation.interrupt import InterruptGuard
 from tribo.simulation.march import begin, march
 from tribo.simulation.measure import measure
 from tribo.simulation.model import Model
+from tribo.simulation.positions import composed
 from tribo.stepping.rates import effect_fields
 
 OTHERS = (".csv", ".json", ".pdf", ".png", ".svg", ".toml", ".txt", ".xls", ".xlsx")
@@ -291,7 +291,7 @@ def _model(
         case = validate_case(case, registry=known)
     try:
         with doubting(case):
-            return assemble(case), known.plugins
+            return composed(case), known.plugins
     except MissingFieldError as error:
         providers = known.providers(error.missing)
         if not providers:

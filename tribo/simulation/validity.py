@@ -86,17 +86,24 @@ def check_stroke(model: Model, state: State) -> None:
 
 def limitation(model: Model, state: State) -> str | None:
     """Return why the track average does not hold in `state`, if so."""
+    seen = track_averaged(model, state)
+    return None if seen is None else model.motion.limitation(*seen)
+
+
+def track_averaged(model: Model, state: State) -> tuple[float, float, float, float] | None:
+    """Return of what a track average is taken, as `Kinematics.limitation` gets it, if of anything.
+
+    The contact's half-width along x, the depth of the track and the approach of the first contact,
+    in m, and the ratio of the volumes lost.
+    """
     changing = _changing(model)
     half_width = half_widths(state.contact, model.grid)[0]
-    words = model.motion.limitation(
-        half_width,
-        max((float(np.max(state.bodies[name].wear)) for name in changing), default=0.0),
-        state.reference_depth,
-        _volume_ratio(model, state),
-    )
     # A contact all over the period that repeats has no ends.
     endless = model.contact.periodic and 2 * half_width > model.grid.size[0] * (1 - 1e-9)
-    return words if changing and not endless else None
+    if not changing or endless:
+        return None
+    depth = max(float(np.max(state.bodies[name].wear)) for name in changing)
+    return half_width, depth, state.reference_depth, _volume_ratio(model, state)
 
 
 def _volume_ratio(model: Model, state: State) -> float:

@@ -14,6 +14,7 @@ from tribo.core.depth import check_depth
 from tribo.core.errors import CaseError
 from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.registry import Registry
+from tribo.simulation.positions import alike
 from tribo.simulation.run import Simulation
 
 Point = dict[str, Any]
@@ -53,7 +54,8 @@ def variants(
 ) -> dict[str, Case]:
     """Return the cases that follow from `data` with each of the points, by their labels.
 
-    All are validated and composed first, so that wrong input costs no run.
+    All are validated and composed first, so that wrong input costs no run. Those that leave the
+    positions of their cycle open take the same, as many as the one that needs most.
 
     Raises
     ------
@@ -78,7 +80,7 @@ def variants(
         if other != label or label in found:
             raise CaseError(f"{other} and {label} are the same case; leave one of them out")
         found[label] = case
-    return found
+    return alike(found)
 
 
 def valid_case(data: Mapping[str, Any], point: Point, registry: Registry | None = None) -> Case:

@@ -18,6 +18,7 @@ from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, NumericalError, TriboWarning
 from tribo.registry.registry import Registry
 from tribo.simulation.model import Model
+from tribo.simulation.positions import chosen
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.fit import Problem, fit
 from tribo.study.calibration.measured import Measured, Measurements, read_measurements
@@ -100,7 +101,8 @@ def calibrate(
     columns = ["body", "quantity", "time_s", "position_m"]
     wanted = [*(Reading(*row) for row in data[columns].itertuples(index=False)), *predicted]
     times = sorted({entry.time for entry in asked.measured if entry.time is not None})
-    tables = apply_settings(tables, {"output.save_times": times, "observers": []})
+    kept = {"output.save_times": times, "observers": [], **chosen(base, model)}
+    tables = apply_settings(tables, kept)
     runs: dict[bytes, Run] = {}
 
     def run(values: Array) -> Run:

@@ -1,0 +1,151 @@
+"""Positions left open are chosen by what the average would cost, once and for all."""
+
+import numpy as np
+import pytest
+from paper_models import archard, case, flat, last, motion, named, sphere, steel
+
+from tribo import CaseError, Grid, Simulation, TriboWarning, Unidirectional
+from tribo.config.load import validate_case
+from tribo.simulation import positions
+from tribo.simulation.positions import alike, chosen, composed
+from tribo.stepping.explicit import Explicit
+from tribo.surfaces.waves import Waves
+
+GRID = Grid((1.4e-3, 1.4e-3), (48, 48))
+
+
+def left_open(stroke="2 mm", grid=GRID, distance="360 m", stepping=None, **changes):
+    return case(
+        grid=grid,
+        kinematics=motion(
+            stroke=stroke, duration=None, distance=distance, positions="auto", **changes
+        ),
+        **({} if stepping is None else {"stepping": stepping}),
+    )
+
+
+@pytest.mark.parametrize(
+    ("stroke", "taken"), [("0.3 mm", 9), ("2 mm", 35), ("4 mm", 67), ("14 mm", "average")]
+)
+def test_long_strokes_are_averaged_and_others_resolved(stroke, taken):
+    model = composed(left_open(stroke))
+    assert model.case.kinematics.positions == taken
+    assert len(model.cycle) == (1 if taken == "average" else taken)
+
+
+def test_positions_lie_less_than_half_a_half_width_apart():
+    half_width = 0.149e-3
+    apart = 2e-3 / (len(composed(left_open()).cycle) - 1)
+    assert 0.35 * half_width < apart < 0.45 * half_width
+
+
+def test_the_positions_taken_are_enough_for_one_percent():
+    grid = Grid((0.7e-3, 0.7e-3), (32, 32))
+
+    def groove(positions):
+        kinematics = motion(stroke="0.28 mm", duration=None, distance="2 m", positions=positions)
+        state = last(composed(case(grid=grid, kinematics=kinematics)))
+        return np.max(state.bodies["disk"].wear)
+
+    assert groove("auto") == pytest.approx(groove(99), rel=0.01)
+    assert groove("average") > 1.1 * groove(99)
+
+
+def test_a_groove_too_shallow_to_matter_is_averaged():
+    assert composed(left_open(distance="0.1 m")).case.kinematics.positions == "average"
+
+
+def test_a_track_that_does_not_wear_is_averaged():
+    bodies = [named("ball", sphere(), steel(), archard()), named("disk", flat(), steel())]
+    still = left_open().model_copy(update={"bodies": dict(bodies)})
+    assert composed(still).case.kinematics.positions == "average"
+
+
+def test_the_choice_is_told_once_and_kept():
+    # A stroke in which the contact is resolved at a few positions.
+    given = left_open("0.3 mm", grid=Grid((0.7e-3, 0.7e-3), (20, 20)), distance="0.03 m")
+    with pytest.warns(TriboWarning, match="resolved at 9 positions, as the stroke of 0.3 mm is"):
+        result = Simulation(given).run()
+    with result:
+        assert result.case["kinematics"]["positions"] == 9
+        (words,) = [notice for notice in result.notices if notice.startswith("positions:")]
+        assert "too deep" in words
+        # What is composed from the result has nothing left to choose.
+        again = Simulation(result.case).model
+    assert len(again.cycle) == 9
+    assert again.chosen is None
+
+
+def test_the_same_case_has_the_same_choice():
+    one, other = (composed(validate_case(left_open().model_dump(mode="json"))) for _ in range(2))
+    assert one.data == other.data
+    assert one.chosen == other.chosen
+
+
+@pytest.mark.parametrize(
+    "kinematics",
+    [
+        Unidirectional(speed=0.1, track_length=2e-3, distance=360),
+        motion(),
+        motion(positions=33),
+    ],
+)
+def test_what_leaves_nothing_open_costs_nothing(monkeypatch, kinematics):
+    monkeypatch.setattr(positions, "coarsened", None)
+    monkeypatch.setattr(positions, "first_contact", None)
+    assert composed(case(kinematics=kinematics)).case.kinematics == kinematics
+
+
+def test_explicit_steps_average():
+    model = composed(left_open(stepping=Explicit(time_step=0.25)))
+    assert model.case.kinematics.positions == "average"
+
+
+def test_what_cannot_be_resolved_is_averaged_and_says_so(monkeypatch):
+    monkeypatch.setattr(positions, "MOST", 21)
+    model = composed(left_open())
+    assert model.case.kinematics.positions == "average"
+    assert "is averaged although the stroke of 2 mm" in model.chosen
+    assert model.chosen.endswith("it would take 35 positions")
+
+
+def test_a_stroke_too_short_for_either_is_refused_for_its_cells():
+    with pytest.raises(CaseError, match=r"kinematics\.stroke: 0\.05 mm is under two cells"):
+        composed(left_open("0.05 mm"))
+
+
+def test_a_body_that_passes_as_a_whole_is_resolved_at_each_cell():
+    model = composed(left_open("0.58 mm", swept="ball"))
+    assert len(model.cycle) == 21
+    assert "varies along x" in model.chosen
+    wavy = named(
+        "disk", Waves(amplitude="10 nm", wavelength="0.2 mm", along="x"), steel(), archard()
+    )
+    rough = left_open("0.58 mm")
+    rough = rough.model_copy(update={"bodies": {**rough.bodies, "disk": wavy[1]}})
+    assert len(composed(rough).cycle) == 21
+
+
+def test_cases_beside_each_other_take_the_positions_of_the_one_that_needs_most():
+    cases = {
+        "long": left_open("14 mm"),
+        "short": left_open(),
+        "given": case(grid=GRID, kinematics=motion(positions=65)),
+    }
+    found = {label: each.kinematics.positions for label, each in alike(cases).items()}
+    assert found == {"long": 35, "short": 35, "given": 65}
+
+
+def test_cases_of_which_one_cannot_be_resolved_are_all_averaged():
+    cases = {
+        "half-space": left_open(),
+        "explicit": left_open(stepping=Explicit(time_step=0.25)),
+    }
+    assert {each.kinematics.positions for each in alike(cases).values()} == {"average"}
+
+
+def test_a_choice_becomes_a_setting_where_there_was_one():
+    given = left_open()
+    assert chosen(given, composed(given)) == {"kinematics.positions": 35}
+    fixed = case()
+    assert chosen(fixed, composed(fixed)) == {}

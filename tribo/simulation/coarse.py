@@ -1,0 +1,40 @@
+"""A case on a coarse grid, to estimate what it will do."""
+
+from __future__ import annotations
+
+from tribo.case import Case, Output
+from tribo.core.grid import Grid
+from tribo.simulation.assembly import assemble, varied
+from tribo.simulation.model import Model
+from tribo.stepping.implicit import Implicit
+
+MARGINS = (1.5, 1.0)
+"""Edges of the windows to try, in those of the case: the contact may outgrow its own."""
+LOOSE = Implicit(depth_tolerance=2e-2, pressure_tolerance=0.5, settle=0.1)
+
+
+def coarsened(case: Case, cells: int, margin: float, half_width_x: float = 0.0) -> Model:
+    """Return the model of a case on a coarse grid, its surfaces smooth and its steps long.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+    cells : int
+        Along the longer edge of the window.
+    margin : float
+        Edge of the window over that of the case.
+    half_width_x : float, optional
+        Half the extent of the first contact along x, in m: a short stroke keeps a few positions.
+        Every stroke is averaged if it is left out.
+    """
+    largest = max(case.grid.size)
+    nx, ny = (max(8, 2 * round(0.5 * cells * size / largest)) for size in case.grid.size)
+    lx, ly = (margin * size for size in case.grid.size)
+    bodies = {
+        name: body.model_copy(update={"surface": body.surface.smoothed()})
+        for name, body in case.bodies.items()
+    }
+    changes = {"kinematics": case.kinematics.coarsened(half_width_x), "stepping": LOOSE}
+    grid = Grid((lx, ly), (nx, ny), ends_at_window=True)
+    return assemble(varied(case, grid=grid, bodies=bodies, output=Output(), **changes))

@@ -1,0 +1,167 @@
+"""The positions of a cycle, chosen where a case leaves them open."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from itertools import islice
+from typing import Any
+
+from tribo.case import Case
+from tribo.core.errors import CaseError, NumericalError
+from tribo.core.measures import half_widths
+from tribo.core.state import State
+from tribo.motion.averaging import groove_excess, too_deep
+from tribo.motion.cycle import Stroke, least_positions
+from tribo.motion.reciprocating import Reciprocating
+from tribo.simulation.assembly import assemble
+from tribo.simulation.coarse import MARGINS, coarsened
+from tribo.simulation.march import begin, march
+from tribo.simulation.model import Model
+from tribo.simulation.validity import track_averaged
+from tribo.stepping.explicit import Explicit
+from tribo.stepping.step import first_contact
+
+WORTH = 0.01
+"""What the average may cost, of the depth of the groove."""
+CELLS, STEPS = 32, 200
+"""Of the run that foresees it."""
+SPARE = 0.85
+"""Of half a half-width, between two positions: coarser grids still take as many."""
+FEWEST, MOST = 9, 1001
+"""Positions that are chosen: with fewer, strokes of one or two half-widths are 1 % off."""
+
+
+def composed(case: Case) -> Model:
+    """Return the model of a case, the positions of its cycle chosen if they are ``"auto"``.
+
+    A coarse run with the average foresees what that would cost, by `groove_excess` at its end. From
+    1 % on the cycle is resolved, at positions less than half the half-width of the first contact
+    apart, and at 9 at least. A swept body that varies along x is resolved at each cell. The average
+    is taken where stepping is explicit, and where the case cannot be resolved.
+
+    The choice follows from the case alone. The model's case states it.
+
+    Raises
+    ------
+    CaseError
+        What `assemble` raises.
+    """
+    motion = case.kinematics
+    if not isinstance(motion, Reciprocating) or not is_open(case):
+        return assemble(case)
+    try:
+        averaged = assemble(_fixed(case, "average"))
+    except CaseError:
+        return _at_each_cell(case, motion.stroke)
+    if not _resolvable(case):
+        return averaged
+    half_width = _first_half_width(averaged)
+    words = None if half_width is None else _costly(averaged, motion.stroke)
+    if half_width is None or words is None:
+        return averaged
+    count = max(FEWEST, least_positions(motion.stroke, SPARE * half_width))
+    try:
+        if count > MOST:
+            raise CaseError(f"it would take {count:.2g} positions")
+        resolved = assemble(_fixed(case, count))
+    except CaseError as error:
+        if error.path == "kinematics.stroke" and motion.stroke < half_width:
+            # The average would be refused for its own reason.
+            raise
+        return replace(averaged, chosen=f"the stroke is averaged although {words}: {error}")
+    taken = len(resolved.cycle)
+    return replace(
+        resolved,
+        chosen=f"the cycle is resolved at {taken} positions, as {words}; "
+        'kinematics.positions = "average" takes that all the same, in a fraction of the time',
+    )
+
+
+def is_open(case: Case) -> bool:
+    """Whether a case leaves the positions of its cycle to be chosen."""
+    motion = case.kinematics
+    return isinstance(motion, Reciprocating) and motion.positions == "auto"
+
+
+def chosen(case: Case, model: Model) -> dict[str, Any]:
+    """Return the choice that a model has made for a case, as settings; none if it had none."""
+    if not is_open(case):
+        return {}
+    return {"kinematics.positions": model.data["kinematics"]["positions"]}
+
+
+def alike(cases: Mapping[str, Case]) -> dict[str, Case]:
+    """Return cases with one choice for all that leave their positions open.
+
+    They take as many as the one that needs most, or the average if one of them cannot be resolved.
+    """
+    left = {label: case for label, case in cases.items() if is_open(case)}
+    counts = [len(composed(case).cycle) for case in left.values()]
+    taken: int | str = max(counts, default=1)
+    if taken == 1 or not all(map(_resolvable, left.values())):
+        taken = "average"
+    try:
+        fixed = {label: _fixed(case, taken) for label, case in left.items()}
+        for case in fixed.values():
+            assemble(case)
+    except CaseError:
+        fixed = {label: _fixed(case, "average") for label, case in left.items()}
+    return {label: fixed.get(label, case) for label, case in cases.items()}
+
+
+def _fixed(case: Case, positions: int | str) -> Case:
+    motion = case.kinematics.model_copy(update={"positions": positions})
+    return case.model_copy(update={"kinematics": motion})
+
+
+def _resolvable(case: Case) -> bool:
+    """Whether the steps of a run are as long as its accuracy allows."""
+    return case.contact.accepts_wear_compliance and not isinstance(case.stepping, Explicit)
+
+
+def _at_each_cell(case: Case, stroke: float) -> Model:
+    cells = Stroke(stroke, case.grid.spacing[0], MOST).cells
+    model = assemble(_fixed(case, len(cells)))
+    return replace(
+        model,
+        chosen=f"the cycle is resolved at {len(model.cycle)} positions, as the surface of the body "
+        "that passes varies along x",
+    )
+
+
+def _first_half_width(model: Model) -> float | None:
+    """Return half the extent along x of the first contact, in m; None where it cannot be solved."""
+    try:
+        return half_widths(first_contact(model).contact, model.grid)[0]
+    except (CaseError, NumericalError):
+        return None
+
+
+def _costly(model: Model, stroke: float) -> str | None:
+    """Return what the average of a model would cost, unless that is little or unknown."""
+    for margin in (1.0,) if model.may_reach_edge else MARGINS:
+        try:
+            coarse = coarsened(model.case, CELLS, margin)
+            state = begin(coarse)
+            for accepted in islice(march(coarse, state), STEPS):
+                state = accepted.state
+        except (CaseError, NumericalError):
+            continue
+        return _cost(coarse, state, stroke)
+    return None
+
+
+def _cost(model: Model, state: State, stroke: float) -> str | None:
+    seen = track_averaged(model, state)
+    if seen is None:
+        return None
+    half_width, *_ = seen
+    excess = groove_excess(stroke, *seen)
+    if excess < WORTH:
+        return None
+    widths = f"{stroke / half_width:.2g}"
+    return (
+        f"the stroke of {1e3 * stroke:.3g} mm is {widths} half-width{'s' * (widths != '1')} of the "
+        f"contact, for which the average would make the groove {too_deep(excess)}"
+    )
