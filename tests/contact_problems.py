@@ -50,3 +50,14 @@ def dense(shape: tuple[int, int], spacing: tuple[float, float]) -> Array:
     i, j = (v.ravel() for v in np.indices(shape))
     x, y = i * spacing[0], j * spacing[1]
     return displacement(x[:, None] - x, y[:, None] - y, spacing) / MODULUS
+
+
+def pressed(gaps, total):
+    """Return the overlaps of a foundation with each gap, in m, that add up to `total`."""
+    lowest = gaps.min(axis=(1, 2))
+    low, high = lowest, lowest + total
+    for _ in range(50):
+        middle = 0.5 * (low + high)
+        more = np.maximum(middle[:, None, None] - gaps, 0).sum(axis=(1, 2)) < total
+        low, high = np.where(more, middle, low), np.where(more, high, middle)
+    return np.maximum(high[:, None, None] - gaps, 0)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from contact_problems import pressed
 from paper_models import (
     FOUNDATION,
     K,
@@ -25,7 +26,6 @@ from tribo import (
     Interrupted,
     NumericalError,
     Passing,
-    Periodic,
     Position,
     Simulation,
     Waves,
@@ -60,22 +60,11 @@ def plain_loop(distance, stroke=12, steps=3000):
     slid = distance * np.diff(np.linspace(0, 1, steps + 1) ** 1.5)
     for length in slid:
         gaps = np.stack([gap + ball + disk[at : at + nx] for at in range(stroke + 1)])
-        p = pressed(gaps, 100 / (dx * dy * FOUNDATION))
+        p = FOUNDATION * pressed(gaps, 100 / (dx * dy * FOUNDATION))
         ball += K * length * np.einsum("i,ijk->jk", share, p)
         for at in range(stroke + 1):
             disk[at : at + nx] += K * length * share[at] * p[at]
     return ball, disk
-
-
-def pressed(gaps, total):
-    """Press a foundation on each gap until the overlaps add up to `total`, in m."""
-    lowest = gaps.min(axis=(1, 2))
-    low, high = lowest, lowest + total
-    for _ in range(50):
-        middle = 0.5 * (low + high)
-        more = np.maximum(middle[:, None, None] - gaps, 0).sum(axis=(1, 2)) < total
-        low, high = np.where(more, middle, low), np.where(more, high, middle)
-    return FOUNDATION * np.maximum(high[:, None, None] - gaps, 0)
 
 
 @pytest.fixture(scope="module")
@@ -194,12 +183,6 @@ def test_a_contact_that_leaves_the_window_away_from_mid_stroke_ends_the_run():
     kinematics = motion(stroke=10 * narrow.spacing[0], duration=2000, positions=9, swept="ball")
     with pytest.raises((CaseError, NumericalError), match="edge of the window"):
         last(small(grid=narrow, contact=foundation(), kinematics=kinematics))
-
-
-def test_a_contact_that_repeats_is_not_resolved():
-    kinematics = motion(stroke=GRID.size[0], positions=9)
-    with pytest.raises(CaseError, match=r"kinematics\.positions: .*repeats with the window"):
-        resolved(kinematics=kinematics, contact=Periodic())
 
 
 @pytest.mark.parametrize("starts", [(2, 1), (3, 1, 0), (2, 2, 0), (2, 1, -1)])

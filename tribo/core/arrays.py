@@ -38,6 +38,28 @@ def union(first: Region, second: Region) -> Region:
     )
 
 
+def rows_from(field: Array, first: int, count: int) -> Array:
+    """Return `count` rows of a field, of which row `first` is the first.
+
+    After its last row a field goes on with its first.
+    """
+    first %= len(field)
+    beyond = first + count - len(field)
+    if beyond <= 0:
+        return field[first : first + count]
+    return np.concatenate([field[first:], field[:beyond]])
+
+
+def laid_from(part: Array, first: int, rows: int) -> Array:
+    """Return a field with `part` from row `first` on, as `rows_from` counts them, and 0 beside."""
+    field = np.zeros((rows, *part.shape[1:]))
+    first %= rows
+    until = rows - first
+    field[first : first + len(part)] = part[:until]
+    field[: max(0, len(part) - until)] = part[until:]
+    return field
+
+
 def middle_rows(field: Array, count: int) -> Array:
     """Return the middle `count` rows of a field on a body's own surface; all, if it has fewer."""
     first = max(0, (field.shape[0] - count) // 2)

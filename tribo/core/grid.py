@@ -66,6 +66,11 @@ class Grid(Table):
         return dx * dy
 
     @property
+    def period(self) -> int | None:
+        """Cells along x after which all repeats; None where nothing does."""
+        return None
+
+    @property
     def x(self) -> Array:
         """Cell centres along x, shape (nx,), in m."""
         return _centres(self.cells[0], self.spacing[0])
@@ -80,6 +85,15 @@ class Grid(Table):
         """Coordinates x of shape (nx, 1) and y of shape (1, ny), in m."""
         (nx, ny), (dx, dy) = self.cells, self.spacing
         return _centres(nx, dx)[:, None], _centres(ny, dy)[None, :]
+
+
+class RepeatingGrid(Grid):
+    """A window after which all repeats, along x and y."""
+
+    @property
+    def period(self) -> int:
+        """Cells along x after which all repeats: those of the window."""
+        return self.cells[0]
 
 
 def _centres(count: int, step: float) -> Array:

@@ -42,7 +42,8 @@ class Stroke:
     """Positions along a stroke, at whole cells and alike to both sides of its middle.
 
     Integrals over the stroke are those of straight lines between the positions: exact to second
-    order in their spacing, and in all for a path that is spent evenly.
+    order in their spacing, and in all for a path that is spent evenly. A stroke as long as the
+    period of what repeats, or longer, has its positions over one period, which the path goes round.
 
     Parameters
     ----------
@@ -52,27 +53,34 @@ class Stroke:
         Length of a cell, in m.
     count : int or str, optional
         Number of positions, odd; ``"cells"`` for every cell.
+    period : int or None, optional
+        Cells after which all repeats; None where nothing does.
     """
 
     length: float
     dx: float
     count: int | str = "cells"
+    period: int | None = None
 
     @property
     def cells(self) -> Array:
-        """Offsets from mid-stroke, shape (positions,), in whole cells; the ends reach over it."""
-        given = 0.5 * self.length / self.dx
-        half = max(1, round(given) if self.is_whole else int(np.ceil(given)))
+        """Offsets from mid-stroke, shape (positions,), in cells, over the stroke or a period."""
+        half = self._half
         sides = half if isinstance(self.count, str) else min(half, self.count // 2)
-        right = np.round(np.linspace(0, half, sides + 1))
+        if self._round is None:
+            right = np.round(np.linspace(0, half, sides + 1))
+        elif 2 * sides + 1 < self._round:
+            right = np.round(np.arange(sides + 1) * (self._round / (2 * sides + 1)))
+        else:
+            return np.arange(self._round, dtype=float) - self._round // 2
         return np.asarray(np.concatenate([-right[:0:-1], right]))
 
     @property
     def starts(self) -> list[int]:
         """Row at which the window begins on the body that passes, at each position."""
-        cells = self.cells
         # The window's place on the body moves against the body itself.
-        return [int(cells[-1] - cell) for cell in cells]
+        beyond = 0 if self.period is not None else self._half
+        return [int(beyond - cell) for cell in self.cells]
 
     @property
     def is_whole(self) -> bool:
@@ -83,13 +91,13 @@ class Stroke:
     @property
     def ends(self) -> Array:
         """Where the path turns round, from mid-stroke, shape (2,), in m."""
-        half = min(0.5 * self.length, float(self.cells[-1]) * self.dx)
+        half = min(0.5 * self.length, self._half * self.dx)
         return np.array([-half, half])
 
     @property
     def shares(self) -> Array:
         """Part of an even path at each position, shape (positions,)."""
-        return near(self.cells * self.dx, self.ends) / np.ptp(self.ends)
+        return self._near(self.ends) / np.ptp(self.ends)
 
     def passed(self, times: Array, places: Array) -> list[Position]:
         """Return the positions of a path over the stroke, each with the mean speed near it.
@@ -101,18 +109,41 @@ class Stroke:
         places : ndarray, shape (samples,)
             Where the path is then, from mid-stroke, in m.
         """
-        nodes = self.cells * self.dx
         # A stroke that counts as whole cells may go a little beyond the last one.
         places = places * (np.ptp(self.ends) / self.length)
         steps = np.abs(np.diff(places))
         pace = np.zeros_like(steps)
         np.divide(np.diff(times), steps, out=pace, where=steps > 0)
-        lengths, lasting = near(nodes, places), near(nodes, places, pace)
+        lengths, lasting = self._near(places), self._near(places, pace)
         shares = lengths / np.sum(lengths)
         return [
             Position(float(share), [(float(length / time), 1.0)])
             for share, length, time in zip(shares, lengths, lasting, strict=True)
         ]
+
+    @property
+    def _half(self) -> int:
+        """Cells from mid-stroke to an end."""
+        given = 0.5 * self.length / self.dx
+        return max(1, round(given) if self.is_whole else int(np.ceil(given)))
+
+    @property
+    def _round(self) -> int | None:
+        """The period that the stroke goes round, in cells; None if it does not."""
+        return self.period if self.period is not None and 2 * self._half >= self.period else None
+
+    def _near(self, path: Array, weights: Array | float = 1.0) -> Array:
+        """Return the length of the path that falls to each position, shape (positions,)."""
+        nodes = self.cells * self.dx
+        if self._round is None:
+            return near(nodes, path, weights)
+        # The last position but for a period comes before the first, and the other way round.
+        around = self._round * self.dx
+        closed = np.concatenate([[nodes[-1] - around], nodes, [nodes[0] + around]])
+        lengths = near(closed, *_folded(path, weights, closed[0], around))
+        lengths[1] += lengths[-1]
+        lengths[-2] += lengths[0]
+        return lengths[1:-1]
 
     def check_cells(self, place: str) -> None:
         """Refuse a stroke that is under two cells; `place` names it."""
@@ -179,3 +210,22 @@ def near(nodes: Array, path: Array, weights: Array | float = 1.0) -> Array:
         lengths[node] += np.sum(passed * (nodes[node + 1] - middle)) / gap
         lengths[node + 1] += np.sum(passed * (middle - nodes[node])) / gap
     return lengths
+
+
+def _folded(
+    path: Array, weights: Array | float, first: float, period: float
+) -> tuple[Array, Array]:
+    """Return a path that goes round in one period from `first`, in m, and the weights of its parts.
+
+    Between two parts it jumps, with the weight 0.
+    """
+    low, high = np.minimum(path[:-1], path[1:]), np.maximum(path[:-1], path[1:])
+    begun, ended = np.floor((low - first) / period), np.floor((high - first) / period)
+    turns = (ended - begun).astype(int) + 1
+    part = np.repeat(np.arange(len(turns)), turns)
+    turn = np.arange(len(part)) - np.repeat(np.cumsum(turns) - turns, turns) + begun[part]
+    origin = first + turn * period
+    within = np.clip([low[part], high[part]], origin, origin + period) - origin + first
+    parted = np.zeros((len(part), 2))
+    parted[:, 0] = np.broadcast_to(weights, low.shape)[part]
+    return within.T.ravel(), parted.ravel()[:-1]

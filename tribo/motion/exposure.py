@@ -28,7 +28,8 @@ class Exposure(ABC):
 
     starts: Sequence[int] | None = None
     """The row of the body's own surface at which the window begins, at each position of the cycle;
-    None where the body has no rows but those of the window, or one for all."""
+    None where the body has no rows but those of the window, or one for all. In a window that
+    repeats, rows are counted round."""
 
     @property
     def rows(self) -> int | None:
@@ -185,6 +186,9 @@ class Passing(Stationary):
     body where it is then. With all pₘ alike it is the average of `Track` at mid-stroke. On its own
     rows its points stay, so that averages, envelopes and volumes are those of `Stationary`.
 
+    In a window that repeats, the body repeats with it: it has the rows of the window, and one that
+    leaves the window comes in again at the other end.
+
     Parameters
     ----------
     grid : Grid
@@ -199,9 +203,10 @@ class Passing(Stationary):
 
     def __init__(self, grid: Grid, starts: Sequence[int], length: float) -> None:
         super().__init__(grid)
+        self._grid = grid
         self.starts = tuple(starts)
-        self._rows = grid.cells[0] + max(starts)
-        self._track = Track(grid, length)
+        self._rows = grid.period or grid.cells[0] + max(starts)
+        self._length = length if grid.period is None else min(length, grid.size[0])
 
     @property
     def rows(self) -> int:
@@ -209,5 +214,10 @@ class Passing(Stationary):
         return self._rows
 
     def compliance(self, derivative: Array, pressure: Array) -> WearCompliance:
-        """Return that of the average, which takes all positions to change alike."""
-        return self._track.compliance(derivative, pressure)
+        """Return that of the average, which takes all positions to change alike.
+
+        In the middle of a contact longer than the path, a point meets pressure all along it.
+        """
+        contact = self._grid.spacing[0] * np.count_nonzero(pressure, axis=0)
+        track = Track(self._grid, np.maximum(contact, self._length))
+        return track.compliance(derivative, pressure)

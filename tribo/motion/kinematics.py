@@ -58,7 +58,7 @@ class Kinematics(Component):
         Parameters
         ----------
         grid : Grid
-            The window.
+            The window; it has a `period` where the contact repeats with it.
         """
         return [Position(speeds=self.speeds())]
 

@@ -160,7 +160,7 @@ class Measured(Kinematics):
         return strokes.coarsened(half_width_x)
 
     def _stroke(self, grid: Grid) -> Stroke:
-        stroke = Stroke(self._range, grid.spacing[0], self.positions)
+        stroke = Stroke(self._range, grid.spacing[0], self.positions, grid.period)
         stroke.check_cells("kinematics.path")
         return stroke
 

@@ -121,11 +121,11 @@ class Reciprocating(Kinematics):
         stroke = self._stroke(grid)
         if self.waveform == "constant_speed":
             return [Position(float(share)) for share in stroke.shares]
-        half = len(stroke.cells) // 2
         # From mid-stroke to a reversal, in as many samples between any two positions.
-        places = stroke.cells[half:-1] * grid.spacing[0]
+        places = stroke.cells[len(stroke.cells) // 2 : -1] * grid.spacing[0]
         at = [*np.arcsin(places / (0.5 * self.stroke)), 0.5 * math.pi]
-        right = np.interp(np.linspace(0, half, SAMPLES * half + 1), np.arange(half + 1), at)
+        last = len(at) - 1
+        right = np.interp(np.linspace(0, last, SAMPLES * last + 1), np.arange(last + 1), at)
         phases = np.concatenate([-right[:0:-1], right])
         times = phases / (2 * math.pi * self.frequency)
         return stroke.passed(times, 0.5 * self.stroke * np.sin(phases))
@@ -148,7 +148,7 @@ class Reciprocating(Kinematics):
 
     def _stroke(self, grid: Grid) -> Stroke:
         dx = grid.spacing[0]
-        stroke = Stroke(self.stroke, dx, self.positions)
+        stroke = Stroke(self.stroke, dx, self.positions, grid.period)
         if not self.allow_short_stroke:
             stroke.check_cells("kinematics.stroke")
         if self.positions == "cells" and not stroke.is_whole:

@@ -3,12 +3,21 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Self
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Literal, Self
 
-from pydantic import ConfigDict, model_validator
+from pydantic import ConfigDict, Field, field_validator, model_validator
 
+from tribo.core.errors import CaseError
+from tribo.core.grid import Grid
 from tribo.core.units import Quantity
 from tribo.motion.closed_track import ClosedTrack
+from tribo.motion.cycle import WHOLE, Position, Stroke, odd
+from tribo.motion.exposure import Exposure, Passing
+from tribo.motion.swept import one_swept_body
+
+FEW = 9
+"""Positions of an estimate."""
 
 
 class Unidirectional(ClosedTrack):
@@ -16,6 +25,10 @@ class Unidirectional(ClosedTrack):
 
     The curvature of the track inside the contact is neglected: valid for
     contacts small beside the track radius.
+
+    Of two bodies that repeat with the window, as nominally flat rough ones do, and so touch all
+    over, the path may be resolved into `positions`: those over the window's length stand for all of
+    it, however long the track is.
     """
 
     model_config = ConfigDict(
@@ -29,6 +42,12 @@ class Unidirectional(ClosedTrack):
     """Length of the closed track."""
     track_radius: Annotated[float, Quantity("m", above=0, usual=(1e-6, 1.0))] | None = None
     """Radius of a circular track; its length is 2πr."""
+    positions: Annotated[int, Field(ge=3)] | Literal["cells", "average"] = "average"
+    """In how many positions over the window's length the contact is solved, an odd number, or
+    ``"cells"`` for every cell, where the contact repeats with the window; ``"average"`` takes the
+    track average for all of them."""
+
+    _middle = field_validator("positions")(odd)
 
     @model_validator(mode="after")
     def _one_track(self) -> Self:
@@ -43,6 +62,40 @@ class Unidirectional(ClosedTrack):
             return self.track_length
         assert self.track_radius is not None
         return 2 * math.pi * self.track_radius
+
+    def cycle(self, grid: Grid) -> Sequence[Position]:
+        """Return the one position of the average, or those over the window's length."""
+        if self.positions == "average":
+            return super().cycle(grid)
+        return [Position(float(share)) for share in self._stroke(grid).shares]
+
+    def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
+        """Return the closed track for the swept body, or the rows of the window."""
+        if self.positions == "average":
+            return super().exposures(grid, bodies)
+        passing = Passing(grid, self._stroke(grid).starts, self.lap)
+        return one_swept_body(grid, bodies, self.swept, passing)
+
+    def coarsened(self, half_width_x: float) -> Unidirectional:
+        """Return the motion with few positions, if it has any."""
+        if self.positions == "average":
+            return self
+        return self.model_copy(update={"positions": FEW})
+
+    def _stroke(self, grid: Grid) -> Stroke:
+        if grid.period is None:
+            raise CaseError(
+                "a track is resolved only where the contact repeats with the window "
+                '(contact.type = "periodic"); use positions = "average"',
+                "kinematics.positions",
+            )
+        if self.lap < grid.size[0] * (1 - WHOLE):
+            raise CaseError(
+                f"{1e3 * self.lap:.4g} mm is shorter than the window of {1e3 * grid.size[0]:.4g} "
+                "mm, after which the contact repeats",
+                f"kinematics.{self._given}",
+            )
+        return Stroke(grid.size[0], grid.spacing[0], self.positions, grid.period)
 
     @property
     def _given(self) -> str:

@@ -11,10 +11,10 @@ import numpy as np
 from tribo.case import Body, Case
 from tribo.config.requirements import check_requirements
 from tribo.contact.solver import ContactSolver
-from tribo.core.arrays import Array, readonly
+from tribo.core.arrays import Array, readonly, rows_from
 from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError, located
-from tribo.core.grid import Grid
+from tribo.core.grid import Grid, RepeatingGrid
 from tribo.core.loads import Loads
 from tribo.core.material import contact_modulus
 from tribo.simulation.effects import in_order
@@ -41,17 +41,11 @@ def assemble(case: Case) -> Model:
     grid, bodies = case.grid, case.bodies
     motion, solver = GuardedMotion(case.kinematics), GuardedSolver(case.contact)
     with located("kinematics"):
-        exposures = motion.exposures(grid, list(bodies))
-        cycle = motion.cycle(grid)
+        window = RepeatingGrid(size=grid.size, cells=grid.cells) if case.contact.periodic else grid
+        exposures = motion.exposures(window, list(bodies))
+        cycle = motion.cycle(window)
         for exposure in exposures.values():
             exposure.check_starts(len(cycle))
-    if case.contact.periodic and len(cycle) > 1:
-        raise CaseError(
-            f"contact.type = {case.contact.type!r} repeats with the window, but a body that passes "
-            'through the positions of a cycle does not; use positions = "average", or a contact '
-            "that does not repeat",
-            "kinematics.positions",
-        )
     cap, share = _plastic(bodies, case.contact)
     # Before the first array is made.
     check_memory(grid, memory_needed(case, exposures, plastic=cap is not None))
@@ -153,7 +147,7 @@ def _gaps(
         for name, surface in surfaces.items():
             starts = exposures[name].starts
             first = 0 if starts is None else starts[position]
-            gap -= surface.height[first : first + grid.cells[0]]
+            gap -= rows_from(surface.height, first, grid.cells[0])
         return gap
 
     middle = positions // 2

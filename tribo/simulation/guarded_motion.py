@@ -148,6 +148,7 @@ class GuardedExposure(Guard[Kinematics]):
         self._asked = exposure
         self._whose = body
         self._cells = grid.cells
+        self._repeats = grid.period is not None
         self.starts = exposure.starts
         self.rows = exposure.rows or grid.cells[0]
         self._own = (self.rows, grid.cells[1])
@@ -162,11 +163,16 @@ class GuardedExposure(Guard[Kinematics]):
             return
         beyond = self.rows - self._cells[0]
         starts = [int(self.number("a start", start)) for start in self.starts]
+        if self._repeats and beyond != 0:
+            raise PluginError(
+                f"{self} has {self.rows} rows where the contact repeats with the window; it needs "
+                f"the window's {self._cells[0]}, with starts that are counted round"
+            )
+        within = self._repeats or (min(starts) >= 0 and max(starts) <= beyond)
         if (
             len(starts) != positions
-            or min(starts) < 0
-            or max(starts) > beyond
-            or starts[positions // 2] != beyond // 2
+            or not within
+            or starts[positions // 2] % self.rows != beyond // 2
         ):
             raise PluginError(
                 f"{self} has starts {starts!s:.60} of {len(starts)} positions on {self.rows} rows; "

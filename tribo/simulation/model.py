@@ -11,7 +11,7 @@ import numpy as np
 
 from tribo.case import Body, Case
 from tribo.contact.solver import ContactSolver
-from tribo.core.arrays import Array
+from tribo.core.arrays import Array, laid_from, rows_from
 from tribo.core.contact import ContactSystem
 from tribo.core.grid import Grid
 from tribo.core.loads import Loads
@@ -177,10 +177,7 @@ class Model:
         Shape (nx, ny), or (1, ny) of a field that is the same all along a track.
         """
         starts = self.exposures[name].starts
-        if starts is None:
-            return field
-        first = starts[position]
-        return field[first : first + self.grid.cells[0]]
+        return field if starts is None else rows_from(field, starts[position], self.grid.cells[0])
 
     def spread(self, name: str, field: Array, position: int) -> Array:
         """Return a field of the window where it lies on a body's own surface, at a position.
@@ -190,7 +187,4 @@ class Model:
         exposure = self.exposures[name]
         if exposure.starts is None:
             return field
-        own = np.zeros((exposure.rows, self.grid.cells[1]))
-        first = exposure.starts[position]
-        own[first : first + self.grid.cells[0]] = field
-        return own
+        return laid_from(field, exposure.starts[position], exposure.rows)

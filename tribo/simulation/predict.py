@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from tribo.core.errors import CaseError, NumericalError, PluginError
 from tribo.core.measures import Measures
 from tribo.core.state import State
@@ -192,11 +194,13 @@ def _coarse_run(model: Model, first: Measures) -> CoarseRun:
     if not model.contact.accepts_wear_compliance:
         return CoarseRun(None)
     failed: CaseError | NumericalError | None = None
+    # Contacts that repeat keep their positions however long the path: for the average they end.
+    half_width = np.inf if model.contact.periodic else first.half_width_x
     # A body or a period that ends at the window has no more to give in a wider one.
     for margin in (1.0,) if model.may_reach_edge else MARGINS:
         outgrown = None
         try:
-            coarse = coarsened(model.case, COARSE, margin, first.half_width_x)
+            coarse = coarsened(model.case, COARSE, margin, half_width)
             state = begin(coarse)
             for accepted in march(coarse, state):
                 state = accepted.state

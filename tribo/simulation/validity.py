@@ -9,6 +9,7 @@ from tribo.core.errors import located
 from tribo.core.measures import Measures, half_widths
 from tribo.core.state import State
 from tribo.lab.first_contact import hertz_contact
+from tribo.motion.cycle import check_spacing
 from tribo.simulation.model import Model
 
 STEEP = 0.3
@@ -79,9 +80,15 @@ def _track_length(model: Model, name: str) -> float:
 
 def check_stroke(model: Model, state: State) -> None:
     """Raise `CaseError` if averaging makes no sense for the first contact, in `state`."""
-    if _changing(model):
-        with located("kinematics"):
-            model.motion.check_contact(half_widths(state.contact, model.grid)[0])
+    if not _changing(model):
+        return
+    half_width = half_widths(state.contact, model.grid)[0]
+    with located("kinematics"):
+        if not model.contact.periodic or len(model.cycle) == 1:
+            model.motion.check_contact(half_width)
+        elif not _is_endless(model, half_width) and model.apart > model.grid.spacing[0]:
+            gaps = len(model.cycle) - 1
+            check_spacing(gaps * model.apart, gaps + 1, half_width)
 
 
 def limitation(model: Model, state: State) -> str | None:
@@ -98,12 +105,15 @@ def track_averaged(model: Model, state: State) -> tuple[float, float, float, flo
     """
     changing = _changing(model)
     half_width = half_widths(state.contact, model.grid)[0]
-    # A contact all over the period that repeats has no ends.
-    endless = model.contact.periodic and 2 * half_width > model.grid.size[0] * (1 - 1e-9)
-    if not changing or endless:
+    if not changing or _is_endless(model, half_width):
         return None
     depth = max(float(np.max(state.bodies[name].wear)) for name in changing)
     return half_width, depth, state.reference_depth, _volume_ratio(model, state)
+
+
+def _is_endless(model: Model, half_width: float) -> bool:
+    """Whether the contact goes on into the next period of what repeats along x."""
+    return model.contact.periodic and 2 * half_width > model.grid.size[0] * (1 - 1e-9)
 
 
 def _volume_ratio(model: Model, state: State) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 from tribo.case import Stop
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
-from tribo.core.grid import Grid
+from tribo.core.grid import Grid, RepeatingGrid
 from tribo.simulation.guarded_motion import GuardedExposure, GuardedMotion
 from tribo.testing import samples
 from tribo.testing.checks import Checks
@@ -64,9 +64,16 @@ class KinematicsChecks(Checks):
             exposure.compliance(rate, rate)
 
     def windows_lie_on_the_body(self) -> None:
-        """A body with rows of its own has those of the window at each position of the cycle."""
+        """A body with rows of its own has those of the window at each position of the cycle.
+
+        Where the window repeats, it has those of the window, counted round.
+        """
+        self._windows_lie_on_the_body(GRID)
+        self._windows_lie_on_the_body(RepeatingGrid(size=GRID.size, cells=GRID.cells))
+
+    def _windows_lie_on_the_body(self, grid: Grid) -> None:
         motion = GuardedMotion(self._make())
-        positions, exposures = len(motion.cycle(GRID)), motion.exposures(GRID, BODIES)
+        positions, exposures = len(motion.cycle(grid)), motion.exposures(grid, BODIES)
         starts = {name: e.starts for name, e in exposures.items() if e.starts is not None}
         apply_if(starts, "its bodies have no rows of their own")
         for name, rows in starts.items():
@@ -75,6 +82,12 @@ class KinematicsChecks(Checks):
                 f"{name!r} has {len(rows)} starts, but the cycle has {positions} positions",
             )
             last, whole = max(rows) + GRID.cells[0], exposures[name].rows
+            if grid.period is not None:
+                require(
+                    whole == grid.period,
+                    f"{name!r} has {whole} rows in a window of {grid.period} that repeats",
+                )
+                continue
             require(
                 min(rows) >= 0 and last <= whole,
                 f"the window covers rows {min(rows)} to {last} of {name!r}, which has {whole}",

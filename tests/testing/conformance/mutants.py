@@ -315,6 +315,7 @@ wrong(
     ("compliance_is_the_average_of_a_linear_law", exposed(compliance=as_if_it_stayed)),
     ("windows_lie_on_the_body", resolved(8)),
     ("windows_lie_on_the_body", resolved(9, rows=30)),
+    ("windows_lie_on_the_body", resolved(9)),
     ("larger_contacts_are_limited_no_less", {"limitation": lambda self, *track: 7}),
     ("larger_contacts_are_limited_no_less", {"check_contact": refusing}, ValueError),
     ("runs_a_case", {"time_at": at_once}),

@@ -1,0 +1,183 @@
+"""A cycle resolved in a window that repeats: bodies that pass come in again at the other end."""
+
+import numpy as np
+import pytest
+from contact_problems import pressed
+from paper_models import (
+    FOUNDATION,
+    K,
+    archard,
+    flat,
+    last,
+    motion,
+    named,
+    small,
+    steel,
+)
+
+from tribo import (
+    CaseError,
+    DcFft,
+    Grid,
+    Implicit,
+    Interrupted,
+    Periodic,
+    Rough,
+    Simulation,
+    Stop,
+    Unidirectional,
+    Waves,
+    Winkler,
+)
+from tribo.observers.observer import Observer
+from tribo.stepping.step import first_contact
+
+GRID = Grid((0.32e-3, 0.24e-3), (16, 12))
+(DX, DY), LOAD = GRID.spacing, 20.0
+
+
+class StopAfter(Observer):
+    def on_step(self, snapshot):
+        if snapshot.state.steps == 5:
+            raise KeyboardInterrupt
+
+
+class Repeats(Winkler):
+    """A foundation under surfaces that repeat."""
+
+    type = "test.repeats"
+    periodic = True
+
+
+def rough(seed):
+    return Rough(sq=1e-7, cut_off=0.08e-3, roll_off=0.16e-3, period=GRID.size[0], seed=seed)
+
+
+def bodies(*surfaces, wears=(True, True)):
+    laws = [archard() if wear else None for wear in wears]
+    return [
+        named(name, surface, steel(), law)
+        for name, surface, law in zip(("upper", "lower"), surfaces, laws, strict=True)
+    ]
+
+
+def repeating(kinematics, **changes):
+    parts = {
+        "grid": GRID,
+        "load": LOAD,
+        "contact": Repeats(modulus=FOUNDATION),
+        "bodies": bodies(rough(1), rough(2)),
+        "kinematics": kinematics,
+        "stop": Stop(distance=1.0),
+        "stepping": Implicit(pressure_tolerance=0.005),
+        **changes,
+    }
+    return small(**parts)
+
+
+def strokes(cells, **values):
+    return motion(stroke=cells * DX, **{"positions": "cells", **values})
+
+
+def track(**values):
+    return Unidirectional(
+        **{"speed": 0.1, "track_length": 1.0, "distance": 1.0, "positions": "cells", **values}
+    )
+
+
+def plain_loop(offsets, shares, distance, steps=1000):
+    """Wear two rough bodies, of which the lower one goes round, by forward Euler."""
+    unworn = [-rough(seed).height(GRID) for seed in (1, 2)]
+    upper, lower = np.zeros(GRID.cells), np.zeros(GRID.cells)
+    shares = np.array(shares) / np.sum(shares)
+    for length in distance * np.diff(np.linspace(0, 1, steps + 1) ** 1.5):
+        gaps = [unworn[0] + upper + np.roll(unworn[1] + lower, cells, axis=0) for cells in offsets]
+        p = FOUNDATION * pressed(np.stack(gaps), LOAD / (DX * DY * FOUNDATION))
+        for share, cells, here in zip(shares, offsets, p, strict=True):
+            upper += K * length * share * here
+            lower += K * length * share * np.roll(here, -cells, axis=0)
+    return upper, lower
+
+
+# The ends of a stroke are half.
+EVEN, ENDS = np.ones(16), [0.5, *np.ones(39), 0.5]
+ROUND = np.bincount((np.arange(-20, 21) + 8) % 16, ENDS)
+PATHS = {
+    "short": (strokes(6), range(-3, 4), [1, 2, 2, 2, 2, 2, 1]),
+    "as long": (strokes(16), range(-8, 8), EVEN),
+    "longer": (strokes(40), range(-8, 8), ROUND),
+    "track": (track(), range(-8, 8), EVEN),
+}
+"""A stroke within the window, one as long, one that goes round it more than once, a long track."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("path", PATHS)
+def test_both_bodies_wear_as_in_a_plain_loop_that_goes_round(path):
+    kinematics, offsets, shares = PATHS[path]
+    state = last(repeating(kinematics))
+    loop = plain_loop(offsets, shares, state.distance)
+    for name, expected in zip(("upper", "lower"), loop, strict=True):
+        found = state.bodies[name].wear
+        assert found.shape == GRID.cells
+        assert np.max(np.abs(found - expected)) < 5e-3 * expected.max()
+        volume = np.sum(found) * GRID.cell_area
+        assert volume == pytest.approx(K * LOAD * state.distance, rel=1e-10, abs=0)
+
+
+def test_which_body_is_called_moving_changes_nothing():
+    one, other = (last(repeating(strokes(6, swept=name))) for name in ("lower", "upper"))
+    for name in ("lower", "upper"):
+        # A path and its way back are alike, so the window stays on the one as well as the other.
+        found, expected = (state.bodies[name].wear for state in (one, other))
+        np.testing.assert_allclose(found, expected, atol=2e-3 * expected.max())
+
+
+@pytest.mark.parametrize("kinematics", [strokes(6), strokes(40, positions=5), track(positions=5)])
+def test_two_flats_wear_evenly(kinematics):
+    state = last(repeating(kinematics, contact=Periodic(), bodies=bodies(flat(), flat())))
+    depth = K * LOAD / (GRID.size[0] * GRID.size[1]) * state.distance
+    for body in state.bodies.values():
+        np.testing.assert_allclose(body.wear, depth, rtol=1e-10)
+
+
+def test_waves_press_at_each_position_as_far_apart_as_they_have_come():
+    waves = [Waves(amplitude=a, wavelength=GRID.size[0], along="x") for a in (2e-8, 3e-8)]
+    model = repeating(track(), contact=Periodic(tolerance=1e-12), bodies=bodies(*waves), load=2000)
+    x = GRID.x[:, None]
+    q = 2 * np.pi / GRID.size[0]
+    mean = 2000 / (GRID.size[0] * GRID.size[1])
+    # In full contact a wave of the amplitude A is pressed flat by E* q A / 2.
+    for contact, cell in zip(first_contact(model).contacts, range(-8, 8), strict=True):
+        wave = 2e-8 * np.cos(q * x) + 3e-8 * np.cos(q * (x - cell * DX))
+        expected = mean + 0.5 * model.system.modulus * q * wave
+        assert np.min(expected) > 0
+        np.testing.assert_allclose(contact.pressure, expected + 0 * GRID.y, rtol=1e-9)
+
+
+def test_waves_that_slide_over_a_flat_wear_off_evenly():
+    bodies_ = bodies(Waves(amplitude=2e-8, wavelength=GRID.size[0], along="x"), flat())
+    model = repeating(track(), contact=Periodic(), bodies=bodies_, load=2000)
+    lower = last(model).bodies["lower"].wear
+    np.testing.assert_allclose(lower, K * 2000 / (GRID.size[0] * GRID.size[1]), rtol=1e-3)
+
+
+@pytest.mark.slow
+def test_a_stopped_run_goes_on_to_the_same_bits(tmp_path):
+    simulation = Simulation(repeating(strokes(40, positions=5), stepping=Implicit()))
+    with pytest.raises(Interrupted):
+        simulation.run(tmp_path / "run.h5", observers=[StopAfter()])
+    with simulation.resume(tmp_path / "run.h5") as resumed, simulation.run() as whole:
+        assert resumed.dataset.equals(whole.dataset)
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"contact": DcFft()}, r"kinematics\.positions: .*contact.type = \"periodic\""),
+        ({"kinematics": track(track_length=0.3e-3)}, r"kinematics\.track_length: .*0\.32 mm"),
+    ],
+)
+def test_a_track_is_resolved_where_the_contact_repeats(changes, words):
+    with pytest.raises(CaseError, match=words):
+        repeating(**{"kinematics": track(), **changes})
