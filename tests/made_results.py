@@ -124,6 +124,7 @@ def _snapshot(time, bodies, plastic, power, shape, grid, texture, cap):
         contacts=(ContactSolution(pressure, 1e-6, 0 * pressure, 1, SETTLED),),
         increment=1.0,
         reference_depth=1e-6,
+        load_distance=10.0 * time,
     )
     width, breadth = half_widths(state.contact, grid)
     return Snapshot(
@@ -131,6 +132,8 @@ def _snapshot(time, bodies, plastic, power, shape, grid, texture, cap):
         Measures(
             time=time,
             distance=0.1 * time,
+            load=100.0,
+            load_distance=10.0 * time,
             max_pressure=pressure.max(),
             centre_pressure=centre(pressure),
             half_width_x=width,

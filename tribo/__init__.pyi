@@ -3,7 +3,6 @@
 from tribo.case import Body as Body
 from tribo.case import Case as Case
 from tribo.case import Friction as Friction
-from tribo.case import Load as Load
 from tribo.case import Output as Output
 from tribo.case import Stop as Stop
 from tribo.component import Component as Component
@@ -33,6 +32,8 @@ from tribo.core.fields import Field as Field
 from tribo.core.fields import LocalConditions as LocalConditions
 from tribo.core.fields import WearRate as WearRate
 from tribo.core.grid import Grid as Grid
+from tribo.core.loads import Load as Load
+from tribo.core.loads import Stage as Stage
 from tribo.core.material import Material as Material
 from tribo.core.measures import BodyMeasures as BodyMeasures
 from tribo.core.measures import Measures as Measures

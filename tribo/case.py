@@ -13,6 +13,7 @@ from tribo.component import Component
 from tribo.contact.dcfft import DcFft
 from tribo.contact.solver import ContactSolver
 from tribo.core.grid import Grid
+from tribo.core.loads import Load, Stage
 from tribo.core.material import Material
 from tribo.core.table import Table
 from tribo.core.units import Quantity
@@ -26,13 +27,6 @@ from tribo.wear.law import WearLaw
 
 if TYPE_CHECKING:
     from tribo.result.read import Result
-
-
-class Load(Table):
-    """The load on the contact."""
-
-    normal: Annotated[float, Quantity("N", above=0, usual=(1e-12, 1e6))]
-    """Normal load, constant in time."""
 
 
 class Body(Table):
@@ -86,7 +80,7 @@ class Case(Table):
             self,
             *,
             grid: Grid,
-            load: Load | float | str,
+            load: Load | float | str | Sequence[Stage],
             bodies: Mapping[str, Body],
             kinematics: Kinematics,
             contact: ContactSolver = ...,
@@ -122,7 +116,7 @@ class Case(Table):
     @field_validator("load", mode="before")
     @classmethod
     def _normal_load(cls, load: Any) -> Any:
-        return {"normal": load} if isinstance(load, int | float | str) else load
+        return {"normal": load} if isinstance(load, int | float | str | list | tuple) else load
 
     @field_validator("contact", "stepping", mode="before")
     @classmethod

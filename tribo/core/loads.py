@@ -1,13 +1,107 @@
-"""The normal load over time, at each position of a cycle."""
+"""The normal load, over time and along a stroke: as a case gives it, and as contacts carry it."""
 
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from math import inf
+from pathlib import Path
+from typing import Annotated, Any, Self
 
+import numpy as np
+from pydantic import Discriminator, Tag, field_validator, model_validator
+
+from tribo.core.files import read_numbers
+from tribo.core.table import Table
+from tribo.core.units import Quantity
+
+FILES = (".csv", ".npy")
+NormalLoad = Annotated[float, Quantity("N", above=0, usual=(1e-12, 1e6))]
 ByPosition = tuple[float, ...]
 """Loads at the positions of a cycle, in N."""
+
+
+class Stage(Table):
+    """A stage of a load that changes over time: held until a time, or reached in a straight line.
+
+    Give either time, the first `at` as 0 s.
+    """
+
+    until: Annotated[float, Quantity("s", above=0)] | None = None
+    """When a load ends that is held from the stage before."""
+    at: Annotated[float, Quantity("s", at_least=0)] | None = None
+    """When a load is reached to which the one before goes in a straight line."""
+    normal: NormalLoad
+    """The load, at all times more than 0: bodies that lift off are not modelled."""
+
+    @model_validator(mode="after")
+    def _one_time(self) -> Self:
+        if (self.until is None) == (self.at is None):
+            raise ValueError(
+                "give either until, when a load ends that is held, or at, when one is reached"
+            )
+        return self
+
+    @property
+    def time(self) -> float:
+        """When it ends, in s."""
+        return (self.at if self.until is None else self.until) or 0.0
+
+
+class Load(Table):
+    """The load on the contact."""
+
+    normal: Annotated[
+        Annotated[NormalLoad, Tag("number")] | Annotated[tuple[Stage, ...], Tag("stages")],
+        Discriminator(lambda value: "stages" if isinstance(value, list | tuple) else "number"),
+    ]
+    """Normal load: a number, or a list of stages, each a table with keys as below; or the name of a
+    CSV or .npy file with the columns time and load, in s and N, and lines in between, a relative
+    name from the current directory."""
+
+    @field_validator("normal", mode="before")
+    @classmethod
+    def _from_file(cls, value: Any) -> Any:
+        if isinstance(value, Path) or (isinstance(value, str) and value.endswith(FILES)):
+            return _read(Path(value))
+        if isinstance(value, Mapping):
+            raise ValueError(
+                "one table was given; write a list of them: [{ until = …, normal = … }]"
+            )
+        return value
+
+    @field_validator("normal")
+    @classmethod
+    def _moves_on(cls, normal: float | tuple[Stage, ...]) -> float | tuple[Stage, ...]:
+        if isinstance(normal, float):
+            return normal
+        if not normal or normal[-1].time == 0:
+            raise ValueError("give the load up to the end of the run")
+        if normal[0].at:
+            raise ValueError(
+                f"the load begins at {normal[0].at:g} s: give the first stage at = 0, or until"
+            )
+        for before, after in pairwise(stage.time for stage in normal):
+            if after <= before:
+                raise ValueError(
+                    "times must increase from stage to stage, but "
+                    f"{before:g} s is followed by {after:g} s"
+                )
+        return normal
+
+    @property
+    def pieces(self) -> tuple[Piece, ...]:
+        """The load over time, piece by piece."""
+        if isinstance(self.normal, float):
+            return (Piece(inf, self.normal, self.normal),)
+        befores = (self.normal[0], *self.normal)
+        return tuple(
+            Piece(stage.time, before.normal if stage.until is None else stage.normal, stage.normal)
+            for before, stage in zip(befores, self.normal, strict=False)
+            if stage.time > 0
+        )
 
 
 @dataclass(frozen=True)
@@ -39,20 +133,23 @@ class Loads:
         One after the other, from t = 0 on.
     shares : tuple of float
         Load at each position, as a multiple of that of the piece.
+    weights : tuple of float
+        Part of the path of a cycle at each position.
     """
 
     pieces: tuple[Piece, ...]
     shares: tuple[float, ...]
-
-    @classmethod
-    def constant(cls, load: float, positions: int) -> Loads:
-        """Return one load (N) for all time and all positions."""
-        return cls((Piece(inf, load, load),), (1.0,) * positions)
+    weights: tuple[float, ...]
 
     @property
     def edges(self) -> tuple[float, ...]:
         """Times at which a piece ends and another begins, in s."""
         return tuple(piece.end for piece in self.pieces[:-1])
+
+    @property
+    def end(self) -> float:
+        """When the last piece ends, in s."""
+        return self.pieces[-1].end
 
     @property
     def largest(self) -> float:
@@ -72,6 +169,12 @@ class Loads:
         pairs = zip(self.after(begin), self.before(end), strict=True)
         return tuple(0.5 * (first + last) for first, last in pairs)
 
+    def over_cycle(self, loads: ByPosition) -> float:
+        """Return the mean of `loads` over the path of a cycle, in N."""
+        if min(loads) == max(loads):
+            return loads[0]
+        return sum(weight * load for weight, load in zip(self.weights, loads, strict=True))
+
     def _at(self, time: float, index: int) -> ByPosition:
         index = min(index, len(self.pieces) - 1)
         piece = self.pieces[index]
@@ -81,3 +184,20 @@ class Loads:
             part = (time - start) / (piece.end - start)
             load = piece.first + part * (piece.last - piece.first)
         return tuple(share * load for share in self.shares)
+
+
+def _read(file: Path) -> Sequence[dict[str, float]]:
+    """Return the stages in the two columns of a file."""
+    rows = read_numbers(file)
+    if rows.ndim != 2 or rows.shape[1] != 2:
+        raise ValueError(
+            f"{file} must have two columns of numbers, time in s and load in N, separated by "
+            f"commas and below one header at most, but has the shape {rows.shape}"
+        )
+    idle = np.flatnonzero(rows[:, 1] <= 0)
+    if len(idle):
+        raise ValueError(
+            f"{file} has a load of {rows[idle[0], 1]:g} N at {rows[idle[0], 0]:g} s: each must be "
+            "greater than 0"
+        )
+    return [{"at": float(time), "normal": float(load)} for time, load in rows]

@@ -51,6 +51,8 @@ class Measures:
 
     time: float
     distance: float
+    load: float
+    load_distance: float
     max_pressure: float
     centre_pressure: float
     half_width_x: float

@@ -52,6 +52,8 @@ class State:
     reference_depth : float
         Approach of the first contact, in m: the depth against which the
         first increments are judged.
+    load_distance : float
+        Load times sliding distance, summed over the steps, in N m.
     steps, rejected_steps, contact_solves, solver_iterations : int
         Counted from the beginning of the run.
     saves : int
@@ -77,6 +79,7 @@ class State:
     contacts: tuple[ContactSolution, ...]
     increment: float
     reference_depth: float
+    load_distance: float
     steps: int = 0
     rejected_steps: int = 0
     contact_solves: int = 1

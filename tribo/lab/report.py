@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import isnan
 from typing import Any, NamedTuple
 
 from tribo.closed_forms.hertz import first_yield_pressure
@@ -91,7 +92,11 @@ def _body(result: Result, name: str) -> BodyReport:
     marks = scar(body.wear_depth[-1], result.grid)
     rate = None
     if distance > 0:
-        rate = in_mm3_per_newton_metre(specific_wear_rate(volume, result.system.load, distance))
+        load = save["load_distance_N_m"] / distance
+        if isnan(load):
+            # Older files lack it; their load was constant.
+            load = result.system.load
+        rate = in_mm3_per_newton_metre(specific_wear_rate(volume, load, distance))
     return BodyReport(
         specific_wear_rate_mm3_per_Nm=rate,
         mass_kg=None if body.density is None else mass_from_volume(volume, body.density),

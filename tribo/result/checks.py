@@ -40,7 +40,11 @@ _NEVER_NEGATIVE = {
     *("time", "distance", "pressure", "max_pressure", "centre_pressure", "contact_area"),
     *("wear_depth", TRACK, "max_wear_depth", "wear_volume", "plastic_depth", "density"),
 }
-_LATER = {"plastic_area", "history_plastic_area"}
+_LATER = {
+    prefix + name
+    for prefix in ("", "history_")
+    for name in ("plastic_area", "load", "load_distance")
+}
 """Variables that older files lack."""
 
 

@@ -36,6 +36,10 @@ class Column(Generic[M]):
 COLUMNS: tuple[Column[Measures], ...] = (
     Column("time", "s", "Time", lambda m: m.time),
     Column("distance", "m", "Path slid", lambda m: m.distance),
+    Column("load", "N", "Normal load, mean over the path of a cycle", lambda m: m.load),
+    Column(
+        "load_distance", "N m", "Load times path, summed over the run", lambda m: m.load_distance
+    ),
     Column("max_pressure", "Pa", "Largest contact pressure", lambda m: m.max_pressure),
     Column("centre_pressure", "Pa", "Pressure at the window's centre", lambda m: m.centre_pressure),
     Column(

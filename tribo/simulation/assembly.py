@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
@@ -57,16 +58,17 @@ def assemble(case: Case) -> Model:
         if body.wear is not None:
             with located(f"bodies.{name}.wear"):
                 laws[name] = GuardedLaw(body.wear, name, body.material)
+    loads = Loads(case.load.pieces, (1.0,) * len(cycle), tuple(at.share for at in cycle))
     system = ContactSystem(
         grid=grid,
         modulus=contact_modulus([body.material for body in bodies.values()]),
-        load=case.load.normal,
+        load=loads.after(0.0)[len(cycle) // 2],
         cap=cap,
         curvature=_curvature(surfaces),
         materials={name: body.material for name, body in bodies.items()},
     )
     with located("contact"):
-        solver.ask(case.contact.check, system)
+        solver.ask(case.contact.check, replace(system, load=loads.largest))
     if case.stepping.needs_wear_compliance and not case.contact.accepts_wear_compliance:
         raise CaseError(
             f"'implicit' stepping adds wear to the contact's compliance, which contact.type = "
@@ -87,7 +89,7 @@ def assemble(case: Case) -> Model:
         exposures=exposures,
         plastic_share=share,
         system=system,
-        loads=Loads.constant(case.load.normal, len(cycle)),
+        loads=loads,
         cycle=cycle,
         gaps=_gaps(grid, len(cycle), surfaces, exposures),
         end_time=end,
@@ -186,6 +188,12 @@ def _varies_along_x(height: Array) -> bool:
 
 def _check_ends(model: Model) -> None:
     end = model.end_time
+    if model.loads.end < end * (1 - 1e-12):
+        raise CaseError(
+            f"the load ends at {model.loads.end:g} s, before the run does at {end:g} s; give it up "
+            "to then, or shorten the motion",
+            "load.normal",
+        )
     times = model.case.output.save_times
     if any(later <= earlier for earlier, later in pairwise(times)):
         listed = ", ".join(f"{time:g}" for time in times)

@@ -33,6 +33,8 @@ def measure(model: Model, state: State) -> Measures:
     return Measures(
         time=state.time,
         distance=state.distance,
+        load=model.loads.over_cycle(model.loads.before(state.time)),
+        load_distance=state.load_distance,
         max_pressure=float(np.max(touched)),
         centre_pressure=centre(pressure),
         half_width_x=width,

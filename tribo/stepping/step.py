@@ -73,6 +73,7 @@ def first_contact(model: Model) -> State:
         contacts=contacts,
         increment=0.0,
         reference_depth=contacts[middle].approach,
+        load_distance=0.0,
         contact_solves=len(solved),
         solver_iterations=sum(contact.iterations for contact in solved.values()),
     )
@@ -257,10 +258,12 @@ def accepted(
 
     The contacts carry `loads`, in N; they are solved anew where those at the end are others.
     """
+    mean = model.loads.over_cycle(model.loads.mean(before.time, moment.time))
     state = replace(
         before,
         time=moment.time,
         distance=moment.distance,
+        load_distance=before.load_distance + mean * (moment.distance - before.distance),
         speed=moment.speed,
         bodies=bodies,
         contacts=tuple(contacts),

@@ -32,9 +32,7 @@ def dissipated(result: Result) -> Array | None:
     friction = result.case.get("friction")
     if friction is None:
         return None
-    energy: Array = (
-        friction["coefficient"] * result.system.load * result.table("history")["distance_m"]
-    )
+    energy: Array = friction["coefficient"] * result.table("history")["load_distance_N_m"]
     return energy
 
 

@@ -1,0 +1,257 @@
+"""A load that changes over time: volumes, contacts and bits."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from paper_models import (
+    FOUNDATION,
+    K,
+    archard,
+    case,
+    flat,
+    foundation,
+    half_space,
+    last,
+    motion,
+    named,
+    small,
+    sphere,
+    states,
+    steel,
+)
+
+from tribo import (
+    CaseError,
+    Explicit,
+    Grid,
+    Implicit,
+    Interrupted,
+    Load,
+    Measured,
+    Simulation,
+    Stage,
+    load_case,
+)
+from tribo.observers.observer import Observer
+
+GRID = Grid((0.7e-3, 0.7e-3), (32, 32))
+SPEED = 0.1
+"""Of `motion`, in m/s."""
+BLOCKS = (Stage(until="6 s", normal="20 N"), Stage(until="1 h", normal="100 N"))
+RAMP = (Stage(at=0, normal=20), Stage(at=8, normal=100), Stage(at=60, normal=10))
+"""40 N by 2 s, 100 N by 8 s, 61.9 N by 30 s."""
+
+
+def loaded(load, duration=20, **changes):
+    parts = {"grid": GRID, "contact": foundation(), "kinematics": motion(duration=duration)}
+    return small(load=load, **{**parts, **changes})
+
+
+def volumes(model, state):
+    return [model.exposures[name].volume(body.wear) for name, body in state.bodies.items()]
+
+
+@pytest.mark.parametrize("stepping", [Implicit(), Explicit(time_step=0.07)], ids=lambda s: s.type)
+def test_blocks_wear_the_sum_of_load_times_distance(stepping):
+    model = loaded(BLOCKS, stepping=stepping)
+    carried = 20 * 6 * SPEED + 100 * 14 * SPEED
+    state = last(model)
+    assert volumes(model, state) == pytest.approx([K * carried] * 2, rel=1e-10, abs=0)
+    assert state.load_distance == pytest.approx(carried, rel=1e-12, abs=0)
+
+
+def test_a_ramp_wears_the_integral_of_the_load_though_its_contacts_carry_that_at_each_end():
+    model = loaded(RAMP, duration=30)
+    found = states(model)
+    carried = SPEED * (60 * 8 + 0.5 * (100 + 100 - 90 * 22 / 52) * 22)
+    assert volumes(model, found[-1]) == pytest.approx([K * carried] * 2, rel=1e-10, abs=0)
+    for state in found:
+        load = np.interp(state.time, [0, 8, 60], [20, 100, 10])
+        pressure = state.contact.pressure
+        assert np.sum(pressure) * GRID.cell_area == pytest.approx(load, rel=1e-8, abs=0)
+    assert 8.0 in [state.time for state in found]
+
+
+@pytest.mark.slow
+def test_explicit_steps_take_a_ramp_to_first_order():
+    carried = SPEED * 20 * (20 + 0.5 * 10 * 20)
+    ramp = (Stage(at=0, normal=20), Stage(at=20, normal=220))
+    off = []
+    for time_step in (0.08, 0.04):
+        model = loaded(ramp, stepping=Explicit(time_step=time_step))
+        off.append(volumes(model, last(model))[0] / (K * carried) - 1)
+    assert off[0] / off[1] == pytest.approx(2, abs=0.02)
+    assert -5e-3 < off[0] < 0
+
+
+def depth_after(steps, load):
+    """Return the depth (m) of the ball after equal steps."""
+    model = loaded(load)
+    state = states(loaded(load, duration=1e-6))[0]
+    for step in range(1, steps + 1):
+        state = model.stepping.step(model, state, 8.0 * SPEED / steps, 8.0 * step / steps)
+    return float(state.bodies["ball"].wear.max())
+
+
+def test_steps_under_a_ramp_are_of_first_order():
+    exact, coarse, fine = (depth_after(steps, RAMP) for steps in (128, 8, 16))
+    assert (coarse - exact) / (fine - exact) == pytest.approx(2, abs=0.35)
+
+
+def plain_loop(load, end, steps=4000):
+    """Wear ball and disk by forward Euler, under a load (N) that is a function of time (s)."""
+    (nx, ny), (dx, dy) = GRID.cells, GRID.spacing
+    x, y = GRID.mesh
+    gap, ball, groove = 5e-3 - np.sqrt(25e-6 - x**2 - y**2), np.zeros((nx, ny)), np.zeros(ny)
+    times = end * np.linspace(0, 1, steps + 1) ** 1.5
+    for begin, after in pairwise(times):
+        worn = gap + ball + groove
+        low, high = worn.min(), worn.min() + 1e-4
+        for _ in range(50):
+            middle = 0.5 * (low + high)
+            carried = FOUNDATION * np.maximum(middle - worn, 0).sum() * dx * dy
+            low, high = (middle, high) if carried < load(0.5 * (begin + after)) else (low, middle)
+        p = FOUNDATION * np.maximum(high - worn, 0)
+        ball += K * SPEED * (after - begin) * p
+        groove += K * SPEED * (after - begin) * p.sum(axis=0) * dx / 2e-3
+    return ball, groove
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("stages", "load"),
+    [
+        (BLOCKS, lambda time: 20.0 if time < 6 else 100.0),
+        (RAMP, lambda time: np.interp(time, [0, 8, 60], [20, 100, 10])),
+    ],
+    ids=["blocks", "ramp"],
+)
+def test_both_bodies_wear_as_in_a_plain_loop(stages, load):
+    # At the default tolerance the depth is 0.8 % off, as that under a constant load is.
+    stepping = Implicit(depth_tolerance=1e-4, pressure_tolerance=5e-3)
+    state = last(loaded(stages, stepping=stepping))
+    for name, expected in zip(("ball", "disk"), plain_loop(load, 20.0), strict=True):
+        off = np.abs(state.bodies[name].wear - expected)
+        assert off.max() < 2e-3 * expected.max(), name
+
+
+@pytest.mark.slow
+def test_a_save_at_a_jump_shows_the_load_before_it_and_the_run_goes_on_under_the_next():
+    with Simulation(loaded(BLOCKS, save_times=(3, 6, 7))).run() as result:
+        np.testing.assert_array_equal(result.times, [0, 3, 6, 7, 20])
+        np.testing.assert_array_equal(result.load, [20, 20, 20, 100, 100])
+        carried = np.sum(result.pressure, axis=(1, 2)) * GRID.cell_area
+        np.testing.assert_allclose(carried, [20, 20, 20, 100, 100], rtol=1e-8)
+        rate = result.report().bodies["disk"].specific_wear_rate_mm3_per_Nm
+    assert rate == pytest.approx(1e9 * K, rel=1e-9, abs=0)
+
+
+def test_a_jump_costs_no_more_steps_than_a_start():
+    model = loaded(BLOCKS)
+    steady = last(loaded(100.0))
+    jumped = last(model)
+    assert jumped.steps < 2.5 * steady.steps
+    assert jumped.rejected_steps <= steady.rejected_steps + 5
+
+
+@pytest.mark.slow
+def test_a_jump_to_a_higher_load_yields_anew_up_to_the_hardness():
+    bodies = [
+        named("ball", sphere(), steel(), archard()),
+        named("disk", flat(), steel(1.2e9), archard()),
+    ]
+    found = states(loaded(BLOCKS, bodies=bodies, contact=half_space(), save_times=(6,)))
+    deepest = {state.time: state.bodies["disk"].plastic.max() for state in found}
+    assert deepest[20.0] > 2 * deepest[6.0] > 0
+    assert all(state.contact.pressure.max() <= 1.2e9 * (1 + 1e-9) for state in found)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("stepping", [Implicit(), Explicit(time_step=0.5)], ids=lambda s: s.type)
+def test_a_load_that_changes_while_the_motion_rests_presses_without_wear(stepping):
+    path = [[0, 0], [2, 0.6e-3], [6, 0.6e-3], [8, 0]]
+    load = (Stage(until=3, normal=20), Stage(until=4, normal=60), Stage(at=8, normal=100))
+    model = loaded(
+        load,
+        grid=Grid((0.6e-3, 0.6e-3), (32, 32)),
+        kinematics=Measured(path=path, positions=15),
+        save_times=(2.5, 3.5, 5, 6),
+        stepping=stepping,
+    )
+    with Simulation(model).run() as result:
+        np.testing.assert_allclose(result.load, [20, 20, 60, 70, 80, 100])
+        carried = np.sum(result.pressure, axis=(1, 2)) * model.grid.cell_area
+        np.testing.assert_allclose(carried, result.load, rtol=1e-8)
+        worn = result.wear_depth.sel(body="ball").values
+        np.testing.assert_array_equal(worn[1], worn[4])
+        assert worn[5].max() > worn[4].max() > 0
+
+
+class StopAfter(Observer):
+    steps: int = 5
+
+    def on_step(self, snapshot):
+        if snapshot.state.steps == self.steps:
+            raise KeyboardInterrupt
+
+
+@pytest.mark.slow
+def test_a_run_that_is_stopped_at_a_jump_or_after_it_goes_on_to_the_same_bits(tmp_path):
+    found = states(loaded(BLOCKS))
+    at_jump = next(state.steps for state in found if state.time == 6)
+    simulation = Simulation(loaded(BLOCKS))
+    with simulation.run() as whole:
+        for steps in (at_jump, at_jump + 2):
+            with pytest.raises(Interrupted):
+                simulation.run(tmp_path / f"{steps}.h5", observers=[StopAfter(steps=steps)])
+            with simulation.resume(tmp_path / f"{steps}.h5") as resumed:
+                assert resumed.dataset.equals(whole.dataset)
+
+
+def test_stages_come_from_a_file_or_a_table_and_survive_the_way_through_plain_data(tmp_path):
+    (tmp_path / "load.csv").write_text("time_s,load_N\n0,20\n8,100\n60,10\n")
+    from_file = Load(normal=tmp_path / "load.csv")
+    assert from_file == Load(normal=RAMP) == case(load=RAMP).load
+    assert Load.model_validate(from_file.model_dump(mode="json")) == from_file
+    (tmp_path / "case.toml").write_text(
+        "[grid]\nsize = '0.7 mm'\ncells = 16\n"
+        "[load]\nnormal = [{ until = '6 s', normal = '20 N' }, { until = '1 h', normal = 100 }]\n"
+        "[kinematics]\ntype = 'reciprocating'\nstroke = '2 mm'\nfrequency = 25\nduration = 20\n"
+        "[bodies.ball]\nsurface = { type = 'sphere', radius = '5 mm' }\n"
+        "material = { young = '207 GPa', poisson = 0.3 }\n"
+        "[bodies.disk]\nsurface = 'flat'\nmaterial = { young = '207 GPa', poisson = 0.3 }\n"
+    )
+    assert load_case(tmp_path / "case.toml").load == Load(normal=BLOCKS)
+    changed = load_case(tmp_path / "case.toml", overrides=["load.normal.1.normal=50 N"])
+    assert changed.load.normal[1].normal == 50
+
+
+@pytest.mark.parametrize(
+    ("normal", "words"),
+    [
+        ([], "give the load up to the end of the run"),
+        ([{"at": 0, "normal": 5}], "give the load up to the end of the run"),
+        ([{"at": 3, "normal": 5}, {"at": 4, "normal": 5}], "begins at 3 s"),
+        ([{"until": 3, "normal": 5}, {"at": 3, "normal": 9}], "3 s is followed by 3 s"),
+        ([{"until": 3, "normal": 0}], "0 N: must be greater than 0"),
+        ([{"until": 3, "at": 3, "normal": 5}], "either until, .* or at"),
+        ({"until": 3, "normal": 5}, "write a list"),
+        ("load.txt", "is not a quantity"),
+    ],
+)
+def test_a_load_over_time_that_makes_no_sense_is_refused(normal, words):
+    with pytest.raises(CaseError, match=words):
+        Simulation({"load": {"normal": normal}})
+
+
+def test_a_file_with_a_load_of_zero_is_refused(tmp_path):
+    (tmp_path / "load.csv").write_text("0,20\n8,0\n")
+    with pytest.raises(ValueError, match="a load of 0 N at 8 s"):
+        Load(normal=tmp_path / "load.csv")
+
+
+def test_a_load_that_ends_before_the_run_is_refused():
+    words = r"load\.normal: the load ends at 6 s, before the run does at 20 s"
+    with pytest.raises(CaseError, match=words):
+        loaded(BLOCKS[:1])
