@@ -58,7 +58,7 @@ class Reciprocating(Kinematics):
     """How far it slides."""
     waveform: Literal["constant_speed", "sinusoidal"] = "constant_speed"
     """How the speed varies along the stroke."""
-    positions: Annotated[int, Field(ge=3)] | Literal["cells", "average", "auto"] = "average"
+    positions: Annotated[int, Field(ge=3)] | Literal["cells", "average", "auto"] = "auto"
     """In how many positions of a cycle the contact is solved, an odd number, or ``"cells"`` for
     every cell of the stroke; ``"average"`` takes the track average for all of them. ``"auto"`` is
     as many as are needed, or the average where that costs under 1 % of the depth; the motion itself
