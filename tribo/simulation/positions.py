@@ -18,7 +18,7 @@ from tribo.simulation.assembly import assemble
 from tribo.simulation.coarse import MARGINS, coarsened
 from tribo.simulation.march import begin, march
 from tribo.simulation.model import Model
-from tribo.simulation.validity import track_averaged
+from tribo.simulation.validity import average_matters, track_average
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.step import first_contact
 
@@ -63,7 +63,7 @@ def composed(case: Case) -> Model:
     count = max(FEWEST, least_positions(motion.stroke, SPARE * half_width))
     try:
         if count > MOST:
-            raise CaseError(f"it would take {count:.2g} positions")
+            raise CaseError(f"it would take {count} positions")
         resolved = assemble(_fixed(case, count))
     except CaseError as error:
         if error.path == "kinematics.stroke" and motion.stroke < half_width:
@@ -153,12 +153,9 @@ def _costly(model: Model, stroke: float) -> str | None:
 
 
 def _cost(model: Model, state: State, stroke: float) -> str | None:
-    seen = track_averaged(model, state)
-    if seen is None:
-        return None
-    half_width, *_ = seen
+    seen = half_width, *_ = track_average(model, state)
     excess = groove_excess(stroke, *seen)
-    if excess < WORTH:
+    if excess < WORTH or not average_matters(model, state):
         return None
     widths = f"{stroke / half_width:.2g}"
     return (

@@ -93,22 +93,26 @@ def check_stroke(model: Model, state: State) -> None:
 
 def limitation(model: Model, state: State) -> str | None:
     """Return why the track average does not hold in `state`, if so."""
-    seen = track_averaged(model, state)
-    return None if seen is None else model.motion.limitation(*seen)
+    words = model.motion.limitation(*track_average(model, state))
+    return words if average_matters(model, state) else None
 
 
-def track_averaged(model: Model, state: State) -> tuple[float, float, float, float] | None:
-    """Return of what a track average is taken, as `Kinematics.limitation` gets it, if of anything.
+def track_average(model: Model, state: State) -> tuple[float, float, float, float]:
+    """Return what a track average is taken of, as `Kinematics.limitation` gets it.
 
     The contact's half-width along x, the depth of the track and the approach of the first contact,
     in m, and the ratio of the volumes lost.
     """
-    changing = _changing(model)
+    depths = [float(np.max(state.bodies[name].wear)) for name in _changing(model)]
     half_width = half_widths(state.contact, model.grid)[0]
-    if not changing or _is_endless(model, half_width):
-        return None
-    depth = max(float(np.max(state.bodies[name].wear)) for name in changing)
-    return half_width, depth, state.reference_depth, _volume_ratio(model, state)
+    ratio = _volume_ratio(model, state)
+    return half_width, max(depths, default=0.0), state.reference_depth, ratio
+
+
+def average_matters(model: Model, state: State) -> bool:
+    """Whether a swept body changes its shape, in a contact that has ends."""
+    endless = _is_endless(model, half_widths(state.contact, model.grid)[0])
+    return bool(_changing(model)) and not endless
 
 
 def _is_endless(model: Model, half_width: float) -> bool:
