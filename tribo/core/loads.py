@@ -13,6 +13,8 @@ from typing import Annotated, Any, Self
 import numpy as np
 from pydantic import Discriminator, Tag, field_validator, model_validator
 
+from tribo.core.arrays import Array
+from tribo.core.errors import CaseError
 from tribo.core.files import read_numbers
 from tribo.core.table import Table
 from tribo.core.units import Quantity
@@ -50,6 +52,15 @@ class Stage(Table):
         return (self.at if self.until is None else self.until) or 0.0
 
 
+class Place(Table):
+    """A place along the stroke, and the load there."""
+
+    at: Annotated[float, Quantity("m")]
+    """Where the body that passes is along x, from the middle of its stroke or path."""
+    share: Annotated[float, Quantity("1", above=0)]
+    """Load there, as a multiple of `normal`."""
+
+
 class Load(Table):
     """The load on the contact."""
 
@@ -60,6 +71,9 @@ class Load(Table):
     """Normal load: a number, or a list of stages, each a table with keys as below; or the name of a
     CSV or .npy file with the columns time and load, in s and N, and lines in between, a relative
     name from the current directory."""
+    along: tuple[Place, ...] = ()
+    """Load along the stroke, with lines in between, where the motion is resolved into positions;
+    the same all along if left out."""
 
     @field_validator("normal", mode="before")
     @classmethod
@@ -90,6 +104,68 @@ class Load(Table):
                     f"{before:g} s is followed by {after:g} s"
                 )
         return normal
+
+    @field_validator("along")
+    @classmethod
+    def _goes_on(cls, along: tuple[Place, ...]) -> tuple[Place, ...]:
+        if len(along) == 1:
+            raise ValueError(
+                "one place is given; give the load at both ends of the stroke at least"
+            )
+        for before, after in pairwise(place.at for place in along):
+            if after <= before:
+                raise ValueError(
+                    f"places must lie in increasing order, but {1e3 * before:g} mm is followed by "
+                    f"{1e3 * after:g} mm"
+                )
+        return along
+
+    def shares_at(self, places: Array, reach: float) -> tuple[float, ...]:
+        """Return the load at places along the stroke, as multiples of `normal`.
+
+        Parameters
+        ----------
+        places : ndarray, shape (positions,)
+            Where the body that passes is, from the middle, in m.
+        reach : float
+            How far a place may lie beyond those given, in m.
+
+        Raises
+        ------
+        CaseError
+            If one lies further off.
+        """
+        if not self.along:
+            return (1.0,) * len(places)
+        if len(places) == 1:
+            raise CaseError(
+                "the load can change along the stroke only where the motion is resolved; give "
+                "kinematics.positions, as 33, or leave it out",
+                "load.along",
+            )
+        at, shares = zip(*((place.at, place.share) for place in self.along), strict=True)
+        first, last = float(np.min(places)), float(np.max(places))
+        if at[0] > first + reach or at[-1] < last - reach:
+            raise CaseError(
+                f"it goes from {1e3 * at[0]:.4g} to {1e3 * at[-1]:.4g} mm, but the stroke from "
+                f"{1e3 * first:.4g} to {1e3 * last:.4g} mm; give the load up to both ends",
+                "load.along",
+            )
+        return tuple(np.interp(places, at, shares).tolist())
+
+    def averaged(self) -> Load:
+        """Return about the mean of the load over the places along the stroke, for all of it."""
+        if not self.along:
+            return self
+        at, shares = zip(*((place.at, place.share) for place in self.along), strict=True)
+        mean = float(np.trapezoid(shares, at)) / (at[-1] - at[0])
+        if isinstance(self.normal, float):
+            return Load(normal=mean * self.normal)
+        return Load(
+            normal=tuple(
+                stage.model_copy(update={"normal": mean * stage.normal}) for stage in self.normal
+            )
+        )
 
     @property
     def pieces(self) -> tuple[Piece, ...]:

@@ -58,7 +58,14 @@ def assemble(case: Case) -> Model:
         if body.wear is not None:
             with located(f"bodies.{name}.wear"):
                 laws[name] = GuardedLaw(body.wear, name, body.material)
-    loads = Loads(case.load.pieces, (1.0,) * len(cycle), tuple(at.share for at in cycle))
+    if case.load.along and case.contact.periodic:
+        raise CaseError(
+            f"contact.type = {case.contact.type!r} repeats with the window, so that it is at many "
+            "places of the stroke at once; leave it out, or take a contact that does not repeat",
+            "load.along",
+        )
+    shares = case.load.shares_at(_places(grid, len(cycle), exposures), grid.spacing[0])
+    loads = Loads(case.load.pieces, shares, tuple(position.share for position in cycle))
     system = ContactSystem(
         grid=grid,
         modulus=contact_modulus([body.material for body in bodies.values()]),
@@ -134,6 +141,13 @@ def _own_grid(grid: Grid, exposure: GuardedExposure) -> Grid:
         return grid
     (dx, _), (_, ny) = grid.spacing, grid.cells
     return Grid(size=(exposure.rows * dx, grid.size[1]), cells=(exposure.rows, ny))
+
+
+def _places(grid: Grid, positions: int, exposures: Mapping[str, GuardedExposure]) -> Array:
+    """Return where the body that passes is at each position, from the middle, in m."""
+    starts = next((e.starts for e in exposures.values() if e.starts is not None), [0] * positions)
+    # The window's place on the body moves against the body itself.
+    return np.asarray(grid.spacing[0] * (starts[positions // 2] - np.array(starts)))
 
 
 def _gaps(

@@ -35,6 +35,8 @@ def coarsened(case: Case, cells: int, margin: float, half_width_x: float = 0.0) 
         name: body.model_copy(update={"surface": body.surface.smoothed()})
         for name, body in case.bodies.items()
     }
-    changes = {"kinematics": case.kinematics.coarsened(half_width_x), "stepping": LOOSE}
     grid = Grid((lx, ly), (nx, ny), ends_at_window=True)
+    motion = case.kinematics.coarsened(half_width_x)
+    load = case.load.averaged() if len(motion.cycle(grid)) == 1 else case.load
+    changes = {"kinematics": motion, "load": load, "stepping": LOOSE}
     return assemble(varied(case, grid=grid, bodies=bodies, output=Output(), **changes))

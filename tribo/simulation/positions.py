@@ -125,8 +125,8 @@ def _at_each_cell(case: Case, stroke: float) -> Model:
     model = assemble(_fixed(case, len(cells)))
     return replace(
         model,
-        chosen=f"the cycle is resolved at {len(model.cycle)} positions, as the surface of the body "
-        "that passes varies along x",
+        chosen=f"the cycle is resolved at {len(model.cycle)} positions, as the load, or the "
+        "surface of the body that passes, varies along x",
     )
 
 

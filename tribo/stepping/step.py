@@ -127,7 +127,7 @@ def solve_cycle(
         if (
             other < position
             and model.contact.mirrors
-            and load == loads[other]
+            and abs(load - loads[other]) <= MIRRORED * load
             and _mirrors(gap, gaps[other])
             and _compliance_mirrors(compliance, wear[other])
         ):

@@ -1,0 +1,122 @@
+"""A load that changes along the stroke, against a plain loop over its cells."""
+
+import numpy as np
+import pytest
+from contact_problems import pressed
+from paper_models import FOUNDATION, K, case, foundation, last, motion, small
+
+from tribo import CaseError, Grid, Implicit, Load, Periodic, Place, Simulation, Stage
+from tribo.simulation.predict import predict
+
+GRID = Grid((1.2e-3, 0.75e-3), (32, 20))
+STROKE = 12 * GRID.spacing[0]
+"""Three half-widths of the first contact."""
+HALVED = [(-6, 0.5), (-3, 1.0), (3, 1.0), (6, 0.5)]
+"""Cells from the middle of the stroke, and the load there."""
+
+
+def along(pairs=HALVED):
+    dx = GRID.spacing[0]
+    return tuple(Place(at=cells * dx, share=share) for cells, share in pairs)
+
+
+def loaded(load, positions="cells", duration=200, **changes):
+    kinematics = motion(stroke=STROKE, duration=duration, positions=positions)
+    return small(grid=GRID, contact=foundation(), kinematics=kinematics, load=load, **changes)
+
+
+def plain_loop(distance, shares, steps=1500):
+    """Wear ball and disk by forward Euler under a load of its own at each cell of the stroke."""
+    (nx, ny), (dx, dy) = GRID.cells, GRID.spacing
+    x, y = GRID.mesh
+    ball, disk = np.zeros((nx, ny)), np.zeros((nx + 12, ny))
+    gap = 5e-3 - np.sqrt(25e-6 - x**2 - y**2)
+    path = np.full(13, 1 / 12)
+    path[[0, -1]] /= 2
+    for length in distance * np.diff(np.linspace(0, 1, steps + 1) ** 1.5):
+        gaps = np.stack([gap + ball + disk[at : at + nx] for at in range(13)])
+        p = FOUNDATION * pressed(gaps, 100 * shares / (dx * dy * FOUNDATION))
+        ball += K * length * np.einsum("i,ijk->jk", path, p)
+        for at in range(13):
+            disk[at : at + nx] += K * length * path[at] * p[at]
+    return ball, disk
+
+
+@pytest.mark.slow
+def test_both_bodies_wear_as_in_a_plain_loop_where_the_load_falls_at_the_ends_of_the_stroke():
+    # Uneven, so that the ends of the groove tell which end is which.
+    pairs = [(-6, 0.5), (-3, 1.0), (3, 1.0), (6, 0.8)]
+    stepping = Implicit(depth_tolerance=3e-4, pressure_tolerance=0.02)
+    state = last(loaded(Load(normal=100, along=along(pairs)), stepping=stepping))
+    shares = np.interp(np.arange(-6, 7), *zip(*pairs, strict=True))
+    # Where the disk has moved forth, the window lies at its back.
+    ball, disk = plain_loop(state.distance, shares[::-1])
+    for name, expected in (("ball", ball), ("disk", disk)):
+        off = np.abs(state.bodies[name].wear - expected)
+        assert off.max() < 4e-3 * expected.max(), name
+    lengthwise = disk.sum(axis=1)
+    assert lengthwise[:22].sum() > 1.05 * lengthwise[22:].sum()
+
+
+def test_the_volumes_are_those_of_the_mean_load_over_the_path_and_time():
+    stages = (Stage(until=5, normal=20), Stage(until=20, normal=100))
+    state = last(loaded(Load(normal=stages, along=along()), duration=20))
+    # Three cells of twelve at a mean of 0.75 on either side.
+    mean = 0.5 * 1 + 0.5 * 0.75
+    carried = mean * (20 * 5 + 100 * 15) * 2 * STROKE * 25
+    assert state.load_distance == pytest.approx(carried, rel=1e-12, abs=0)
+    for body in state.bodies.values():
+        volume = np.sum(body.wear) * GRID.cell_area
+        assert volume == pytest.approx(K * carried, rel=1e-10, abs=0)
+    loads = [np.sum(c.pressure) * GRID.cell_area for c in state.contacts]
+    shares = np.interp(np.arange(-6, 7), *zip(*HALVED, strict=True))
+    np.testing.assert_allclose(loads, 100 * shares, rtol=1e-8)
+
+
+def test_a_load_that_is_the_same_at_both_ends_leaves_the_cycle_symmetrical():
+    state = last(loaded(Load(normal=100, along=along()), positions=13, duration=5))
+    disk = state.bodies["disk"].wear
+    np.testing.assert_array_equal(state.contacts[0].pressure[::-1], state.contacts[-1].pressure)
+    np.testing.assert_allclose(disk, disk[::-1], atol=1e-12 * disk.max())
+
+
+@pytest.mark.slow
+def test_what_it_will_do_is_predicted_and_positions_are_chosen():
+    load = Load(normal=100, along=along())
+    kinematics = motion(stroke=STROKE, duration=20, positions="auto")
+    model = Simulation(
+        case(grid=GRID, contact=foundation(), kinematics=kinematics, load=load)
+    ).model
+    assert len(model.cycle) == 13
+    found = predict(model)
+    volume = found.last.bodies["disk"].wear_volume
+    assert volume == pytest.approx(K * 87.5 * model.end_distance, rel=0.05, abs=0)
+
+
+@pytest.mark.parametrize(
+    ("load", "changes", "words"),
+    [
+        (along(), {"positions": "average"}, "only where the motion is resolved"),
+        (along(HALVED[1:]), {}, "give the load up to both ends"),
+        (along(HALVED[:2]), {}, "give the load up to both ends"),
+    ],
+)
+def test_a_load_along_the_stroke_that_does_not_fit_it_is_refused(load, changes, words):
+    with pytest.raises(CaseError, match=rf"load\.along: .*{words}"):
+        loaded(Load(normal=100, along=load), **changes)
+
+
+def test_a_load_along_the_stroke_is_refused_of_a_contact_that_repeats():
+    with pytest.raises(CaseError, match=r"load\.along: .*repeats with the window"):
+        small(grid=GRID, contact=Periodic(), load=Load(normal=100, along=along()))
+
+
+@pytest.mark.parametrize(
+    ("pairs", "words"),
+    [([(0, 1.0)], "one place"), ([(0, 1.0), (0, 2.0)], "increasing"), ([(0, 0.0)], "greater than")],
+)
+def test_places_that_make_no_sense_are_refused(pairs, words):
+    dx = GRID.spacing[0]
+    places = [{"at": cells * dx, "share": share} for cells, share in pairs]
+    with pytest.raises(ValueError, match=words):
+        Load(normal=100, along=places)
