@@ -94,6 +94,8 @@ def _facts(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
         yield "cells across the contact", " × ".join(across)
     if model.chosen is not None or prediction.positions > 1:
         yield "positions", model.chosen or f"the cycle is resolved at {prediction.positions}"
+        if prediction.positions_for_1_percent is not None:
+            yield "positions for 1 % of the depth, about", f"{prediction.positions_for_1_percent}"
     if last is None:
         yield "final scar", "not estimated"
     else:

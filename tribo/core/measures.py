@@ -65,6 +65,7 @@ class Measures:
     solver_iterations: int
     bodies: Mapping[str, BodyMeasures]
     invariants: Invariants = field(default_factory=Invariants)
+    cycle_error: float = 0.0
 
 
 def centre(field: Array) -> float:

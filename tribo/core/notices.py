@@ -6,7 +6,15 @@ from dataclasses import dataclass
 from typing import Literal
 
 Kind = Literal[
-    "positions", "stability", "averaging", "chattering", "lap", "resolution", "stop", "failed"
+    "positions",
+    "quadrature",
+    "stability",
+    "averaging",
+    "chattering",
+    "lap",
+    "resolution",
+    "stop",
+    "failed",
 ]
 
 

@@ -27,11 +27,15 @@ class BodyState:
         (rows, ny) on a body that passes through a resolved cycle.
     law : Mapping[str, ndarray]
         State fields of the body's wear law, shaped as `wear`.
+    missed : ndarray or None, optional
+        Estimate of what positions between those of the cycle would add to `wear`, in m, shaped as
+        it; None where there is none.
     """
 
     wear: Array
     plastic: Array
     law: Mapping[str, Array]
+    missed: Array | None = None
 
 
 @dataclass(frozen=True)

@@ -184,6 +184,62 @@ def least_positions(length: float, half_width: float) -> int:
     return max(3, 2 * int(np.ceil(length / half_width * (1 - 1e-9))) + 1)
 
 
+def missed_shares(nodes: Array, shares: Array, *, smooth: bool) -> Array:
+    """Return the shares by which values at positions add up to what lies between them unseen.
+
+    The sum is compared with that over every second position, by Richardson's extrapolation: of what
+    varies smoothly, straight lines over the two gaps h and h' beside a position miss (h³ + h'³) /
+    (3 h h' (h + h')) of what they add to one line over both, a third where the gaps are alike. Of
+    what varies at random from one position to the next they miss about as much as they add.
+
+    Parameters
+    ----------
+    nodes : ndarray, shape (positions,)
+        Where the positions lie along the path.
+    shares : ndarray, shape (positions,)
+        Part of the path at each.
+    smooth : bool
+        Whether values vary smoothly from position to position.
+    """
+    order = np.argsort(nodes, kind="stable")
+    missed = np.zeros(len(nodes))
+    for before, at, after in zip(order[:-2:2], order[1:-1:2], order[2::2], strict=True):
+        near, far = nodes[at] - nodes[before], nodes[after] - nodes[at]
+        if near <= 0 or far <= 0:
+            continue
+        added = shares[at]
+        if smooth:
+            added *= (near**3 + far**3) / (3 * near * far * (near + far))
+        missed[at] += added
+        missed[before] -= added * far / (near + far)
+        missed[after] -= added * near / (near + far)
+    return missed
+
+
+def spacing_for(pressure: Array, error: float) -> int:
+    """Return how far apart, in cells, positions may lie for the groove of a contact to be even.
+
+    A body that passes is worn by the sum of the pressures at each position; every point of a row
+    would get the same if there were no end of them. The mean difference, weighted with the load, is
+    `error` of the largest depth at the most.
+
+    Parameters
+    ----------
+    pressure : ndarray, shape (nx, ny)
+        Pressure of a contact that stays the same all along a path.
+    error : float
+        Relative.
+    """
+    deepest, load = float(np.max(np.sum(pressure, axis=0))), float(np.sum(pressure))
+    for cells in range(2, len(pressure)):
+        padded = np.pad(pressure, ((0, -len(pressure) % cells), (0, 0)))
+        met = np.sum(padded.reshape(-1, cells, pressure.shape[1]), axis=0)
+        off = np.abs(cells * met - np.sum(pressure, axis=0))
+        if float(np.sum(met * off)) > error * load * deepest:
+            return cells - 1
+    return len(pressure)
+
+
 def near(nodes: Array, path: Array, weights: Array | float = 1.0) -> Array:
     """Return the length of a path that falls to each node, shape (nodes,).
 

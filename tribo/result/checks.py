@@ -43,7 +43,7 @@ _NEVER_NEGATIVE = {
 _LATER = {
     prefix + name
     for prefix in ("", "history_")
-    for name in ("plastic_area", "load", "load_distance")
+    for name in ("plastic_area", "load", "load_distance", "cycle_error")
 }
 """Variables that older files lack."""
 

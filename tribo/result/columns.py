@@ -79,6 +79,12 @@ COLUMNS: tuple[Column[Measures], ...] = (
         "Share of the load that goes back and forth between steps",
         lambda m: m.invariants.chattering,
     ),
+    Column(
+        "cycle_error",
+        "1",
+        "Estimated relative error of the wear depth, as it has so many positions",
+        lambda m: m.cycle_error,
+    ),
     Column("contact_solves", "1", "Contact solves so far", lambda m: m.contact_solves),
     Column("solver_iterations", "1", "Solver iterations so far", lambda m: m.solver_iterations),
 )

@@ -12,7 +12,13 @@ from tribo.core.measures import half_widths, reaches_border
 from tribo.core.state import State
 from tribo.simulation.doubt import doubting
 from tribo.simulation.model import Model
-from tribo.simulation.validity import check_stroke, few_cells, limitation, short_of_a_lap
+from tribo.simulation.validity import (
+    check_stroke,
+    coarse_cycle,
+    few_cells,
+    limitation,
+    short_of_a_lap,
+)
 from tribo.stepping.invariants import chattering_words, chatters, hold
 from tribo.stepping.step import first_contact, start_sliding
 
@@ -164,6 +170,8 @@ def _noticed(model: Model, state: State) -> State:
 
 def _concluded(model: Model, state: State) -> State:
     """Say what the averaging has come to by the end, in place of what it began with."""
+    if words := coarse_cycle(model, state):
+        state = state.with_notice("quadrature", words)
     words = limitation(model, state)
     if words is None:
         return state

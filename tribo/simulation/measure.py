@@ -14,6 +14,7 @@ from tribo.core.measures import (
 )
 from tribo.core.state import State
 from tribo.simulation.model import Model
+from tribo.stepping.quadrature import cycle_error
 
 
 def measure(model: Model, state: State) -> Measures:
@@ -47,4 +48,5 @@ def measure(model: Model, state: State) -> Measures:
         solver_iterations=state.solver_iterations,
         bodies=bodies,
         invariants=state.invariants,
+        cycle_error=cycle_error(model, state),
     )

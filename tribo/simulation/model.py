@@ -16,7 +16,7 @@ from tribo.core.contact import ContactSystem
 from tribo.core.grid import Grid
 from tribo.core.loads import Loads
 from tribo.core.measures import between_cells
-from tribo.motion.cycle import Position
+from tribo.motion.cycle import Position, missed_shares
 from tribo.simulation.guard import calling
 from tribo.simulation.guarded_motion import GuardedExposure, GuardedMotion
 from tribo.simulation.guards import (
@@ -148,6 +148,20 @@ class Model:
         """Times after t = 0 at which all fields are saved, in s."""
         times = self.case.output.save_times
         return frozenset({*(t for t in times if 0 < t < self.end_time), self.end_time})
+
+    @cached_property
+    def missed_shares(self) -> Array | None:
+        """Shares by which rates at the positions add up to what is estimated to lie between them.
+
+        None where the cycle is not resolved, or into every cell.
+        """
+        starts = [e.starts for e in self.exposures.values() if e.starts is not None]
+        if not starts or self.apart <= self.grid.spacing[0]:
+            return None
+        nodes = -np.array(starts[0], dtype=float)
+        shares = np.array([position.share for position in self.cycle])
+        # Rough surfaces state no curvature.
+        return missed_shares(nodes, shares, smooth=self.system.curvature is not None)
 
     @cached_property
     def end_distance(self) -> float:

@@ -23,6 +23,7 @@ from tribo.simulation.validity import (
     check_stroke,
     few_cells,
     limitation,
+    positions_for,
     short_of_a_lap,
     too_wide,
 )
@@ -53,6 +54,9 @@ class Prediction:
         Why the motion's averaging will not hold, if so.
     positions : int
         In how many positions of a cycle the contact is solved; 1 for an average.
+    positions_for_1_percent : int or None
+        Positions that wear the groove of the first contact evenly to 1 % of its depth; None of an
+        average.
     memory, file_size : float
         In bytes; upper estimates.
     facts : Mapping[str, Mapping[str, str]]
@@ -70,6 +74,7 @@ class Prediction:
     window_holds: bool | None
     limitation: str | None
     positions: int
+    positions_for_1_percent: int | None
     memory: float
     file_size: float
     facts: Mapping[str, Mapping[str, str]]
@@ -142,6 +147,7 @@ def predict(model: Model) -> Prediction:
         window_holds=holds,
         limitation=coarse.limitation,
         positions=len(model.cycle),
+        positions_for_1_percent=positions_for(model, state.contact),
         memory=memory_needed(model.case, model.exposures, plastic=model.system.cap is not None),
         file_size=BARE_FILE + size_of_fields(model.case, model.exposures),
         facts={place: stated for place, stated in facts.items() if stated},

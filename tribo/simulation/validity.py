@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from tribo.core.contact import ContactSolution
@@ -9,9 +11,12 @@ from tribo.core.errors import located
 from tribo.core.measures import Measures, half_widths
 from tribo.core.state import State
 from tribo.lab.first_contact import hertz_contact
-from tribo.motion.cycle import check_spacing
+from tribo.motion.cycle import check_spacing, spacing_for
 from tribo.simulation.model import Model
+from tribo.stepping.quadrature import cycle_error
 
+COARSE = 0.01
+"""Error of a cycle from which on it is spoken of, of the depth."""
 STEEP = 0.3
 """Half-width of a contact over the radius of a body, from which on it is spoken of."""
 WHOLE = 1 - 1e-9
@@ -128,6 +133,34 @@ def _volume_ratio(model: Model, state: State) -> float:
     if lost[True] == 0:
         return 1.0 if lost[False] == 0 else np.inf
     return lost[False] / lost[True]
+
+
+def coarse_cycle(model: Model, state: State) -> str | None:
+    """Say so if the positions of the cycle are so few that the depths are not known to 1 %."""
+    error = cycle_error(model, state)
+    if error <= COARSE:
+        return None
+    remedy = 'take every cell (kinematics.positions = "cells")'
+    if model.system.curvature is not None:
+        # Of smooth bodies the error goes with the square of the spacing.
+        gaps = (len(model.cycle) - 1) * math.sqrt(error / COARSE)
+        remedy = f"raise kinematics.positions to {2 * math.ceil(0.5 * gaps) + 1} for 1 %"
+    return (
+        f"the {len(model.cycle)} positions of the cycle, {1e3 * model.apart:.3g} mm apart, leave "
+        f"the wear depth uncertain by about {100 * error:.2g} %, weighted with the load; {remedy}"
+    )
+
+
+def positions_for(model: Model, first: ContactSolution) -> int | None:
+    """Return the positions that wear the groove of the first contact evenly to 1 %.
+
+    None where the cycle is not resolved.
+    """
+    starts = [e.starts for e in model.exposures.values() if e.starts is not None]
+    if not starts:
+        return None
+    path = max(starts[0]) - min(starts[0])
+    return 2 * math.ceil(0.5 * path / spacing_for(first.pressure, COARSE)) + 1
 
 
 def _changing(model: Model) -> list[str]:

@@ -15,6 +15,7 @@ from tribo.core.fields import WearRate
 from tribo.core.state import State
 from tribo.core.units import Quantity
 from tribo.stepping.invariants import wear_balance
+from tribo.stepping.quadrature import with_missed
 from tribo.stepping.rates import CycleRates, Moment, law_states, wear_rates
 from tribo.stepping.scheme import Scheme
 from tribo.stepping.step import (
@@ -104,7 +105,7 @@ class Explicit(Scheme):
         rates = rated(model, state, moment).rates
         worn = worn_depths(model, rates, increment)
         law = law_states_after(model, law_states(state), rates, increment)
-        bodies = worn_bodies(state, worn, law)
+        bodies = with_missed(model, worn_bodies(state, worn, law), rates, increment)
         gaps = [geometry(model, bodies, position) for position in range(len(model.cycle))]
         loads = model.loads.before(time)
         contacts, solves = solve_cycle(model, gaps, loads, [None] * len(gaps), _extrapolated(state))

@@ -17,6 +17,7 @@ from tribo.core.state import State
 from tribo.core.units import Quantity
 from tribo.stepping.invariants import wear_balance
 from tribo.stepping.mixing import Mixing
+from tribo.stepping.quadrature import with_missed
 from tribo.stepping.rates import CycleRates, LawStates, Moment, law_states, wear_rates
 from tribo.stepping.repeated import check_repeatable
 from tribo.stepping.scheme import Scheme
@@ -247,6 +248,7 @@ class Implicit(Scheme):
                     "lower stepping.pressure_tolerance"
                 )
         bodies = worn_bodies(state, guess.worn, guess.law)
+        bodies = with_missed(model, bodies, rates, increment)
         # Set first: settling a groove leaves the pressure that these rates belong to.
         kept = replace(
             state,

@@ -189,11 +189,17 @@ def rested(model: Model, state: State, time: float) -> State:
     return replace(state, time=time, steps=state.steps + 1, invariants=Invariants())
 
 
-def worn_depths(model: Model, rates: CycleRates, increment: float) -> dict[str, Array]:
-    """Return the depth that each body loses over `increment` (m), on its own surface, in m."""
+def worn_depths(
+    model: Model, rates: CycleRates, increment: float, shares: Array | None = None
+) -> dict[str, Array]:
+    """Return the depth that each body loses over `increment` (m), on its own surface, in m.
+
+    `shares` are taken in place of the positions' own shares of the path.
+    """
     worn: dict[str, Array] = {}
     for position, of_bodies in enumerate(rates):
-        slid = increment * model.cycle[position].share
+        share = model.cycle[position].share if shares is None else float(shares[position])
+        slid = increment * share
         for name, rate in of_bodies.items():
             part = slid * model.average(name, rate.depth_rate, position)
             worn[name] = worn[name] + part if name in worn else part

@@ -1,0 +1,109 @@
+"""What the positions of a cycle cost, as a run estimates it, against every cell."""
+
+import numpy as np
+import pytest
+from paper_models import case, foundation, last, motion, small
+
+from tribo import Grid, Simulation
+from tribo.motion.cycle import Stroke, missed_shares, spacing_for
+from tribo.simulation.predict import predict
+from tribo.stepping.quadrature import cycle_error
+from tribo.stepping.step import first_contact
+
+GRID = Grid((1.2e-3, 0.75e-3), (64, 20))
+STROKE = 24 * GRID.spacing[0]
+"""Three half-widths of the first contact."""
+
+
+def resolved(positions, duration=50, **changes):
+    kinematics = motion(stroke=STROKE, duration=duration, positions=positions)
+    parts = {"grid": GRID, "contact": foundation(), "kinematics": kinematics, **changes}
+    return small(**parts)
+
+
+def quadrature(count):
+    stroke = Stroke(2.0, 0.01, count)
+    return stroke.cells * stroke.dx, stroke.shares
+
+
+@pytest.mark.parametrize("count", [17, 33, 41])
+def test_of_smooth_values_the_estimate_is_the_error(count):
+    # Between most positions of 17 and 33 lie unequal numbers of cells.
+    nodes, shares = quadrature(count)
+    error = np.sin(3.0) / 3.0 - np.sum(shares * np.cos(3.0 * nodes))
+    estimate = np.sum(missed_shares(nodes, shares, smooth=True) * np.cos(3.0 * nodes))
+    assert estimate == pytest.approx(error, rel=0.08)
+
+
+def test_of_random_values_it_is_as_large_as_the_error():
+    nodes, shares = quadrature(41)
+    values = np.random.default_rng(1).normal(size=(500, 41))
+    error = np.std(values @ shares)
+    estimate = np.std(values @ missed_shares(nodes, shares, smooth=False))
+    assert estimate == pytest.approx(error, rel=0.1)
+
+
+def test_what_is_missed_adds_no_volume():
+    nodes, shares = quadrature(17)
+    assert np.sum(missed_shares(nodes, shares, smooth=True)) == pytest.approx(0, abs=1e-16)
+
+
+@pytest.mark.slow
+def test_a_run_knows_its_error_from_above_and_by_its_order():
+    finest = last(resolved("cells"))
+    estimates = {}
+    for count in (7, 13):
+        model = resolved(count)
+        state = last(model)
+        estimates[count] = cycle_error(model, state)
+        true = 0.0
+        for name, body in state.bodies.items():
+            off = np.abs(body.wear - finest.bodies[name].wear)
+            weighed = (
+                sum(
+                    position.share
+                    * np.sum(state.contacts[at].pressure * model.under(name, off, at))
+                    / model.load
+                    for at, position in enumerate(model.cycle)
+                )
+                * model.grid.cell_area
+            )
+            true = max(true, weighed / body.wear.max())
+        assert true < estimates[count] < 4 * true
+    assert estimates[7] / estimates[13] == pytest.approx(4, rel=0.25)
+
+
+def test_every_cell_and_the_average_have_no_such_error():
+    for positions in ("cells", "average"):
+        model = resolved(positions, duration=2)
+        state = last(model)
+        assert cycle_error(model, state) == 0
+        assert all(body.missed is None for body in state.bodies.values())
+
+
+def test_a_run_says_so_and_how_many_would_do():
+    kinematics = motion(stroke=STROKE, duration=5, positions=7)
+    simulation = Simulation(case(grid=GRID, contact=foundation(), kinematics=kinematics))
+    with pytest.warns(match=r"7 positions.*0\.075 mm apart.*by about 2.* to 11 for 1 %"):
+        result = simulation.run()
+    with result:
+        history = result.table("history")["cycle_error"]
+    assert history[0] == 0
+    assert 0.015 < history[-1] < 0.04
+
+
+def test_a_check_proposes_what_makes_the_groove_even():
+    model = resolved(7)
+    pressure = first_contact(model).contact.pressure
+    apart = spacing_for(pressure, 0.01)
+
+    def uneven(cells):
+        # Of a body that passes for ever, each cell between two positions.
+        groove = np.zeros((cells, 20))
+        for row, line in enumerate(pressure):
+            groove[row % cells] += cells * line
+        mean = pressure.sum(axis=0)
+        return np.sum(groove * np.abs(groove - mean)) / np.sum(groove) / mean.max()
+
+    assert uneven(apart) <= 0.01 < uneven(apart + 1)
+    assert predict(model).positions_for_1_percent == 2 * int(np.ceil(12 / apart)) + 1
