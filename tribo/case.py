@@ -47,6 +47,15 @@ class Friction(Table):
     """Coefficient of friction, uniform and constant."""
 
 
+class Begin(Table):
+    """The result with whose worn bodies a run begins; a path alone is short for it."""
+
+    result: str
+    """The result file; a relative name starts at the current directory."""
+    time: Annotated[float, Quantity("s", at_least=0)] | None = None
+    """The save to begin with, by its time; the last if left out."""
+
+
 class Output(Table):
     """The output times."""
 
@@ -83,6 +92,7 @@ class Case(Table):
             load: Load | float | str | Sequence[Stage],
             bodies: Mapping[str, Body],
             kinematics: Kinematics,
+            begin: Begin | str | None = None,
             contact: ContactSolver = ...,
             stepping: Implicit | Explicit = ...,
             friction: Friction | float | None = None,
@@ -99,6 +109,8 @@ class Case(Table):
     load: Load
     bodies: dict[str, Body]
     """The two bodies, by name."""
+    begin: Begin | None = None
+    """How worn they are at first: unworn if left out."""
     contact: ContactSolver = DcFft()
     """How the normal contact is solved."""
     kinematics: Kinematics
@@ -117,6 +129,11 @@ class Case(Table):
     @classmethod
     def _normal_load(cls, load: Any) -> Any:
         return {"normal": load} if isinstance(load, int | float | str | list | tuple) else load
+
+    @field_validator("begin", mode="before")
+    @classmethod
+    def _result(cls, begin: Any) -> Any:
+        return {"result": str(begin)} if isinstance(begin, str | Path) else begin
 
     @field_validator("contact", "stepping", mode="before")
     @classmethod

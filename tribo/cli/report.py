@@ -93,6 +93,10 @@ def print_provenance(result: Result, console: Console | None = None) -> None:
             "models, in SI units:",
             markup=False,
         )
+        if begun := again.get("begun_with"):
+            console.print(
+                f"  begun with {begun['result']}, SHA-256 {begun['sha256']}", markup=False
+            )
         for place, origin in again["components"].items():
             for line in _origin(place, origin):
                 console.print(Text(line), soft_wrap=True)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 Kind = Literal[
+    "begin",
     "positions",
     "quadrature",
     "stability",
@@ -25,7 +26,8 @@ class Notice:
     Parameters
     ----------
     kind : str
-        What it is about; ``"stop"`` and ``"failed"`` say why a run ended.
+        What it is about; ``"begin"`` says what a run began with, ``"stop"`` and ``"failed"`` why
+        it ended.
     text : str
         What is to be known, and what to do.
     time, distance : float or None

@@ -33,6 +33,7 @@ _TEXTS = dict.fromkeys(("type", "class", "distribution", "version", "code"), str
 _ORIGIN = {**_TEXTS, "editable": bool, "config": dict, "facts": dict}
 _PLUGIN = dict.fromkeys(("distribution", "version", "status", "reason"), str)
 _MADE = {"python": str, "packages": dict, "components": {...: _ORIGIN}, "plugins": [_PLUGIN]}
+_NOTHING = {"result": "", "sha256": ""}
 # A type, the needed keys of a table, what each entry (...) of a table is, or each item of a list.
 _JSON: dict[str, object] = {"case": {"bodies": {...: dict}}, "provenance": _MADE, "notices": [str]}
 _GROWING = {"x", "y", "track_x", "time", "history_time"}
@@ -81,6 +82,8 @@ def read_attributes(attributes: Mapping[str, Any]) -> dict[str, Any]:
         raise ValueError(f"'case' has {len(case['bodies'])} bodies instead of 2")
     if not all(isinstance(case.get(table, {}), dict) for table in ("contact", "grid")):
         raise ValueError("'contact' or 'grid' of its 'case' is no table")
+    if not _fits(made.get("begun_with", _NOTHING), dict.fromkeys(_NOTHING, str)):
+        raise ValueError("'begun_with' of its 'provenance' is not what tribo writes there")
     if not _fits(made.get("resumed_with", []), [_MADE]):
         raise ValueError("'resumed_with' of its 'provenance' is not what tribo writes there")
     if read.get("status") not in _STATUS:

@@ -14,7 +14,7 @@ LOOSE = Implicit(depth_tolerance=2e-2, pressure_tolerance=0.5, settle=0.1)
 
 
 def coarsened(case: Case, cells: int, margin: float, half_width_x: float = 0.0) -> Model:
-    """Return the model of a case on a coarse grid, its surfaces smooth and its steps long.
+    """Return the model of a case on a coarse grid, its surfaces smooth and unworn, its steps long.
 
     Parameters
     ----------
@@ -38,5 +38,5 @@ def coarsened(case: Case, cells: int, margin: float, half_width_x: float = 0.0) 
     grid = Grid((lx, ly), (nx, ny), ends_at_window=True)
     motion = case.kinematics.coarsened(half_width_x)
     load = case.load.averaged() if len(motion.cycle(grid)) == 1 else case.load
-    changes = {"kinematics": motion, "load": load, "stepping": LOOSE}
+    changes = {"kinematics": motion, "load": load, "stepping": LOOSE, "begin": None}
     return assemble(varied(case, grid=grid, bodies=bodies, output=Output(), **changes))

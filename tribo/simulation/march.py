@@ -10,6 +10,7 @@ import numpy as np
 from tribo.core.errors import NumericalError, PluginError
 from tribo.core.measures import half_widths, reaches_border
 from tribo.core.state import State
+from tribo.simulation.beginning import first_state
 from tribo.simulation.doubt import doubting
 from tribo.simulation.model import Model
 from tribo.simulation.validity import (
@@ -20,7 +21,7 @@ from tribo.simulation.validity import (
     short_of_a_lap,
 )
 from tribo.stepping.invariants import chattering_words, chatters, hold
-from tribo.stepping.step import first_contact, start_sliding
+from tribo.stepping.step import start_sliding
 
 DEPTH_ACCURACY = 1e-6
 MOST_CUTS = 40
@@ -47,7 +48,7 @@ def begin(model: Model) -> State:
         If the contact cannot be solved.
     """
     with doubting(model.case):
-        state = hold(model, None, first_contact(model))
+        state = hold(model, None, first_state(model))
         check_stroke(model, state)
         model.stepping.check(model, state)
     if model.chosen is not None:

@@ -12,6 +12,7 @@ from tribo.core.measures import Measures
 from tribo.core.state import State
 from tribo.lab.first_contact import HertzContact, hertz_contact
 from tribo.result.provenance import stated_facts
+from tribo.simulation.beginning import first_state
 from tribo.simulation.coarse import MARGINS, coarsened
 from tribo.simulation.doubt import doubting, too_deep, unusual
 from tribo.simulation.guard import calling
@@ -27,7 +28,7 @@ from tribo.simulation.validity import (
     short_of_a_lap,
     too_wide,
 )
-from tribo.stepping.step import first_contact, start_sliding
+from tribo.stepping.step import start_sliding
 
 COARSE = 72
 BARE_FILE = 1e6
@@ -107,7 +108,7 @@ def predict(model: Model) -> Prediction:
         If it cannot be solved.
     """
     with doubting(model.case):
-        state = first_contact(model)
+        state = first_state(model)
         check_stroke(model, state)
     first = measure(model, state)
     hertz = hertz_contact(model.system)
@@ -197,7 +198,8 @@ def _inside(model: Model, measures: Measures) -> bool:
 
 
 def _coarse_run(model: Model, first: Measures) -> CoarseRun:
-    if not model.contact.accepts_wear_compliance:
+    # What has worn on one grid is not known on another.
+    if not model.contact.accepts_wear_compliance or model.case.begin is not None:
         return CoarseRun(None)
     failed: CaseError | NumericalError | None = None
     # Contacts that repeat keep their positions however long the path: for the average they end.

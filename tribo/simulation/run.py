@@ -24,6 +24,7 @@ from tribo.result.checkpoint import read_checkpoint, tidied
 from tribo.result.provenance import changed_components, origin, provenance
 from tribo.result.read import Result
 from tribo.simulation.audience import Audience
+from tribo.simulation.beginning import checksum
 from tribo.simulation.doubt import doubting
 from tribo.simulation.effects import MissingFieldError
 from tribo.simulation.guard import calling
@@ -254,7 +255,10 @@ class Simulation:
         return provenance(components, [plugin.facts for plugin in self._plugins])
 
     def _info(self, resumed_from: Snapshot | None, wall_time: float) -> RunInfo:
-        model = self.model
+        model, made = self.model, self._provenance()
+        if model.case.begin is not None and resumed_from is None:
+            begin = model.case.begin
+            made["begun_with"] = {"result": begin.result, "sha256": checksum(begin)}
         return RunInfo(
             system=model.system,
             bodies=tuple(
@@ -271,7 +275,7 @@ class Simulation:
             end_time=model.end_time,
             end_distance=model.end_distance,
             case=model.data,
-            provenance=self._provenance(),
+            provenance=made,
             effect_fields=tuple(f for effect in model.effects for f in effect.provides),
             resumed_from=resumed_from,
             wall_time=wall_time,
@@ -301,8 +305,8 @@ def _model(
 
 def _announce(before: Sequence[Notice], after: Sequence[Notice]) -> None:
     for notice in after:
-        # That the case's own stop was reached is no warning; the result tells it.
-        if notice not in before and notice.kind != "stop":
+        # What the case itself asks for is no warning; the result tells it.
+        if notice not in before and notice.kind not in ("begin", "stop"):
             warnings.warn(str(notice), TriboWarning, stacklevel=4)
 
 

@@ -30,8 +30,15 @@ SMALLEST = 1e-12
 """Of the distance until the next stop: a shorter step would drown in rounding."""
 
 
-def first_contact(model: Model) -> State:
+def first_contact(model: Model, worn: Mapping[str, BodyState] | None = None) -> State:
     """Solve the contact before any sliding, plastic flow included.
+
+    Parameters
+    ----------
+    model : Model
+        The composed case.
+    worn : Mapping[str, BodyState], optional
+        The bodies, by name, if they are worn already.
 
     Raises
     ------
@@ -41,9 +48,13 @@ def first_contact(model: Model) -> State:
         If the solver fails.
     """
     solved: dict[tuple[int, float], ContactSolution] = {}
+    bodies = _unworn(model) if worn is None else worn
+    gaps: Sequence[Array] = model.gaps
+    if worn is not None:
+        gaps = [geometry(model, worn, position) for position in range(len(gaps))]
     loads = model.loads.after(0.0)
-    asked = [(id(gap), load) for gap, load in zip(model.gaps, loads, strict=True)]
-    for gap, load, key in zip(model.gaps, loads, asked, strict=True):
+    asked = [(id(gap), load) for gap, load in zip(gaps, loads, strict=True)]
+    for gap, load, key in zip(gaps, loads, asked, strict=True):
         # Where nothing varies along the path, one solve serves all positions.
         if key not in solved:
             solved[key] = solve(model, gap, load, None, *list(solved.values())[-1:])
@@ -57,26 +68,40 @@ def first_contact(model: Model) -> State:
         )
     middle = len(contacts) // 2
     overlap = contacts[middle].overlap
-    bodies = {}
-    for name in model.bodies:
-        unworn = np.zeros((model.exposures[name].rows, model.grid.cells[1]))
-        initial = model.laws[name].initial_state if name in model.laws else {}
-        bodies[name] = BodyState(
-            wear=unworn,
-            plastic=model.plastic_share[name] * model.spread(name, overlap, middle),
-            law={field: np.full_like(unworn, value) for field, value in initial.items()},
-        )
+    if np.any(overlap > 0):
+        bodies = {
+            name: replace(
+                body,
+                plastic=body.plastic
+                + model.plastic_share[name] * model.spread(name, overlap, middle),
+            )
+            for name, body in bodies.items()
+        }
     return State(
         time=0.0,
         distance=0.0,
-        bodies=bodies,
+        bodies=dict(bodies),
         contacts=contacts,
         increment=0.0,
-        reference_depth=contacts[middle].approach,
+        # The approach counts from the lowest point of unworn bodies.
+        reference_depth=contacts[middle].approach - float(np.min(gaps[middle])),
         load_distance=0.0,
         contact_solves=len(solved),
         solver_iterations=sum(contact.iterations for contact in solved.values()),
     )
+
+
+def _unworn(model: Model) -> dict[str, BodyState]:
+    bodies = {}
+    for name in model.bodies:
+        wear = np.zeros((model.exposures[name].rows, model.grid.cells[1]))
+        initial = model.laws[name].initial_state if name in model.laws else {}
+        bodies[name] = BodyState(
+            wear=wear,
+            plastic=model.spread(name, np.zeros(model.grid.cells), len(model.cycle) // 2),
+            law={field: np.full_like(wear, value) for field, value in initial.items()},
+        )
+    return bodies
 
 
 def geometry(model: Model, bodies: Mapping[str, BodyState], position: int = 0) -> Array:

@@ -1,0 +1,223 @@
+"""A run that begins with the worn bodies of a result."""
+
+import numpy as np
+import pytest
+from paper_models import (
+    K,
+    archard,
+    case,
+    flat,
+    foundation,
+    half_space,
+    motion,
+    named,
+    paraboloid,
+    sphere,
+    steel,
+)
+
+from tribo import (
+    Begin,
+    CaseError,
+    Explicit,
+    Field,
+    Grid,
+    Interrupted,
+    Simulation,
+    Stage,
+    Stop,
+    WearLaw,
+    WearRate,
+)
+from tribo.observers.observer import Observer
+from tribo.simulation.predict import predict
+
+GRID = Grid((0.7e-3, 0.7e-3), (32, 32))
+SPEED = 0.1
+
+
+def worn_case(duration=10, **changes):
+    parts = {"grid": GRID, "contact": foundation(), "kinematics": motion(duration=duration)}
+    return case(**{**parts, **changes})
+
+
+@pytest.fixture(scope="module")
+def run_in(tmp_path_factory):
+    """Ten seconds under 20 N, saved after four as well."""
+    path = tmp_path_factory.mktemp("run_in") / "run_in.h5"
+    Simulation(worn_case(load=20.0, save_times=(4,))).run(path).close()
+    return path
+
+
+def depths(result):
+    return {name: result.field("wear_depth", -1, name) for name in result.body_names}
+
+
+@pytest.mark.slow
+def test_it_goes_on_as_one_run_of_two_loads_would(run_in):
+    blocks = (Stage(until=10, normal=20), Stage(until=30, normal=100))
+    with (
+        Simulation(worn_case(begin=run_in)).run() as second,
+        Simulation(worn_case(duration=20, load=blocks)).run() as whole,
+    ):
+        for name, expected in depths(whole).items():
+            # Both are 0.8 % off the exact depth, and differ in the length of their steps only.
+            off = np.abs(depths(second)[name] - expected)
+            assert off.max() < 5e-4 * expected.max(), name
+        first, last = second.saves()
+        rate = second.report().bodies["disk"].specific_wear_rate_mm3_per_Nm
+    assert (first["time_s"], first["distance_m"]) == (0, 0)
+    assert first["load_distance_N_m"] == pytest.approx(20 * 10 * SPEED, rel=1e-12, abs=0)
+    volume = K * (20 + 100) * 10 * SPEED
+    assert last["bodies"]["ball"]["wear_volume_m3"] == pytest.approx(volume, rel=1e-10, abs=0)
+    assert rate == pytest.approx(1e9 * K, rel=1e-9, abs=0)
+
+
+@pytest.mark.slow
+def test_explicit_steps_of_one_length_go_on_to_what_the_solver_tells_apart(tmp_path):
+    parts = {"stepping": Explicit(time_step=0.5), "load": 100.0}
+    Simulation(worn_case(**parts)).run(tmp_path / "first.h5").close()
+    with (
+        Simulation(worn_case(begin=tmp_path / "first.h5", **parts)).run() as second,
+        Simulation(worn_case(duration=20, **parts)).run() as whole,
+    ):
+        for name, expected in depths(whole).items():
+            np.testing.assert_allclose(
+                depths(second)[name], expected, atol=1e-9 * expected.max(), rtol=0
+            )
+
+
+@pytest.mark.slow
+def test_a_resolved_cycle_goes_on_along_its_whole_track(tmp_path):
+    stroke = 12 * GRID.spacing[0]
+
+    def resolved(duration, **changes):
+        kinematics = motion(stroke=stroke, duration=duration, positions=9)
+        return worn_case(kinematics=kinematics, stepping=Explicit(time_step=0.5), **changes)
+
+    Simulation(resolved(5)).run(tmp_path / "first.h5").close()
+    begin = tmp_path / "first.h5"
+    with Simulation(resolved(5, begin=begin)).run() as second:
+        with Simulation(resolved(10)).run() as whole:
+            expected = whole.field("track_depth", -1, "disk")
+        found = second.field("track_depth", -1, "disk")
+    np.testing.assert_allclose(found, expected, atol=1e-8 * expected.max(), rtol=0)
+    with pytest.raises(CaseError, match=r"disk has 44 rows .* and 1 in the case"):
+        Simulation(worn_case(begin=begin)).run()
+
+
+def test_the_save_is_named_by_its_time(run_in):
+    with Simulation(worn_case(begin=Begin(result=str(run_in), time=4))).run() as result:
+        worn = result.saves()[0]["bodies"]["ball"]["wear_volume_m3"]
+    assert worn == pytest.approx(K * 20 * 4 * SPEED, rel=1e-10, abs=0)
+
+
+class Slips(WearLaw):
+    """Wears less the further a point has slid."""
+
+    type = "test.slips"
+    state_fields = (Field("slip", "m", "How far this point has slid under pressure."),)
+
+    def rate(self, local):
+        k = K / (1 + local.state["slip"])
+        return WearRate(k * local.pressure, k, {"slip": np.where(local.pressure > 0, 1.0, 0.0)})
+
+
+@pytest.mark.slow
+def test_a_law_keeps_what_it_remembers_and_another_starts_afresh(tmp_path):
+    bodies = [
+        named("ball", sphere(), steel(), Slips()),
+        named("disk", flat(), steel(), Slips()),
+    ]
+    with Simulation(worn_case(bodies=bodies)).run(tmp_path / "first.h5") as first:
+        slipped = {name: first.field("slip", -1, name) for name in first.body_names}
+    others = [bodies[0], named("disk", flat(), steel(), archard())]
+    begin = tmp_path / "first.h5"
+    with Simulation(worn_case(duration=1, bodies=others, begin=begin)).run() as second:
+        np.testing.assert_array_equal(second.field("slip", 0, "ball"), slipped["ball"])
+    with Simulation(worn_case(duration=1, bodies=bodies, begin=begin)).run() as third:
+        np.testing.assert_array_equal(third.field("slip", 0, "disk"), slipped["disk"])
+        assert third.field("slip", -1, "disk").max() > slipped["disk"].max() > 0
+
+
+@pytest.mark.slow
+def test_hard_bodies_keep_what_has_yielded(tmp_path):
+    bodies = [
+        named("ball", sphere(), steel(), archard()),
+        named("disk", flat(), steel(1.2e9), archard()),
+    ]
+    parts = {"bodies": bodies, "contact": half_space()}
+    Simulation(worn_case(duration=0.2, **parts)).run(tmp_path / "first.h5").close()
+    with Simulation(worn_case(duration=0.2, begin=tmp_path / "first.h5", **parts)).run() as result:
+        plastic = [result.field("plastic_depth", save, "disk") for save in (0, -1)]
+        with Simulation(worn_case(duration=0.2, **parts)).run() as first:
+            before = first.field("plastic_depth", -1, "disk")
+    assert before.max() > 1e-8
+    # Nothing yields twice under one load.
+    for each in plastic:
+        np.testing.assert_allclose(each, before, atol=1e-4 * before.max())
+
+
+class StopAfter(Observer):
+    steps: int = 3
+
+    def on_step(self, snapshot):
+        if snapshot.state.steps == self.steps:
+            raise KeyboardInterrupt
+
+
+@pytest.mark.slow
+def test_a_stopped_run_goes_on_to_the_same_bits_without_the_result_it_began_with(tmp_path):
+    first = tmp_path / "first.h5"
+    Simulation(worn_case(load=20.0)).run(first).close()
+    simulation = Simulation(worn_case(begin=first))
+    with simulation.run() as whole:
+        with pytest.raises(Interrupted):
+            simulation.run(tmp_path / "second.h5", observers=[StopAfter()])
+        first.unlink()
+        with simulation.resume(tmp_path / "second.h5") as resumed:
+            assert resumed.dataset.equals(whole.dataset)
+            assert resumed.provenance["begun_with"] == whole.provenance["begun_with"]
+            assert resumed.notices[0].startswith(f"begin: the bodies begin as worn as in {first}")
+            assert len(resumed.provenance["begun_with"]["sha256"]) == 64
+
+
+def test_a_depth_that_is_reached_already_ends_the_run_at_once(run_in):
+    with Simulation(worn_case(begin=run_in, stop=Stop(depth=1e-9))).run() as result:
+        assert (len(result.times), result.status) == (1, "done")
+
+
+def test_a_check_shows_the_first_contact_of_the_worn_bodies(run_in):
+    found = predict(Simulation(worn_case(begin=run_in)).model)
+    unworn = predict(Simulation(worn_case()).model)
+    assert found.first.max_pressure < 0.99 * unworn.first.max_pressure
+    assert found.first.bodies["ball"].wear_volume > 0
+    assert found.last is None
+
+
+PIN = [named("pin", sphere(), steel(), archard()), named("disk", flat(), steel(), archard())]
+ROUND = [named("ball", paraboloid(), steel(), archard()), named("disk", flat(), steel(), archard())]
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"grid": Grid((0.7e-3, 0.7e-3), (30, 30))}, "32 × 32 cells .* and the case 30 × 30 cells"),
+        ({"bodies": PIN}, "has the bodies ball, disk, and the case pin, disk"),
+        ({"bodies": ROUND}, "another surface of ball"),
+        ({"kinematics": motion(swept="ball", positions=33)}, "ball stays in it in .*, and passes"),
+        ({"kinematics": motion(positions=33)}, "disk has 32 rows .*, and 1[0-9]+ in the case"),
+    ],
+)
+def test_a_result_that_does_not_fit_the_case_is_refused(run_in, changes, words):
+    with pytest.raises(CaseError, match=rf"begin\.result: .*{words}"):
+        Simulation(worn_case(begin=run_in, **changes)).run()
+
+
+def test_a_file_that_is_not_there_and_a_time_without_a_save_are_refused(run_in):
+    with pytest.raises(CaseError, match=r"begin\.result: no\.h5 is not a file"):
+        Simulation(worn_case(begin="no.h5")).run()
+    with pytest.raises(
+        CaseError, match=r"begin\.time: .*no save at 5 s; its saves are at 0, 4, 10"
+    ):
+        Simulation(worn_case(begin=Begin(result=str(run_in), time=5))).run()

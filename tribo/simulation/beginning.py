@@ -1,0 +1,169 @@
+"""The state at which a run begins: unworn, or with the worn bodies of a result."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from hashlib import sha256
+from math import isnan
+from pathlib import Path
+
+import numpy as np
+
+from tribo.case import Begin
+from tribo.core.arrays import Array
+from tribo.core.errors import CaseError
+from tribo.core.grid import Grid
+from tribo.core.state import BodyState, State
+from tribo.result.body import BodyResult
+from tribo.result.layout import TRACK
+from tribo.result.read import Result
+from tribo.simulation.model import Model
+from tribo.stepping.step import first_contact
+
+PLACE = "begin.result"
+
+
+def first_state(model: Model) -> State:
+    """Return the state before any sliding: the first contact, of worn bodies if the case says so.
+
+    Wear and load times distance go on from the result that the case begins with; time and distance
+    begin anew.
+
+    Raises
+    ------
+    CaseError
+        If the contact does not fit the window, or the result does not fit the case.
+    NumericalError
+        If the solver fails.
+    """
+    begin = model.case.begin
+    if begin is None:
+        return first_contact(model)
+    try:
+        result = Result.open(begin.result)
+    except CaseError as error:
+        raise CaseError(str(error), PLACE) from None
+    with result:
+        save = _save(result, begin)
+        _check_alike(model, result)
+        bodies = {name: _worn(model, result, name, save) for name in model.bodies}
+        carried = result.saves()[save]
+    load_distance = carried["load_distance_N_m"]
+    if isnan(load_distance):
+        # Older files lack it; their load was constant.
+        load_distance = result.system.load * carried["distance_m"]
+    state = replace(first_contact(model, bodies), load_distance=load_distance)
+    return state.with_notice(
+        "begin",
+        f"the bodies begin as worn as in {begin.result} at {carried['time_s']:g} s; wear depths, "
+        "volumes and load_distance go on from there, time and distance begin anew",
+    )
+
+
+def checksum(begin: Begin) -> str:
+    """Return what tells the file of a result from any other."""
+    return sha256(Path(begin.result).read_bytes()).hexdigest()
+
+
+def _save(result: Result, begin: Begin) -> int:
+    if result.status in ("running", "killed"):
+        raise CaseError(
+            f"{result.name} is {result.status}: let its run end, or go on with it first", PLACE
+        )
+    if begin.time is None:
+        return -1
+    try:
+        return result.save_at(begin.time)
+    except CaseError as error:
+        raise CaseError(str(error), "begin.time") from None
+
+
+def _check_alike(model: Model, result: Result) -> None:
+    """Refuse a result of other bodies, or on another grid."""
+    name, grid = result.name, result.grid
+    if set(result.body_names) != set(model.bodies):
+        raise CaseError(
+            f"{name} has the bodies {', '.join(result.body_names)}, and the case "
+            f"{', '.join(model.bodies)}; name them alike",
+            PLACE,
+        )
+    if (grid.size, grid.cells) != (model.grid.size, model.grid.cells):
+        raise CaseError(
+            f"{name} has {_cells(grid)}, and the case {_cells(model.grid)}; give the case the same "
+            "grid",
+            PLACE,
+        )
+    for body in model.bodies:
+        was = result.case["bodies"][body].get("surface")
+        if was != model.data["bodies"][body]["surface"]:
+            raise CaseError(
+                f"{name} begins with another surface of {body} than the case does; give the case "
+                "the same surfaces: what is worn is a depth below them",
+                PLACE,
+            )
+
+
+def _worn(model: Model, result: Result, name: str, save: int) -> BodyState:
+    """Return what a result has of a body, on the rows that the body has in the case."""
+    (nx, ny), rows = model.grid.cells, model.exposures[name].rows
+    body, track = result.body(name), _along_track(result, name, save)
+    if body.swept != (name in model.swept):
+        ways = "passes through the contact", "stays in it"
+        was, is_now = ways if body.swept else ways[::-1]
+        raise CaseError(f"{name} {was} in {result.name}, and {is_now} in the case", PLACE)
+    kept = body.wear_depth[save] if track is None else track
+    wear = _on_rows(kept, rows, nx)
+    if wear is None:
+        raise CaseError(
+            f"{name} has {len(kept)} rows along its path in {result.name}, and {rows} in the case; "
+            "give the case the same stroke, and resolve both cycles or neither",
+            PLACE,
+        )
+    plastic, state = body.plastic_depth[save], _law_state(model, result, body)
+    if track is not None:
+        deepest = result.saves()[save]["bodies"][name]["max_plastic_depth_m"]
+        if deepest > 0 or state:
+            raise CaseError(
+                f"{result.name} keeps the wear of {name} along its whole path, but its plastic "
+                "depth and the state of its law in the window only, so that nothing can begin "
+                "with it; average the stroke, or let the law and the hardness be without memory",
+                PLACE,
+            )
+        plastic = np.zeros((rows, ny))
+    law = {}
+    if name in model.laws:
+        law = {k: np.full_like(wear, v) for k, v in model.laws[name].initial_state.items()}
+    for field, values in state.items():
+        on_rows = _on_rows(values[save], rows, nx)
+        assert on_rows is not None
+        law[field] = on_rows
+    return BodyState(wear=wear, plastic=plastic, law=law)
+
+
+def _law_state(model: Model, result: Result, body: BodyResult) -> Mapping[str, Array]:
+    """Return the fields of a body's law at each save, if the case has the same law."""
+    law, was = model.case.bodies[body.name].wear, result.case["bodies"][body.name].get("wear")
+    same = law is not None and isinstance(was, Mapping) and law.type == was.get("type")
+    return body.state if same else {}
+
+
+def _along_track(result: Result, name: str, save: int) -> Array | None:
+    """Return the wear along the whole path of a body, shape (rows, ny), if it is kept."""
+    if TRACK not in dir(result):
+        return None
+    track = result.field(TRACK, save, name)
+    # Shorter ones lie in the middle of the longest, NaN beyond their ends.
+    return track[~np.isnan(track[:, 0])] if np.any(np.isfinite(track)) else None
+
+
+def _on_rows(field: Array, rows: int, window: int) -> Array | None:
+    """Return a field on so many rows; None where it has others."""
+    if rows == 1:
+        return field[:1] if len(field) == window and np.all(field == field[:1]) else None
+    return field if len(field) == rows else None
+
+
+def _cells(grid: Grid) -> str:
+    (lx, ly), (nx, ny) = grid.size, grid.cells
+    return f"{nx} × {ny} cells in a window of {1e3 * lx:.4g} × {1e3 * ly:.4g} mm"
