@@ -88,6 +88,12 @@ FRICTION_COEFFICIENT = Field(
     at_least=0.0,
     typical=0.3,
 )
+PLACE_X = Field(
+    "place_x", "m", "Place along x on the body's own surface, 0 in its middle.", typical=1e-4
+)
+PLACE_Y = Field(
+    "place_y", "m", "Place along y on the body's own surface, 0 in its middle.", typical=1e-4
+)
 
 
 @dataclass(frozen=True)

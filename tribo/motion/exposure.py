@@ -39,6 +39,11 @@ class Exposure(ABC):
         """
         return 1 if self.swept else None
 
+    @property
+    def averaged(self) -> bool:
+        """Whether its points pass and are all taken as one, which has no place along x."""
+        return self.swept and self.starts is None
+
     @abstractmethod
     def average(self, rate: Array) -> Array:
         """Return the rate each point of the body sees per metre of sliding.

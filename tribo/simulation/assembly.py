@@ -15,6 +15,7 @@ from tribo.contact.solver import ContactSolver
 from tribo.core.arrays import Array, readonly, rows_from
 from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError, located
+from tribo.core.fields import PLACE_X
 from tribo.core.grid import Grid, RepeatingGrid
 from tribo.core.loads import Loads
 from tribo.core.material import contact_modulus
@@ -58,6 +59,7 @@ def assemble(case: Case) -> Model:
         if body.wear is not None:
             with located(f"bodies.{name}.wear"):
                 laws[name] = GuardedLaw(body.wear, name, body.material)
+                _check_places(laws[name], exposures[name])
     if case.load.along and case.contact.periodic:
         raise CaseError(
             f"contact.type = {case.contact.type!r} repeats with the window, so that it is at many "
@@ -193,6 +195,16 @@ def _check_sliding(surface: GuardedSurface, exposure: GuardedExposure) -> None:
             f"body {surface.body!r} is swept along x, so its surface must not vary along x, as "
             f"{surface.component.type!r} does; let kinematics.swept name the other body, or use "
             "a 'flat' or a 'cylinder' with axis = 'x'"
+        )
+
+
+def _check_places(law: GuardedLaw, exposure: GuardedExposure) -> None:
+    """Raise `CaseError` if a law asks for places on a body whose track has none."""
+    if PLACE_X.name in law.requires and exposure.averaged:
+        raise CaseError(
+            f"{law.component.type!r} wears places of their own, but the average over a track has "
+            f"none on body {law.body!r}; resolve the cycle (kinematics.positions), or give this "
+            "law to the body that stays in the contact"
         )
 
 

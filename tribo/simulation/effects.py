@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from tribo.case import Case
 from tribo.core.errors import CaseError
-from tribo.core.fields import FRICTION_COEFFICIENT
+from tribo.core.fields import FRICTION_COEFFICIENT, PLACE_X, PLACE_Y
 from tribo.effects.effect import Effect
 
 
@@ -20,7 +20,9 @@ def in_order(case: Case) -> tuple[Effect, ...]:
     CaseError
         If a field is provided twice.
     """
-    known = set() if case.friction is None else {FRICTION_COEFFICIENT.name}
+    known = {PLACE_X.name, PLACE_Y.name}
+    if case.friction is not None:
+        known.add(FRICTION_COEFFICIENT.name)
     ordered: list[Effect] = []
     waiting = list(case.effects)
     while waiting:

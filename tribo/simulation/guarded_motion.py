@@ -150,6 +150,7 @@ class GuardedExposure(Guard[Kinematics]):
         self._cells = grid.cells
         self._repeats = grid.period is not None
         self.starts = exposure.starts
+        self.averaged = exposure.averaged
         self.rows = exposure.rows or grid.cells[0]
         self._own = (self.rows, grid.cells[1])
 

@@ -11,8 +11,9 @@ import numpy as np
 
 from tribo.case import Body, Case
 from tribo.contact.solver import ContactSolver
-from tribo.core.arrays import Array, laid_from, rows_from
+from tribo.core.arrays import Array, laid_from, readonly, rows_from
 from tribo.core.contact import ContactSystem
+from tribo.core.fields import PLACE_X, PLACE_Y
 from tribo.core.grid import Grid
 from tribo.core.loads import Loads
 from tribo.core.measures import between_cells
@@ -192,6 +193,20 @@ class Model:
         """
         starts = self.exposures[name].starts
         return field if starts is None else rows_from(field, starts[position], self.grid.cells[0])
+
+    def places(self, position: int) -> dict[str, dict[str, Array]]:
+        """Return where each body's own surface lies in the window at a position, in m.
+
+        x is 0 on a body of which every point of a track is the same.
+        """
+        dx, cells = self.grid.spacing[0], self.grid.cells
+        along, across = {}, {}
+        for name, exposure in self.exposures.items():
+            own = dx * (np.arange(float(exposure.rows))[:, None] - 0.5 * (exposure.rows - 1))
+            x = self.under(name, own, position)
+            along[name] = readonly(np.broadcast_to(x, cells))
+            across[name] = readonly(np.broadcast_to(self.grid.y, cells))
+        return {PLACE_X.name: along, PLACE_Y.name: across}
 
     def spread(self, name: str, field: Array, position: int) -> Array:
         """Return a field of the window where it lies on a body's own surface, at a position.

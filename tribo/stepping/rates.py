@@ -11,7 +11,12 @@ import numpy as np
 from tribo.core.arrays import Array, readonly
 from tribo.core.box import around_region, whole
 from tribo.core.contact import ContactSolution
-from tribo.core.fields import FRICTION_COEFFICIENT, ContactConditions, LocalConditions, WearRate
+from tribo.core.fields import (
+    FRICTION_COEFFICIENT,
+    ContactConditions,
+    LocalConditions,
+    WearRate,
+)
 from tribo.core.state import State
 
 if TYPE_CHECKING:
@@ -76,7 +81,7 @@ def _rates_at(
     place = model.cycle[position]
     rates: dict[str, WearRate] = {}
     for speed, share in place.speeds or [(moment.speed, 1.0)]:
-        at_speed = _rates_of(model, contact, under, replace(moment, speed=speed))
+        at_speed = _rates_of(model, position, contact, under, replace(moment, speed=speed))
         for name, rate in at_speed.items():
             part = rate if share == 1 else _times(share, rate)
             rates[name] = _sum(rates[name], part) if name in rates else part
@@ -96,11 +101,11 @@ def _sum(one: WearRate, other: WearRate) -> WearRate:
 
 
 def _rates_of(
-    model: Model, contact: ContactSolution, law_states: LawStates, moment: Moment
+    model: Model, position: int, contact: ContactSolution, law_states: LawStates, moment: Moment
 ) -> dict[str, WearRate]:
     """Return the rate of each law for what lies in the window, at the speed of `moment`."""
     pressure = readonly(contact.pressure)
-    fields = local_fields(model, pressure, moment)
+    fields = local_fields(model, pressure, moment, position)
     near = around_region(contact.extent, model.grid.cells, MARGIN)
     rates = {}
     for name, law in model.laws.items():
@@ -132,13 +137,17 @@ def effect_fields(model: Model, state: State) -> dict[str, dict[str, Array]]:
     # Of an average's speeds none is that of the pressure shown.
     here = speeds if len(model.cycle) > 1 else None
     speed = state.speed if here is None else 1 / sum(share / v for v, share in here)
-    fields = local_fields(model, state.contact.pressure, Moment(state.time, state.distance, speed))
+    middle = len(model.cycle) // 2
+    moment = Moment(state.time, state.distance, speed)
+    fields = local_fields(model, state.contact.pressure, moment, middle)
     return {field.name: fields[field.name] for e in model.effects for field in e.provides}
 
 
-def local_fields(model: Model, pressure: Array, moment: Moment) -> dict[str, dict[str, Array]]:
-    """Return what the effects and the case provide, by field and body, shape (nx, ny)."""
-    fields: dict[str, dict[str, Array]] = {}
+def local_fields(
+    model: Model, pressure: Array, moment: Moment, position: int
+) -> dict[str, dict[str, Array]]:
+    """Return what the effects and the case provide at a position, by field and body, (nx, ny)."""
+    fields = model.places(position)
     friction = model.friction_coefficient
     if friction is not None:
         uniform = readonly(np.full(pressure.shape, friction))

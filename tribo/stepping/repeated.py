@@ -36,7 +36,7 @@ def check_repeatable(model: Model, state: State) -> None:
 
 def _answers(model: Model, state: State, moment: Moment) -> Iterator[tuple[Any, Array]]:
     """Yield each array that the effects, and then the laws, answer at `state`, with who did."""
-    fields = local_fields(model, state.contact.pressure, moment)
+    fields = local_fields(model, state.contact.pressure, moment, len(model.cycle) // 2)
     for effect in model.effects:
         for field in effect.provides:
             yield from ((effect, values) for values in fields[field.name].values())

@@ -13,7 +13,7 @@ from tribo.case import Body, Case
 from tribo.contact.winkler import Winkler
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactProblem, ContactSystem, WearCompliance
-from tribo.core.fields import FRICTION_COEFFICIENT, ContactConditions, Field
+from tribo.core.fields import FRICTION_COEFFICIENT, PLACE_X, PLACE_Y, ContactConditions, Field
 from tribo.core.grid import Grid
 from tribo.core.material import Material, contact_modulus
 from tribo.core.state import Snapshot
@@ -65,7 +65,7 @@ def field(name: str, names: Sequence[str], given: Mapping[str, FieldValue], p: A
 
 def _declared(name: str) -> float | None:
     """Return the typical value of a field that the case or a loaded effect provides, if stated."""
-    known = [FRICTION_COEFFICIENT]
+    known = [FRICTION_COEFFICIENT, PLACE_X, PLACE_Y]
     effects = Effect.__subclasses__()
     for effect in effects:
         effects += effect.__subclasses__()
@@ -180,18 +180,21 @@ def run(
     watcher: Observer | None = None,
     **more: Any,
 ) -> None:
-    """Run a few steps on elastic springs, both bodies under one law.
+    """Run a few steps on elastic springs, both bodies under one law, if both have places for it.
 
     The run itself holds in each step that a body loses just what its law says.
     """
     kinematics = kinematics or sliding(3.0)
-    known = {"friction_coefficient"}.union(*({f.name for f in e.provides} for e in effects))
+    known = {FRICTION_COEFFICIENT.name, PLACE_X.name, PLACE_Y.name}
+    known = known.union(*({f.name for f in e.provides} for e in effects))
+    averaged = {n for n, e in kinematics.exposures(GRID, BODIES).items() if e.averaged}
+    wearing = {*BODIES} - (averaged if PLACE_X.name in law.requires else set())
     needed = sorted({*law.requires}.union(*(e.requires for e in effects)) - known)
     case = Case(
         grid=GRID.model_copy(update={"ends_at_window": True}),
         load=LOAD,
         bodies={
-            name: Body(surface=surface, material=STEEL, wear=law)
+            name: Body(surface=surface, material=STEEL, wear=law if name in wearing else None)
             for name, surface in zip(BODIES, _shapes(kinematics), strict=True)
         },
         contact=Winkler(),
