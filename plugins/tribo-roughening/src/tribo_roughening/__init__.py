@@ -1,0 +1,1 @@
+"""Wear in particles, by which worn surfaces stay rough, for tribo."""

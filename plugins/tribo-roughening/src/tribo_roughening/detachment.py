@@ -1,0 +1,82 @@
+"""Wear in particles, each of which holds for a random while."""
+
+from __future__ import annotations
+
+from typing import Annotated, Self
+
+from pydantic import ConfigDict, model_validator
+from pydantic import Field as Bounded
+from tribo import Field, LocalConditions, Quantity, WearLaw, WearRate
+
+from tribo_roughening.resistance import resistance
+
+WORN = Field("worn", "m", "Depth worn so far, by which a point knows its particle.")
+
+
+class Detachment(WearLaw):
+    """dh/ds = k p / R, with R the wear resistance of the particle that is at the surface.
+
+    The material is made of particles of a diameter d and a thickness t. R is drawn for each, with
+    mean 1, from a gamma distribution; in between it is linear (`resistance`). With a spread of 1 it
+    is exponential: the chance of a particle to leave is the same in every metre, as Archard takes
+    it. A point under an even pressure wears by k p on the mean, and so does a whole contact once
+    the pressure has spread itself in proportion to R (Khrushchov: the wear resistance of a
+    composite is the mean of its parts').
+
+    Particles that hold on stand out until they carry the load that wears them, so that a surface
+    keeps a roughness that does not depend on its first one. Valid where particles are small beside
+    the contact, thin beside the depth worn, and at least four cells wide.
+
+    References
+    ----------
+    Archard, J. F. (1953), Contact and rubbing of flat surfaces, J. Appl. Phys. 24, 981-988.
+    Khrushchov, M. M. (1974), Principles of abrasive wear, Wear 28, 69-88. Sugimura, J., Kimura, Y.
+    (1984), Characterization of topographical changes during lubricated wear, Wear 98, 101-116.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "examples": [{"k": "3.11e-16 1/Pa", "diameter": "10 um", "thickness": "0.5 um"}]
+        }
+    )
+
+    type = "roughening.detachment"
+    k: Annotated[float, Quantity("1/Pa", at_least=0, usual=(1e-22, 1e-10))]
+    """Specific wear rate, volume per load and sliding distance, on the mean."""
+    diameter: Annotated[float, Quantity("m", above=0, usual=(1e-9, 1e-3))]
+    """Diameter d of a particle along the surface."""
+    thickness: Annotated[float, Quantity("m", above=0, usual=(1e-10, 1e-4))]
+    """Thickness t of a particle."""
+    spread: Annotated[float, Quantity("1", above=0, at_most=1)] = 0.5
+    """Standard deviation of the particles' resistance, relative to its mean."""
+    period: Annotated[float, Quantity("m", above=0)] | None = None
+    """Length after which the particles repeat along x and y, as a periodic window does."""
+    seed: Annotated[int, Bounded(ge=0)] = 0
+    """Seed of the draws."""
+
+    requires = ("place_x", "place_y")
+    state_fields = (WORN,)
+
+    @model_validator(mode="after")
+    def _whole_particles(self) -> Self:
+        if self.period is not None:
+            count = self.period / self.diameter
+            if round(count) < 1 or abs(count - round(count)) > 1e-6 * count:
+                raise ValueError("period must be a whole number of diameters")
+        return self
+
+    def rate(self, local: LocalConditions) -> WearRate:
+        """Return k p / R and k / R; the depth worn is a state of the law."""
+        held = resistance(
+            local.fields["place_x"],
+            local.fields["place_y"],
+            local.state[WORN.name],
+            diameter=self.diameter,
+            thickness=self.thickness,
+            spread=self.spread,
+            seed=self.seed,
+            repeats=None if self.period is None else round(self.period / self.diameter),
+        )
+        slope = self.k / held
+        depth = slope * local.pressure
+        return WearRate(depth, slope, {WORN.name: depth})

@@ -1,0 +1,114 @@
+"""Wear in particles in runs of the whole program."""
+
+import runpy
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tribo import CaseError, Observer, Simulation
+from tribo.core.errors import Interrupted
+from tribo.lab.roughness import parameters
+
+from tribo_roughening.resistance import resistance
+
+ROOT = Path(__file__).parents[1]
+EXAMPLE = runpy.run_path(str(ROOT / "examples/settled_roughness.py"))
+case, K, PRESSURE = EXAMPLE["case"], EXAMPLE["K"], EXAMPLE["PRESSURE"]
+DIAMETER, THICKNESS = EXAMPLE["DIAMETER"], EXAMPLE["THICKNESS"]
+MODULUS = 207e9 / (2 * (1 - 0.3**2))
+
+
+class Stop(Observer):
+    type = "test.stop"
+
+    def on_step(self, snapshot):
+        if snapshot.state.steps == 12:
+            raise KeyboardInterrupt
+
+
+def plain_loop(height, size, layers, increments):
+    """Return what a patch in full contact is worn to: small explicit steps, mode by mode."""
+    count = len(height)
+    line = (np.arange(count) - 0.5 * (count - 1)) * size / count
+    x, y = np.meshgrid(line, line, indexing="ij")
+    along = np.fft.fftfreq(count, size / count)
+    wavenumber = 2 * np.pi * np.hypot(along[:, None], along)
+    worn = np.zeros_like(height)
+    # Distance times k and mean pressure: the mean depth.
+    increment = layers * THICKNESS / increments
+    for _ in range(increments):
+        modes = np.fft.fft2(height - worn)
+        pressure = PRESSURE + np.fft.ifft2(0.5 * MODULUS * wavenumber * modes).real
+        assert pressure.min() > 0
+        made = {"diameter": DIAMETER, "thickness": THICKNESS, "spread": 0.5, "seed": 0}
+        held = resistance(x, y, worn, repeats=round(size / DIAMETER), **made)
+        worn += increment * pressure / PRESSURE / held
+    return worn
+
+
+@pytest.mark.slow
+def test_it_wears_as_a_plain_loop_of_small_steps_does():
+    data = case(4e-9, cells=16, particles=2, layers=2)
+    with Simulation(data).run() as result:
+        patch = result.body("patch")
+        worn, height = patch.wear_depth[-1], patch.height
+        assert result.saves()[-1]["contact_area_m2"] == pytest.approx(32e-6**2)
+    size = 2 * DIAMETER
+    loop = plain_loop(height, size, 2, 1000)
+    # With a tenth of the tolerances both errors, 0.3 and 0.6 %, are a tenth.
+    assert worn.mean() == pytest.approx(loop.mean(), rel=5e-3, abs=0)
+    assert np.std(worn - loop) < 0.01 * loop.std()
+
+
+@pytest.mark.slow
+def test_a_patch_settles_at_a_roughness_of_its_own():
+    rough, smooth, archard = (
+        EXAMPLE["roughnesses"](each)
+        for each in (case(160e-9), case(20e-9), case(160e-9, EXAMPLE["ARCHARD"]))
+    )
+    settled = [np.mean(sa[6:]) for sa in (rough, smooth)]
+    assert settled[0] == pytest.approx(settled[1], rel=0.25, abs=0)
+    assert min(settled) > 5e-9
+    # The same patch under Archard's law alone is polished away.
+    assert archard[-1] < 0.05 * min(settled)
+
+
+@pytest.mark.slow
+def test_wear_is_that_of_archard_on_the_mean():
+    with Simulation(case(20e-9, cells=16, layers=8)).run() as result:
+        depth = result.body("patch").wear_depth[-1]
+    # 16 particles in 8 layers: ±0.5/√128.
+    assert depth.mean() == pytest.approx(8 * THICKNESS, rel=0.15, abs=0)
+    assert parameters(depth).Sq_m < THICKNESS
+
+
+def test_the_law_knows_the_depth_it_has_worn():
+    with Simulation(case(20e-9, cells=16, particles=2, layers=2)).run() as result:
+        patch = result.body("patch")
+        np.testing.assert_allclose(patch.state["worn"], patch.wear_depth, rtol=1e-12)
+
+
+def test_a_run_resumed_has_the_same_bits(tmp_path):
+    data = case(20e-9, cells=16, particles=2, layers=1)
+    with Simulation(data).run(tmp_path / "whole.h5") as whole:
+        needed = whole.body("patch").wear_depth
+    path = tmp_path / "stopped.h5"
+    with pytest.raises(Interrupted):
+        Simulation(data).run(path, observers=[Stop()])
+    with Simulation(data).resume(path) as resumed:
+        np.testing.assert_array_equal(resumed.body("patch").wear_depth, needed)
+
+
+def test_a_body_swept_by_the_average_has_no_places():
+    data = case(20e-9)
+    bodies = data["bodies"]
+    bodies["plate"]["wear"] = bodies["patch"]["wear"]
+    with pytest.raises(CaseError, match=r"bodies\.plate\.wear: 'roughening\.detachment' wears pl"):
+        Simulation(data)
+
+
+def test_a_period_that_is_no_whole_number_of_particles_is_refused():
+    data = case(20e-9)
+    data["bodies"]["patch"]["wear"]["period"] = 3.5 * DIAMETER
+    with pytest.raises(CaseError, match=r"wear.*period must be a whole number of diameters"):
+        Simulation(data)
