@@ -184,13 +184,12 @@ def least_positions(length: float, half_width: float) -> int:
     return max(3, 2 * int(np.ceil(length / half_width * (1 - 1e-9))) + 1)
 
 
-def missed_shares(nodes: Array, shares: Array, *, smooth: bool) -> Array:
+def missed_shares(nodes: Array, shares: Array) -> Array:
     """Return the shares by which values at positions add up to what lies between them unseen.
 
     The sum is compared with that over every second position, by Richardson's extrapolation: of what
     varies smoothly, straight lines over the two gaps h and h' beside a position miss (h³ + h'³) /
-    (3 h h' (h + h')) of what they add to one line over both, a third where the gaps are alike. Of
-    what varies at random from one position to the next they miss about as much as they add.
+    (3 h h' (h + h')) of what they add to one line over both, a third where the gaps are alike.
 
     Parameters
     ----------
@@ -198,8 +197,6 @@ def missed_shares(nodes: Array, shares: Array, *, smooth: bool) -> Array:
         Where the positions lie along the path.
     shares : ndarray, shape (positions,)
         Part of the path at each.
-    smooth : bool
-        Whether values vary smoothly from position to position.
     """
     order = np.argsort(nodes, kind="stable")
     missed = np.zeros(len(nodes))
@@ -207,9 +204,7 @@ def missed_shares(nodes: Array, shares: Array, *, smooth: bool) -> Array:
         near, far = nodes[at] - nodes[before], nodes[after] - nodes[at]
         if near <= 0 or far <= 0:
             continue
-        added = shares[at]
-        if smooth:
-            added *= (near**3 + far**3) / (3 * near * far * (near + far))
+        added = shares[at] * (near**3 + far**3) / (3 * near * far * (near + far))
         missed[at] += added
         missed[before] -= added * far / (near + far)
         missed[after] -= added * near / (near + far)

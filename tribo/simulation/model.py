@@ -161,8 +161,7 @@ class Model:
             return None
         nodes = -np.array(starts[0], dtype=float)
         shares = np.array([position.share for position in self.cycle])
-        # Rough surfaces state no curvature.
-        return missed_shares(nodes, shares, smooth=self.system.curvature is not None)
+        return missed_shares(nodes, shares)
 
     @cached_property
     def end_distance(self) -> float:

@@ -140,14 +140,12 @@ def coarse_cycle(model: Model, state: State) -> str | None:
     error = cycle_error(model, state)
     if error <= COARSE:
         return None
-    remedy = 'take every cell (kinematics.positions = "cells")'
-    if model.system.curvature is not None:
-        # Of smooth bodies the error goes with the square of the spacing.
-        gaps = (len(model.cycle) - 1) * math.sqrt(error / COARSE)
-        remedy = f"raise kinematics.positions to {2 * math.ceil(0.5 * gaps) + 1} for 1 %"
+    # The error goes with the square of the spacing.
+    gaps = (len(model.cycle) - 1) * math.sqrt(error / COARSE)
     return (
         f"the {len(model.cycle)} positions of the cycle, {1e3 * model.apart:.3g} mm apart, leave "
-        f"the wear depth uncertain by about {100 * error:.2g} %, weighted with the load; {remedy}"
+        f"the wear depth uncertain by about {100 * error:.2g} %, weighted with the load; raise "
+        f"kinematics.positions to {2 * math.ceil(0.5 * gaps) + 1} for 1 %"
     )
 
 
