@@ -28,8 +28,8 @@ class Position:
         Sliding speeds here, in m/s, each with its share of the path spent here. None: laws and
         effects are asked at the mean speed over each step.
     reach : ndarray, shape (ny,), or None, optional
-        Sliding distance of each row of the contact here, relative to that of the motion. None: all
-        slide by that of the motion.
+        Sliding distance and speed of each row of the contact here, relative to those of the motion.
+        None: all slide by those of the motion.
     """
 
     share: float = 1.0

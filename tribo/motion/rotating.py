@@ -23,9 +23,8 @@ class Rotating(ClosedTrack):
     """Constant speed v round a circle of radius R; one body swept over the track.
 
     Speed and sliding distance are those in the middle of the window. A row at y is at the radius
-    R + y: its points slide by (R + y)/R of that distance, on a track of length 2π(R + y). Laws and
-    effects that depend on speed are asked at v. The arc is straight in the contact: valid for
-    contacts short beside R.
+    R + y: its points slide by (R + y)/R of that distance at as much of that speed, on a track of
+    length 2π(R + y). The arc is straight in the contact: valid for contacts short beside R.
     """
 
     model_config = ConfigDict(

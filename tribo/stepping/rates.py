@@ -18,12 +18,15 @@ from tribo.core.fields import (
     WearRate,
 )
 from tribo.core.state import State
+from tribo.motion.cycle import Speeds
 
 if TYPE_CHECKING:
     from tribo.simulation.model import Model
 
 # Cells around the contact where laws are asked too: what a step may newly touch.
 MARGIN = 8
+FINE = 0.1
+"""Relative speed between two at which laws are asked, where rows have their own."""
 
 LawStates = Mapping[str, Mapping[str, Array]]
 CycleRates = Sequence[Mapping[str, WearRate]]
@@ -80,14 +83,29 @@ def _rates_at(
     }
     place = model.cycle[position]
     rates: dict[str, WearRate] = {}
-    for speed, share in place.speeds or [(moment.speed, 1.0)]:
+    speeds = place.speeds or [(moment.speed, 1.0)]
+    weighed = speeds if place.reach is None else _by_row(speeds, place.reach)
+    for speed, share in weighed:
         at_speed = _rates_of(model, position, contact, under, replace(moment, speed=speed))
         for name, rate in at_speed.items():
-            part = rate if share == 1 else _times(share, rate)
+            part = rate if np.ndim(share) == 0 and share == 1 else _times(share, rate)
             rates[name] = _sum(rates[name], part) if name in rates else part
-    if place.reach is None:
-        return rates
-    return {name: _times(place.reach, rate) for name, rate in rates.items()}
+    return rates
+
+
+def _by_row(speeds: Speeds, reach: Array) -> list[tuple[float, Array]]:
+    """Return speeds, each with what the rate there counts for in each row, shape (ny,).
+
+    A row of which the points slide further is faster by as much; in between speeds rates are taken
+    to go in straight lines.
+    """
+    least, most = float(np.min(reach)), float(np.max(reach))
+    nodes = np.linspace(least, most, 2 + int((most - least) / FINE)) if most > least else [least]
+    return [
+        (speed * float(node), share * reach * np.interp(reach, nodes, np.eye(len(nodes))[at]))
+        for speed, share in speeds
+        for at, node in enumerate(nodes)
+    ]
 
 
 def _times(share: float | Array, rate: WearRate) -> WearRate:
