@@ -1,14 +1,10 @@
 """Wrong implementations: each breaks one promise, which its check must notice."""
 
-import sys
 from dataclasses import replace
-from os import getpid
-from types import ModuleType
-from typing import Annotated
 
 import numpy as np
-from pydantic import ConfigDict, field_validator, model_serializer
-from testing.conformance.honest import Counts, Hill, Law, Motion, Solver, Traction
+from testing.conformance.honest import Counts, Hill, Motion, Solver, Traction
+from testing.conformance.mutant_laws import LAWS, wrong
 
 from tribo import (
     Field,
@@ -16,178 +12,14 @@ from tribo import (
     NumericalError,
     Passing,
     Position,
-    Quantity,
     Residuals,
     Stationary,
     Track,
 )
 from tribo.testing.compare import CheckFailed
 
-MUTANTS = []
+MUTANTS = list(LAWS)
 """The check that must fail, the class, and what is raised."""
-
-
-def wrong(honest, *mistakes):
-    """Note mutants of an honest class: the check that each fails, its parts, what is raised."""
-    for check, parts, *raising in mistakes:
-        name = f"{honest.__name__}{len(MUTANTS)}"
-        made = type(name, (honest,), {"__module__": __name__, **parts})
-        MUTANTS.append((check, made, raising[0] if raising else CheckFailed))
-
-
-# The configuration, by the example of a wear law.
-
-
-class WithoutUnit(Law):
-    q: float = 3.0
-    """Something."""
-
-
-class Undescribed(Law):
-    q: Annotated[float, Quantity("1")] = 3.0
-    # Reads no docstring of the field above it.
-    model_config = ConfigDict(use_attribute_docstrings=False)
-
-
-class MillimetresEachTime(Law):
-    q: Annotated[float, Quantity("m")] = 3.0
-    """A length in mm."""
-
-    @field_validator("q")
-    @classmethod
-    def _to_metres(cls, value):
-        return 1e-3 * value
-
-
-class AnotherWithoutDefaults(Law):
-    @model_serializer(mode="wrap")
-    def _short(self, handler, info):
-        return {**handler(self), **({"k": 2e-16} if info.exclude_defaults else {})}
-
-
-def _local():
-    class Unreachable(Law):
-        """A class that no other process can find."""
-
-    return Unreachable
-
-
-# Another process that imports this file makes a module of another name.
-here = sys.modules[f"only_in_{getpid()}"] = ModuleType("here")
-here.OnlyHere = type("OnlyHere", (Law,), {"__module__": f"only_in_{getpid()}"})
-
-MUTANTS += [
-    ("quantities_have_units", WithoutUnit, CheckFailed),
-    ("fields_are_described", Undescribed, CheckFailed),
-    ("configuration_survives_a_file", MillimetresEachTime, CheckFailed),
-    ("configuration_survives_a_file", AnotherWithoutDefaults, CheckFailed),
-    ("configuration_can_be_pickled", _local(), CheckFailed),
-    ("configuration_can_be_pickled", here.OnlyHere, CheckFailed),
-]
-wrong(
-    Law,
-    ("objects_are_frozen_and_know_their_keys", {"model_config": {"frozen": False}}),
-    ("objects_are_frozen_and_know_their_keys", {"model_config": {"extra": "ignore"}}),
-    ("name_has_a_prefix", {"type": "law"}),
-    ("facts_are_text_and_stay", {"facts": lambda self: {"size": 1.24e-3}}),
-)
-
-# Calls that are not pure.
-
-
-def rate(change):
-    """Return a `rate` that differs from the honest law's by `change` of it and its conditions."""
-    return lambda self, local: change(Law.rate(self, local), local)
-
-
-def zeroed(rate, local):
-    if local.pressure.flags.writeable:
-        local.pressure[0] = 0
-    return rate
-
-
-def clipped(rate, local):
-    np.clip(local.pressure, 0, None, out=local.pressure)
-    return rate
-
-
-def remembering(self, local):
-    self._slid += 0.1
-    rate = Law.rate(self, local)
-    return replace(rate, depth_rate=rate.depth_rate * np.exp(-self._slid))
-
-
-wrong(
-    Law,
-    ("inputs_stay_as_they_are", {"rate": rate(zeroed)}),
-    ("same_inputs_give_same_bits", {"rate": rate(clipped)}, ValueError),
-    ("same_inputs_give_same_bits", {"_slid": 0.0, "rate": remembering}),
-    ("nothing_is_printed", {"rate": rate(lambda r, local: print("rate") or r)}),
-)
-
-
-def drawing_numpy(self, grid):
-    return Hill.height(self, grid) + 0 * np.random.rand()  # noqa: NPY002
-
-
-wrong(Hill, ("no_global_random_numbers", {"height": drawing_numpy}))
-
-
-# Wear laws.
-
-
-def parts(change):
-    """Return a `rate` of which `change` of it and its conditions gives other parts."""
-    return {"rate": rate(lambda r, local: replace(r, **change(r, local)))}
-
-
-def divided(rate, local):
-    with np.errstate(invalid="ignore"):
-        return {"depth_slope": local.pressure / local.pressure}
-
-
-def falling(rate, local):
-    fall = np.where(local.pressure > 1e9, 1e9 / np.maximum(local.pressure, 1.0), 1.0)
-    return {"depth_rate": rate.depth_rate * fall**4}
-
-
-def failing_later(rate, local):
-    if local.pressure.shape == (24, 20) and local.state["rubbed"].max() > 0:
-        raise RuntimeError("too far")
-    return {}
-
-
-def unsteady(rate, local):
-    # Each step finds another wear rate than the one before.
-    return {"depth_rate": rate.depth_rate * (1.5 + np.sin(3e4 * local.state["rubbed"]))}
-
-
-def secant(rate, local):
-    return {"depth_slope": rate.depth_rate / np.maximum(local.pressure, 1.0)}
-
-
-def normalised(rate, local):
-    return {"depth_rate": rate.depth_rate * np.mean(local.pressure) / 1e9}
-
-
-def asking(rate, local):
-    return {"depth_rate": rate.depth_rate * local.fields.get("temperature", 300.0)}
-
-
-wrong(
-    Law,
-    ("answers_fit_a_run", parts(divided)),
-    ("answers_fit_a_run", parts(lambda r, local: {"depth_rate": r.depth_rate + 1e-12})),
-    ("answers_fit_a_run", parts(lambda r, local: {"depth_rate": -r.depth_rate})),
-    ("answers_fit_a_run", parts(lambda r, local: {"state_rates": {}})),
-    ("derivative_is_that_of_the_depth", parts(secant)),
-    ("depth_grows_with_pressure", parts(falling)),
-    ("points_are_independent", parts(normalised)),
-    ("only_declared_fields_are_asked_for", parts(asking)),
-    ("declared_fields_have_units", {"state_fields": (Field("rubbed", "mm", "Distance slid."),)}),
-    ("runs_under_implicit_stepping", parts(failing_later), RuntimeError),
-    ("runs_under_implicit_stepping", parts(unsteady)),
-)
 
 # Contact solvers.
 
@@ -232,7 +64,7 @@ def longest_wave(self, system):
     return 2 * Solver.smallest_compliance(self, system)
 
 
-wrong(
+MUTANTS += wrong(
     Solver,
     ("answers_fit_a_run", answer(lambda s, start: {"pressure": s.pressure.ravel()})),
     ("answers_fit_a_run", answer(lambda s, start: {"pressure": 0.9 * s.pressure})),
@@ -288,7 +120,7 @@ def as_if_it_stayed(self, derivative, pressure):
     return stays.compliance(derivative, pressure)
 
 
-wrong(
+MUTANTS += wrong(
     Motion,
     ("answers_fit_a_run", {"end_time": property(lambda self: np.inf)}),
     ("answers_fit_a_run", {"distance_at": lambda self, t: Motion.distance_at(self, t) + 1e-3}),
@@ -341,7 +173,7 @@ class InwardHeight(Hill):
 
 
 MUTANTS.append(("curvature_is_that_of_the_heights", InwardHeight, CheckFailed))
-wrong(
+MUTANTS += wrong(
     Hill,
     ("answers_fit_a_run", {"height": lambda self, grid: Hill.height(self, grid).T}),
     ("finer_cells_sample_the_same_surface", {"height": corners}),
@@ -370,7 +202,7 @@ def failing_at_first(self, contact):
     return Traction.fields(self, contact)
 
 
-wrong(
+MUTANTS += wrong(
     Traction,
     ("declared_fields_have_units", {"provides": (Field("traction", "", "Friction."),)}),
     ("answers_fit_a_run", changed(lambda values: dict([next(iter(values.items()))]))),
@@ -411,7 +243,7 @@ def needing_a_snapshot(self, snapshot, reason):
     return snapshot.state
 
 
-wrong(
+MUTANTS += wrong(
     Counts,
     ("watching_changes_no_bit", {"on_step": polishing}),
     ("inputs_stay_as_they_are", {"on_step": writing}),
