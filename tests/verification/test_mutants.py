@@ -2,11 +2,13 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from tribo.contact import dcfft, love, operator, periodic
 from tribo.core.fields import WearRate
 from tribo.lab import ball, track
+from tribo.motion.cycle import Stroke
 from tribo.motion.exposure import Track
 from tribo.simulation import assembly
 from tribo.simulation.guards import GuardedSolver
@@ -118,6 +120,11 @@ MUTANTS = {
         (implicit, "wear_rates"),
         one_rate_for_both,
         "three times the coefficient",
+    ),
+    "ends of a stroke worn in full": (
+        (Stroke, "shares"),
+        lambda right: property(lambda self: np.full(len(self.cells), 1 / len(self.cells))),
+        "stroke of 20 half-widths",
     ),
     "groove radius by 16": ((track, "groove_radius"), times(12 / 16), "by its width"),
     "section too large": ((track, "planimetric_area"), times(1.1), "by its width"),

@@ -8,13 +8,14 @@ from tribo.verification import (
     formulas,
     plasticity,
     punches,
+    resolved,
     strokes,
     waves,
     wear,
 )
 from tribo.verification.reference import Reference
 
-_MODULES = (contacts, waves, plasticity, wear, punches, strokes, formulas)
+_MODULES = (contacts, waves, plasticity, wear, punches, strokes, resolved, formulas)
 _FOUND = (value for module in _MODULES for value in vars(module).values())
 
 REFERENCES = (*(known for known in _FOUND if isinstance(known, Reference)), *codes.REFERENCES)
