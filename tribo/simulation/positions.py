@@ -26,6 +26,8 @@ WORTH = 0.01
 """What the average may cost, of the depth of the groove."""
 CELLS, STEPS = 32, 200
 """Of the run that foresees it."""
+NEARLY = 2 / 3
+"""Of the cells of a stroke, from which on all of them are taken."""
 SPARE = 0.85
 """Of half a half-width, between two positions: coarser grids still take as many."""
 FEWEST, MOST = 9, 1001
@@ -61,6 +63,10 @@ def composed(case: Case) -> Model:
     if half_width is None or words is None:
         return averaged
     count = max(FEWEST, least_positions(motion.stroke, SPARE * half_width))
+    cells = _cells(case, motion.stroke)
+    if NEARLY * cells < count <= MOST:
+        # Some would lie one cell apart, others two.
+        count = cells
     try:
         if count > MOST:
             raise CaseError(f"it would take {count} positions")
@@ -121,13 +127,17 @@ def _resolvable(case: Case) -> bool:
 
 
 def _at_each_cell(case: Case, stroke: float) -> Model:
-    cells = Stroke(stroke, case.grid.spacing[0], MOST).cells
-    model = assemble(_fixed(case, len(cells)))
+    model = assemble(_fixed(case, _cells(case, stroke)))
     return replace(
         model,
         chosen=f"the cycle is resolved at {len(model.cycle)} positions, as the load, or the "
         "surface of the body that passes, varies along x",
     )
+
+
+def _cells(case: Case, stroke: float) -> int:
+    """Return how many cells a stroke (m) has, up to the most positions that are chosen."""
+    return len(Stroke(stroke, case.grid.spacing[0], MOST).cells)
 
 
 def _first_half_width(model: Model) -> float | None:
