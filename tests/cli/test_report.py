@@ -7,7 +7,7 @@ import pytest
 from made_results import made
 from paper_models import archard, case, flat, foundation, motion, named, sphere, steel
 
-from tribo import Effect, Field, Grid, Simulation
+from tribo import Effect, Field, Grid, Simulation, Stage
 from tribo.cli.console import Console
 from tribo.cli.report import print_report
 
@@ -52,6 +52,15 @@ def test_a_body_that_does_not_wear_has_no_scar():
     text = printed(made(worn=(True, False)))
     assert row(text, "scar along sliding, mm") == ["1.100", "–"]
     assert row(text, "scar across, mm") == ["1.210", "–"]
+
+
+def test_a_load_has_a_column_where_it_changes():
+    assert " load " not in printed(made()).splitlines()[2]
+    load = (Stage(until=0.5, normal=20), Stage(until=1, normal=100))
+    with brief(load=load, contact=foundation(), save_times=(0.5,)) as result:
+        lines = printed(result, 100).splitlines()
+    column = lines[2].split().index("load")
+    assert [line.split()[column] for line in lines[5:8]] == ["20", "20", "100"]
 
 
 class Warmth(Effect):

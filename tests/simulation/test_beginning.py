@@ -29,7 +29,9 @@ from tribo import (
     WearLaw,
     WearRate,
 )
+from tribo.cli.check import _facts
 from tribo.observers.observer import Observer
+from tribo.plotting.pressure import pressure_map
 from tribo.simulation.predict import predict
 
 GRID = Grid((0.7e-3, 0.7e-3), (32, 32))
@@ -193,6 +195,16 @@ def test_a_check_shows_the_first_contact_of_the_worn_bodies(run_in):
     assert found.first.max_pressure < 0.99 * unworn.first.max_pressure
     assert found.first.bodies["ball"].wear_volume > 0
     assert found.last is None
+
+
+def test_worn_bodies_are_not_held_against_hertz(run_in):
+    model = Simulation(worn_case(duration=1, begin=run_in)).model
+    with Simulation(model).run() as result:
+        assert "the bodies were worn already" in result.report().first_contact_words
+        assert result.report().first_contact.hertz_peak_pressure_Pa is None
+        assert len(pressure_map(result).legends) == 0
+    facts = dict(_facts(model, predict(model)))
+    assert str(run_in) in facts["first contact"]
 
 
 PIN = [named("pin", sphere(), steel(), archard()), named("disk", flat(), steel(), archard())]

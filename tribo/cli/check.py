@@ -74,7 +74,13 @@ def _rows(rows: Iterable[tuple[str, str]]) -> Table:
 def _facts(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
     """Yield the first contact, the end and the size of the run, each with its name."""
     hertz, first, last = prediction.hertz, prediction.first, prediction.last
-    if hertz is None or prediction.cells_across is None:
+    low, high = model.loads.least, model.loads.largest
+    if low < high:
+        yield "load", f"{first.load:.4g} N at first, {low:.4g} to {high:.4g} N in all"
+    if begin := model.case.begin:
+        most = f"p max {1e-6 * first.max_pressure:.1f} MPa"
+        yield "first contact", f"of the bodies as worn in {begin.result}: {most}"
+    elif hertz is None or prediction.cells_across is None:
         yield "first contact", "no Hertz solution for these surfaces"
     else:
         a, b, p0 = hertz.half_width_x, hertz.half_width_y, hertz.peak_pressure

@@ -20,6 +20,7 @@ from tribo.result.read import Result
 COLUMNS = (
     ("time", "s", "time_s", 1, "g"),
     ("path", "m", "distance_m", 1, ".4g"),
+    ("load", "N", "load_N", 1, ".4g"),
     ("p max", "MPa", "max_pressure_Pa", 1e-6, ".0f"),
     ("p centre", "MPa", "centre_pressure_Pa", 1e-6, ".0f"),
     ("along", "µm", "contact_half_width_x_m", 2e6, ".0f"),
@@ -27,6 +28,8 @@ COLUMNS = (
     ("area", "mm²", "contact_area_m2", 1e6, ".3f"),
 )
 """Name, unit, key in a save, factor to the unit, and format of each column."""
+VARYING = ("load",)
+"""Columns shown only where they vary from save to save."""
 DISPENSABLE = ("area", "p centre", "path", "along", "across")
 """Columns left out on a narrow terminal, in this order."""
 ROUGHNESS = (
@@ -145,9 +148,10 @@ def _saves(result: Result, left_out: Sequence[str]) -> Table:
     saves = result.saves()
     columns = []
     for name, unit, key, factor, digits in COLUMNS:
-        if name not in left_out:
+        cells = [f"{factor * save[key]:{digits}}" for save in saves]
+        if name not in left_out and not (name in VARYING and len(set(cells)) == 1):
             table.add_column(f"{name}\n{unit}", justify="right", no_wrap=True)
-            columns.append([f"{factor * save[key]:{digits}}" for save in saves])
+            columns.append(cells)
     for body in result.body_names:
         depths = [f"{1e6 * save['bodies'][body]['max_wear_depth_m']:.2f}" for save in saves]
         # A long name is broken before a number is.

@@ -232,6 +232,11 @@ class Loads:
         """The largest load at any time and position, in N."""
         return max(self.shares) * max(max(piece.first, piece.last) for piece in self.pieces)
 
+    @property
+    def least(self) -> float:
+        """The least load at any time and position, in N."""
+        return min(self.shares) * min(min(piece.first, piece.last) for piece in self.pieces)
+
     def before(self, time: float) -> ByPosition:
         """Return the loads as `time` (s) is reached: at a jump, those before it."""
         return self._at(time, bisect_left(self.pieces, time, key=lambda piece: piece.end))

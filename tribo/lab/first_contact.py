@@ -7,6 +7,7 @@ from math import inf
 
 from tribo.closed_forms import hertz
 from tribo.core.contact import ContactSystem
+from tribo.result.read import Result
 
 AT_THE_CAP = 1 - 1e-9
 END_PEAK = 1.05
@@ -63,6 +64,11 @@ def hertz_contact(system: ContactSystem) -> HertzContact | None:
     cap = system.cap
     ratio = None if cap is None else p0 / hertz.first_yield_pressure(cap, line=is_line)
     return HertzContact(a, b, p0, approach, ratio)
+
+
+def first_hertz(result: Result) -> HertzContact | None:
+    """Return Hertz's contact for the first save of a result; None also of bodies worn by then."""
+    return None if result.case.get("begin") else hertz_contact(result.system)
 
 
 def computed_pressure(

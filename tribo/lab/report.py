@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from tribo.closed_forms.hertz import first_yield_pressure
 from tribo.core.measures import reaches_border
 from tribo.lab.conversion import in_mm3_per_newton_metre, mass_from_volume, specific_wear_rate
-from tribo.lab.first_contact import computed_pressure, hertz_contact, yield_words
+from tribo.lab.first_contact import computed_pressure, first_hertz, yield_words
 from tribo.lab.inferred import InferredVolume, inferred_volumes, track_section
 from tribo.lab.scar import scar
 from tribo.registry.contributions import LabRow, from_plugins_of
@@ -110,11 +110,11 @@ def _first_contact(result: Result) -> tuple[FirstContact, str]:
     system, save = result.system, result.saves()[0]
     largest = save["max_pressure_Pa"]
     pressure, words = computed_pressure(system, largest, save["centre_pressure_Pa"])
-    hertz = hertz_contact(system)
+    hertz = first_hertz(result)
     if hertz is None:
         return FirstContact(None, largest, None), (
             f"First contact: {words}; no closed form to compare: the surfaces state no curvature, "
-            "or the contact is flat."
+            "the contact is flat, or the bodies were worn already."
         )
     p0, ratio = hertz.peak_pressure, None
     words = f"First contact: {words}, Hertz {1e-6 * p0:.1f} MPa"

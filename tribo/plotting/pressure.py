@@ -18,7 +18,7 @@ from matplotlib.ticker import MaxNLocator
 from scipy.ndimage import gaussian_filter
 
 from tribo.core.arrays import Array, Mask
-from tribo.lab.first_contact import HertzContact, hertz_contact
+from tribo.lab.first_contact import HertzContact, first_hertz
 from tribo.plotting import style
 from tribo.plotting.maps import Map, new_maps
 from tribo.plotting.sections import Curve, Limits, limits, number_of_saves, through_centre
@@ -49,7 +49,7 @@ def pressure_map(result: Result, save: int = -1) -> Figure:
     without lines. A long one is drawn wider than it is, and the axis says how
     much.
     """
-    pressure, hertz = result.field("pressure", save), hertz_contact(result.system)
+    pressure, hertz = result.field("pressure", save), first_hertz(result)
     highest = float(np.max(pressure))
     unit = fitting("Pa", highest)
     values = pressure / size(unit)
@@ -80,7 +80,7 @@ def pressure_sections(result: Result) -> Figure:
     strip begins where a body in contact ends, at which the pressure may peak.
     """
     count = number_of_saves(result)
-    grid, hertz, cap = result.grid, hertz_contact(result.system), result.system.cap
+    grid, hertz, cap = result.grid, first_hertz(result), result.system.cap
     reach = _reach(hertz)
     fields = [result.field("pressure", i) for i in range(count)]
     touched = np.asarray(np.any([field > 0 for field in fields], axis=0))

@@ -111,7 +111,7 @@ def predict(model: Model) -> Prediction:
         state = first_state(model)
         check_stroke(model, state)
     first = measure(model, state)
-    hertz = hertz_contact(model.system)
+    hertz = None if model.case.begin else hertz_contact(model.system)
     dx, dy = model.grid.spacing
     coarse = _coarse_run(model, first)
     last = coarse.last

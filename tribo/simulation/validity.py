@@ -26,7 +26,7 @@ FEW_CELLS = 8
 def few_cells(model: Model, first: ContactSolution) -> str | None:
     """Say so if the first contact is only a few cells wide, by Hertz where that is known."""
     dx, dy = model.grid.spacing
-    hertz = hertz_contact(model.system)
+    hertz = None if model.case.begin else hertz_contact(model.system)
     width, breadth = (
         half_widths(first, model.grid)
         if hertz is None
