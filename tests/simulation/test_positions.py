@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from paper_models import archard, case, flat, last, motion, named, sphere, steel
 
-from tribo import CaseError, Grid, Simulation, TriboWarning, Unidirectional
+from tribo import Begin, CaseError, Grid, Load, Simulation, TriboWarning, Unidirectional
 from tribo.config.load import validate_case
 from tribo.simulation import positions
 from tribo.simulation.positions import alike, chosen, composed
@@ -117,7 +117,7 @@ def test_a_stroke_too_short_for_either_is_refused_for_its_cells():
 def test_a_body_that_passes_as_a_whole_is_resolved_at_each_cell():
     model = composed(left_open("0.58 mm", swept="ball"))
     assert len(model.cycle) == 21
-    assert "varies along x" in model.chosen
+    assert model.chosen.endswith("as what passes is not the same all along")
     wavy = named(
         "disk", Waves(amplitude="10 nm", wavelength="0.2 mm", along="x"), steel(), archard()
     )
@@ -149,3 +149,21 @@ def test_a_choice_becomes_a_setting_where_there_was_one():
     assert chosen(given, composed(given)) == {"kinematics.positions": 35}
     fixed = case()
     assert chosen(fixed, composed(fixed)) == {}
+
+
+def test_a_load_that_changes_along_the_stroke_is_resolved_always():
+    along = ((-1e-3, 0.5), (1e-3, 1.5))
+    load = Load(normal=100, along=[{"at": at, "share": share} for at, share in along])
+    model = composed(left_open(distance="0.1 m").model_copy(update={"load": load}))
+    assert len(model.cycle) == 35
+    assert model.chosen.endswith("as the load changes along the stroke")
+
+
+@pytest.mark.parametrize("positions", ["average", 21])
+def test_worn_bodies_go_on_in_the_positions_they_had(tmp_path, positions):
+    grid = Grid((0.7e-3, 0.7e-3), (20, 20))
+    kinematics = motion(stroke="0.7 mm", duration=None, distance="0.1 m", positions=positions)
+    Simulation(case(grid=grid, kinematics=kinematics)).run(tmp_path / "a.h5").close()
+    given = left_open("0.7 mm", grid=grid, distance="20 m")
+    given = given.model_copy(update={"begin": Begin(result=str(tmp_path / "a.h5"))})
+    assert composed(given).case.kinematics.positions == positions

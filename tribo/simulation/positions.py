@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import replace
 from itertools import islice
 from typing import Any
 
-from tribo.case import Case
+from tribo.case import Begin, Case
 from tribo.core.errors import CaseError, NumericalError
 from tribo.core.measures import half_widths
 from tribo.core.state import State
 from tribo.motion.averaging import groove_excess, too_deep
 from tribo.motion.cycle import Stroke, least_positions
 from tribo.motion.reciprocating import Reciprocating
+from tribo.result.read import Result
 from tribo.simulation.assembly import assemble
 from tribo.simulation.coarse import MARGINS, coarsened
 from tribo.simulation.march import begin, march
@@ -40,7 +42,8 @@ def composed(case: Case) -> Model:
     A coarse run with the average foresees what that would cost, by `groove_excess` at its end. From
     1 % on the cycle is resolved, at positions less than half the half-width of the first contact
     apart, and at 9 at least. A swept body that varies along x is resolved at each cell. The average
-    is taken where stepping is explicit, and where the case cannot be resolved.
+    is taken where stepping is explicit, and where the case cannot be resolved. A load that changes
+    along the stroke is resolved always, and worn bodies of a result as they were.
 
     The choice follows from the case alone. The model's case states it.
 
@@ -52,36 +55,32 @@ def composed(case: Case) -> Model:
     motion = case.kinematics
     if not isinstance(motion, Reciprocating) or not is_open(case):
         return assemble(case)
+    if case.begin is not None:
+        return assemble(_fixed(case, _begun_with(case.begin)))
+    # Over a cycle of which the load is the mean.
+    even = case.model_copy(update={"load": case.load.averaged()})
     try:
-        averaged = assemble(_fixed(case, "average"))
+        averaged = assemble(_fixed(even, "average"))
     except CaseError:
         return _at_each_cell(case, motion.stroke)
-    if not _resolvable(case):
+    must = bool(case.load.along)
+    if not _resolvable(case) and not must:
         return averaged
     half_width = _first_half_width(averaged)
-    words = None if half_width is None else _costly(averaged, motion.stroke)
+    words = "the load changes along the stroke" if must else _costly(averaged, motion.stroke)
     if half_width is None or words is None:
-        return averaged
-    count = max(FEWEST, least_positions(motion.stroke, SPARE * half_width))
-    cells = _cells(case, motion.stroke)
-    if NEARLY * cells < count <= MOST:
-        # Some would lie one cell apart, others two.
-        count = cells
+        return assemble(_fixed(case, FEWEST)) if must else averaged
+    count = _needed(case, motion.stroke, half_width)
     try:
         if count > MOST:
             raise CaseError(f"it would take {count} positions")
         resolved = assemble(_fixed(case, count))
     except CaseError as error:
-        if error.path == "kinematics.stroke" and motion.stroke < half_width:
+        if must or (error.path == "kinematics.stroke" and motion.stroke < half_width):
             # The average would be refused for its own reason.
             raise
         return replace(averaged, chosen=f"the stroke is averaged although {words}: {error}")
-    taken = len(resolved.cycle)
-    return replace(
-        resolved,
-        chosen=f"the cycle is resolved at {taken} positions, as {words}; "
-        'kinematics.positions = "average" takes that all the same, in a fraction of the time',
-    )
+    return replace(resolved, chosen=_told(resolved, words))
 
 
 def is_open(case: Case) -> bool:
@@ -126,13 +125,32 @@ def _resolvable(case: Case) -> bool:
     return case.contact.accepts_wear_compliance and not isinstance(case.stepping, Explicit)
 
 
+def _begun_with(begin: Begin) -> int | str:
+    """Return the positions of the run whose worn bodies a case begins with."""
+    # What is wrong with the file is said when the run begins.
+    with suppress(CaseError), Result.open(begin.result) as result:
+        positions = result.case["kinematics"].get("positions")
+        if isinstance(positions, int | str):
+            return positions
+    return "average"
+
+
+def _needed(case: Case, stroke: float, half_width: float) -> int:
+    """Return how many positions the first contact needs, all cells where it needs most of them."""
+    count = max(FEWEST, least_positions(stroke, SPARE * half_width))
+    cells = _cells(case, stroke)
+    return cells if NEARLY * cells < count <= MOST else count
+
+
+def _told(model: Model, words: str) -> str:
+    remedy = 'kinematics.positions = "average" takes that all the same, in a fraction of the time'
+    told = f"the cycle is resolved at {len(model.cycle)} positions, as {words}"
+    return f"{told}; {remedy}" if "average" in words else told
+
+
 def _at_each_cell(case: Case, stroke: float) -> Model:
     model = assemble(_fixed(case, _cells(case, stroke)))
-    return replace(
-        model,
-        chosen=f"the cycle is resolved at {len(model.cycle)} positions, as the load, or the "
-        "surface of the body that passes, varies along x",
-    )
+    return replace(model, chosen=_told(model, "what passes is not the same all along"))
 
 
 def _cells(case: Case, stroke: float) -> int:
