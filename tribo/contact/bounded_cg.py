@@ -6,10 +6,10 @@ import numpy as np
 import scipy.fft
 
 from tribo.contact.operator import Operator, WornOperator
-from tribo.contact.projection import balance, project
-from tribo.contact.residuals import check_bearable, check_finite, dot, residuals
+from tribo.contact.projection import CELLS, balance, over, project
+from tribo.contact.residuals import check_bearable, check_finite, dots, judged
 from tribo.core.arrays import Array, Mask
-from tribo.core.contact import ContactSolution, Residuals, WearCompliance
+from tribo.core.contact import ContactSolution, CycleCompliance, Residuals, WearCompliance
 from tribo.core.errors import NumericalError
 
 # Where the minimum along a step onto a bound lies beyond this part of the step, all of it is
@@ -30,6 +30,30 @@ def solve_bounded(
     tolerance: float = 1e-8,
     max_iterations: int = 500,
 ) -> ContactSolution:
+    """Solve one contact; see `solve_together`, of which this is one position."""
+    return solve_together(
+        operator,
+        gap,
+        np.asarray(load),
+        cap,
+        compliance,
+        start=start,
+        tolerance=tolerance,
+        max_iterations=max_iterations,
+    )[0]
+
+
+def solve_together(
+    operator: Operator,
+    gap: Array,
+    load: Array,
+    cap: float | None = None,
+    compliance: WearCompliance | CycleCompliance | None = None,
+    *,
+    start: Array | None = None,
+    tolerance: float = 1e-8,
+    max_iterations: int = 500,
+) -> list[ContactSolution]:
     """Minimise ½ pᵀA p + gapᵀp over 0 <= p <= cap with sum(p) * cell area = load.
 
     Preconditioned conjugate gradients on the cells strictly within the bounds,
@@ -42,15 +66,16 @@ def solve_bounded(
     ----------
     operator : Operator
         K, from pressure to displacement; its cells give the area and Δx.
-    gap : ndarray, shape (nx, ny)
-        Undeformed gap, up to a constant, in m.
-    load : float
+    gap : ndarray, shape (nx, ny) or (positions, nx, ny)
+        Undeformed gap, up to a constant at each position, in m.
+    load : ndarray, shape () or (positions,)
         Normal load, in N; positive.
     cap : float, optional
         Largest pressure, in Pa; unlimited when None.
-    compliance : WearCompliance, optional
-        Added to K, on the same box.
-    start : ndarray, shape (nx, ny), optional
+    compliance : WearCompliance or CycleCompliance, optional
+        Added to K, on the same box. Where it couples the positions of a cycle they are
+        weighted with their shares of the path, which keeps A symmetric; else alike.
+    start : ndarray, of the shape of the gap, optional
         A pressure to start from, in Pa; brought to the load and the bounds.
     tolerance : float, default 1e-8
         What each of the `Residuals` must fall to. Their ``scale`` is the largest
@@ -62,8 +87,8 @@ def solve_bounded(
 
     Returns
     -------
-    ContactSolution
-        On the box of the operator.
+    list of ContactSolution
+        By position, on the box of the operator.
 
     Raises
     ------
@@ -84,29 +109,32 @@ def solve_bounded(
         operator = WornOperator(operator, compliance)
     limit = np.inf if cap is None else cap
     cell_area = operator.spacing[0] * operator.spacing[1]
-    check_bearable(load, cell_area * gap.size, limit)
+    for of_position in np.ravel(load):
+        check_bearable(float(of_position), cell_area * gap.shape[-2] * gap.shape[-1], limit)
     check_finite(gap)
-    total = load / cell_area
+    total = np.asarray(load / cell_area)
+    shares = compliance.shares if isinstance(compliance, CycleCompliance) else None
 
-    iterate = _Iterate(operator, gap, total, limit, start)
+    iterate = _Iterate(operator, gap, total, limit, start, shares)
     best, waited = np.inf, 0
     for iteration in range(max_iterations + 1):
         reached = iterate.judge()
-        if reached.worst <= tolerance:
-            return iterate.solution(iteration, reached)
+        worst = max(each.worst for each in reached)
+        if worst <= tolerance:
+            return iterate.solutions(iteration, reached)
         if iteration == max_iterations:
             break
         waited += 1
-        if reached.worst < 0.5 * best:
-            best, waited = reached.worst, 0
+        if worst < 0.5 * best:
+            best, waited = worst, 0
         if waited > _PATIENCE:
-            best, waited = reached.worst, 0
+            best, waited = worst, 0
             iterate.switch()
         if not (iterate.conjugate and iterate.conjugate_step()):
             iterate.spectral_step()
     raise NumericalError(
         f"the contact did not converge in {max_iterations} iterations: the residual is "
-        f"{reached.worst:.1e}, the tolerance {tolerance:.1e}. Raise max_iterations or "
+        f"{worst:.1e}, the tolerance {tolerance:.1e}. Raise max_iterations or "
         "tolerance of the contact solver, or shorten the step"
     )
 
@@ -115,13 +143,20 @@ class _Iterate:
     """A feasible pressure, its displacement, and the memory of the iteration."""
 
     def __init__(
-        self, operator: Operator, gap: Array, total: float, limit: float, start: Array | None
+        self,
+        operator: Operator,
+        gap: Array,
+        total: Array,
+        limit: float,
+        start: Array | None,
+        shares: Array | None,
     ) -> None:
         self.operator = operator
         self.symbol = operator.symbol()
         self.gap = gap
         self.total = total
         self.limit = limit
+        self.shares = np.ones(gap.shape[:-2]) if shares is None else shares
         self.pressure = _feasible(start, gap.shape, total, limit)
         self.displacement = operator.apply(self.pressure)
         self.full = np.zeros(gap.shape, dtype=bool)
@@ -133,7 +168,10 @@ class _Iterate:
         self.rate = 1.0 / float(self.symbol.max())
         self.lengthen = False
 
-    def judge(self) -> Residuals:
+    def dot(self, a: Array, b: Array) -> float:
+        return float((self.shares * dots(a, b)).sum())
+
+    def judge(self) -> list[Residuals]:
         """Sort the cells, find the approach and the deformed gap, and judge them."""
         p = self.pressure
         self.free = p > 0
@@ -143,8 +181,8 @@ class _Iterate:
             self.free &= ~self.full
         self.deformed = self.displacement + self.gap
         self.approach = _approach(self.deformed, self.free, self.zero, self.full)
-        self.deformed -= self.approach
-        return residuals(p, self.gap, self.displacement, self.approach, self.total, self.limit)
+        self.deformed -= over(self.approach)
+        return judged(p, self.gap, self.displacement, self.approach, self.total, self.limit)
 
     def conjugate_step(self) -> bool:
         """Move along a conjugate direction on the face; False if that does not lower the energy."""
@@ -152,42 +190,44 @@ class _Iterate:
         face = self.free | (self.zero & (g < 0))
         if self.limit < np.inf:
             face |= self.full & (g > 0)
-        share = 1.0 / max(int(np.count_nonzero(face)), 1)
+        share = 1.0 / np.maximum(face.sum(CELLS), 1)
         residual = _centred(g, face, share)
         modes = scipy.fft.rfft2(residual)
         modes /= self.symbol
-        shape = (residual.shape[0], residual.shape[1])
+        shape = residual.shape[-2:]
         z = _centred(scipy.fft.irfft2(modes, s=shape, overwrite_x=True), face, share)
-        decrease = dot(residual, z)
+        decrease = self.dot(residual, z)
         direction = -z
         if self.direction is not None:
             # Polak and Ribière's formula forgets by itself when the face changes.
-            beta = (decrease - dot(z, self.gradient)) / self.decrease
+            beta = (decrease - self.dot(z, self.gradient)) / self.decrease
             if beta > 0:
                 kept = _centred(self.direction, face, share)
                 kept *= beta
                 direction += kept
-        if dot(residual, direction) >= 0:
+        if self.dot(residual, direction) >= 0:
             direction = -z
         # Not `ahead` less the pressure, of which little but rounding may be left.
         change = self.length * direction
         ahead = self.pressure + change
         meets_bound = self._leaves(ahead)
-        if meets_bound:
-            ahead = project(ahead, self.total, self.limit, face)
-            change = ahead - self.pressure
-        slope = dot(change, g)
+        if meets_bound.any():
+            ahead[meets_bound] = project(
+                ahead[meets_bound], self.total[meets_bound], self.limit, face[meets_bound]
+            )
+            change[meets_bound] = ahead[meets_bound] - self.pressure[meets_bound]
+        slope = self.dot(change, g)
         if slope >= 0:
             return False
         response = self.operator.apply(change)
-        curvature = dot(change, response)
+        curvature = self.dot(change, response)
         if curvature <= 0:
             return False
         self.direction, self.gradient, self.decrease = direction, residual, decrease
         best = -slope / curvature
         self.length *= min(max(best, 0.5), 2.0)
         part, moved = best, self.pressure + best * change
-        if (meets_bound and best >= _NEAR_ENOUGH) or self._leaves(moved):
+        if (meets_bound.any() and best >= _NEAR_ENOUGH) or self._leaves(moved).any():
             # `ahead` lies within the bounds, and cells that meet one leave the face there.
             part, moved = 1.0, ahead
         self.pressure = balance(moved, self.total, self.limit)
@@ -195,8 +235,9 @@ class _Iterate:
         self.displacement += response
         return True
 
-    def _leaves(self, pressure: Array) -> bool:
-        return float(pressure.min()) < 0 or float(pressure.max()) > self.limit
+    def _leaves(self, pressure: Array) -> Mask:
+        """Find the positions at which a pressure leaves the bounds."""
+        return np.asarray((pressure.min(CELLS) < 0) | (pressure.max(CELLS) > self.limit))
 
     def spectral_step(self) -> None:
         """Move along the gradient by an inverse Rayleigh quotient and project."""
@@ -206,10 +247,10 @@ class _Iterate:
         self.pressure = project(moved, self.total, self.limit, everywhere)
         self.displacement = self.operator.apply(self.pressure)
         change, response = self.pressure - before, self.displacement - displaced
-        curvature = dot(change, response)
+        curvature = self.dot(change, response)
         if curvature > 0:
-            long = dot(change, change) / curvature
-            short = curvature / dot(response, response)
+            long = self.dot(change, change) / curvature
+            short = curvature / self.dot(response, response)
             # Alternating the two keeps the steps from settling into a cycle.
             self.rate = long if self.lengthen else short
             self.lengthen = not self.lengthen
@@ -220,37 +261,58 @@ class _Iterate:
         self.direction = None
         self.rate = 1.0 / float(self.symbol.max())
 
-    def solution(self, iterations: int, reached: Residuals) -> ContactSolution:
-        return ContactSolution(
-            pressure=self.pressure,
-            approach=self.approach,
-            overlap=np.where(self.full, np.maximum(-self.deformed, 0.0), 0.0),
-            iterations=iterations,
-            residuals=reached,
-        )
+    def solutions(self, iterations: int, reached: list[Residuals]) -> list[ContactSolution]:
+        overlap = np.where(self.full, np.maximum(-self.deformed, 0.0), 0.0)
+        places = np.ndindex(self.gap.shape[:-2])
+        return [
+            ContactSolution(
+                pressure=self.pressure[place],
+                approach=float(self.approach[place]),
+                overlap=overlap[place],
+                iterations=iterations,
+                residuals=residuals,
+            )
+            for place, residuals in zip(places, reached, strict=True)
+        ]
 
 
-def _approach(gap: Array, free: Mask, zero: Mask, full: Mask) -> float:
-    if free.any():
-        return float(np.mean(gap[free]))
+def _approach(gap: Array, free: Mask, zero: Mask, full: Mask) -> Array:
+    between = free.sum(CELLS)
+    found = np.asarray((gap * free).sum(CELLS) / np.maximum(between, 1))
+    if not between.all():
+        for place in map(tuple, np.argwhere(between == 0)):
+            found[place] = _approach_at_bounds(gap[place], zero[place], full[place])
+    return found
+
+
+def _approach_at_bounds(gap: Array, zero: Mask, full: Mask) -> float:
+    """Return the approach where no cell is between the bounds: any value between the two."""
     if not full.any():
         raise NumericalError(
             "no cell is in contact: the load is so small that it is lost in rounding; raise "
             "load.normal"
         )
-    # Without a cell between the bounds any value between the two will do.
     highest = float(gap[full].max())
     return 0.5 * (highest + float(gap[zero].min())) if zero.any() else highest
 
 
-def _centred(values: Array, face: Mask, share: float) -> Array:
+def _centred(values: Array, face: Mask, share: Array) -> Array:
     """Return `values` on the face less their mean there, `share` being one over its cells."""
     kept = values * face
-    np.subtract(kept, share * float(kept.sum()), out=kept, where=face)
+    kept -= over(share * kept.sum(CELLS)) * face
     return kept
 
 
-def _feasible(start: Array | None, shape: tuple[int, ...], total: float, limit: float) -> Array:
+def _feasible(start: Array | None, shape: tuple[int, ...], total: Array, limit: float) -> Array:
+    """Return a pressure within the bounds that carries the load, as near to `start` as it may."""
+    pressure = np.empty(shape)
+    for place in np.ndindex(shape[:-2]):
+        given = None if start is None else start[place]
+        pressure[place] = _feasible_at(given, shape[-2:], float(total[place]), limit)
+    return pressure
+
+
+def _feasible_at(start: Array | None, shape: tuple[int, ...], total: float, limit: float) -> Array:
     loaded = np.ones(shape, dtype=bool)
     guess = np.full(shape, total / loaded.size)
     given = 0.0 if start is None else float(start.sum())
@@ -258,9 +320,9 @@ def _feasible(start: Array | None, shape: tuple[int, ...], total: float, limit: 
         guess = np.maximum(start, 0.0)
         guess *= total / float(guess.sum())
         if float(guess.max()) <= limit:
-            return balance(guess, total, limit)
+            return balance(guess, np.asarray(total), limit)
         np.minimum(guess, limit, out=guess)
         support = guess > 0
         if int(np.count_nonzero(support)) * limit > total:
             loaded = support
-    return project(guess, total, limit, loaded)
+    return project(guess, np.asarray(total), limit, loaded)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 from typing import Annotated, ClassVar
@@ -9,15 +10,22 @@ from typing import Annotated, ClassVar
 import numpy as np
 from pydantic import Field
 
-from tribo.contact.bounded_cg import solve_bounded
+from tribo.contact.bounded_cg import solve_together
 from tribo.contact.love import nyquist_compliance
 from tribo.contact.nested_start import coarsen, prolong
 from tribo.contact.operator import HalfSpace, Operator, WornOperator
+from tribo.contact.projection import over
 from tribo.contact.residuals import check_window
 from tribo.contact.solver import ContactSolver
 from tribo.core.arrays import Array, Mask
 from tribo.core.box import Box, around, whole
-from tribo.core.contact import ContactProblem, ContactSolution, ContactSystem, WearCompliance
+from tribo.core.contact import (
+    ContactProblem,
+    ContactSolution,
+    ContactSystem,
+    CycleCompliance,
+    WearCompliance,
+)
 from tribo.core.errors import NumericalError
 from tribo.core.units import Quantity
 
@@ -49,7 +57,7 @@ class DcFft(ContactSolver):
 
     accepts_wear_compliance: ClassVar[bool] = True
     honours_cap: ClassVar[bool] = True
-    mirrors: ClassVar[bool] = True
+    couples: ClassVar[bool] = True
 
     def check(self, system: ContactSystem) -> None:
         """Raise `CaseError` if the window cannot bear the load at the pressure cap."""
@@ -62,59 +70,83 @@ class DcFft(ContactSolver):
 
         Without `start`, grids of half the cells are solved first.
         """
-        guess = None if start is None else start.pressure
-        return self._solve(problem, guess, self.tolerance)
+        guess = self._nested_guess(problem) if start is None else start.pressure
+        gap, load = problem.gap, np.asarray(problem.load)
+        return self._solve(problem.system, gap, load, problem.wear, guess, self.tolerance)[0]
+
+    def solve_cycle(
+        self,
+        problems: Sequence[ContactProblem],
+        starts: Sequence[ContactSolution],
+        coupling: CycleCompliance | None = None,
+    ) -> list[ContactSolution]:
+        """Solve all positions of a cycle as one problem; see `ContactSolver.solve_cycle`."""
+        if len(problems) == 1 or any(problem.wear is not None for problem in problems):
+            return super().solve_cycle(problems, starts)
+        return self._solve(
+            problems[0].system,
+            np.stack([problem.gap for problem in problems]),
+            np.array([problem.load for problem in problems]),
+            coupling,
+            np.stack([start.pressure for start in starts]),
+            self.tolerance,
+        )
 
     def smallest_compliance(self, system: ContactSystem) -> float:
         """Return the compliance of the chequerboard mode, in m/Pa."""
         return nyquist_compliance(system.grid.spacing) / system.modulus
 
     def _solve(
-        self, problem: ContactProblem, guess: Array | None, tolerance: float
-    ) -> ContactSolution:
-        if guess is None:
-            guess = self._nested_guess(problem)
-        cap = problem.system.cap
-        window = problem.system.grid.cells
-        box = whole(window)
+        self,
+        system: ContactSystem,
+        gap: Array,
+        load: Array,
+        wear: WearCompliance | CycleCompliance | None,
+        guess: Array | None,
+        tolerance: float,
+    ) -> list[ContactSolution]:
+        """Solve one position or several on a box that grows until nothing overlaps beyond it."""
+        spacing, cap = system.grid.spacing, system.cap
+        box = whole(system.grid.cells)
         if guess is not None:
-            needed = 0.0 if cap is None else problem.load / cap / problem.system.grid.cell_area
-            box = _wide_enough(around(guess > 0, _MARGIN), needed)
+            needed = 0.0 if cap is None else float(load.max()) / cap / system.grid.cell_area
+            box = _wide_enough(around(_anywhere(guess > 0), _MARGIN), needed)
         iterations = 0
         while True:
-            solution = solve_bounded(
-                _half_space(box.shape, problem.system.grid.spacing, problem.system.modulus),
-                problem.gap[box.slices],
-                problem.load,
+            here = (..., *box.slices)
+            solutions = solve_together(
+                _half_space(box.shape, spacing, system.modulus),
+                gap[here],
+                load,
                 cap,
-                _wear_on(box, problem.wear),
-                start=None if guess is None else guess[box.slices],
+                None if wear is None else wear.on(box),
+                start=None if guess is None else guess[here],
                 tolerance=tolerance,
                 max_iterations=self.max_iterations,
             )
-            iterations += solution.iterations
-            if not box.is_window:
-                solution = replace(
-                    solution,
-                    pressure=box.embed(solution.pressure),
-                    overlap=box.embed(solution.overlap),
-                )
-            missed = _overlapping_outside(problem, box, solution)
+            iterations += solutions[0].iterations
+            missed = _overlapping_outside(system, gap, load, wear, box, solutions)
+            solutions = [_in_window(box, each, iterations) for each in solutions]
             if not missed.any():
-                return replace(solution, iterations=iterations)
-            guess = solution.pressure
-            box = _grown(box, around(missed | (guess > 0), _MARGIN))
+                return solutions
+            guess = np.reshape([each.pressure for each in solutions], gap.shape)
+            box = _grown(box, around(missed | _anywhere(guess > 0), _MARGIN))
 
     def _nested_guess(self, problem: ContactProblem) -> Array | None:
         cells = problem.system.grid.cells
         if min(cells) < _COARSEST:
             return None
+        coarse = coarsen(problem)
+        gap, load, tolerance = coarse.gap, np.asarray(coarse.load), self.tolerance
+        guess = self._nested_guess(coarse)
         try:
-            coarse = self._solve(coarsen(problem), None, max(_COARSE_TOLERANCE, self.tolerance))
+            (found,) = self._solve(
+                coarse.system, gap, load, coarse.wear, guess, max(_COARSE_TOLERANCE, tolerance)
+            )
         except NumericalError:
             # Without a start the solve takes longer, but may succeed.
             return None
-        return prolong(coarse.pressure, cells)
+        return prolong(found.pressure, cells)
 
 
 @lru_cache(maxsize=16)
@@ -122,10 +154,17 @@ def _half_space(shape: tuple[int, int], spacing: tuple[float, float], modulus: f
     return HalfSpace(shape, spacing, modulus)
 
 
-def _wear_on(box: Box, wear: WearCompliance | None) -> WearCompliance | None:
-    if wear is None:
-        return None
-    return WearCompliance(local=wear.local[box.slices], swept=wear.swept[box.slices[1]])
+def _anywhere(cells: Mask) -> Mask:
+    """Find the cells of the window that are set at any position."""
+    found: Mask = cells.reshape(-1, *cells.shape[-2:]).any(axis=0)
+    return found
+
+
+def _in_window(box: Box, solution: ContactSolution, iterations: int) -> ContactSolution:
+    if box.is_window:
+        return replace(solution, iterations=iterations)
+    pressure, overlap = box.embed(solution.pressure), box.embed(solution.overlap)
+    return replace(solution, pressure=pressure, overlap=overlap, iterations=iterations)
 
 
 def _wide_enough(box: Box, cells: float) -> Box:
@@ -143,39 +182,45 @@ def _grown(box: Box, wanted: Box) -> Box:
     return larger if larger.shape != box.shape else around(lines, 1)
 
 
-def _overlapping_outside(problem: ContactProblem, box: Box, solution: ContactSolution) -> Mask:
-    """Find cells outside `box` at which the bodies overlap, shape of the window."""
-    approach = solution.approach
+def _overlapping_outside(
+    system: ContactSystem,
+    gap: Array,
+    load: Array,
+    wear: WearCompliance | CycleCompliance | None,
+    box: Box,
+    solutions: Sequence[ContactSolution],
+) -> Mask:
+    """Find cells of the window, outside `box`, at which the bodies overlap at any position."""
+    approach = over(np.reshape([each.approach for each in solutions], load.shape))
     # All displacements are positive: an undeformed gap above the approach stays open.
-    doubtful: Mask = problem.gap < approach
-    doubtful[box.slices] = False
+    doubtful: Mask = np.less(gap, approach)
+    doubtful[(..., *box.slices)] = False
     if box.is_window or not doubtful.any():
-        return doubtful
-    near = _grown(box, around(doubtful, 0))
-    suspects, gap = doubtful[near.slices], problem.gap[near.slices]
-    pressure = solution.pressure[near.slices]
-    grid = problem.system.grid
-    operator: Operator = _half_space(near.shape, grid.spacing, problem.system.modulus)
-    bound = _displacement_bound(pressure, grid.spacing, problem.load / problem.system.modulus)
+        return _anywhere(doubtful)
+    near = _grown(box, around(_anywhere(doubtful), 0))
+    here = (..., *near.slices)
+    suspects, gap = doubtful[here], gap[here]
+    pressure = np.reshape([box.embed(each.pressure) for each in solutions], doubtful.shape)[here]
+    spacing, modulus = system.grid.spacing, system.modulus
+    bound = _displacement_bound(_anywhere(pressure > 0), spacing, float(load.min()) / modulus)
     if (gap + bound < approach)[suspects].any():
-        wear = _wear_on(near, problem.wear)
+        operator: Operator = _half_space(near.shape, spacing, modulus)
         if wear is not None:
-            operator = WornOperator(operator, wear)
+            operator = WornOperator(operator, wear.on(near))
         suspects &= gap + operator.apply(pressure) < approach
     else:
         suspects[:] = False
-    return doubtful
+    return _anywhere(doubtful)
 
 
-def _displacement_bound(pressure: Array, spacing: tuple[float, float], strength: float) -> Array:
+def _displacement_bound(touching: Mask, spacing: tuple[float, float], strength: float) -> Array:
     """Return a lower bound of the displacement, of which `strength` is load over modulus."""
     # As if all of the load stood at the farthest corner of the contact's bounding box. A load
     # spread over a cell displaces more than a point force at the root mean square of its
     # distances, since 1/√ is convex.
-    touching = pressure > 0
     reach = []
     for axis in (0, 1):
-        line = np.arange(pressure.shape[axis]) * spacing[axis]
+        line = np.arange(touching.shape[axis]) * spacing[axis]
         loaded = line[touching.any(axis=1 - axis)]
         reach.append(np.maximum(np.abs(line - loaded[0]), np.abs(line - loaded[-1])))
     distance = np.hypot(np.hypot(reach[0][:, None], reach[1]), np.hypot(*spacing) / np.sqrt(12))

@@ -130,7 +130,7 @@ class _Springs:
     def solution(
         self, approach: float, line_loads: Array, total: float, passes: int
     ) -> ContactSolution:
-        p = balance(self.pressure(approach, line_loads), total, self.limit)
+        p = balance(self.pressure(approach, line_loads), np.asarray(total), self.limit)
         displacement = self.softness * p + self.swept * self.dx * np.sum(p, axis=0)
         deepest = np.maximum(approach - self.gap - displacement, 0.0)
         return ContactSolution(

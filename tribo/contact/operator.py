@@ -11,7 +11,10 @@ from numpy.typing import NDArray
 
 from tribo.contact.love import nyquist_compliance, wrapped_kernel
 from tribo.core.arrays import Array
-from tribo.core.contact import WearCompliance
+from tribo.core.contact import CycleCompliance, WearCompliance
+
+_CACHED = 1 << 15
+"""Complex numbers that a processor's cache holds: positions are transformed so many at a time."""
 
 
 class Operator(Protocol):
@@ -36,11 +39,11 @@ class Operator(Protocol):
         Parameters
         ----------
         pressure : ndarray, shape (nx, ny)
-            In Pa.
+            In Pa. Where positions of a cycle are solved together, shape (positions, nx, ny).
 
         Returns
         -------
-        ndarray, shape (nx, ny)
+        ndarray, of the same shape
             In m; a new array.
         """
         ...
@@ -93,27 +96,37 @@ class HalfSpace:
         self._symbol = np.maximum(periodic, 0.5 * nyquist_compliance(spacing)) / modulus
         # Kept, since new memory costs as much as the transforms; a thread takes one and returns it.
         self._buffers: list[NDArray[np.complex128]] = []
+        modes = self._padded[0] * (self._padded[1] // 2 + 1)
+        self._at_once = max(1, _CACHED // modes)
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement under `pressure`; see `Operator.apply`."""
-        nx, ny = self.shape
-        length = self._padded[1]
-        modes = self._take_buffer()
+        if pressure.ndim == 2:
+            (displacement,) = self._apply(pressure[None])
+            return np.asarray(displacement)
+        several = range(0, len(pressure), self._at_once)
+        return np.concatenate([self._apply(pressure[k : k + self._at_once]) for k in several])
+
+    def _apply(self, pressure: Array) -> Array:
+        (nx, ny), length = self.shape, self._padded[1]
+        buffer = self._take_buffer()
+        modes = buffer[: len(pressure)]
         # Axis by axis, so that rows of padding are neither transformed nor kept.
-        modes[:nx] = scipy.fft.rfft(pressure, length, axis=1)
-        modes[nx:] = 0
-        product = scipy.fft.fft(modes, axis=0, overwrite_x=True)
+        modes[:, :nx] = scipy.fft.rfft(pressure, length, axis=2)
+        modes[:, nx:] = 0
+        product = scipy.fft.fft(modes, axis=1, overwrite_x=True)
         product *= self._spectrum
-        product = scipy.fft.ifft(product, axis=0, overwrite_x=True)
-        displacement: Array = scipy.fft.irfft(product[:nx], length, axis=1)[:, :ny]
-        self._buffers.append(modes)
+        product = scipy.fft.ifft(product, axis=1, overwrite_x=True)
+        displacement: Array = scipy.fft.irfft(product[:, :nx], length, axis=2)[:, :, :ny]
+        self._buffers.append(buffer)
         return displacement
 
     def _take_buffer(self) -> NDArray[np.complex128]:
         try:
             return self._buffers.pop()
         except IndexError:
-            return np.empty((self._padded[0], self._padded[1] // 2 + 1), dtype=np.complex128)
+            shape = (self._at_once, self._padded[0], self._padded[1] // 2 + 1)
+            return np.empty(shape, dtype=np.complex128)
 
     def symbol(self) -> Array:
         """Return the eigenvalues of the periodic operator with the same near field."""
@@ -138,12 +151,12 @@ class WornOperator:
     ----------
     base : Operator
         The elastic operator K.
-    wear : WearCompliance
+    wear : WearCompliance or CycleCompliance
         On the same box as `base`.
     """
 
     base: Operator
-    wear: WearCompliance
+    wear: WearCompliance | CycleCompliance
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -156,19 +169,14 @@ class WornOperator:
         return self.base.spacing
 
     def apply(self, pressure: Array) -> Array:
-        """Return K p + local * p + swept * dx * sum_x(p)."""
-        lines = np.sum(pressure, axis=0) * self.spacing[0]
-        worn: Array = self.wear.local * pressure + self.wear.swept * lines
-        return self.base.apply(pressure) + worn
+        """Return K p and the depth that the step wears."""
+        worn = self.wear.depth(pressure, self.spacing[0])
+        worn += self.base.apply(pressure)
+        return worn
 
     def symbol(self) -> Array:
         """Return the estimates of `base` plus the mean compliance of the wear."""
-        symbol = self.base.symbol() + _mean_where_positive(self.wear.local)
-        symbol[0] += _mean_where_positive(self.wear.swept) * self.spacing[0] * self.shape[0]
+        local, swept = self.wear.typical(self.shape[0] * self.spacing[0])
+        symbol = self.base.symbol() + local
+        symbol[0] += swept
         return symbol
-
-
-def _mean_where_positive(values: Array) -> float:
-    # Outside the contact most laws have no compliance, and nothing to precondition.
-    count = int(np.count_nonzero(values > 0))
-    return float(np.sum(values)) / count if count else 0.0

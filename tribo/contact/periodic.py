@@ -86,7 +86,6 @@ class Periodic(ContactSolver):
 
     accepts_wear_compliance: ClassVar[bool] = True
     honours_cap: ClassVar[bool] = True
-    mirrors: ClassVar[bool] = True
     periodic: ClassVar[bool] = True
 
     def check(self, system: ContactSystem) -> None:

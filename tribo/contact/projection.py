@@ -1,4 +1,4 @@
-"""Projection onto the pressures that carry a load within [0, cap]."""
+"""Projection onto the pressures that carry a load within [0, cap], at one position or several."""
 
 from __future__ import annotations
 
@@ -9,53 +9,62 @@ from tribo.core.arrays import Array, Mask
 _ROUND_OFF = 1e-15
 # Good enough for `balance` to correct.
 _NEAR = 1e-12
+CELLS = (-2, -1)
+"""The axes of the cells; a position of a cycle, if there are several, is on the first."""
 
 
-def project(pressure: Array, total: float, limit: float, cells: Mask) -> Array:
+def over(values: Array) -> Array:
+    """Return a value of each position where it multiplies all of its cells."""
+    return values[..., None, None]
+
+
+def project(pressure: Array, total: Array, limit: float, cells: Mask) -> Array:
     """Return the nearest pressure within [0, limit] whose sum is `total`.
 
     That is clip(p + μ, 0, limit) with the μ that carries the load.
 
     Parameters
     ----------
-    pressure : ndarray, shape (nx, ny)
+    pressure : ndarray, shape (nx, ny) or (positions, nx, ny)
         Any values, in Pa.
-    total : float
+    total : ndarray, shape () or (positions,)
         Wanted sum over the box, in Pa.
     limit : float
         Largest pressure, in Pa; may be infinite.
-    cells : ndarray of bool, shape (nx, ny)
+    cells : ndarray of bool, of the shape of the pressure
         Cells that may change; the others must lie within the bounds already
         and must leave a load that `cells` can carry.
 
     Returns
     -------
-    ndarray, shape (nx, ny)
+    ndarray
         A new array; its sum equals `total` to round-off.
     """
-    fixed = np.where(cells, 0.0, pressure)
-    values = pressure[cells]
-    target = total - float(fixed.sum())
-    moved = np.clip(values + _shift(values, target, limit), 0.0, limit)
-    result = fixed
-    result[cells] = moved
-    return balance(result, total, limit)
+    moved = np.empty_like(pressure)
+    for place in np.ndindex(pressure.shape[:-2]):
+        here = cells[place]
+        moved[place] = np.where(here, 0.0, pressure[place])
+        values = pressure[place][here]
+        target = float(total[place] - moved[place].sum())
+        moved[place][here] = np.clip(values + _shift(values, target, limit), 0.0, limit)
+    return balance(moved, total, limit)
 
 
-def balance(pressure: Array, total: float, limit: float) -> Array:
+def balance(pressure: Array, total: Array, limit: float) -> Array:
     """Remove the round-off in the sum of `pressure`, in place, and return it.
 
-    Only cells strictly within the bounds change, all by the same amount.
+    Only cells strictly within the bounds change, all of a position by the same amount.
     """
     for _ in range(2):
-        missing = total - float(pressure.sum())
-        if abs(missing) <= _ROUND_OFF * total:
+        missing = total - pressure.sum(CELLS)
+        if (abs(missing) <= _ROUND_OFF * total).all():
             break
         inner = _inner(pressure, limit)
-        count = int(np.count_nonzero(inner))
-        if not count:
+        count = inner.sum(CELLS)
+        if not count.any():
             break
-        np.clip(pressure + missing / count, 0.0, limit, out=pressure, where=inner)
+        pressure += inner * over(missing / np.maximum(count, 1))
+        pressure.clip(0.0, limit, out=pressure)
     return pressure
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from tribo.contact.projection import CELLS, over
 from tribo.core.arrays import Array
 from tribo.core.contact import Residuals
 from tribo.core.errors import CaseError, NumericalError
@@ -52,49 +53,56 @@ def check_finite(gap: Array) -> None:
 def residuals(
     pressure: Array, gap: Array, displacement: Array, approach: float, total: float, limit: float
 ) -> Residuals:
-    """Judge a pressure against the conditions of contact.
+    """Judge a pressure, shape (nx, ny), against the conditions of contact; see `judged`."""
+    return judged(pressure, gap, displacement, np.asarray(approach), np.asarray(total), limit)[0]
+
+
+def judged(
+    pressure: Array, gap: Array, displacement: Array, approach: Array, total: Array, limit: float
+) -> list[Residuals]:
+    """Judge a pressure against the conditions of contact, at one position or several.
 
     Parameters
     ----------
-    pressure : ndarray, shape (nx, ny)
+    pressure : ndarray, shape (nx, ny) or (positions, nx, ny)
         Within [0, limit], in Pa.
-    gap : ndarray, shape (nx, ny)
+    gap : ndarray, of the same shape
         Undeformed gap, in m.
-    displacement : ndarray, shape (nx, ny)
+    displacement : ndarray, of the same shape
         A p, in m.
-    approach : float
+    approach : ndarray, shape () or (positions,)
         In m.
-    total : float
+    total : ndarray, shape () or (positions,)
         Wanted sum of the pressure, in Pa.
     limit : float
         Largest pressure, in Pa; may be infinite.
 
     Returns
     -------
-    Residuals
-        Their scale is the largest displacement under pressure, or the range of
+    list of Residuals
+        By position. Their scale is the largest displacement under pressure, or the range of
         the gap there if that is more; so it is positive for two flats as well.
         An open gap under pressure at the limit counts against complementarity.
     """
-    deformed = gap + displacement
-    deformed -= approach
     touching = pressure > 0
-    undeformed = gap[touching]
+    deformed = gap + displacement
+    deformed -= over(approach)
+    highest = np.where(touching, gap, -np.inf).max(CELLS)
+    lowest = np.where(touching, gap, np.inf).min(CELLS)
+    furthest = np.where(touching, displacement, -np.inf).max(CELLS)
+    scale = np.maximum(furthest, highest - lowest)
     # 1 for two periodic flats, which do not displace.
-    scale = (
-        max(float(displacement[touching].max()), float(undeformed.max() - undeformed.min())) or 1.0
-    )
-    deepest = min(float(np.where(touching, 0.0, deformed).min()), 0.0)
+    scale = np.where(scale == 0, 1.0, scale)
+    deepest = np.minimum(np.where(touching, 0.0, deformed).min(CELLS), 0.0)
     if limit < np.inf:
         np.maximum(deformed, 0.0, out=deformed, where=pressure >= limit)
     np.abs(deformed, out=deformed)
-    return Residuals(
-        force=abs(float(pressure.sum()) / total - 1.0),
-        complementarity=dot(pressure, deformed) / (total * scale),
-        penetration=0.0 - deepest / scale,
-    )
+    open_ = dots(pressure, deformed) / (total * scale)
+    force = abs(pressure.sum(CELLS) / total - 1.0)
+    each = [values.ravel().tolist() for values in (force, open_, 0.0 - deepest / scale)]
+    return [Residuals(*errors) for errors in zip(*each, strict=True)]
 
 
-def dot(a: Array, b: Array) -> float:
-    """Return sum(a * b), in an order that does not depend on the number of threads."""
-    return float(np.einsum("ij,ij->", a, b))
+def dots(a: Array, b: Array) -> Array:
+    """Return sum(a * b) at each position, in an order that does not depend on threads."""
+    return np.asarray(np.einsum("...ij,...ij->...", a, b))

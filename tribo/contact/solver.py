@@ -3,10 +3,16 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from typing import ClassVar
+from collections.abc import Sequence
+from typing import Any, ClassVar
 
 from tribo.component import Component
-from tribo.core.contact import ContactProblem, ContactSolution, ContactSystem
+from tribo.core.contact import (
+    ContactProblem,
+    ContactSolution,
+    ContactSystem,
+    CycleCompliance,
+)
 
 
 class ContactSolver(Component):
@@ -21,8 +27,16 @@ class ContactSolver(Component):
     periodic: ClassVar[bool] = False
     """Whether the contact repeats with the window, so that it may reach the window's edge."""
 
-    mirrors: ClassVar[bool] = False
-    """Whether a problem mirrored along x has the mirrored solution: it is not solved anew then."""
+    couples: ClassVar[bool] = False
+    """Whether `solve_cycle` takes the wear that couples the positions of a cycle; if not, a step
+    comes to it by passes."""
+
+    def __init_subclass__(cls, **named: Any) -> None:
+        """Take the positions one by one where a subclass solves a contact of its own."""
+        super().__init_subclass__(**named)
+        if "solve" in vars(cls) and "solve_cycle" not in vars(cls):
+            cls.couples = False
+            cls.solve_cycle = ContactSolver.solve_cycle  # type: ignore[method-assign]
 
     plasticity: bool = True
     """Whether the pressure is limited to the hardness of the softer body; `system.cap` is None
@@ -54,6 +68,30 @@ class ContactSolver(Component):
         NumericalError
             If the tolerance was not reached, with the residual.
         """
+
+    def solve_cycle(
+        self,
+        problems: Sequence[ContactProblem],
+        starts: Sequence[ContactSolution],
+        coupling: CycleCompliance | None = None,
+    ) -> list[ContactSolution]:
+        """Solve the contact at each position of a cycle.
+
+        Parameters
+        ----------
+        problems : sequence of ContactProblem
+            By position; without wear of their own where `coupling` is given.
+        starts : sequence of ContactSolution
+            A solution of a similar problem to start from, by position.
+        coupling : CycleCompliance, optional
+            Wear of the step that these solves are part of; given only where `couples`.
+
+        Returns
+        -------
+        list of ContactSolution
+            By position, as of `solve`.
+        """
+        return [self.solve(problem, start) for problem, start in zip(problems, starts, strict=True)]
 
     def smallest_compliance(self, system: ContactSystem) -> float | None:
         """Return the smallest eigenvalue of K, in m/Pa, or None when unknown.

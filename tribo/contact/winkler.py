@@ -69,7 +69,6 @@ class Winkler(ContactSolver):
 
     accepts_wear_compliance: ClassVar[bool] = True
     honours_cap: ClassVar[bool] = True
-    mirrors: ClassVar[bool] = True
 
     def check(self, system: ContactSystem) -> None:
         """Raise `CaseError` if the foundation modulus cannot be found from `system`."""

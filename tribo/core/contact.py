@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 
 from tribo.core.arrays import Array, Region, bounds
+from tribo.core.box import Box
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 
@@ -41,6 +42,93 @@ class WearCompliance:
         """Return the depth worn under `pressure` (nx, ny) on cells `dx` long, in m."""
         depth: Array = self.local * pressure + self.swept * (dx * np.sum(pressure, axis=0))
         return depth
+
+    def on(self, box: Box) -> WearCompliance:
+        """Return what of it lies on a box."""
+        return WearCompliance(self.local[box.slices], self.swept[box.slices[1]])
+
+    def typical(self, length: float) -> tuple[float, float]:
+        """Return its means, in m/Pa: of what a cell wears, and of what rows of a length (m) do."""
+        return _mean_where_positive(self.local), length * _mean_where_positive(self.swept)
+
+
+@dataclass(frozen=True)
+class CycleCompliance:
+    """The wear of an implicit step at the positions of a cycle, as additional compliance.
+
+    What a body loses at one position it lacks at the others. With Tₘ cutting the window out of
+    the body's own surface at position m, and ωₘ the share of the path spent there::
+
+        (A p)ₘ = K pₘ + Σ over bodies Tₘ c Σₙ ωₙ Tₙᵀ pₙ
+
+    which is symmetric and positive definite in the product Σₘ ωₘ pₘᵀ qₘ whenever K is.
+
+    Parameters
+    ----------
+    shares : ndarray, shape (positions,)
+        ω, which add up to 1.
+    bodies : sequence of tuple of ndarray
+        For each body that wears: c, shape (rows, ny), its depth per pressure on its own surface,
+        in m/Pa, not negative; and the row at which the window begins there, by position.
+    rows : slice
+        Rows of the window in which there is pressure.
+    mirrored : bool, optional
+        Whether each position stands for another too, that mirrors it along x; one in the middle of
+        the cycle for itself, twice.
+    """
+
+    shares: Array
+    bodies: Sequence[tuple[Array, Sequence[int]]]
+    rows: slice
+    mirrored: bool = False
+
+    def depth(self, pressure: Array, dx: float) -> Array:
+        """Return the depth worn under `pressure` at each position, in m.
+
+        Parameters
+        ----------
+        pressure : ndarray, shape (positions, nx, ny)
+            In Pa.
+        dx : float
+            Length of a cell; the depth does not depend on it.
+        """
+        weighed = self.shares[:, None, None] * pressure
+        depth = np.zeros_like(pressure)
+        for compliance, starts in self.bodies:
+            own = np.zeros_like(compliance)
+            rows = [slice(start + self.rows.start, start + self.rows.stop) for start in starts]
+            for part, here in zip(weighed, rows, strict=True):
+                own[here] += part
+            if self.mirrored:
+                own = own + own[::-1]
+            own *= compliance
+            for part, here in zip(depth, rows, strict=True):
+                part += own[here]
+        return depth
+
+    def on(self, box: Box) -> CycleCompliance:
+        """Return what of it lies on a box of the window."""
+        along, columns = box.slices
+        bodies = [(compliance[:, columns], starts) for compliance, starts in self.bodies]
+        return replace(self, bodies=bodies, rows=along)
+
+    def typical(self, length: float) -> tuple[float, float]:
+        """Return its means, in m/Pa: of what a cell wears, and of what all rows do."""
+        local = swept = 0.0
+        for compliance, starts in self.bodies:
+            mean = _mean_where_positive(compliance)
+            passed = (max(starts) - min(starts)) * (2 if self.mirrored else 1)
+            if passed:
+                swept += mean * min(1.0, (self.rows.stop - self.rows.start) / passed)
+            else:
+                local += mean
+        return local, swept
+
+
+def _mean_where_positive(values: Array) -> float:
+    # Outside the contact most laws have no compliance, and nothing to precondition.
+    count = int(np.count_nonzero(values > 0))
+    return float(np.sum(values)) / count if count else 0.0
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -13,6 +13,7 @@ from tribo.core.contact import (
     ContactProblem,
     ContactSolution,
     ContactSystem,
+    CycleCompliance,
     Residuals,
     WearCompliance,
 )
@@ -195,11 +196,23 @@ class GuardedSolver(Guard[ContactSolver]):
         NumericalError
             If the solver gives up.
         """
-        wear = problem.wear
-        if wear is not None:
-            wear = WearCompliance(readonly(wear.local), readonly(wear.swept))
-        asked = ContactProblem(problem.system, readonly(problem.gap), problem.load, wear)
-        answer = self.ask(self.component.solve, asked, start)
+        return self._held(problem, self.ask(self.component.solve, _unwritable(problem), start))
+
+    def solve_cycle(
+        self,
+        problems: Sequence[ContactProblem],
+        starts: Sequence[ContactSolution],
+        coupling: CycleCompliance | None = None,
+    ) -> list[ContactSolution]:
+        """Solve each position of a cycle; as `solve`."""
+        asked = [_unwritable(problem) for problem in problems]
+        answers: object = self.ask(self.component.solve_cycle, asked, starts, coupling)
+        if not isinstance(answers, Sequence) or len(answers) != len(problems):
+            raise self.wrong(answers, f"instead of the solutions of {len(problems)} positions")
+        return [self._held(*pair) for pair in zip(problems, answers, strict=True)]
+
+    def _held(self, problem: ContactProblem, answer: object) -> ContactSolution:
+        """Return what is held to the contract of an answer to `problem`."""
         if not isinstance(answer, ContactSolution):
             raise self.wrong(answer, "instead of a ContactSolution")
         if not isinstance(answer.residuals, Residuals):
@@ -232,3 +245,10 @@ class GuardedSolver(Guard[ContactSolver]):
             iterations=int(self.number("a number of iterations", answer.iterations)),
             residuals=Residuals(abs(carried / problem.load - 1), *claimed),
         )
+
+
+def _unwritable(problem: ContactProblem) -> ContactProblem:
+    wear = problem.wear
+    if wear is not None:
+        wear = WearCompliance(readonly(wear.local), readonly(wear.swept))
+    return ContactProblem(problem.system, readonly(problem.gap), problem.load, wear)

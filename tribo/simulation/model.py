@@ -139,6 +139,12 @@ class Model:
         return frozenset(name for name, exposure in self.exposures.items() if exposure.swept)
 
     @cached_property
+    def couples(self) -> bool:
+        """Whether the positions of the cycle are solved together, with the wear they share."""
+        own_rows = all(e.starts is not None or not e.swept for e in self.exposures.values())
+        return len(self.cycle) > 1 and self.contact.couples and own_rows
+
+    @cached_property
     def apart(self) -> float:
         """Largest distance between neighbouring positions of the cycle, in m; 0 of an average."""
         steps = [np.diff(e.starts) for e in self.exposures.values() if e.starts is not None]

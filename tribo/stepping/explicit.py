@@ -27,6 +27,7 @@ from tribo.stepping.step import (
     rested,
     rests,
     solve_cycle,
+    solved,
     start_sliding,
     wear_compliance,
     worn_bodies,
@@ -108,12 +109,12 @@ class Explicit(Scheme):
         bodies = with_missed(model, worn_bodies(state, worn, law), rates, increment)
         gaps = [geometry(model, bodies, position) for position in range(len(model.cycle))]
         loads = model.loads.before(time)
-        contacts, solves = solve_cycle(model, gaps, loads, [None] * len(gaps), _extrapolated(state))
+        contacts = solve_cycle(model, gaps, loads, _extrapolated(state))
         kept = replace(
             state, rates=(), invariants=wear_balance(model, worn, rates, increment, state)
         )
         iterations = sum(contact.iterations for contact in contacts)
-        return accepted(model, kept, bodies, contacts, loads, moment, solves, iterations)
+        return accepted(model, kept, bodies, contacts, loads, moment, solved(contacts), iterations)
 
     def _instability(self, model: Model, state: State, moment: Moment) -> str | None:
         """Return a warning of a step that is beyond the limit where the case allows it.

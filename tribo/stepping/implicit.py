@@ -11,7 +11,7 @@ import numpy as np
 from pydantic import Field
 
 from tribo.core.arrays import Array
-from tribo.core.contact import ContactSolution, WearCompliance
+from tribo.core.contact import ContactSolution
 from tribo.core.errors import BadValues, NumericalError, PluginError
 from tribo.core.state import State
 from tribo.core.units import Quantity
@@ -27,13 +27,14 @@ from tribo.stepping.step import (
     distance_until,
     geometry,
     law_states_after,
+    linear_wear,
     lost,
     moment_after,
     rested,
     rests,
     solve_cycle,
+    solved,
     start_sliding,
-    wear_compliance,
     worn_bodies,
     worn_depths,
 )
@@ -94,14 +95,14 @@ class Guess:
     """What a step would wear if its contacts were these.
 
     `worn` and `law` have the depth and the state of the law by body, on the body's surface;
-    `depths` what they add to the gap at each position, shape (nx, ny), in m.
+    `depths` what they add to the gap at each position, shape (positions, nx, ny), in m.
     """
 
     contacts: Sequence[ContactSolution]
     rates: CycleRates
     worn: Mapping[str, Array]
     law: LawStates
-    depths: Sequence[Array]
+    depths: Array
 
 
 class Implicit(Scheme):
@@ -202,7 +203,8 @@ class Implicit(Scheme):
         # One position alone converges fast by the slope of its law.
         mixing = Mixing(MIXED if resolved else 0)
         tolerance = self.cycle_tolerance if resolved else self.nonlinear_tolerance
-        base = [geometry(model, state.bodies, position) for position in range(len(model.cycle))]
+        base = np.stack([geometry(model, state.bodies, m) for m in range(len(model.cycle))])
+        dx = model.grid.spacing[0]
         before = law_states(state)
         rates = state.rates or wear_rates(model, state.contacts, before, moment)
         guess = _guess(model, before, state.contacts, rates, increment)
@@ -211,26 +213,23 @@ class Implicit(Scheme):
         forward = {name: heavier * depth for name, depth in guess.worn.items()}
         law, passes, solves, iterations = before, 0, 0, 0
         while True:
-            gaps, compliances = _linearised(model, base, guess, mixing, increment)
+            wear = linear_wear(model, guess.rates, guess.contacts, increment)
+            # Of what is worn, the part that is not linear in the pressures.
+            beyond = mixing.next(guess.depths - wear.depths(guess.contacts, dx))
             try:
-                contacts, solved = solve_cycle(model, gaps, loads, compliances, guess.contacts)
+                contacts = solve_cycle(model, base + beyond, loads, guess.contacts, wear)
             except PluginError:
                 raise
             except NumericalError as error:
                 raise StepRejected(str(error)) from error
-            implied = [
-                gap - unworn + compliance.depth(contact.pressure, model.grid.spacing[0])
-                for gap, unworn, compliance, contact in zip(
-                    gaps, base, compliances, contacts, strict=True
-                )
-            ]
-            passes, solves = passes + 1, solves + solved
+            implied = beyond + wear.depths(contacts, dx)
+            passes, solves = passes + 1, solves + solved(contacts)
             iterations += sum(contact.iterations for contact in contacts)
             law = guess.law
             for _ in range(2):
                 rates = wear_rates(model, contacts, law, moment)
                 guess = _guess(model, before, contacts, rates, increment)
-                off = [np.abs(depth - d) for depth, d in zip(guess.depths, implied, strict=True)]
+                off = np.abs(guess.depths - implied)
                 mismatch = _loaded_mean(model, contacts, off) if resolved else _largest(off)
                 drift = _largest_change(law, guess.law)
                 met = mismatch <= tolerance * _largest(guess.depths)
@@ -327,28 +326,8 @@ def _guess(
 ) -> Guess:
     worn = worn_depths(model, rates, increment)
     law = law_states_after(model, before, rates, increment)
-    depths = [lost(model, worn, position) for position in range(len(contacts))]
+    depths = np.stack([lost(model, worn, position) for position in range(len(contacts))])
     return Guess(contacts, rates, worn, law, depths)
-
-
-def _linearised(
-    model: Model, base: Sequence[Array], guess: Guess, mixing: Mixing, increment: float
-) -> tuple[list[Array], list[WearCompliance]]:
-    """Return gap and wear compliance at each position: together the wear of `guess` there."""
-    dx = model.grid.spacing[0]
-    compliances = [
-        wear_compliance(model, of_bodies, contact.pressure, increment)
-        for of_bodies, contact in zip(guess.rates, guess.contacts, strict=True)
-    ]
-    beyond = [
-        depth - compliance.depth(contact.pressure, dx)
-        for depth, compliance, contact in zip(
-            guess.depths, compliances, guess.contacts, strict=True
-        )
-    ]
-    remainders = mixing.next(np.stack(beyond))
-    gaps = [unworn + remainder for unworn, remainder in zip(base, remainders, strict=True)]
-    return gaps, compliances
 
 
 def _first_increment(model: Model, state: State, remaining: float) -> float:
@@ -377,8 +356,8 @@ def _largest(arrays: Iterable[Array]) -> float:
     return max((float(np.max(np.abs(array))) for array in arrays), default=0.0)
 
 
-def _loaded_mean(model: Model, contacts: Sequence[ContactSolution], arrays: list[Array]) -> float:
-    """Return the mean over a cycle of arrays (nx, ny), weighted with the load."""
+def _loaded_mean(model: Model, contacts: Sequence[ContactSolution], arrays: Array) -> float:
+    """Return the mean over a cycle of arrays (positions, nx, ny), weighted with the load."""
     weighed = load = 0.0
     for position, contact, array in zip(model.cycle, contacts, arrays, strict=True):
         weighed += position.share * float(np.sum(contact.pressure * array))

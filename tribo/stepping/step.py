@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import reduce
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tribo.core.arrays import Array
-from tribo.core.contact import ContactProblem, ContactSolution, WearCompliance
+from tribo.core.contact import ContactProblem, ContactSolution, CycleCompliance, WearCompliance
 from tribo.core.errors import CaseError, NumericalError, PluginError
 from tribo.core.fields import WearRate
 from tribo.core.loads import ByPosition
@@ -126,41 +126,48 @@ def solve(
 
 def solve_cycle(
     model: Model,
-    gaps: Sequence[Array],
+    gaps: Iterable[Array],
     loads: ByPosition,
-    wear: Sequence[WearCompliance | None],
     starts: Sequence[ContactSolution],
-) -> tuple[list[ContactSolution], int]:
+    wear: LinearWear | None = None,
+) -> list[ContactSolution]:
     """Solve the contact at each position of a cycle, from gaps of shape (nx, ny), in m.
 
-    `loads` are in N. A position that mirrors another along x, as on a stroke of smooth bodies,
-    takes its solution.
-
-    Returns
-    -------
-    list of ContactSolution
-        By position.
-    int
-        How many were solved.
+    `loads` are in N. Where the positions are solved together and each mirrors another along x, as
+    on a stroke of smooth bodies, half of them are solved.
     """
-    contacts: list[ContactSolution] = []
-    solves = 0
-    for position, (gap, load, compliance, start) in enumerate(
-        zip(gaps, loads, wear, starts, strict=True)
-    ):
-        other = len(gaps) - 1 - position
-        if (
-            other < position
-            and model.contact.mirrors
-            and abs(load - loads[other]) <= MIRRORED * load
-            and _mirrors(gap, gaps[other])
-            and _compliance_mirrors(compliance, wear[other])
-        ):
-            contacts.append(_mirrored(contacts[other]))
-        else:
-            contacts.append(solve(model, gap, load, compliance, start))
-            solves += 1
-    return contacts, solves
+    alone = [None] * len(loads) if wear is None else wear.alone
+    coupling = None if wear is None else wear.coupling
+    problems = [
+        ContactProblem(model.system, *given) for given in zip(gaps, loads, alone, strict=True)
+    ]
+    if not (model.couples and _all_mirror(problems, coupling)):
+        return model.solver.solve_cycle(problems, starts, coupling)
+    half = len(problems) // 2 + 1
+    one_side = None if coupling is None else _one_side(coupling, half)
+    *left, middle = model.solver.solve_cycle(problems[:half], starts[:half], one_side)
+    return [*left, _symmetric(middle), *map(_mirrored, reversed(left))]
+
+
+def solved(contacts: Sequence[ContactSolution]) -> int:
+    """Return how many of the contacts of a cycle were solved, others being mirrored."""
+    return sum(contact.iterations > 0 for contact in contacts)
+
+
+def _all_mirror(problems: Sequence[ContactProblem], coupling: CycleCompliance | None) -> bool:
+    """Whether each position mirrors another along x, and the middle one itself."""
+    bodies = [] if coupling is None else coupling.bodies
+    return all(
+        abs(one.load - other.load) <= MIRRORED * one.load and _mirrors(one.gap, other.gap)
+        for one, other in zip(problems, reversed(problems), strict=True)
+    ) and all(
+        _mirrors(compliance, compliance)
+        and all(
+            a + b == 2 * starts[len(starts) // 2]
+            for a, b in zip(starts, reversed(starts), strict=True)
+        )
+        for compliance, starts in bodies
+    )
 
 
 def _mirrors(field: Array, other: Array) -> bool:
@@ -168,17 +175,24 @@ def _mirrors(field: Array, other: Array) -> bool:
     return bool(np.max(np.abs(field[::-1] - other)) <= least)
 
 
-def _compliance_mirrors(one: WearCompliance | None, other: WearCompliance | None) -> bool:
-    if one is None or other is None:
-        return one is other
-    return _mirrors(one.local, other.local) and np.allclose(
-        one.swept, other.swept, rtol=MIRRORED, atol=0
-    )
+def _one_side(coupling: CycleCompliance, half: int) -> CycleCompliance:
+    shares = coupling.shares[:half].copy()
+    # The middle position mirrors itself.
+    shares[-1] *= 0.5
+    bodies = [(compliance, starts[:half]) for compliance, starts in coupling.bodies]
+    return replace(coupling, shares=shares, bodies=bodies, mirrored=True)
 
 
 def _mirrored(contact: ContactSolution) -> ContactSolution:
     pressure, overlap = contact.pressure[::-1].copy(), contact.overlap[::-1].copy()
     return replace(contact, pressure=pressure, overlap=overlap, iterations=0)
+
+
+def _symmetric(contact: ContactSolution) -> ContactSolution:
+    """Return the mean of a contact and its mirror image: what rounding made of it goes."""
+    pressure = 0.5 * (contact.pressure + contact.pressure[::-1])
+    overlap = 0.5 * (contact.overlap + contact.overlap[::-1])
+    return replace(contact, pressure=pressure, overlap=overlap)
 
 
 def moment_after(state: State, increment: float, time: float) -> Moment:
@@ -253,6 +267,44 @@ def law_states_after(
     return after
 
 
+@dataclass(frozen=True)
+class LinearWear:
+    """The wear of a step at the positions of a cycle, linear in their pressures.
+
+    Parameters
+    ----------
+    alone : sequence of WearCompliance or None
+        By position, what its own pressure wears; where the positions are coupled, none.
+    coupling : CycleCompliance or None
+        What the pressures of all positions wear at each.
+    """
+
+    alone: Sequence[WearCompliance | None]
+    coupling: CycleCompliance | None = None
+
+    def depths(self, contacts: Sequence[ContactSolution], dx: float) -> Array:
+        """Return the depth worn at each position, shape (positions, nx, ny), in m."""
+        pressure = np.stack([contact.pressure for contact in contacts])
+        if self.coupling is not None:
+            return self.coupling.depth(pressure, dx)
+        pairs = zip(self.alone, pressure, strict=True)
+        return np.stack([part.depth(p, dx) if part else np.zeros_like(p) for part, p in pairs])
+
+
+def linear_wear(
+    model: Model, rates: CycleRates, contacts: Sequence[ContactSolution], increment: float
+) -> LinearWear:
+    """Return the wear over `increment` (m), linear in the pressures about those of `contacts`."""
+    if model.couples:
+        return LinearWear([None] * len(contacts), _coupling(model, rates, contacts, increment))
+    return LinearWear(
+        [
+            wear_compliance(model, of_bodies, contact.pressure, increment)
+            for of_bodies, contact in zip(rates, contacts, strict=True)
+        ]
+    )
+
+
 def wear_compliance(
     model: Model, rates: Mapping[str, WearRate], pressure: Array, increment: float
 ) -> WearCompliance:
@@ -265,6 +317,27 @@ def wear_compliance(
             local += increment * part.local
             swept += increment * part.swept
     return WearCompliance(local, swept)
+
+
+def _coupling(
+    model: Model, rates: CycleRates, contacts: Sequence[ContactSolution], increment: float
+) -> CycleCompliance:
+    """Return the wear at all positions, each point of a body with the mean slope of its law."""
+    shares = np.array([position.share for position in model.cycle])
+    bodies = []
+    for name in rates[0]:
+        shape = (model.exposures[name].rows, model.grid.cells[1])
+        weighed, load, nearby = np.zeros(shape), np.zeros(shape), np.zeros(shape)
+        for position, (share, contact) in enumerate(zip(shares, contacts, strict=True)):
+            pressure, slope = contact.pressure, rates[position][name].depth_slope
+            weighed += share * model.average(name, slope * pressure, position)
+            load += share * model.spread(name, pressure, position)
+            np.maximum(nearby, model.average(name, slope, position), out=nearby)
+        # A point that is yet to be touched has the slope that its law gives near it, on its row.
+        slope = np.where(load > 0, weighed / np.where(load > 0, load, 1.0), np.max(nearby, axis=0))
+        starts = model.exposures[name].starts or [0] * len(shares)
+        bodies.append((increment * slope, starts))
+    return CycleCompliance(shares, bodies, slice(0, model.grid.cells[0]))
 
 
 def worn_bodies(state: State, worn: Mapping[str, Array], law: LawStates) -> dict[str, BodyState]:
@@ -322,12 +395,12 @@ def start_sliding(model: Model, state: State) -> State:
 def _under(model: Model, state: State, loads: ByPosition) -> State:
     """Return `state` with its contacts solved anew under other loads (N), and nothing worn."""
     gaps = [geometry(model, state.bodies, position) for position in range(len(model.cycle))]
-    contacts, solves = solve_cycle(model, gaps, loads, [None] * len(gaps), state.contacts)
+    contacts = solve_cycle(model, gaps, loads, state.contacts)
     anew = replace(
         state,
         contacts=tuple(contacts),
         rates=(),
-        contact_solves=state.contact_solves + solves,
+        contact_solves=state.contact_solves + solved(contacts),
         solver_iterations=state.solver_iterations + sum(c.iterations for c in contacts),
     )
     return _at_rest(model, anew, loads)
@@ -377,7 +450,7 @@ def _settle(model: Model, state: State, loads: ByPosition) -> State:
             for name, body in state.bodies.items()
         }
         gaps = [geometry(model, drawn, position) for position in range(len(model.cycle))]
-        contacts, solves = solve_cycle(model, gaps, loads, [None] * len(gaps), state.contacts)
+        contacts = solve_cycle(model, gaps, loads, state.contacts)
         deepest = max(float(np.max(body.plastic)) for body in drawn.values())
         still = max(float(np.max(contact.overlap)) for contact in contacts)
         settled = still <= SETTLED * deepest
@@ -386,7 +459,7 @@ def _settle(model: Model, state: State, loads: ByPosition) -> State:
             bodies=drawn if settled else _yielded(model, drawn, contacts),
             contacts=tuple(contacts),
             rates=(),
-            contact_solves=state.contact_solves + solves,
+            contact_solves=state.contact_solves + solved(contacts),
             solver_iterations=state.solver_iterations + sum(c.iterations for c in contacts),
         )
         if settled:
