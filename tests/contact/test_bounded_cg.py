@@ -177,10 +177,10 @@ def test_projection_is_the_nearest_point_that_carries_the_load(limit: float) -> 
     rng = np.random.default_rng(0)
     values, total = 3 * rng.standard_normal((6, 7)), 30.0
     cells = np.ones((6, 7), dtype=bool)
-    nearest = project(values, total, limit, cells)
+    nearest = project(values, np.asarray(total), limit, cells)
     assert nearest.sum() == pytest.approx(total, rel=1e-15, abs=0)
     assert nearest.min() >= 0
     assert nearest.max() <= limit
     for _ in range(50):
-        other = project(nearest + 0.1 * rng.standard_normal((6, 7)), total, limit, cells)
+        other = project(nearest + 0.1 * rng.standard_normal((6, 7)), np.asarray(total), limit, cells)
         assert ((nearest - values) * (other - nearest)).sum() >= -1e-12

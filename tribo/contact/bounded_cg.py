@@ -266,9 +266,9 @@ class _Iterate:
         places = np.ndindex(self.gap.shape[:-2])
         return [
             ContactSolution(
-                pressure=self.pressure[place],
+                pressure=self.pressure[place].copy(),
                 approach=float(self.approach[place]),
-                overlap=overlap[place],
+                overlap=overlap[place].copy(),
                 iterations=iterations,
                 residuals=residuals,
             )

@@ -156,8 +156,7 @@ def _half_space(shape: tuple[int, int], spacing: tuple[float, float], modulus: f
 
 def _anywhere(cells: Mask) -> Mask:
     """Find the cells of the window that are set at any position."""
-    found: Mask = cells.reshape(-1, *cells.shape[-2:]).any(axis=0)
-    return found
+    return np.asarray(cells.reshape(-1, *cells.shape[-2:]).any(axis=0))
 
 
 def _in_window(box: Box, solution: ContactSolution, iterations: int) -> ContactSolution:
@@ -193,7 +192,7 @@ def _overlapping_outside(
     """Find cells of the window, outside `box`, at which the bodies overlap at any position."""
     approach = over(np.reshape([each.approach for each in solutions], load.shape))
     # All displacements are positive: an undeformed gap above the approach stays open.
-    doubtful: Mask = np.less(gap, approach)
+    doubtful: Mask = gap < approach
     doubtful[(..., *box.slices)] = False
     if box.is_window or not doubtful.any():
         return _anywhere(doubtful)
