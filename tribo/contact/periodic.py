@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 from typing import Annotated, ClassVar
@@ -10,11 +11,18 @@ import numpy as np
 import scipy.fft
 from pydantic import Field
 
-from tribo.contact.bounded_cg import solve_bounded
+from tribo.contact.bounded_cg import solve_together
+from tribo.contact.projection import CELLS, over
 from tribo.contact.residuals import check_window
 from tribo.contact.solver import ContactSolver
 from tribo.core.arrays import Array
-from tribo.core.contact import ContactProblem, ContactSolution, ContactSystem
+from tribo.core.contact import (
+    ContactProblem,
+    ContactSolution,
+    ContactSystem,
+    CycleCompliance,
+    WearCompliance,
+)
 from tribo.core.units import Quantity
 
 
@@ -86,6 +94,7 @@ class Periodic(ContactSolver):
 
     accepts_wear_compliance: ClassVar[bool] = True
     honours_cap: ClassVar[bool] = True
+    couples: ClassVar[bool] = True
     periodic: ClassVar[bool] = True
 
     def check(self, system: ContactSystem) -> None:
@@ -96,20 +105,51 @@ class Periodic(ContactSolver):
         self, problem: ContactProblem, start: ContactSolution | None = None
     ) -> ContactSolution:
         """Solve one contact problem; see `ContactSolver.solve`."""
-        grid = problem.system.grid
+        gap, load = problem.gap, np.asarray(problem.load)
+        guess = None if start is None else start.pressure
+        return self._solve(problem.system, gap, load, problem.wear, guess)[0]
+
+    def solve_cycle(
+        self,
+        problems: Sequence[ContactProblem],
+        starts: Sequence[ContactSolution],
+        coupling: CycleCompliance | None = None,
+    ) -> list[ContactSolution]:
+        """Solve all positions of a cycle as one problem; see `ContactSolver.solve_cycle`."""
+        if len(problems) == 1 or any(problem.wear is not None for problem in problems):
+            return super().solve_cycle(problems, starts)
+        return self._solve(
+            problems[0].system,
+            np.stack([problem.gap for problem in problems]),
+            np.array([problem.load for problem in problems]),
+            coupling,
+            np.stack([start.pressure for start in starts]),
+        )
+
+    def _solve(
+        self,
+        system: ContactSystem,
+        gap: Array,
+        load: Array,
+        wear: WearCompliance | CycleCompliance | None,
+        guess: Array | None,
+    ) -> list[ContactSolution]:
         # The digits of a deep uniform wear would be lost to a contact that hardly displaces.
-        lowest = float(np.min(problem.gap))
-        solution = solve_bounded(
-            _half_space(grid.cells, grid.spacing, problem.system.modulus),
-            problem.gap - lowest,
-            problem.load,
-            problem.system.cap,
-            problem.wear,
-            start=None if start is None else start.pressure,
+        lowest = gap.min(CELLS)
+        solutions = solve_together(
+            _half_space(system.grid.cells, system.grid.spacing, system.modulus),
+            gap - over(lowest),
+            load,
+            system.cap,
+            wear,
+            start=guess,
             tolerance=self.tolerance,
             max_iterations=self.max_iterations,
         )
-        return replace(solution, approach=solution.approach + lowest)
+        return [
+            replace(solution, approach=solution.approach + float(low))
+            for solution, low in zip(solutions, np.ravel(lowest), strict=True)
+        ]
 
     def smallest_compliance(self, system: ContactSystem) -> float:
         """Return the compliance of the chequerboard mode, in m/Pa."""

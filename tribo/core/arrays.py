@@ -53,11 +53,17 @@ def rows_from(field: Array, first: int, count: int) -> Array:
 def laid_from(part: Array, first: int, rows: int) -> Array:
     """Return a field with `part` from row `first` on, as `rows_from` counts them, and 0 beside."""
     field = np.zeros((rows, *part.shape[1:]))
-    first %= rows
-    until = rows - first
-    field[first : first + len(part)] = part[:until]
-    field[: max(0, len(part) - until)] = part[until:]
+    add_from(field, part, first)
     return field
+
+
+def add_from(field: Array, part: Array, first: int) -> None:
+    """Add `part` to a field in place, from row `first` on, as `rows_from` counts them."""
+    first %= len(field)
+    until = len(field) - first
+    field[first : first + len(part)] += part[:until]
+    if until < len(part):
+        field[: len(part) - until] += part[until:]
 
 
 def middle_rows(field: Array, count: int) -> Array:

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from tribo.core.arrays import Array, Region, bounds
+from tribo.core.arrays import Array, Region, add_from, bounds, rows_from
 from tribo.core.box import Box
 from tribo.core.grid import Grid
 from tribo.core.material import Material
@@ -94,16 +94,17 @@ class CycleCompliance:
         """
         weighed = self.shares[:, None, None] * pressure
         depth = np.zeros_like(pressure)
+        count = self.rows.stop - self.rows.start
         for compliance, starts in self.bodies:
+            first = [start + self.rows.start for start in starts]
             own = np.zeros_like(compliance)
-            rows = [slice(start + self.rows.start, start + self.rows.stop) for start in starts]
-            for part, here in zip(weighed, rows, strict=True):
-                own[here] += part
+            for part, row in zip(weighed, first, strict=True):
+                add_from(own, part, row)
             if self.mirrored:
                 own = own + own[::-1]
             own *= compliance
-            for part, here in zip(depth, rows, strict=True):
-                part += own[here]
+            for part, row in zip(depth, first, strict=True):
+                part += rows_from(own, row, count)
         return depth
 
     def on(self, box: Box) -> CycleCompliance:

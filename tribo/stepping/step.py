@@ -156,18 +156,22 @@ def solved(contacts: Sequence[ContactSolution]) -> int:
 
 def _all_mirror(problems: Sequence[ContactProblem], coupling: CycleCompliance | None) -> bool:
     """Whether each position mirrors another along x, and the middle one itself."""
-    bodies = [] if coupling is None else coupling.bodies
-    return all(
+    mirrored = all(
         abs(one.load - other.load) <= MIRRORED * one.load and _mirrors(one.gap, other.gap)
         for one, other in zip(problems, reversed(problems), strict=True)
-    ) and all(
-        _mirrors(compliance, compliance)
-        and all(
-            a + b == 2 * starts[len(starts) // 2]
-            for a, b in zip(starts, reversed(starts), strict=True)
-        )
-        for compliance, starts in bodies
     )
+    return mirrored and (coupling is None or _bodies_mirror(coupling))
+
+
+def _bodies_mirror(coupling: CycleCompliance) -> bool:
+    """Whether two positions that mirror each other lie so on the bodies, too."""
+    for compliance, starts in coupling.bodies:
+        rows = len(compliance)
+        beyond = rows - (coupling.rows.stop - coupling.rows.start)
+        pairs = zip(starts, reversed(starts), strict=True)
+        if not _mirrors(compliance, compliance) or any((a + b - beyond) % rows for a, b in pairs):
+            return False
+    return True
 
 
 def _mirrors(field: Array, other: Array) -> bool:
