@@ -175,12 +175,12 @@ def test_a_load_that_no_cell_bears_in_rounding_is_said_to_be_too_small() -> None
 @pytest.mark.parametrize("limit", [2.0, np.inf])
 def test_projection_is_the_nearest_point_that_carries_the_load(limit: float) -> None:
     rng = np.random.default_rng(0)
-    values, total = 3 * rng.standard_normal((6, 7)), 30.0
+    values, total = 3 * rng.standard_normal((6, 7)), np.asarray(30.0)
     cells = np.ones((6, 7), dtype=bool)
-    nearest = project(values, np.asarray(total), limit, cells)
+    nearest = project(values, total, limit, cells)
     assert nearest.sum() == pytest.approx(total, rel=1e-15, abs=0)
     assert nearest.min() >= 0
     assert nearest.max() <= limit
     for _ in range(50):
-        other = project(nearest + 0.1 * rng.standard_normal((6, 7)), np.asarray(total), limit, cells)
+        other = project(nearest + 0.1 * rng.standard_normal((6, 7)), total, limit, cells)
         assert ((nearest - values) * (other - nearest)).sum() >= -1e-12
