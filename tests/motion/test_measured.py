@@ -144,6 +144,7 @@ def test_a_body_wears_more_where_it_is_passed_more_often():
     assert disk[:22].sum() > 1.1 * disk[22:].sum()
 
 
+@pytest.mark.filterwarnings("ignore:quadrature")
 def test_saves_may_fall_into_rests():
     case = small(
         grid=GRID, contact=foundation(), kinematics=Measured(path=PATH, cycles=100, positions=13),

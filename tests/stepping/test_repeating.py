@@ -162,6 +162,7 @@ def test_waves_that_slide_over_a_flat_wear_off_evenly():
     np.testing.assert_allclose(lower, K * 2000 / (GRID.size[0] * GRID.size[1]), rtol=1e-3)
 
 
+@pytest.mark.filterwarnings("ignore:quadrature")
 @pytest.mark.slow
 def test_a_stopped_run_goes_on_to_the_same_bits(tmp_path):
     simulation = Simulation(repeating(strokes(40, positions=5), stepping=Implicit()))
