@@ -15,8 +15,8 @@ from tribo.motion.cycle import check_spacing, spacing_for
 from tribo.simulation.model import Model
 from tribo.stepping.quadrature import cycle_error
 
-COARSE = 0.01
-"""Error of a cycle from which on it is spoken of, of the depth."""
+COARSE, FINE = 0.05, 0.01
+"""Error of a cycle, of the depth, from which on it is spoken of, and with the positions advised."""
 STEEP = 0.3
 """Half-width of a contact over the radius of a body, from which on it is spoken of."""
 WHOLE = 1 - 1e-9
@@ -136,12 +136,12 @@ def _volume_ratio(model: Model, state: State) -> float:
 
 
 def coarse_cycle(model: Model, state: State) -> str | None:
-    """Say so if the positions of the cycle are so few that the depths are not known to 1 %."""
+    """Say so if the positions of the cycle are so few that the depths are 5 % off."""
     error = cycle_error(model, state)
     if error <= COARSE:
         return None
     # The error goes with the square of the spacing.
-    gaps = (len(model.cycle) - 1) * math.sqrt(error / COARSE)
+    gaps = (len(model.cycle) - 1) * math.sqrt(error / FINE)
     return (
         f"the {len(model.cycle)} positions of the cycle, {1e3 * model.apart:.3g} mm apart, leave "
         f"the wear depth uncertain by about {100 * error:.2g} %, weighted with the load; raise "
@@ -158,7 +158,7 @@ def positions_for(model: Model, first: ContactSolution) -> int | None:
     if not starts:
         return None
     path = max(starts[0]) - min(starts[0])
-    return 2 * math.ceil(0.5 * path / spacing_for(first.pressure, COARSE)) + 1
+    return 2 * math.ceil(0.5 * path / spacing_for(first.pressure, FINE)) + 1
 
 
 def _changing(model: Model) -> list[str]:
