@@ -47,6 +47,7 @@ from tribo.core.state import State as State
 from tribo.core.table import Table as Table
 from tribo.core.units import Quantity as Quantity
 from tribo.effects.effect import Effect as Effect
+from tribo.motion.closed_track import SpeedStage as SpeedStage
 from tribo.motion.cycle import Position as Position
 from tribo.motion.exposure import Exposure as Exposure
 from tribo.motion.exposure import Passing as Passing

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from math import inf
@@ -11,11 +11,12 @@ from pathlib import Path
 from typing import Annotated, Any, Self
 
 import numpy as np
-from pydantic import Discriminator, Tag, field_validator, model_validator
+from pydantic import Tag, field_validator, model_validator
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.files import read_numbers
+from tribo.core.stages import NUMBER, ONE_OR_STAGES, STAGES, check_times, listed
 from tribo.core.table import Table
 from tribo.core.units import Quantity
 
@@ -65,8 +66,8 @@ class Load(Table):
     """The load on the contact."""
 
     normal: Annotated[
-        Annotated[NormalLoad, Tag("number")] | Annotated[tuple[Stage, ...], Tag("stages")],
-        Discriminator(lambda value: "stages" if isinstance(value, list | tuple) else "number"),
+        Annotated[NormalLoad, Tag(NUMBER)] | Annotated[tuple[Stage, ...], Tag(STAGES)],
+        ONE_OR_STAGES,
     ]
     """Normal load: a number, or a list of stages, each a table with keys as below; or the name of a
     CSV or .npy file with the columns time and load, in s and N, and lines in between, a relative
@@ -80,29 +81,18 @@ class Load(Table):
     def _from_file(cls, value: Any) -> Any:
         if isinstance(value, Path) or (isinstance(value, str) and value.endswith(FILES)):
             return _read(Path(value))
-        if isinstance(value, Mapping):
-            raise ValueError(
-                "one table was given; write a list of them: [{ until = …, normal = … }]"
-            )
-        return value
+        return listed(value)
 
     @field_validator("normal")
     @classmethod
     def _moves_on(cls, normal: float | tuple[Stage, ...]) -> float | tuple[Stage, ...]:
         if isinstance(normal, float):
             return normal
-        if not normal or normal[-1].time == 0:
-            raise ValueError("give the load up to the end of the run")
+        check_times([stage.time for stage in normal], "load")
         if normal[0].at:
             raise ValueError(
                 f"the load begins at {normal[0].at:g} s: give the first stage at = 0, or until"
             )
-        for before, after in pairwise(stage.time for stage in normal):
-            if after <= before:
-                raise ValueError(
-                    "times must increase from stage to stage, but "
-                    f"{before:g} s is followed by {after:g} s"
-                )
         return normal
 
     @field_validator("along")

@@ -4,23 +4,44 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
+from functools import cached_property
 from typing import Annotated, Self
 
-from pydantic import model_validator
+import numpy as np
+from pydantic import Tag, field_validator, model_validator
 
+from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
+from tribo.core.stages import NUMBER, ONE_OR_STAGES, STAGES, check_times, listed
+from tribo.core.table import Table
 from tribo.core.units import Quantity
 from tribo.motion.exposure import Exposure, Track
 from tribo.motion.kinematics import Kinematics
 from tribo.motion.swept import one_swept_body
 
+ROUNDING = 1e-12
+
+
+class SpeedStage(Table):
+    """A stage of a speed that changes over time: it is held until a time."""
+
+    until: Annotated[float, Quantity("s", above=0)]
+    """When it ends."""
+    speed: Annotated[float, Quantity("m/s", at_least=0, usual=(1e-12, 200.0))]
+    """Sliding speed; 0 for a rest."""
+
 
 class ClosedTrack(Kinematics):
-    """Constant speed round a closed track; one body swept over the track."""
+    """Sliding round a closed track, at one speed or in stages; one body swept over the track."""
 
-    speed: Annotated[float, Quantity("m/s", above=0, usual=(1e-12, 200.0))]
-    """Sliding speed."""
+    speed: Annotated[
+        Annotated[float, Quantity("m/s", above=0, usual=(1e-12, 200.0)), Tag(NUMBER)]
+        | Annotated[tuple[SpeedStage, ...], Tag(STAGES)],
+        ONE_OR_STAGES,
+    ]
+    """Sliding speed: a number, or a list of stages, each a table with `until` and `speed`, 0 for a
+    rest."""
     duration: Annotated[float, Quantity("s", above=0)] | None = None
     """How long it runs."""
     revolutions: Annotated[float, Quantity("1", above=0)] | None = None
@@ -32,11 +53,35 @@ class ClosedTrack(Kinematics):
     allow_short_track: bool = False
     """Whether a track shorter than the first contact's half-width is accepted."""
 
+    _in_a_list = field_validator("speed", mode="before")(listed)
+
+    @field_validator("speed")
+    @classmethod
+    def _slides_on(cls, speed: float | tuple[SpeedStage, ...]) -> float | tuple[SpeedStage, ...]:
+        if not isinstance(speed, float):
+            check_times([stage.until for stage in speed], "speed")
+            if not any(stage.speed for stage in speed):
+                raise ValueError("every stage is a rest; give one that slides")
+        return speed
+
     @model_validator(mode="after")
     def _one_end(self) -> Self:
         if sum(end is not None for end in (self.duration, self.revolutions, self.distance)) != 1:
             raise ValueError("give exactly one of duration, revolutions and distance")
         return self
+
+    @cached_property
+    def _course(self) -> tuple[Array, Array]:
+        """Times at which stages end, from 0 on, in s, and the distance slid by then, in m."""
+        assert not isinstance(self.speed, float)
+        times = np.array([0.0, *(stage.until for stage in self.speed)])
+        speeds = np.array([stage.speed for stage in self.speed])
+        return times, np.concatenate([[0.0], np.cumsum(speeds * np.diff(times))])
+
+    @property
+    def edges(self) -> Sequence[float]:
+        """Times at which one stage of the speed ends and another begins, in s."""
+        return () if isinstance(self.speed, float) else [s.until for s in self.speed[:-1]]
 
     @property
     @abstractmethod
@@ -50,21 +95,52 @@ class ClosedTrack(Kinematics):
 
     @property
     def end_time(self) -> float:
-        """Time at which the motion ends, in s."""
+        """Time at which the motion ends, in s.
+
+        Raises
+        ------
+        CaseError
+            If the stages of the speed end before.
+        """
+        if not isinstance(self.speed, float):
+            self._check_lasts()
         if self.duration is not None:
             return self.duration
-        if self.revolutions is not None:
-            return self.revolutions * self.lap / self.speed
-        assert self.distance is not None
-        return self.distance / self.speed
+        assert self._distance is not None
+        return self.time_at(self._distance)
+
+    def _check_lasts(self) -> None:
+        times, slid = self._course
+        far, long = self._distance or 0.0, self.duration or 0.0
+        if far > slid[-1] * (1 + ROUNDING) or long > times[-1] * (1 + ROUNDING):
+            end = f"{long:g} s" if self._distance is None else f"{far:g} m"
+            raise CaseError(
+                f"the speed ends at {times[-1]:g} s, after {slid[-1]:g} m, before the run does at "
+                f"{end}; give it up to then",
+                "kinematics.speed",
+            )
+
+    @property
+    def _distance(self) -> float | None:
+        """How far it slides, if that is given, in m."""
+        return self.distance if self.revolutions is None else self.revolutions * self.lap
 
     def distance_at(self, time: float) -> float:
         """Return the sliding distance until `time`, in m."""
-        return self.speed * time
+        if isinstance(self.speed, float):
+            return self.speed * time
+        return float(np.interp(time, *self._course))
 
     def time_at(self, distance: float) -> float:
-        """Return the time at which `distance` is reached, in s."""
-        return distance / self.speed
+        """Return the first time at which `distance` is reached, in s."""
+        if isinstance(self.speed, float):
+            return distance / self.speed
+        times, slid = self._course
+        distance = min(distance, float(slid[-1]))
+        if distance <= 0:
+            return 0.0
+        stage = int(np.searchsorted(slid, distance)) - 1
+        return float(times[stage + 1] - (slid[stage + 1] - distance) / self.speed[stage].speed)
 
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
         """Return the closed track for the swept body."""

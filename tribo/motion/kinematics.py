@@ -35,6 +35,14 @@ class Kinematics(Component):
                 return high
             low, high = (middle, high) if self.distance_at(middle) < distance else (low, middle)
 
+    @property
+    def edges(self) -> Sequence[float]:
+        """Times at which the speed jumps from one stage to the next, in s; steps end there.
+
+        None, unless overridden.
+        """
+        return ()
+
     def speeds(self) -> Sequence[tuple[float, float]] | None:
         """Return the sliding speeds of a cycle, each with its share of the distance.
 

@@ -20,7 +20,7 @@ from tribo.motion.swept import one_swept_body
 
 
 class Rotating(ClosedTrack):
-    """Constant speed v round a circle of radius R; one body swept over the track.
+    """Speed v round a circle of radius R; one body swept over the track.
 
     Speed and sliding distance are those in the middle of the window. A row at y is at the radius
     R + y: its points slide by (R + y)/R of that distance at as much of that speed, on a track of

@@ -21,7 +21,7 @@ FEW = 9
 
 
 class Unidirectional(ClosedTrack):
-    """Constant speed v round a track of length ℓ; one body swept over the track.
+    """Speed v round a track of length ℓ; one body swept over the track.
 
     The curvature of the track inside the contact is neglected: valid for
     contacts small beside the track radius.

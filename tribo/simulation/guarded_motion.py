@@ -95,6 +95,11 @@ class GuardedMotion(Guard[Kinematics]):
             raise PluginError(f"{self} ends at {end:g} s, before it begins")
         return end
 
+    def edges(self) -> list[float]:
+        """Return the times at which its speed jumps, in s."""
+        answer = self.ask(lambda: list(self.component.edges))
+        return [self.number("a time at which its speed jumps", time) for time in answer]
+
     def distance_at(self, time: float) -> float:
         """Return the sliding distance from 0 to `time` (s), in m."""
         return self.number(f"a distance at {time:g} s", self.ask(self.component.distance_at, time))

@@ -77,7 +77,8 @@ def march(model: Model, state: State) -> Iterator[Accepted]:
 
 def _march(model: Model, state: State, limit: float) -> Iterator[Accepted]:
     # Which stops are left follows from the time alone, so a resumed run sees the same.
-    edges = {time for time in model.loads.edges if time < model.end_time}
+    both = *model.loads.edges, *model.motion.edges()
+    edges = {time for time in both if 0 < time < model.end_time}
     for until in sorted(model.saves | edges):
         while state.time < until:
             state = _advanced(model, state, until, limit)

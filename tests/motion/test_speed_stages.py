@@ -1,0 +1,88 @@
+"""A speed held in stages, rests among them."""
+
+import numpy as np
+import pytest
+from paper_models import K, flat, foundation, named, small, sphere, states, steel
+
+from tribo import CaseError, Explicit, Grid, Implicit, Rotating, SpeedStage, Unidirectional, WearLaw
+from tribo.core.fields import WearRate
+
+STAGES = [
+    SpeedStage(until=4, speed=0.1),
+    SpeedStage(until=9, speed=0),
+    SpeedStage(until=20, speed=0.5),
+]
+
+
+def track(**values):
+    return Unidirectional(**{"speed": STAGES, "track_length": "20 mm", "duration": 12, **values})
+
+
+def test_distance_is_the_integral_of_the_speed_and_time_its_first_inverse():
+    motion = track()
+    times = [0, 2, 4, 6, 9, 10, 12]
+    found = [motion.distance_at(time) for time in times]
+    np.testing.assert_allclose(found, [0, 0.2, 0.4, 0.4, 0.4, 0.9, 1.9], rtol=1e-14)
+    assert [motion.time_at(distance) for distance in (0.2, 0.4, 0.9)] == pytest.approx([2, 4, 10])
+    assert track(duration=None, distance=0.9).end_time == pytest.approx(10)
+    assert track(duration=None, revolutions=45).end_time == pytest.approx(10)
+
+
+class Faster(WearLaw):
+    """Wears in proportion to the speed: dh/ds = k p v/(0.1 m/s)."""
+
+    type = "test.faster"
+
+    def rate(self, local):
+        slope = K * local.speed / 0.1
+        return WearRate(slope * local.pressure, np.full_like(local.pressure, slope))
+
+
+@pytest.mark.parametrize("stepping", [Implicit(), Explicit(time_step=0.3)], ids=lambda s: s.type)
+@pytest.mark.parametrize(
+    "motion",
+    [track(), Rotating(speed=STAGES, track_radius="1 m", duration=12)],
+    ids=["unidirectional", "rotating"],
+)
+def test_a_law_is_asked_at_the_speed_of_each_stage_by_itself(motion, stepping):
+    bodies = [named("ball", sphere(), steel(), Faster()), named("disk", flat(), steel())]
+    grid = Grid((0.7e-3, 0.7e-3), (24, 24))
+    model = small(
+        grid=grid, bodies=bodies, kinematics=motion, contact=foundation(), stepping=stepping
+    )
+    found = states(model)
+    assert {4.0, 9.0, 12.0} < {state.time for state in found}
+    volume = np.sum(found[-1].bodies["ball"].wear) * grid.cell_area
+    # At 0.5 m/s it wears five times as much per metre.
+    asked = K * 100 * (0.4 + 5 * 1.5)
+    # Rows on a disk of 1 m slide by up to 0.04 % more or less.
+    assert volume == pytest.approx(asked, rel=1e-6 if motion.type == "rotating" else 1e-10, abs=0)
+
+
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ({"speed": []}, "give the speed up to the end of the run"),
+        ({"speed": [{"until": 9, "speed": 0}]}, "every stage is a rest"),
+        ({"speed": [STAGES[1], STAGES[0]]}, "9 s is followed by 4 s"),
+        ({"speed": {"until": 9, "speed": 1}}, "write a list"),
+        ({"speed": 0}, "must be greater than 0"),
+        ({"speed": [{"until": 9, "speed": -1}]}, "must be at least 0"),
+    ],
+)
+def test_stages_that_make_no_sense_are_refused(values, words):
+    with pytest.raises(ValueError, match=words):
+        track(**values)
+
+
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ({"duration": 21}, "ends at 20 s, after 5.9 m, before the run does at 21 s"),
+        ({"duration": None, "distance": 6}, "before the run does at 6 m"),
+        ({"duration": None, "revolutions": 300}, "before the run does at 6 m"),
+    ],
+)
+def test_stages_that_end_before_the_run_are_refused(values, words):
+    with pytest.raises(CaseError, match=rf"kinematics\.speed: .*{words}"):
+        small(kinematics=track(**values), contact=foundation())

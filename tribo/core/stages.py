@@ -1,0 +1,38 @@
+"""Values that change over time in stages, as a case gives them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+from typing import Any
+
+from pydantic import Discriminator
+
+NUMBER, STAGES = "number", "stages"
+
+
+def _kind(value: Any) -> str:
+    return STAGES if isinstance(value, list | tuple) else NUMBER
+
+
+ONE_OR_STAGES = Discriminator(_kind)
+"""Tells a number from a list of stages, by the tags of these names."""
+
+
+def listed(value: Any) -> Any:
+    """Return a value of a case; raise ValueError of one stage that is in no list."""
+    if isinstance(value, Mapping):
+        raise ValueError("one table was given; write a list of them: [{ until = …, … }, …]")
+    return value
+
+
+def check_times(times: Sequence[float], what: str) -> None:
+    """Raise ValueError unless the times at which stages of `what` end, in s, increase."""
+    if not times or times[-1] == 0:
+        raise ValueError(f"give the {what} up to the end of the run")
+    for before, after in pairwise(times):
+        if after <= before:
+            raise ValueError(
+                "times must increase from stage to stage, but "
+                f"{before:g} s is followed by {after:g} s"
+            )
