@@ -22,7 +22,7 @@ ROUGH = [
     f"bodies.ball.surface={{ {WAVES}, seed = 1, on = {{ type = 'sphere', radius = '5 mm' }} }}",
     f"bodies.disk.surface={{ {WAVES}, seed = 2 }}",
     "kinematics.stroke='1 mm'",
-    "kinematics.positions=17",
+    "kinematics.positions=25",
     "kinematics.duration='10 s'",
     "output.save_times=[0, 10]",
 ]

@@ -92,7 +92,7 @@ MUTANTS = {
     ),
     "groove never settled": (
         (step, "_settle"),
-        lambda right: lambda model, state: state,
+        lambda right: lambda model, state, loads: state,
         "draws a groove",
     ),
     "yields twice as deep": ((GuardedSolver, "solve"), twice_the_overlap, "times that load"),
