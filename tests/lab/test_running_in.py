@@ -13,7 +13,13 @@ import tribo
 from tribo import Simulation, load_case
 from tribo.cli.show import show
 from tribo.lab.roughness import roughness
-from tribo.lab.running_in import outlined, rough_bodies, scar_cells, worn_roughness
+from tribo.lab.running_in import (
+    contact_roughness,
+    outlined,
+    rough_bodies,
+    scar_cells,
+    worn_roughness,
+)
 
 WAVES = 'type = "rough", sq = "50 nm", cut_off = "0.125 mm", roll_off = "0.25 mm"'
 ROUGH = [
@@ -70,6 +76,22 @@ def test_running_in_polishes_the_scar_and_leaves_the_rest(path):
             worn = scar_cells(result, body, 1)
             height = np.where(worn, body.surface(1), np.nan)
             assert last.scar == roughness(height, 4)
+
+
+def test_the_history_has_the_roughness_within_the_contact(path):
+    with tribo.open(path) as result:
+        history = result.table("history")
+        for body in map(result.body, result.body_names):
+            for step, save in ((0, 0), (-1, 1)):
+                pressure = result.field("pressure", save)
+                measured = contact_roughness(body.surface(save), pressure)._asdict()
+                for label, value in measured.items():
+                    kept = history[f"bodies.{body.name}.{label}"][step]
+                    assert kept == pytest.approx(value, rel=1e-9, abs=0)
+            unworn = contact_roughness(body.height, result.field("pressure", 1))
+            assert history[f"bodies.{body.name}.Sq_m"][-1] < unworn.Sq_m
+        assert not any("Sa" in label for label in result.table("saves"))
+    assert not any("Sa" in label for label in made().table("history"))
 
 
 def test_a_smooth_scar_is_not_rough():

@@ -16,13 +16,15 @@ from tribo.core.grid import Grid
 class BodyMeasures:
     """Depths in m and the worn volume in m³ of one body.
 
-    The volume is that of the whole scar, or of the whole track.
+    The volume is that of the whole scar, or of the whole track. `roughness` has, of a body that is
+    rough, the parameters of `tribo.lab.roughness.Roughness` within the contact.
     """
 
     max_wear_depth: float
     centre_wear_depth: float
     wear_volume: float
     max_plastic_depth: float
+    roughness: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

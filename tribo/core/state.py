@@ -132,6 +132,8 @@ class BodyInfo:
         Cells along x on its own surface.
     state_fields : tuple of Field, optional
         What its wear law keeps per material point.
+    rough : bool, optional
+        Whether it is more than a smooth form at first.
     """
 
     name: str
@@ -140,6 +142,7 @@ class BodyInfo:
     height: Array
     rows: int
     state_fields: tuple[Field, ...] = ()
+    rough: bool = False
 
 
 @dataclass(frozen=True)

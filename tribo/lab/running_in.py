@@ -51,6 +51,11 @@ def reliefs(result: Result, body: BodyResult, save: int) -> Worn[Array]:
     return Worn(*(without_form(np.where(cells, z, np.nan), FORM) for cells, z in places))
 
 
+def contact_roughness(surface: Array, pressure: Array) -> Roughness:
+    """Return the roughness of a surface (m) within the outline of {p > 0}, form removed."""
+    return parameters(without_form(np.where(outlined(pressure > 0), surface, np.nan), FORM))
+
+
 def scar_cells(result: Result, body: BodyResult, save: int) -> Mask:
     """Return the scar of a body at a save, shape (nx, ny), its unworn valleys included.
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
-from tribo.result.layout import EFFECT, FIXED, STATE, TRACK, Variable
+from tribo.result.layout import EFFECT, FIXED, ROUGHNESS, STATE, TRACK, Variable
 
 LARGEST = 1e100
 """No quantity comes near it; its square and cube are still finite."""
@@ -45,8 +45,8 @@ _LATER = {
     prefix + name
     for prefix in ("", "history_")
     for name in ("plastic_area", "load", "load_distance", "cycle_error")
-}
-"""Variables that older files lack."""
+} | {*ROUGHNESS}
+"""Variables that older files lack, or those without a rough body."""
 
 
 @contextmanager
@@ -147,7 +147,7 @@ def check_values(name: str, variable: Variable, values: Array) -> None:
     """Raise ValueError if numbers of a variable are not finite, or cannot be what it means."""
     bare = name.removeprefix("history_")
     sound = np.abs(values) < LARGEST
-    if variable.kind or bare in ("density", "plastic_area", TRACK):
+    if variable.kind or name in ROUGHNESS or bare in ("density", "plastic_area", TRACK):
         # A body that has none, an effect that failed.
         sound |= np.isnan(values)
     if not sound.all():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -97,6 +98,26 @@ BODY_COLUMNS: tuple[Column[BodyMeasures], ...] = (
         "max_plastic_depth", "m", "Largest permanent displacement", lambda m: m.max_plastic_depth
     ),
 )
+
+
+def _roughness(name: str, unit: str, description: str) -> Column[BodyMeasures]:
+    label = labelled(name, unit)
+    meaning = f"{description}, within the contact"
+    return Column(name, unit, meaning, lambda m: m.roughness.get(label, math.nan))
+
+
+ROUGHNESS_COLUMNS: tuple[Column[BodyMeasures], ...] = (
+    _roughness("Sa", "m", "Arithmetical mean height"),
+    _roughness("Sq", "m", "Root mean square height"),
+    _roughness("Sz", "m", "Maximum height"),
+    _roughness("Ssk", "1", "Skewness of the heights"),
+    _roughness("Sku", "1", "Kurtosis of the heights"),
+    _roughness("Ra_along", "m", "Arithmetical mean height of profiles along x"),
+    _roughness("Rq_along", "m", "Root mean square height of profiles along x"),
+    _roughness("Ra_across", "m", "Arithmetical mean height of profiles along y"),
+    _roughness("Rq_across", "m", "Root mean square height of profiles along y"),
+)
+"""The columns that the history has besides, where a body is rough; NaN for one that is not."""
 
 INVARIANTS = (
     "force_error",

@@ -12,7 +12,7 @@ import numpy as np
 from tribo.core.arrays import Array, middle_rows
 from tribo.core.measures import Measures
 from tribo.core.state import RunInfo, Snapshot
-from tribo.result.columns import BODY_COLUMNS, COLUMNS
+from tribo.result.columns import BODY_COLUMNS, COLUMNS, ROUGHNESS_COLUMNS
 
 FORMAT = 2
 STATE, EFFECT = "state", "effect"
@@ -97,11 +97,15 @@ def _fixed() -> dict[str, Variable]:
             table[prefix + column.name] = Variable((dim,), column.unit, column.description)
         for part in BODY_COLUMNS:
             table[prefix + part.name] = Variable((dim, "body"), part.unit, part.description)
+    for part in ROUGHNESS_COLUMNS:
+        table["history_" + part.name] = Variable(("step", "body"), part.unit, part.description)
     return table
 
 
 FIXED = _fixed()
 """What every result has by name, but for the two of a track, and no fields of models."""
+ROUGHNESS = tuple(f"history_{part.name}" for part in ROUGHNESS_COLUMNS)
+"""The variables of `FIXED` that a result has only where a body is rough."""
 
 
 def variables(run: RunInfo) -> dict[str, Variable]:
@@ -123,6 +127,8 @@ def variables(run: RunInfo) -> dict[str, Variable]:
         values["track_x"] = np.asarray((np.arange(rows) - 0.5 * (rows - 1)) * grid.spacing[0])
     else:
         del table["track_x"], table[TRACK]
+    if not any(body.rough for body in bodies):
+        table = {name: variable for name, variable in table.items() if name not in ROUGHNESS}
     table |= {name: replace(table[name], values=array) for name, array in values.items()}
     everybody = tuple(body.name for body in bodies)
     fields = {(EFFECT, field): everybody for field in run.effect_fields}
@@ -141,7 +147,12 @@ def variables(run: RunInfo) -> dict[str, Variable]:
 
 def step_row(measures: Measures) -> Rows:
     """Return what a step adds to the history."""
-    return {f"history_{name}": value for name, value in _scalars(measures).items()}
+    row = {f"history_{name}": value for name, value in _scalars(measures).items()}
+    bodies = measures.bodies.values()
+    if any(body.roughness for body in bodies):
+        for part in ROUGHNESS_COLUMNS:
+            row[f"history_{part.name}"] = [float(part.read(body)) for body in bodies]
+    return row
 
 
 def save_row(snapshot: Snapshot, table: Mapping[str, Variable]) -> Rows:

@@ -20,7 +20,7 @@ from tribo.core.grid import Grid
 from tribo.core.words import did_you_mean, suggestion
 from tribo.result import checks
 from tribo.result.body import BodyResult, checked_save
-from tribo.result.columns import BODY_COLUMNS, COLUMNS, INVARIANTS, labelled
+from tribo.result.columns import BODY_COLUMNS, COLUMNS, INVARIANTS, ROUGHNESS_COLUMNS, labelled
 from tribo.result.layout import EFFECT, STATE
 from tribo.result.opening import source_of
 from tribo.result.sealed import write_sealed
@@ -273,7 +273,7 @@ class Result:
     def table(self, name: str) -> dict[str, Array]:
         """Return ``"saves"`` or ``"history"`` as columns, named with their units.
 
-        A body's columns are called ``bodies.NAME.wear_volume_m3`` and so on.
+        A body's are called ``bodies.NAME.max_wear_depth_m``; the history has a rough one's Sa too.
         """
         prefix = "" if name == "saves" else "history_"
         # One that a file lacks was not recorded yet when that was made.
@@ -281,8 +281,12 @@ class Result:
         columns = {c.label: self._scalars.get(prefix + c.name, missing) for c in COLUMNS}
         for index, body in enumerate(self.body_names):
             for part in BODY_COLUMNS:
-                label = f"bodies.{body}.{part.label}"
-                columns[label] = self._scalars[prefix + part.name][:, index]
+                values = self._scalars[prefix + part.name]
+                columns[f"bodies.{body}.{part.label}"] = values[:, index]
+            for part in ROUGHNESS_COLUMNS:
+                rough = self._scalars.get(prefix + part.name)
+                if rough is not None and not np.isnan(rough[:, index]).all():
+                    columns[f"bodies.{body}.{part.label}"] = rough[:, index]
         return columns
 
     def saves(self) -> list[dict[str, Any]]:

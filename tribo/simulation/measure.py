@@ -13,6 +13,7 @@ from tribo.core.measures import (
     plastic_area,
 )
 from tribo.core.state import State
+from tribo.lab.running_in import contact_roughness
 from tribo.simulation.model import Model
 from tribo.stepping.quadrature import cycle_error
 
@@ -28,6 +29,7 @@ def measure(model: Model, state: State) -> Measures:
             centre_wear_depth=centre(body.wear),
             wear_volume=model.exposures[name].volume(body.wear),
             max_plastic_depth=float(np.max(body.plastic)),
+            roughness=_roughness(model, name, state),
         )
         for name, body in state.bodies.items()
     }
@@ -50,3 +52,13 @@ def measure(model: Model, state: State) -> Measures:
         invariants=state.invariants,
         cycle_error=cycle_error(model, state),
     )
+
+
+def _roughness(model: Model, name: str, state: State) -> dict[str, float]:
+    """Return the roughness of a body within the contact; empty of one that is smooth at first."""
+    if name not in model.rough:
+        return {}
+    body, middle = state.bodies[name], len(model.cycle) // 2
+    own = model.surfaces[name].height, -body.wear, -body.plastic
+    surface = sum(model.under(name, part, middle) for part in own)
+    return contact_roughness(np.asarray(surface), state.contact.pressure)._asdict()

@@ -17,6 +17,7 @@ from tribo.core.fields import PLACE_X, PLACE_Y
 from tribo.core.grid import Grid
 from tribo.core.loads import Loads
 from tribo.core.measures import between_cells
+from tribo.lab.roughness import is_rough
 from tribo.motion.cycle import Position, missed_shares
 from tribo.simulation.guard import calling
 from tribo.simulation.guarded_motion import GuardedExposure, GuardedMotion
@@ -143,6 +144,13 @@ class Model:
         """Whether the positions of the cycle are solved together, with the wear they share."""
         own_rows = all(e.starts is not None or not e.swept for e in self.exposures.values())
         return len(self.cycle) > 1 and self.contact.couples and own_rows
+
+    @cached_property
+    def rough(self) -> frozenset[str]:
+        """Names of the bodies that are more than a smooth form at first."""
+        middle = len(self.cycle) // 2
+        heights = {n: self.under(n, s.height, middle) for n, s in self.surfaces.items()}
+        return frozenset(name for name, height in heights.items() if is_rough(height))
 
     @cached_property
     def apart(self) -> float:

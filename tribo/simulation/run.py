@@ -269,6 +269,7 @@ class Simulation:
                     height=model.under(name, model.surfaces[name].height, len(model.cycle) // 2),
                     rows=model.exposures[name].rows,
                     state_fields=() if body.wear is None else tuple(body.wear.state_fields),
+                    rough=name in model.rough,
                 )
                 for name, body in model.bodies.items()
             ),
