@@ -47,6 +47,17 @@ PARTS = {
     ),
     "effects": ([{"type": "thermal.flash", "ambient": "90 degC"}], ["energy.friction_traction"]),
     "friction": ({"coefficient": 0.1}, {"coefficient": 0.6}),
+    "load": (
+        {"normal": [{"until": "3 s", "normal": "20 N"}, {"until": "1 h", "normal": "100 N"}]},
+        {
+            "normal": [
+                {"at": 0, "normal": "80 N"},
+                {"at": 8, "normal": 5},
+                {"until": 1e9, "normal": 40},
+            ]
+        },
+        {"normal": [{"at": 0, "normal": 10}, {"at": 9, "normal": 90}]},
+    ),
     "stop": ({"depth": "0.1 µm"}, {"distance": "0.5 m"}, {"depth": "1 nm", "body": "ball"}),
 }
 LAWS = (
