@@ -7,13 +7,14 @@ import shutil
 import signal
 import time
 import warnings
+from copy import deepcopy
 from functools import cache
 from pathlib import Path
 
 import numpy as np
 import psutil
 from command_line import tribo
-from fuzz.generate import ROOT, Schema, damaged, mutated, plausible, small, toml, valid_cases
+from fuzz.generate import PARTS, ROOT, Schema, damaged, mutated, plausible, small, toml, valid_cases
 from trust.trial import contents, same
 
 from tribo import Result
@@ -173,6 +174,8 @@ def _tiny(chance):
     case = small(valid_cases()[0], chance)
     case["grid"] |= {"size": 0.7e-3, "cells": 16}
     case["kinematics"]["duration"], case["output"] = 20, {"save_times": [5]}
+    if chance.random() < 0.5:
+        case["load"] = deepcopy(chance.choice(PARTS["load"][:2]))
     return case
 
 

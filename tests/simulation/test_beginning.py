@@ -108,6 +108,29 @@ def test_a_resolved_cycle_goes_on_along_its_whole_track(tmp_path):
         Simulation(worn_case(begin=begin)).run()
 
 
+@pytest.mark.slow
+def test_what_has_yielded_along_a_resolved_track_is_kept(tmp_path):
+    bodies = [
+        named("ball", sphere(), steel(), archard()),
+        named("disk", flat(), steel(1.2e9), archard()),
+    ]
+    kinematics = motion(stroke=24 * GRID.spacing[0], duration=0.2, positions=13)
+    parts = {"bodies": bodies, "contact": half_space(), "kinematics": kinematics}
+    begin = tmp_path / "first.h5"
+    with Simulation(worn_case(**parts)).run(begin) as first:
+        before = first.field("track_plastic", -1, "disk")
+        window = first.field("plastic_depth", -1, "disk")
+        assert np.all(np.isnan(first.field("track_plastic", -1, "ball")))
+    assert before.shape == (56, 32)
+    np.testing.assert_array_equal(before[12:-12], window)
+    # The ends of the stroke have yielded beyond the window.
+    assert before[:12].max() > 0.1 * before.max() > 1e-9
+    with Simulation(worn_case(begin=begin, **parts)).run() as second:
+        for save in (0, -1):
+            found = second.field("track_plastic", save, "disk")
+            np.testing.assert_allclose(found, before, atol=1e-4 * before.max())
+
+
 def test_the_save_is_named_by_its_time(run_in):
     with Simulation(worn_case(begin=Begin(result=str(run_in), time=4))).run() as result:
         worn = result.saves()[0]["bodies"]["ball"]["wear_volume_m3"]

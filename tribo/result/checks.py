@@ -13,7 +13,7 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
-from tribo.result.layout import EFFECT, FIXED, ROUGHNESS, STATE, TRACK, Variable
+from tribo.result.layout import EFFECT, FIXED, ROUGHNESS, STATE, TRACK, TRACK_PLASTIC, Variable
 
 LARGEST = 1e100
 """No quantity comes near it; its square and cube are still finite."""
@@ -39,14 +39,15 @@ _JSON: dict[str, object] = {"case": {"bodies": {...: dict}}, "provenance": _MADE
 _GROWING = {"x", "y", "track_x", "time", "history_time"}
 _NEVER_NEGATIVE = {
     *("time", "distance", "pressure", "max_pressure", "centre_pressure", "contact_area"),
-    *("wear_depth", TRACK, "max_wear_depth", "wear_volume", "plastic_depth", "density"),
+    *("wear_depth", TRACK, "max_wear_depth", "wear_volume", "density"),
+    *("plastic_depth", TRACK_PLASTIC),
 }
 _LATER = {
     prefix + name
     for prefix in ("", "history_")
     for name in ("plastic_area", "load", "load_distance", "cycle_error")
-} | {*ROUGHNESS}
-"""Variables that older files lack, or those without a rough body."""
+} | {*ROUGHNESS, TRACK_PLASTIC}
+"""Variables that older files lack, or those without a body that is rough or yields."""
 
 
 @contextmanager
@@ -147,7 +148,8 @@ def check_values(name: str, variable: Variable, values: Array) -> None:
     """Raise ValueError if numbers of a variable are not finite, or cannot be what it means."""
     bare = name.removeprefix("history_")
     sound = np.abs(values) < LARGEST
-    if variable.kind or name in ROUGHNESS or bare in ("density", "plastic_area", TRACK):
+    may_lack = {"density", "plastic_area", TRACK, TRACK_PLASTIC, *ROUGHNESS}
+    if variable.kind or {name, bare} & may_lack:
         # A body that has none, an effect that failed.
         sound |= np.isnan(values)
     if not sound.all():

@@ -16,7 +16,7 @@ from tribo.result.columns import BODY_COLUMNS, COLUMNS, ROUGHNESS_COLUMNS
 
 FORMAT = 2
 STATE, EFFECT = "state", "effect"
-TRACK = "track_depth"
+TRACK, TRACK_PLASTIC = "track_depth", "track_plastic"
 
 Rows = dict[str, Any]
 """What is added, by variable: numbers, or for a field an array."""
@@ -91,6 +91,9 @@ def _fixed() -> dict[str, Variable]:
         TRACK: Variable(
             ("time", "body", "track_x", "y"), "m", "Depth worn away along the whole track"
         ),
+        TRACK_PLASTIC: Variable(
+            ("time", "body", "track_x", "y"), "m", "Permanent displacement along the whole track"
+        ),
     }
     for prefix, dim in (("", "time"), ("history_", "step")):
         for column in COLUMNS:
@@ -103,7 +106,7 @@ def _fixed() -> dict[str, Variable]:
 
 
 FIXED = _fixed()
-"""What every result has by name, but for the two of a track, and no fields of models."""
+"""What every result has by name, but for those of a track, and no fields of models."""
 ROUGHNESS = tuple(f"history_{part.name}" for part in ROUGHNESS_COLUMNS)
 """The variables of `FIXED` that a result has only where a body is rough."""
 
@@ -127,6 +130,8 @@ def variables(run: RunInfo) -> dict[str, Variable]:
         values["track_x"] = np.asarray((np.arange(rows) - 0.5 * (rows - 1)) * grid.spacing[0])
     else:
         del table["track_x"], table[TRACK]
+    if rows <= grid.cells[0] or run.system.cap is None:
+        del table[TRACK_PLASTIC]
     if not any(body.rough for body in bodies):
         table = {name: variable for name, variable in table.items() if name not in ROUGHNESS}
     table |= {name: replace(table[name], values=array) for name, array in values.items()}
@@ -168,6 +173,8 @@ def save_row(snapshot: Snapshot, table: Mapping[str, Variable]) -> Rows:
     }
     if TRACK in table:
         row[TRACK] = _on_track([body.wear for body in state.bodies.values()], shape)
+    if TRACK_PLASTIC in table:
+        row[TRACK_PLASTIC] = _on_track([body.plastic for body in state.bodies.values()], shape)
     for name, variable in table.items():
         if variable.kind == STATE:
             of_bodies = {n: state.bodies[n].law[variable.field] for n in variable.bodies}

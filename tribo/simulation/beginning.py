@@ -16,7 +16,7 @@ from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.core.state import BodyState, State
 from tribo.result.body import BodyResult
-from tribo.result.layout import TRACK
+from tribo.result.layout import TRACK, TRACK_PLASTIC
 from tribo.result.read import Result
 from tribo.simulation.model import Model
 from tribo.stepping.step import first_contact
@@ -107,7 +107,7 @@ def _check_alike(model: Model, result: Result) -> None:
 def _worn(model: Model, result: Result, name: str, save: int) -> BodyState:
     """Return what a result has of a body, on the rows that the body has in the case."""
     (nx, ny), rows = model.grid.cells, model.exposures[name].rows
-    body, track = result.body(name), _along_track(result, name, save)
+    body, track = result.body(name), _along_track(result, TRACK, name, save)
     if body.swept != (name in model.swept):
         ways = "passes through the contact", "stays in it"
         was, is_now = ways if body.swept else ways[::-1]
@@ -122,15 +122,15 @@ def _worn(model: Model, result: Result, name: str, save: int) -> BodyState:
         )
     plastic, state = body.plastic_depth[save], _law_state(model, result, body)
     if track is not None:
-        deepest = result.saves()[save]["bodies"][name]["max_plastic_depth_m"]
-        if deepest > 0 or state:
+        if state:
             raise CaseError(
-                f"{result.name} keeps the wear of {name} along its whole path, but its plastic "
-                "depth and the state of its law in the window only, so that nothing can begin "
-                "with it; average the stroke, or let the law and the hardness be without memory",
+                f"{result.name} keeps the wear of {name} along its whole path, but the state of "
+                "its law in the window only, so that nothing can begin with it; average the "
+                "stroke, or take a law without memory",
                 PLACE,
             )
-        plastic = np.zeros((rows, ny))
+        yielded = _along_track(result, TRACK_PLASTIC, name, save)
+        plastic = np.zeros((rows, ny)) if yielded is None else yielded
     law = {}
     if name in model.laws:
         law = {k: np.full_like(wear, v) for k, v in model.laws[name].initial_state.items()}
@@ -148,11 +148,11 @@ def _law_state(model: Model, result: Result, body: BodyResult) -> Mapping[str, A
     return body.state if same else {}
 
 
-def _along_track(result: Result, name: str, save: int) -> Array | None:
-    """Return the wear along the whole path of a body, shape (rows, ny), if it is kept."""
-    if TRACK not in dir(result):
+def _along_track(result: Result, variable: str, name: str, save: int) -> Array | None:
+    """Return a depth along the whole path of a body, shape (rows, ny), if it is kept."""
+    if variable not in dir(result):
         return None
-    track = result.field(TRACK, save, name)
+    track = result.field(variable, save, name)
     # Shorter ones lie in the middle of the longest, NaN beyond their ends.
     return track[~np.isnan(track[:, 0])] if np.any(np.isfinite(track)) else None
 
