@@ -126,9 +126,10 @@ def test_what_has_yielded_along_a_resolved_track_is_kept(tmp_path):
     # The ends of the stroke have yielded beyond the window.
     assert before[:12].max() > 0.1 * before.max() > 1e-9
     with Simulation(worn_case(begin=begin, **parts)).run() as second:
-        for save in (0, -1):
+        for save, more in ((0, 1e-6), (-1, 1e-3)):
+            # As it slides on it wears, and the edges of the groove yield a little more.
             found = second.field("track_plastic", save, "disk")
-            np.testing.assert_allclose(found, before, atol=1e-4 * before.max())
+            np.testing.assert_allclose(found, before, atol=more * before.max(), rtol=0)
 
 
 def test_the_save_is_named_by_its_time(run_in):
