@@ -45,14 +45,11 @@ class GuardedSurface(Guard[Surface]):
         super().__init__(surface, body)
         height = self.ask(surface.height, grid)
         self.height = self.field("a height map", height, grid.cells)[0]
-        self.curvature = self._curvature()
-
-    def _curvature(self) -> tuple[float, float] | None:
-        answer: object = self.ask(getattr, self.component, "curvature")
-        if answer is None:
-            return None
-        along, across = self.field("a curvature", answer, (2,))[0]
-        return float(along), float(across)
+        self.curvature: tuple[float, float] | None = None
+        curvature: object = self.ask(getattr, surface, "curvature")
+        if curvature is not None:
+            along, across = self.field("a curvature", curvature, (2,))[0]
+            self.curvature = float(along), float(across)
 
 
 class GuardedLaw(Guard[WearLaw]):

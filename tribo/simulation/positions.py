@@ -183,7 +183,7 @@ def _costly(model: Model, stroke: float) -> str | None:
 def _cost(model: Model, state: State, stroke: float) -> str | None:
     seen = half_width, *_ = track_average(model, state)
     excess = groove_excess(stroke, *seen)
-    if excess < WORTH or not average_matters(model, state):
+    if excess < WORTH or not average_matters(model, half_width):
         return None
     widths = f"{stroke / half_width:.2g}"
     return (

@@ -98,8 +98,9 @@ def check_stroke(model: Model, state: State) -> None:
 
 def limitation(model: Model, state: State) -> str | None:
     """Return why the track average does not hold in `state`, if so."""
-    words = model.motion.limitation(*track_average(model, state))
-    return words if average_matters(model, state) else None
+    seen = half_width, *_ = track_average(model, state)
+    words = model.motion.limitation(*seen)
+    return words if average_matters(model, half_width) else None
 
 
 def track_average(model: Model, state: State) -> tuple[float, float, float, float]:
@@ -114,10 +115,9 @@ def track_average(model: Model, state: State) -> tuple[float, float, float, floa
     return half_width, max(depths, default=0.0), state.reference_depth, ratio
 
 
-def average_matters(model: Model, state: State) -> bool:
+def average_matters(model: Model, half_width: float) -> bool:
     """Whether a swept body changes its shape, in a contact that has ends."""
-    endless = _is_endless(model, half_widths(state.contact, model.grid)[0])
-    return bool(_changing(model)) and not endless
+    return bool(_changing(model)) and not _is_endless(model, half_width)
 
 
 def _is_endless(model: Model, half_width: float) -> bool:
