@@ -140,7 +140,7 @@ class WearRate:
         once more at slightly higher pressures. How long an explicit step may be
         is found by difference, through all fields.
     state_rates : Mapping[str, ndarray]
-        Change of each state field per metre of sliding.
+        Change of each state field per metre of sliding; 0 where the pressure is 0.
     """
 
     depth_rate: Array

@@ -105,6 +105,20 @@ class WearLawChecks(Checks):
                 needed = choose(np.array(np.broadcast_to(whole[name], _SHAPE)))
                 expect_close(f"{name} with points {what}", found, needed, 1e-12)
 
+    def untouched_points_keep_their_state(self) -> None:
+        """Where the pressure is 0 no state changes: points beyond the window are not asked."""
+        law = self._make()
+        apply_if(bool(law.state_fields), "it keeps no state")
+        local = self._slid(law)
+        for name, values in law.rate(local).state_rates.items():
+            changes = np.broadcast_to(values, _SHAPE)[local.pressure == 0]
+            worst = float(np.max(np.abs(changes)))
+            require(
+                worst == 0,
+                f"{name!r} changes by {worst:.3g} per metre where the pressure is 0; what a track "
+                "has of that would depend on the size of the window",
+            )
+
     def only_declared_fields_are_asked_for(self) -> None:
         """It asks for no local field but those in `requires`, and no state but its own."""
         law = self._make()

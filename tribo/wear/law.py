@@ -42,6 +42,6 @@ class WearLaw(Component):
         Returns
         -------
         WearRate
-            Arrays of the pressure's shape. Where the pressure is 0 the depth
-            is 0.
+            Arrays of the pressure's shape. Where the pressure is 0 the depth and the rates of
+            the state are 0.
         """

@@ -179,6 +179,7 @@ LAWS += wrong(
     ("derivative_is_that_of_the_depth", parts(secant)),
     ("depth_grows_with_pressure", parts(falling)),
     ("points_are_independent", parts(normalised)),
+    ("untouched_points_keep_their_state", parts(lambda r, local: {"state_rates": {"rubbed": 1.0}})),
     ("only_declared_fields_are_asked_for", parts(asking)),
     ("declared_fields_have_units", {"state_fields": (Field("rubbed", "mm", "Distance slid."),)}),
     ("runs_under_implicit_stepping", parts(failing_later), RuntimeError),
