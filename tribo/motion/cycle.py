@@ -12,6 +12,8 @@ from tribo.core.errors import CaseError
 
 Speeds = Sequence[tuple[float, float]]
 """Sliding speeds in m/s, each with a share of the path."""
+EVEN = 1e-3
+"""Relative difference up to which speeds near a position count as one."""
 WHOLE = 1e-6
 """Of a stroke: within it a stroke counts as an even whole number of cells."""
 
@@ -100,7 +102,10 @@ class Stroke:
         return self._near(self.ends) / np.ptp(self.ends)
 
     def passed(self, times: Array, places: Array) -> list[Position]:
-        """Return the positions of a path over the stroke, each with the mean speed near it.
+        """Return the positions of a path over the stroke, each with two speeds near it.
+
+        Half of the path near a position is slid at each, which both its mean speed over the path
+        and its time fulfil: what goes as the speed, or with time, is exact.
 
         Parameters
         ----------
@@ -112,13 +117,18 @@ class Stroke:
         # A stroke that counts as whole cells may go a little beyond the last one.
         places = places * (np.ptp(self.ends) / self.length)
         steps = np.abs(np.diff(places))
-        pace = np.zeros_like(steps)
-        np.divide(np.diff(times), steps, out=pace, where=steps > 0)
-        lengths, lasting = self._near(places), self._near(places, pace)
+        taken, pace = np.diff(times), np.zeros_like(steps)
+        np.divide(taken, steps, out=pace, where=steps > 0)
+        lengths = self._near(places)
+        mean = self._near(places, steps / taken) / lengths
+        steady = lengths / self._near(places, pace)
+        apart = np.sqrt(np.maximum(mean**2 - mean * steady, 0.0))
         shares = lengths / np.sum(lengths)
         return [
-            Position(float(share), [(float(length / time), 1.0)])
-            for share, length, time in zip(shares, lengths, lasting, strict=True)
+            Position(float(share), [(float(v - d), 0.5), (float(v + d), 0.5)])
+            if d > EVEN * v
+            else Position(float(share), [(float(even), 1.0)])
+            for share, v, d, even in zip(shares, mean, apart, steady, strict=True)
         ]
 
     @property
@@ -211,7 +221,7 @@ def missed_shares(nodes: Array, shares: Array) -> Array:
     return missed
 
 
-def spacing_for(pressure: Array, error: float) -> int:
+def spacing_for(pressure: Array, error: float, *, repeats: bool = False) -> int:
     """Return how far apart, in cells, positions may lie for the groove of a contact to be even.
 
     A body that passes is worn by the sum of the pressures at each position; every point of a row
@@ -224,15 +234,21 @@ def spacing_for(pressure: Array, error: float) -> int:
         Pressure of a contact that stays the same all along a path.
     error : float
         Relative.
+    repeats : bool, optional
+        Whether the contact repeats with the window: positions then divide it evenly.
     """
     deepest, load = float(np.max(np.sum(pressure, axis=0))), float(np.sum(pressure))
+    best = 1
     for cells in range(2, len(pressure)):
+        if repeats and len(pressure) % cells:
+            continue
         padded = np.pad(pressure, ((0, -len(pressure) % cells), (0, 0)))
         met = np.sum(padded.reshape(-1, cells, pressure.shape[1]), axis=0)
         off = np.abs(cells * met - np.sum(pressure, axis=0))
         if float(np.sum(met * off)) > error * load * deepest:
-            return cells - 1
-    return len(pressure)
+            break
+        best = cells
+    return best
 
 
 def near(nodes: Array, path: Array, weights: Array | float = 1.0) -> Array:
