@@ -1,7 +1,6 @@
 """Roughness of worn bodies in a result."""
 
 import json
-import warnings
 from importlib.resources import files
 
 import numpy as np
@@ -38,9 +37,7 @@ ROUGH = [
 def path(tmp_path_factory):
     """A rough ball on a rough disk, the cycle resolved."""
     path = tmp_path_factory.mktemp("rough") / "rough.h5"
-    with warnings.catch_warnings():
-        warnings.filterwarnings("ignore", "quadrature")
-        run(path, *ROUGH).close()
+    run(path, *ROUGH).close()
     return path
 
 

@@ -126,5 +126,7 @@ def test_a_check_proposes_what_makes_the_groove_even():
         mean = pressure.sum(axis=0)
         return np.sum(groove * np.abs(groove - mean)) / np.sum(groove) / mean.max()
 
+    # Under an even pressure positions lie anywhere, evenly over what repeats.
+    assert spacing_for(np.ones((24, 2)), 0.01, repeats=True) == 12
     assert uneven(apart) <= 0.01 < uneven(apart + 1)
     assert predict(model).positions_for_1_percent == 2 * int(np.ceil(12 / apart)) + 1

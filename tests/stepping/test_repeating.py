@@ -30,6 +30,7 @@ from tribo import (
     Winkler,
 )
 from tribo.observers.observer import Observer
+from tribo.simulation.predict import predict
 from tribo.stepping.step import first_contact
 
 GRID = Grid((0.32e-3, 0.24e-3), (16, 12))
@@ -141,6 +142,14 @@ def test_two_flats_wear_evenly(kinematics):
         np.testing.assert_allclose(body.wear, depth, rtol=1e-10)
 
 
+def test_a_check_foresees_them():
+    foreseen = predict(repeating(track(), contact=Periodic(), load=2000.0))
+    depth = K * 2000 / (GRID.size[0] * GRID.size[1])
+    assert foreseen.problems == ()
+    assert [b.max_wear_depth for b in foreseen.last.bodies.values()] == pytest.approx([depth] * 2)
+    assert foreseen.positions == 16
+
+
 def test_waves_press_at_each_position_as_far_apart_as_they_have_come():
     waves = [Waves(amplitude=a, wavelength=GRID.size[0], along="x") for a in (2e-8, 3e-8)]
     model = repeating(track(), contact=Periodic(tolerance=1e-12), bodies=bodies(*waves), load=2000)
@@ -162,7 +171,6 @@ def test_waves_that_slide_over_a_flat_wear_off_evenly():
     np.testing.assert_allclose(lower, K * 2000 / (GRID.size[0] * GRID.size[1]), rtol=1e-3)
 
 
-@pytest.mark.filterwarnings("ignore:quadrature")
 @pytest.mark.slow
 def test_a_stopped_run_goes_on_to_the_same_bits(tmp_path):
     simulation = Simulation(repeating(strokes(40, positions=5), stepping=Implicit()))

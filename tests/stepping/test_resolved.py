@@ -202,7 +202,6 @@ def test_starts_that_do_not_fit_the_cycle_are_refused(starts):
         resolved(kinematics=Odd(stroke=1e-3, frequency=1.0, cycles=1))
 
 
-@pytest.mark.filterwarnings("ignore:quadrature")
 def test_the_section_of_the_track_is_that_at_mid_stroke():
     kinematics = motion(stroke=STROKE, duration=20, positions=9)
     with Simulation(case(grid=GRID, contact=foundation(), kinematics=kinematics)).run() as result:
@@ -219,7 +218,6 @@ class StopAfter(Observer):
             raise KeyboardInterrupt
 
 
-@pytest.mark.filterwarnings("ignore:quadrature")
 def test_a_stopped_run_goes_on_to_the_same_bits_with_the_groove_along_its_track(tmp_path):
     kinematics = motion(stroke=STROKE, duration=20, positions=7)
     simulation = Simulation(case(grid=GRID, contact=foundation(), kinematics=kinematics))

@@ -43,7 +43,7 @@ def assemble(case: Case) -> Model:
     grid, bodies = case.grid, case.bodies
     motion, solver = GuardedMotion(case.kinematics), GuardedSolver(case.contact)
     with located("kinematics"):
-        window = RepeatingGrid(size=grid.size, cells=grid.cells) if case.contact.periodic else grid
+        window = as_it_repeats(grid, case.contact)
         exposures = motion.exposures(window, list(bodies))
         cycle = motion.cycle(window)
         for exposure in exposures.values():
@@ -108,6 +108,11 @@ def assemble(case: Case) -> Model:
         with located("effects"):
             effect.ask(effect.component.check, dict(system.materials), model.swept)
     return model
+
+
+def as_it_repeats(grid: Grid, contact: ContactSolver) -> Grid:
+    """Return the window as motions are told of it: as one that repeats if the contact does."""
+    return RepeatingGrid(size=grid.size, cells=grid.cells) if contact.periodic else grid
 
 
 def varied(case: Case, **changes: Any) -> Case:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from tribo.case import Case, Output
 from tribo.core.grid import Grid
-from tribo.simulation.assembly import assemble, varied
+from tribo.simulation.assembly import as_it_repeats, assemble, varied
 from tribo.simulation.model import Model
 from tribo.stepping.implicit import Implicit
 
@@ -37,6 +37,7 @@ def coarsened(case: Case, cells: int, margin: float, half_width_x: float = 0.0) 
     }
     grid = Grid((lx, ly), (nx, ny), ends_at_window=True)
     motion = case.kinematics.coarsened(half_width_x)
-    load = case.load.averaged() if len(motion.cycle(grid)) == 1 else case.load
+    cycle = motion.cycle(as_it_repeats(grid, case.contact))
+    load = case.load.averaged() if len(cycle) == 1 else case.load
     changes = {"kinematics": motion, "load": load, "stepping": LOOSE, "begin": None}
     return assemble(varied(case, grid=grid, bodies=bodies, output=Output(), **changes))

@@ -158,7 +158,8 @@ def positions_for(model: Model, first: ContactSolution) -> int | None:
     if not starts:
         return None
     path = max(starts[0]) - min(starts[0])
-    return 2 * math.ceil(0.5 * path / spacing_for(first.pressure, FINE)) + 1
+    spacing = spacing_for(first.pressure, FINE, repeats=model.contact.periodic)
+    return 2 * math.ceil(0.5 * path / spacing) + 1
 
 
 def _changing(model: Model) -> list[str]:
