@@ -9,7 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from tribo.core.contact import ContactProblem, ContactSolution, WearCompliance
+from tribo.core.contact import (
+    ContactProblem,
+    ContactSolution,
+    CycleCompliance,
+    WearCompliance,
+)
 from tribo.simulation.guards import GuardedSolver
 from tribo.testing import samples
 from tribo.testing.checks import Checks
@@ -130,6 +135,26 @@ class ContactSolverChecks(Checks):
             again = self._solve(gap=ball(GRID) + wear.depth(worn, dx)).pressure
             what = f"pressure under {what} compliance, and that with its depth in the gap"
             expect_close(what, worn, again, 10 * TOLERANCE)
+
+    def positions_share_their_wear(self) -> None:
+        """Solved as one, each position of a cycle is in contact with what all of them wear."""
+        solver = self._make()
+        apply_if(solver.couples, "couples is False")
+        soft = 0.5 * abs(self._plain.approach) / float(np.max(self._plain.pressure))
+        (nx, ny), starts = GRID.cells, [4, 2, 0]
+        stays, passes = samples.pattern((nx, ny)), samples.pattern((nx + 4, ny))
+        shares = np.array([0.2, 0.3, 0.5])
+        bodies = [(soft * (0.5 + stays), [0, 0, 0]), (soft * (0.5 + passes), starts)]
+        coupling = CycleCompliance(shares, bodies, slice(0, nx))
+        gaps = [ball(GRID, cells=(row, 0)) for row in (0, 1, 2)]
+        problems = [problem(gap=gap) for gap in gaps]
+        guarded = GuardedSolver(solver)
+        contacts = guarded.solve_cycle(problems, [self._plain] * 3, coupling)
+        worn = coupling.depth(np.stack([each.pressure for each in contacts]), GRID.spacing[0])
+        for position, (gap, contact) in enumerate(zip(gaps, contacts, strict=True)):
+            again = self._solve(gap=gap + worn[position]).pressure
+            what = f"pressure at position {position} of three, and that with its depth in the gap"
+            expect_close(what, contact.pressure, again, 10 * TOLERANCE)
 
     def pressure_stays_below_the_cap(self) -> None:
         """The cap limits the pressure, the load is carried, and overlap is where the cap acts."""

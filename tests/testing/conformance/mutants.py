@@ -7,6 +7,7 @@ from testing.conformance.honest import Counts, Hill, Motion, Solver, Traction
 from testing.conformance.mutant_laws import LAWS, wrong
 
 from tribo import (
+    ContactSolver,
     Field,
     Grid,
     NumericalError,
@@ -81,6 +82,13 @@ MUTANTS += wrong(
     ("warm_start_changes_nothing", answer(from_the_start)),
     ("wear_compliance_adds_its_depth", asked(lambda p: replace(p, wear=None))),
     ("wear_compliance_adds_its_depth", asked(without_swept)),
+    (
+        "positions_share_their_wear",
+        {
+            "couples": True,
+            "solve_cycle": lambda self, *given: ContactSolver.solve_cycle(self, *given),
+        },
+    ),
     ("pressure_stays_below_the_cap", answer(lambda s, start: {"overlap": 0 * s.overlap})),
     ("cap_out_of_reach_does_nothing", of_system(lambda s: {"cap": s.cap and 0.4 * s.cap})),
     ("no_mode_is_stiffer_than_stated", {"smallest_compliance": longest_wave}),

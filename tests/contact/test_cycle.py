@@ -1,0 +1,113 @@
+"""The positions of a cycle solved as one contact problem."""
+
+import numpy as np
+import pytest
+from contact_problems import ball
+
+from tribo import DcFft, Grid, Periodic
+from tribo.core.contact import ContactProblem, ContactSystem, CycleCompliance
+
+CELLS = (24, 20)
+GRID = Grid((0.96e-3, 0.8e-3), CELLS)
+SHARES = np.array([0.15, 0.5, 0.35])
+STARTS = (6, 4, 0)
+MODULUS, LOADS = 1.1e11, (20.0, 35.0, 26.0)
+
+
+def rough_gaps(seed=0):
+    x, y = GRID.mesh
+    waves = np.random.default_rng(seed).standard_normal((3, *CELLS))
+    return (x**2 + y**2) / 10e-3 + 2e-8 * waves
+
+
+def coupling(size, rows=30):
+    rng = np.random.default_rng(1)
+    stays, passes = (size * (0.5 + rng.random((n, CELLS[1]))) for n in (CELLS[0], rows))
+    return CycleCompliance(SHARES, [(stays, (0, 0, 0)), (passes, STARTS)], slice(0, CELLS[0]))
+
+
+def problems(gaps, cap=None):
+    system = ContactSystem(GRID, MODULUS, max(LOADS), cap)
+    return [ContactProblem(system, gap, load) for gap, load in zip(gaps, LOADS, strict=True)]
+
+
+def solved(solver, given, wear=None):
+    return solver.solve_cycle(given, [solver.solve(each) for each in given], wear)
+
+
+def pressures(contacts):
+    return np.stack([contact.pressure for contact in contacts])
+
+
+def test_the_coupling_is_symmetric_in_the_shares():
+    wear = coupling(1e-15)
+    p, q = np.random.default_rng(2).random((2, 3, *CELLS))
+    weights = SHARES[:, None, None]
+    there, back = (np.sum(weights * a * wear.depth(b, 1.0)) for a, b in ((p, q), (q, p)))
+    assert there == pytest.approx(back, rel=1e-12, abs=0)
+    assert np.sum(weights * p * wear.depth(p, 1.0)) > 0
+
+
+def test_its_depth_is_what_each_body_has_lost_under_the_window():
+    wear, p = coupling(1e-15), np.random.default_rng(3).random((3, *CELLS))
+    (stays, _), (passes, _) = wear.bodies
+    lost = np.zeros((30, CELLS[1]))
+    for share, start, each in zip(SHARES, STARTS, p, strict=True):
+        lost[start : start + CELLS[0]] += share * passes[start : start + CELLS[0]] * each
+    stayed = stays * np.tensordot(SHARES, p, axes=1)
+    needed = [stayed + lost[start : start + CELLS[0]] for start in STARTS]
+    np.testing.assert_allclose(wear.depth(p, 1.0), needed, rtol=1e-12)
+
+
+@pytest.mark.parametrize("solver", [DcFft(tolerance=1e-11), Periodic(tolerance=1e-11)])
+@pytest.mark.parametrize("cap", [None, 1.2e9])
+def test_each_position_is_in_contact_with_what_all_of_them_wear(solver, cap):
+    given = problems(rough_gaps(), cap)
+    if solver.periodic:
+        wear = coupling(5e-16, rows=CELLS[0])
+        wear = CycleCompliance(SHARES, [(c, (0, 3, -5)) for c, _ in wear.bodies], wear.rows)
+    else:
+        wear = coupling(5e-16)
+    contacts = solved(solver, given, wear)
+    worn = wear.depth(pressures(contacts), GRID.spacing[0])
+    again = [
+        solver.solve(ContactProblem(each.system, each.gap + depth, each.load))
+        for each, depth in zip(given, worn, strict=True)
+    ]
+    found, needed = pressures(contacts), pressures(again)
+    assert np.max(np.abs(found - needed)) <= 1e-6 * np.max(needed)
+    for one, other in zip(contacts, again, strict=True):
+        assert one.approach == pytest.approx(other.approach, rel=1e-7, abs=1e-14)
+        np.testing.assert_allclose(one.overlap, other.overlap, atol=1e-7 * abs(other.approach))
+
+
+def test_without_wear_it_is_each_contact_alone():
+    solver = DcFft(tolerance=1e-11)
+    given = problems(rough_gaps())
+    found, needed = pressures(solved(solver, given)), pressures(map(solver.solve, given))
+    assert np.max(np.abs(found - needed)) <= 1e-7 * np.max(needed)
+
+
+def test_a_box_grows_to_what_any_position_touches():
+    solver, x = DcFft(tolerance=1e-11), GRID.mesh[0]
+    given = problems([ball(24, 1.0, width=0.96e-3).gap[:, 2:-2]] * 3)
+    apart = [
+        ContactProblem(each.system, each.gap + slope * x, each.load)
+        for each, slope in zip(given, (-0.05, 0.0, 0.05), strict=True)
+    ]
+    start = [solver.solve(given[1])] * 3
+    found = pressures(solver.solve_cycle(apart, start))
+    needed = pressures(map(solver.solve, apart))
+    assert np.max(np.abs(found - needed)) <= 1e-7 * np.max(needed)
+
+
+def test_a_solver_of_ones_own_takes_them_one_by_one():
+    class Own(DcFft):
+        type = "test.own"
+
+        def solve(self, problem, start=None):
+            return DcFft.solve(self, problem, start)
+
+    assert DcFft.couples
+    assert not Own.couples
+    assert Own.solve_cycle is not DcFft.solve_cycle
