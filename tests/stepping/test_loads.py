@@ -209,6 +209,17 @@ def test_a_run_that_is_stopped_at_a_jump_or_after_it_goes_on_to_the_same_bits(tm
                 assert resumed.dataset.equals(whole.dataset)
 
 
+def test_an_estimate_takes_few_stages_that_carry_as_much():
+    times = np.linspace(0, 20, 1001)
+    load = Load(normal=[{"at": t, "normal": 60 + 40 * np.sin(3 * t)} for t in times])
+    few = load.thinned()
+    assert len(few.normal) == 50
+    carried = np.diff([0, *(stage.until for stage in few.normal)]) * [s.normal for s in few.normal]
+    exact = np.trapezoid([stage.normal for stage in load.normal], times)
+    assert np.sum(carried) == pytest.approx(exact, rel=1e-12, abs=0)
+    assert Load(normal=BLOCKS).thinned() == Load(normal=BLOCKS)
+
+
 def test_stages_come_from_a_file_or_a_table_and_survive_the_way_through_plain_data(tmp_path):
     (tmp_path / "load.csv").write_text("time_s,load_N\n0,20\n8,100\n60,10\n")
     from_file = Load(normal=tmp_path / "load.csv")
@@ -234,6 +245,7 @@ def test_stages_come_from_a_file_or_a_table_and_survive_the_way_through_plain_da
         ([{"at": 0, "normal": 5}], "give the load up to the end of the run"),
         ([{"at": 3, "normal": 5}, {"at": 4, "normal": 5}], "begins at 3 s"),
         ([{"until": 3, "normal": 5}, {"at": 3, "normal": 9}], "3 s is followed by 3 s"),
+        ([{"at": i, "normal": 5} for i in range(10_001)], "10001 stages of the load"),
         ([{"until": 3, "normal": 0}], "0 N: must be greater than 0"),
         ([{"until": 3, "at": 3, "normal": 5}], "either until, .* or at"),
         ({"until": 3, "normal": 5}, "write a list"),

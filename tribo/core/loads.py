@@ -20,6 +20,8 @@ from tribo.core.stages import NUMBER, ONE_OR_STAGES, STAGES, check_times, listed
 from tribo.core.table import Table
 from tribo.core.units import Quantity
 
+FEW = 50
+"""Stages of an estimate."""
 FILES = (".csv", ".npy")
 NormalLoad = Annotated[float, Quantity("N", above=0, usual=(1e-12, 1e6))]
 ByPosition = tuple[float, ...]
@@ -155,6 +157,20 @@ class Load(Table):
             normal=tuple(
                 stage.model_copy(update={"normal": mean * stage.normal}) for stage in self.normal
             )
+        )
+
+    def thinned(self) -> Load:
+        """Return the load in a few stages, held at the mean of those that they stand for."""
+        if isinstance(self.normal, float) or len(self.normal) <= FEW:
+            return self
+        ends = np.array([0.0, *(piece.end for piece in self.pieces)])
+        carried = np.diff(ends) * [0.5 * (piece.first + piece.last) for piece in self.pieces]
+        firsts = np.arange(0, len(carried), -(-len(carried) // FEW))
+        until = ends[[*firsts[1:], -1]]
+        normal = np.add.reduceat(carried, firsts) / np.diff([0.0, *until])
+        stages = zip(until.tolist(), normal.tolist(), strict=True)
+        return self.model_copy(
+            update={"normal": tuple(Stage(until=time, normal=load) for time, load in stages)}
         )
 
     @property

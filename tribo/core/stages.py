@@ -9,6 +9,7 @@ from typing import Any
 from pydantic import Discriminator
 
 NUMBER, STAGES = "number", "stages"
+MOST = 10_000
 
 
 def _kind(value: Any) -> str:
@@ -30,6 +31,11 @@ def check_times(times: Sequence[float], what: str) -> None:
     """Raise ValueError unless the times at which stages of `what` end, in s, increase."""
     if not times or times[-1] == 0:
         raise ValueError(f"give the {what} up to the end of the run")
+    if len(times) > MOST:
+        raise ValueError(
+            f"{len(times)} stages of the {what}, each of which ends a step; give means over longer "
+            f"times, {MOST} at most"
+        )
     for before, after in pairwise(times):
         if after <= before:
             raise ValueError(

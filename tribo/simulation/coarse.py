@@ -39,5 +39,5 @@ def coarsened(case: Case, cells: int, margin: float, half_width_x: float = 0.0) 
     motion = case.kinematics.coarsened(half_width_x)
     cycle = motion.cycle(as_it_repeats(grid, case.contact))
     load = case.load.averaged() if len(cycle) == 1 else case.load
-    changes = {"kinematics": motion, "load": load, "stepping": LOOSE, "begin": None}
+    changes = {"kinematics": motion, "load": load.thinned(), "stepping": LOOSE, "begin": None}
     return assemble(varied(case, grid=grid, bodies=bodies, output=Output(), **changes))
