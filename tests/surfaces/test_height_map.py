@@ -1,9 +1,11 @@
 """Heights from an array or a file."""
 
+import h5py
 import numpy as np
 import pytest
+from paper_models import archard, motion, named, small, sphere, steel
 
-from tribo import CaseError, Grid, HeightMap
+from tribo import CaseError, Grid, HeightMap, Rough
 from tribo.config.load import validate_case
 
 SIZE = (2e-3, 1e-3)
@@ -33,6 +35,43 @@ def test_files_give_the_same_as_python(name, tmp_path):
         header = "a,b,c,d" if name.startswith("headed") else ""
         np.savetxt(path, HEIGHTS, delimiter=",", header=header, comments="")
     assert HeightMap(size=SIZE, heights=path) == HeightMap(size=SIZE, heights=HEIGHTS)
+
+
+def test_an_hdf5_file_has_one_table(tmp_path):
+    path = tmp_path / "map.h5"
+    with h5py.File(path, "w") as file:
+        file["scan/heights"] = HEIGHTS
+        file["scan/pixel"] = 1e-6
+    assert HeightMap(size=SIZE, heights=path) == HeightMap(size=SIZE, heights=HEIGHTS)
+    with h5py.File(path, "a") as file:
+        file["scan/errors"] = HEIGHTS
+    with pytest.raises(ValueError, match=r"one dataset of two dim.*/scan/errors, /scan/heights"):
+        HeightMap(size=SIZE, heights=path)
+    path.write_bytes(b"no HDF5")
+    with pytest.raises(ValueError, match=r"map\.h5 cannot be read as a table of numbers"):
+        HeightMap(size=SIZE, heights=path)
+
+
+def test_a_map_smaller_than_the_window_and_the_path_is_refused_in_one_line():
+    plate = HeightMap(size=(0.8e-3, 0.8e-3), heights=HEIGHTS)
+    bodies = [named("ball", sphere(), steel(), archard()), named("disk", plate, steel())]
+    with pytest.raises(CaseError) as caught:
+        small(bodies=bodies, kinematics=motion(stroke=0.35e-3, positions="cells"))
+    assert str(caught.value) == (
+        "bodies.disk.surface: 0.8 × 0.8 mm of heights do not reach over 1.05 × 0.7 mm, the window "
+        "(and the path of a body that passes through it); give a larger map, or make grid.size "
+        "smaller"
+    )
+
+
+def test_waves_of_fewer_than_four_cells_are_refused_in_one_line():
+    fine = Rough(sq=5e-8, cut_off=30e-6, roll_off=60e-6)
+    with pytest.raises(CaseError) as caught:
+        small(bodies=[named("ball", sphere(), steel()), named("disk", fine, steel(), archard())])
+    assert str(caught.value) == (
+        "bodies.disk.surface: 30 µm are 2.1 cells of 14.58 µm, and 4 at least are needed; raise "
+        "grid.cells, or give a longer cut_off"
+    )
 
 
 def test_a_map_smaller_than_the_window_is_refused():

@@ -6,11 +6,15 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tribo.core.arrays import Array
 from tribo.core.errors import OutputError
+
+HDF5 = (".h5", ".hdf5")
 
 
 @contextmanager
@@ -78,7 +82,7 @@ def wait_for_disk(path: Path) -> None:
 
 
 def read_numbers(file: Path) -> Array:
-    """Return the numbers of a CSV file, with or without a header, or of a .npy file.
+    """Return the numbers of a CSV file, with or without a header, of a .npy, or of an HDF5 file.
 
     Raises
     ------
@@ -91,12 +95,33 @@ def read_numbers(file: Path) -> Array:
     try:
         if file.suffix == ".npy":
             numbers = np.load(file, allow_pickle=False)
+        elif file.suffix in HDF5:
+            numbers = _only_table(file)
         else:
             numbers = np.genfromtxt(file, delimiter=",", ndmin=2, encoding="utf-8-sig")
             if np.all(np.isnan(numbers[:1])):
                 numbers = numbers[1:]
-    except ValueError as error:
+    except (ValueError, OSError) as error:
         raise ValueError(f"{file} cannot be read as a table of numbers: {error}") from None
     if numbers.dtype.kind not in "fiu" or not np.all(np.isfinite(numbers)):
         raise ValueError(f"{file} has values that are not numbers, or are not finite")
     return np.asarray(numbers, dtype=np.float64)
+
+
+def _only_table(file: Path) -> NDArray[Any]:
+    """Return the one table of numbers in an HDF5 file."""
+    # Slow to import, and needed here only.
+    import h5py
+
+    tables: list[Any] = []
+
+    def keep(name: str, item: Any) -> None:
+        if isinstance(item, h5py.Dataset) and item.ndim == 2:
+            tables.append(item)
+
+    with h5py.File(file) as opened:
+        opened.visititems(keep)
+        if len(tables) != 1:
+            names = ", ".join(table.name for table in tables) or "none"
+            raise ValueError(f"one dataset of two dimensions is needed, but it has {names}")
+        return np.asarray(tables[0])
