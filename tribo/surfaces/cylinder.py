@@ -1,7 +1,8 @@
-"""A cylinder lying along one axis."""
+"""A cylinder lying along any axis of the surface."""
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Literal
 
 import numpy as np
@@ -18,7 +19,9 @@ class Cylinder(Surface):
     """The exact arc z = √(R² − t²) − R, with t across the cylinder's axis."""
 
     model_config = ConfigDict(
-        json_schema_extra={"examples": [{"radius": "5 mm"}, {"radius": "5 mm", "axis": "x"}]}
+        json_schema_extra={
+            "examples": [{"radius": "5 mm"}, {"radius": "5 mm", "axis": "x", "degrees": 30}]
+        }
     )
 
     type = "cylinder"
@@ -26,11 +29,17 @@ class Cylinder(Surface):
     """Radius of the cylinder."""
     axis: Literal["x", "y"] = "y"
     """Axis along which it lies; y is across the sliding direction."""
+    degrees: Annotated[float, Quantity("1", at_least=-45, at_most=45)] = 0.0
+    """Angle in degrees by which it is turned from there, from x towards y."""
 
     def height(self, grid: Grid) -> Array:
         """Return the height of the arc; the window must lie inside the cylinder."""
         x, y = grid.mesh
         across = x if self.axis == "y" else y
+        if self.degrees:
+            along = y if self.axis == "y" else -x
+            angle = math.radians(self.degrees)
+            across = across * math.cos(angle) + along * math.sin(angle)
         radius = self.radius
         if float(np.max(np.abs(across))) >= radius:
             raise CaseError(
@@ -42,7 +51,9 @@ class Cylinder(Surface):
         return height
 
     @property
-    def curvature(self) -> tuple[float, float]:
-        """1/R across the axis, 0 along it."""
+    def curvature(self) -> tuple[float, float] | None:
+        """1/R across the axis, 0 along it; None where it lies along neither x nor y."""
+        if self.degrees:
+            return None
         c = 1 / self.radius
         return (c, 0.0) if self.axis == "y" else (0.0, c)
