@@ -79,6 +79,7 @@ from tribo.surfaces.cylinder import Cylinder as Cylinder
 from tribo.surfaces.flat import Flat as Flat
 from tribo.surfaces.height_map import HeightMap as HeightMap
 from tribo.surfaces.paraboloid import Paraboloid as Paraboloid
+from tribo.surfaces.pin import Pin as Pin
 from tribo.surfaces.rough import Rough as Rough
 from tribo.surfaces.sphere import Sphere as Sphere
 from tribo.surfaces.surface import Surface as Surface

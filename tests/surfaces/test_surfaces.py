@@ -1,8 +1,11 @@
 import numpy as np
 import pytest
+from paper_models import half_space, named, small, steel
 
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
+from tribo.motion.unidirectional import Unidirectional
+from tribo.simulation.march import begin
 from tribo.surfaces.cylinder import Cylinder
 from tribo.surfaces.flat import Flat
 from tribo.surfaces.paraboloid import Paraboloid
@@ -46,3 +49,25 @@ def test_a_sphere_is_the_exact_cap():
 def test_a_body_smaller_than_the_window_is_refused(surface):
     with pytest.raises(CaseError, match=r"does not reach over .*window.* make grid\.size smaller"):
         surface.height(GRID)
+
+
+def test_a_turned_cylinder_is_a_cylinder():
+    z = Cylinder(radius="5 mm", axis="x", degrees=30).height(GRID)
+    x, y = GRID.mesh
+    across = y * np.cos(np.pi / 6) - x * np.sin(np.pi / 6)
+    np.testing.assert_allclose((z + 5e-3) ** 2 + across**2, 25e-6, rtol=1e-13)
+    # 45° from either axis are one.
+    one = Cylinder(radius="5 mm", axis="y", degrees=-45)
+    other = Cylinder(radius="5 mm", axis="x", degrees=45)
+    np.testing.assert_allclose(one.height(GRID), other.height(GRID), rtol=1e-12, atol=1e-20)
+    assert one.curvature is None
+
+
+def test_crossed_cylinders_touch_as_a_ball_whichever_way_they_are_turned():
+    bodies = [named(axis, Cylinder(radius="5 mm", axis=axis, degrees=20), steel()) for axis in "xy"]
+    grid = Grid((0.6e-3, 0.6e-3), (96, 96))
+    turning = Unidirectional(speed=1, track_length=1, distance=1, turns=True)
+    state = begin(small(grid=grid, contact=half_space(), bodies=bodies, kinematics=turning))
+    modulus = 207e9 / (2 * (1 - 0.3**2))
+    peak = (6 * 100 * modulus**2 / (np.pi**3 * 5e-3**2)) ** (1 / 3)
+    assert state.contact.pressure.max() == pytest.approx(peak, rel=3e-3, abs=0)

@@ -19,6 +19,7 @@ from tribo.surfaces.cylinder import Cylinder
 from tribo.surfaces.flat import Flat
 from tribo.surfaces.height_map import HeightMap
 from tribo.surfaces.paraboloid import Paraboloid
+from tribo.surfaces.pin import Pin
 from tribo.surfaces.rough import Rough
 from tribo.surfaces.sphere import Sphere
 from tribo.surfaces.texture import Texture
@@ -35,7 +36,7 @@ def tribo_components() -> tuple[type[Component], ...]:
         *(DcFft, Periodic, Winkler),
         *(Archard, Power),
         *(Measured, Reciprocating, Rotating, Unidirectional),
-        *(Sphere, Paraboloid, Cylinder, Flat, HeightMap, Rough, Texture, Waves),
+        *(Sphere, Paraboloid, Cylinder, Flat, Pin, HeightMap, Rough, Texture, Waves),
         *(Recorder, Progress),
     )
 

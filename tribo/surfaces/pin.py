@@ -1,0 +1,62 @@
+"""A round, flat-ended pin."""
+
+from __future__ import annotations
+
+from typing import Annotated, Self
+
+import numpy as np
+from pydantic import ConfigDict, model_validator
+
+from tribo.core.arrays import Array
+from tribo.core.grid import Grid
+from tribo.core.units import Quantity
+from tribo.surfaces.laid import check_resolved
+from tribo.surfaces.surface import Surface
+
+STEEP = 10.0
+"""Slope of the pin's side: what lies there touches nothing."""
+
+
+class Pin(Surface):
+    """z = 0 up to the edge of radius e, there the arc √(e² − t²) − e, and the pin's side beyond.
+
+    t = r − (R − e) is the distance from where the edge begins to be round. Without the rounding
+    the pressure at the edge has no limit; with it, finer cells find the same one.
+
+    References
+    ----------
+    M. Ciavarella, Int. J. Solids Struct. 36 (1999) 4149-4181.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"examples": [{"radius": "3 mm", "edge": "0.2 mm"}]}
+    )
+
+    type = "pin"
+    radius: Annotated[float, Quantity("m", above=0, usual=(1e-9, 1.0))]
+    """Radius R of the pin."""
+    edge: Annotated[float, Quantity("m", above=0, usual=(1e-9, 1.0))]
+    """Radius e to which its edge is rounded."""
+
+    @model_validator(mode="after")
+    def _edge_on_the_pin(self) -> Self:
+        if self.edge > self.radius:
+            raise ValueError("edge must be at most radius")
+        return self
+
+    def height(self, grid: Grid) -> Array:
+        """Return the height of the end; the edge must be at least four cells wide.
+
+        Raises
+        ------
+        CaseError
+            If it is not.
+        """
+        for spacing in grid.spacing:
+            check_resolved(self.edge, spacing, "edge")
+        beyond = np.maximum(np.hypot(*grid.mesh) - (self.radius - self.edge), 0.0)
+        t = np.minimum(beyond, self.edge)
+        # −t²/(e + √(e² − t²)) is √(e² − t²) − e without its cancellation.
+        arc = -(t**2) / (self.edge + np.sqrt(self.edge**2 - t**2))
+        height: Array = arc - STEEP * (beyond - t)
+        return height
