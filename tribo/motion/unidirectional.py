@@ -13,7 +13,7 @@ from tribo.core.grid import Grid
 from tribo.core.units import Quantity
 from tribo.motion.closed_track import ClosedTrack
 from tribo.motion.cycle import WHOLE, Position, Stroke, odd
-from tribo.motion.exposure import Exposure, Passing
+from tribo.motion.exposure import Exposure, Passing, Track
 from tribo.motion.swept import one_swept_body
 
 FEW = 9
@@ -47,12 +47,18 @@ class Unidirectional(ClosedTrack):
     ``"cells"`` for every cell, where the contact repeats with the window; ``"average"`` takes the
     track average for all of them."""
 
+    turns: bool = False
+    """Whether the swept body turns about an axis along y, as a ring does on a block: its points
+    pass, its shape stays."""
+
     _middle = field_validator("positions")(odd)
 
     @model_validator(mode="after")
     def _one_track(self) -> Self:
         if (self.track_length is None) == (self.track_radius is None):
             raise ValueError("give exactly one of track_length and track_radius")
+        if self.turns and self.positions != "average":
+            raise ValueError('a body that turns is the same at all positions; use "average"')
         return self
 
     @property
@@ -72,7 +78,8 @@ class Unidirectional(ClosedTrack):
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
         """Return the closed track for the swept body, or the rows of the window."""
         if self.positions == "average":
-            return super().exposures(grid, bodies)
+            track = Track(grid, self.lap, shape_stays=self.turns)
+            return one_swept_body(grid, bodies, self.swept, track)
         passing = Passing(grid, self._stroke(grid).starts, self.lap)
         return one_swept_body(grid, bodies, self.swept, passing)
 

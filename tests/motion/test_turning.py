@@ -1,0 +1,56 @@
+"""A ring that turns against a block."""
+
+import numpy as np
+import pytest
+from paper_models import archard, flat, foundation, last, named, small, steel
+from pydantic import ValidationError
+
+from tribo import CaseError, Cylinder, Grid, Unidirectional
+
+RADIUS, LENGTH, LOAD = 20e-3, 1e-3, 50.0
+GRID = Grid((3e-3, LENGTH), (60, 4))
+
+
+def block_on_ring(distance, **motion):
+    bodies = [
+        named("block", flat(), steel(), archard(k=1e-13)),
+        named("ring", Cylinder(radius=RADIUS), steel(), archard(k=1e-15)),
+    ]
+    kinematics = Unidirectional(
+        speed=1.0, track_radius=RADIUS, distance=distance, **{"turns": True, **motion}
+    )
+    return small(
+        grid=GRID,
+        ends_at_window=True,
+        load=LOAD,
+        contact=foundation(modulus=1e15),
+        bodies=bodies,
+        kinematics=kinematics,
+    )
+
+
+def test_a_ring_stays_round_and_its_block_takes_its_shape():
+    distance = 20 / 3
+    model = block_on_ring(distance)
+    bodies = last(model).bodies
+    ring, block = bodies["ring"].wear, bodies["block"].wear
+    # All of the ring loses the same.
+    worn = 1e-15 * LOAD * distance / (2 * np.pi * RADIUS * LENGTH)
+    np.testing.assert_allclose(ring, np.full((1, 4), worn), rtol=1e-6)
+    volume = 1e-13 * LOAD * distance
+    assert model.exposures["block"].volume(block) == pytest.approx(volume, rel=1e-6, abs=0)
+    # ASTM G77: the scar is a segment of the ring's circle, of section 2c³/3R for a half-width c.
+    half = (1.5 * RADIUS * volume / LENGTH) ** (1 / 3)
+    depth = np.maximum(half**2 - GRID.x**2, 0) / (2 * RADIUS)
+    # What is off is the elastic overlap, 1 % of the depth, and cells at the rim.
+    np.testing.assert_allclose(block[:, 2], depth, atol=0.03 * depth.max())
+
+
+def test_a_body_that_is_swept_without_turning_is_refused():
+    with pytest.raises(CaseError, match=r"'ring' is swept along x.*with turns = true"):
+        block_on_ring(1.0, turns=False)
+
+
+def test_a_ring_has_no_positions():
+    with pytest.raises(ValidationError, match="a body that turns is the same at all positions"):
+        block_on_ring(1.0, positions=9)
