@@ -17,6 +17,7 @@ from tribo.surfaces.cylinder import Cylinder
 from tribo.surfaces.flat import Flat
 from tribo.surfaces.height_map import HeightMap
 from tribo.surfaces.paraboloid import Paraboloid
+from tribo.surfaces.pin import Pin
 from tribo.surfaces.rough import Rough
 from tribo.surfaces.sphere import Sphere
 from tribo.surfaces.texture import Texture
@@ -53,10 +54,14 @@ test_measured = parametrize_checks(
     ],
 )
 test_rotating = parametrize_checks(Rotating, [ROUND])
-test_unidirectional = parametrize_checks(Unidirectional, [ROUND])
+test_unidirectional = parametrize_checks(Unidirectional, [ROUND, {**ROUND, "turns": True}])
 test_sphere = parametrize_checks(Sphere, [{"radius": "5 mm"}])
 test_paraboloid = parametrize_checks(Paraboloid, [{"radius_x": "5 mm", "radius_y": "10 mm"}])
-test_cylinder = parametrize_checks(Cylinder, [{"radius": "5 mm"}, {"radius": "5 mm", "axis": "x"}])
+test_cylinder = parametrize_checks(
+    Cylinder,
+    [{"radius": "5 mm"}, {"radius": "5 mm", "axis": "x"}, {"radius": "5 mm", "degrees": 30}],
+)
+test_pin = parametrize_checks(Pin, [{"radius": "3 mm", "edge": "0.5 mm"}])
 test_flat = parametrize_checks(Flat)
 test_array = parametrize_checks(HeightMap)
 test_rough = parametrize_checks(Rough)
