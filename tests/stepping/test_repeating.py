@@ -21,6 +21,7 @@ from tribo import (
     Grid,
     Implicit,
     Interrupted,
+    Measured,
     Periodic,
     Rough,
     Simulation,
@@ -137,6 +138,24 @@ def test_which_body_is_called_moving_changes_nothing():
 @pytest.mark.parametrize("kinematics", [strokes(6), strokes(40, positions=5), track(positions=5)])
 def test_two_flats_wear_evenly(kinematics):
     state = last(repeating(kinematics, contact=Periodic(), bodies=bodies(flat(), flat())))
+    depth = K * LOAD / (GRID.size[0] * GRID.size[1]) * state.distance
+    for body in state.bodies.values():
+        np.testing.assert_allclose(body.wear, depth, rtol=1e-10)
+
+
+SINE = {"waveform": "sinusoidal"}
+PATH = [(0, 0), (1, 50 * DX), (2, 50 * DX), (5, -3.3 * DX), (6, 0)]
+
+
+@pytest.mark.parametrize("cells", [(1, 1), (2, 1), (5, 3)])
+@pytest.mark.parametrize(
+    "kinematics",
+    [track(), strokes(37, positions=5, **SINE), Measured(path=PATH, cycles=50, positions="cells")],
+)
+def test_a_window_may_have_few_cells(cells, kinematics):
+    grid = Grid(GRID.size, cells)
+    flats = bodies(flat(), flat())
+    state = last(repeating(kinematics, grid=grid, contact=Periodic(), bodies=flats))
     depth = K * LOAD / (GRID.size[0] * GRID.size[1]) * state.distance
     for body in state.bodies.values():
         np.testing.assert_allclose(body.wear, depth, rtol=1e-10)

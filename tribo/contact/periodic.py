@@ -70,7 +70,8 @@ class PeriodicHalfSpace:
     def symbol(self) -> Array:
         """Return the eigenvalues, with the largest in place of the mean's, which is 0."""
         symbol: Array = self._spectrum.copy()
-        symbol[0, 0] = np.max(symbol)
+        # A window of one cell has no modes but the mean.
+        symbol[0, 0] = np.max(symbol) or 1.0
         return symbol
 
 

@@ -122,8 +122,8 @@ class Reciprocating(Kinematics):
         if self.waveform == "constant_speed":
             return [Position(float(share)) for share in stroke.shares]
         # From mid-stroke to a reversal, in as many samples between any two positions.
-        places = stroke.cells[len(stroke.cells) // 2 : -1] * grid.spacing[0]
-        at = [*np.arcsin(places / (0.5 * self.stroke)), 0.5 * math.pi]
+        places = stroke.cells[len(stroke.cells) // 2 + 1 : -1] * grid.spacing[0]
+        at = [0.0, *np.arcsin(places / (0.5 * self.stroke)), 0.5 * math.pi]
         last = len(at) - 1
         right = np.interp(np.linspace(0, last, SAMPLES * last + 1), np.arange(last + 1), at)
         phases = np.concatenate([-right[:0:-1], right])

@@ -156,7 +156,8 @@ class Model:
     def apart(self) -> float:
         """Largest distance between neighbouring positions of the cycle, in m; 0 of an average."""
         steps = [np.diff(e.starts) for e in self.exposures.values() if e.starts is not None]
-        return max((float(np.max(np.abs(s))) for s in steps), default=0.0) * self.grid.spacing[0]
+        widest = max((float(np.max(np.abs(s), initial=0)) for s in steps), default=0.0)
+        return widest * self.grid.spacing[0]
 
     @cached_property
     def saves(self) -> frozenset[float]:

@@ -89,7 +89,8 @@ def check_stroke(model: Model, state: State) -> None:
         return
     half_width = half_widths(state.contact, model.grid)[0]
     with located("kinematics"):
-        if not model.contact.periodic or len(model.cycle) == 1:
+        passes = any(e.starts is not None for e in model.exposures.values())
+        if not model.contact.periodic or not passes:
             model.motion.check_contact(half_width)
         elif not _is_endless(model, half_width) and model.apart > model.grid.spacing[0]:
             gaps = len(model.cycle) - 1

@@ -335,9 +335,9 @@ def _first_increment(model: Model, state: State, remaining: float) -> float:
     moment = Moment(state.time, state.distance, remaining / (model.end_time - state.time))
     rates = wear_rates(model, state.contacts, law_states(state), moment)
     fastest = _largest(rate.depth_rate for of_bodies in rates for rate in of_bodies.values())
-    part = FIRST * state.reference_depth
-    # Two flats that repeat have no approach, and wear evenly.
-    return min(remaining, part / fastest) if fastest > 0 and part > 0 else remaining
+    first = FIRST * state.reference_depth / fastest if fastest > 0 else 0.0
+    # Two flats that repeat have no approach but rounding, and wear evenly.
+    return min(remaining, first) if first > SMALLEST * remaining else remaining
 
 
 def _time_at(model: Model, state: State, distance: float, until: float) -> float:
