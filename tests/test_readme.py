@@ -45,7 +45,7 @@ def test_its_python_runs(number, monkeypatch, capsys):
 def test_it_shows_what_the_demo_prints(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", "80")
-    # The resolved hour of a minute, in a few seconds: its own column is masked.
+    # The resolved hour in a few seconds: its own column is masked.
     monkeypatch.setattr("tribo.cli.demo.RESOLVED", QUICK)
     printed = CliRunner().invoke(tribo, ["demo"], catch_exceptions=False)
     assert printed.exit_code == 0

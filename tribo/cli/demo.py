@@ -15,11 +15,11 @@ if TYPE_CHECKING:
     from tribo.result.read import Result
 
 RESOLVED = ("kinematics.positions=33", "grid.cells=64")
-"""What the resolved hour has of its own: 256² cells would take half an hour."""
+"""What the resolved hour has of its own; 256² cells would take minutes."""
 AVERAGE = """\
 This is the paper's model: it averages the disk's wear over the stroke.
 The same hour follows, with the cycle resolved into 33 positions along the stroke,
-on 64² cells; it takes about a minute."""
+on 64² cells; it takes ten to thirty seconds."""
 
 
 @click.command()
