@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -104,6 +105,14 @@ class HalfSpace:
         if pressure.ndim == 2:
             (displacement,) = self._apply(pressure[None])
             return np.asarray(displacement)
+        workers = min(scipy.fft.get_workers(), len(pressure))
+        if workers == 1:
+            return self._one_by_one(pressure)
+        with ThreadPoolExecutor(workers) as side_by_side:
+            parts = side_by_side.map(self._one_by_one, np.array_split(pressure, workers))
+            return np.concatenate(list(parts))
+
+    def _one_by_one(self, pressure: Array) -> Array:
         several = range(0, len(pressure), self._at_once)
         return np.concatenate([self._apply(pressure[k : k + self._at_once]) for k in several])
 
