@@ -16,7 +16,6 @@ from tribo.core.errors import BadValues, NumericalError, PluginError
 from tribo.core.state import State
 from tribo.core.units import Quantity
 from tribo.stepping.invariants import wear_balance
-from tribo.stepping.mixing import Mixing
 from tribo.stepping.quadrature import with_missed
 from tribo.stepping.rates import CycleRates, LawStates, Moment, law_states, wear_rates
 from tribo.stepping.repeated import check_repeatable
@@ -49,8 +48,6 @@ little at the default."""
 LATE = 0.003
 """Depth of a step, of the depth worn so far, below which its volume need not be as exact."""
 SAFETY = 0.9
-MIXED = 3
-"""Passes of a resolved cycle that are mixed; more were not found to save any."""
 SHRINK, GROW = 0.2, 2.5
 MAX_REJECTIONS = 40
 
@@ -200,8 +197,6 @@ class Implicit(Scheme):
         """
         moment = moment_after(state, increment, time)
         resolved = len(model.cycle) > 1
-        # One position alone converges fast by the slope of its law.
-        mixing = Mixing(MIXED if resolved else 0)
         tolerance = self.cycle_tolerance if resolved else self.nonlinear_tolerance
         base = np.stack([geometry(model, state.bodies, m) for m in range(len(model.cycle))])
         dx = model.grid.spacing[0]
@@ -215,7 +210,7 @@ class Implicit(Scheme):
         while True:
             wear = linear_wear(model, guess.rates, guess.contacts, increment)
             # Of what is worn, the part that is not linear in the pressures.
-            beyond = mixing.next(guess.depths - wear.depths(guess.contacts, dx))
+            beyond = guess.depths - wear.depths(guess.contacts, dx)
             try:
                 contacts = solve_cycle(model, base + beyond, loads, guess.contacts, wear)
             except PluginError:
