@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from edited import edited
 from paper_models import (
     K,
     archard,
@@ -33,6 +34,7 @@ from tribo.cli.check import _facts
 from tribo.observers.observer import Observer
 from tribo.plotting.pressure import pressure_map
 from tribo.simulation.predict import predict
+from tribo.study.runs import is_done
 
 GRID = Grid((0.7e-3, 0.7e-3), (32, 32))
 SPEED = 0.1
@@ -206,6 +208,21 @@ def test_a_stopped_run_goes_on_to_the_same_bits_without_the_result_it_began_with
             assert resumed.provenance["begun_with"] == whole.provenance["begun_with"]
             assert resumed.notices[0].startswith(f"begin: the bodies begin as worn as in {first}")
             assert len(resumed.provenance["begun_with"]["sha256"]) == 64
+
+
+def test_a_run_that_began_with_what_is_another_file_by_now_is_neither_taken_nor_resumed(tmp_path):
+    first, second = tmp_path / "first.h5", tmp_path / "second.h5"
+    Simulation(worn_case(load=20.0, duration=1)).run(first).close()
+    simulation = Simulation(worn_case(begin=first, duration=1))
+    simulation.run(second).close()
+    assert is_done(second, simulation)
+    Simulation(worn_case(load=40.0, duration=1)).run(first, overwrite=True).close()
+    assert not is_done(second, simulation)
+    # As if it had been stopped.
+    with edited(second) as file:
+        file.attrs["status"] = "interrupted"
+    with pytest.raises(CaseError, match=r"begin\.result was a file of .*--allow-changed"):
+        simulation.resume(second)
 
 
 def test_a_depth_that_is_reached_already_ends_the_run_at_once(run_in):

@@ -181,9 +181,18 @@ class Simulation:
     def changed_since(self, result: Result) -> list[tuple[str, str, str]]:
         """Return the place of each component that is not the one a result was made with.
 
-        With it, in words, which it was and which it is now.
+        With it, in words, which it was and which it is now. The result that a run begins with
+        counts too, if it is still there.
         """
-        return changed_components(result.provenance, self._provenance())
+        changes = changed_components(result.provenance, self._provenance())
+        begun, begin = result.provenance.get("begun_with"), self.model.case.begin
+        if begun and begin and os.path.exists(begin.result):
+            was, is_now = begun["sha256"][:8], checksum(begin)[:8]
+            if was != is_now:
+                changes.append(
+                    ("begin.result", f"a file of checksum {was}…", f"one of checksum {is_now}…")
+                )
+        return changes
 
     def _follow(
         self,
