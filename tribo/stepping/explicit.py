@@ -14,7 +14,9 @@ from tribo.core.errors import CaseError
 from tribo.core.fields import WearRate
 from tribo.core.state import State
 from tribo.core.units import Quantity
+from tribo.stepping.contacts import solve_cycle, solved
 from tribo.stepping.invariants import wear_balance
+from tribo.stepping.linear_wear import wear_compliance
 from tribo.stepping.quadrature import with_missed
 from tribo.stepping.rates import CycleRates, Moment, law_states, wear_rates
 from tribo.stepping.scheme import Scheme
@@ -26,10 +28,7 @@ from tribo.stepping.step import (
     moment_after,
     rested,
     rests,
-    solve_cycle,
-    solved,
     start_sliding,
-    wear_compliance,
     worn_bodies,
     worn_depths,
 )

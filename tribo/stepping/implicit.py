@@ -15,7 +15,9 @@ from tribo.core.contact import ContactSolution
 from tribo.core.errors import BadValues, NumericalError, PluginError
 from tribo.core.state import State
 from tribo.core.units import Quantity
+from tribo.stepping.contacts import solve_cycle, solved
 from tribo.stepping.invariants import wear_balance
+from tribo.stepping.linear_wear import linear_wear
 from tribo.stepping.quadrature import with_missed
 from tribo.stepping.rates import CycleRates, LawStates, Moment, law_states, wear_rates
 from tribo.stepping.repeated import check_repeatable
@@ -26,13 +28,10 @@ from tribo.stepping.step import (
     distance_until,
     geometry,
     law_states_after,
-    linear_wear,
     lost,
     moment_after,
     rested,
     rests,
-    solve_cycle,
-    solved,
     start_sliding,
     worn_bodies,
     worn_depths,

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from functools import reduce
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tribo.core.arrays import Array
-from tribo.core.contact import ContactProblem, ContactSolution, CycleCompliance, WearCompliance
+from tribo.core.contact import ContactSolution
 from tribo.core.errors import CaseError, NumericalError, PluginError
-from tribo.core.fields import WearRate
 from tribo.core.loads import ByPosition
 from tribo.core.measures import Invariants, reaches_border
 from tribo.core.state import BodyState, State
+from tribo.stepping.contacts import solve, solve_cycle, solved
 from tribo.stepping.rates import CycleRates, LawStates, Moment
 
 if TYPE_CHECKING:
@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 # Each pass is one warm solve; a groove in a much softer body takes over a thousand.
 SETTLE_PASSES = 5000
 SETTLED = 1e-6
-MIRRORED = 1e-12
-"""Relative difference below which two positions mirror each other: rounding."""
 SMALLEST = 1e-12
 """Of the distance until the next stop: a shorter step would drown in rounding."""
 
@@ -113,92 +111,6 @@ def geometry(model: Model, bodies: Mapping[str, BodyState], position: int = 0) -
     return gap
 
 
-def solve(
-    model: Model,
-    gap: Array,
-    load: float,
-    wear: WearCompliance | None = None,
-    start: ContactSolution | None = None,
-) -> ContactSolution:
-    """Solve the contact of the case at a gap, shape (nx, ny), in m, under a load, in N."""
-    return model.solver.solve(ContactProblem(model.system, gap, load, wear), start)
-
-
-def solve_cycle(
-    model: Model,
-    gaps: Iterable[Array],
-    loads: ByPosition,
-    starts: Sequence[ContactSolution],
-    wear: LinearWear | None = None,
-) -> list[ContactSolution]:
-    """Solve the contact at each position of a cycle, from gaps of shape (nx, ny), in m.
-
-    `loads` are in N. Where the positions are solved together and each mirrors another along x, as
-    on a stroke of smooth bodies, half of them are solved.
-    """
-    alone = [None] * len(loads) if wear is None else wear.alone
-    coupling = None if wear is None else wear.coupling
-    problems = [
-        ContactProblem(model.system, *given) for given in zip(gaps, loads, alone, strict=True)
-    ]
-    if not (model.couples and _all_mirror(problems, coupling)):
-        return model.solver.solve_cycle(problems, starts, coupling)
-    half = len(problems) // 2 + 1
-    one_side = None if coupling is None else _one_side(coupling, half)
-    *left, middle = model.solver.solve_cycle(problems[:half], starts[:half], one_side)
-    return [*left, _symmetric(middle), *map(_mirrored, reversed(left))]
-
-
-def solved(contacts: Sequence[ContactSolution]) -> int:
-    """Return how many of the contacts of a cycle were solved, others being mirrored."""
-    return sum(contact.iterations > 0 for contact in contacts)
-
-
-def _all_mirror(problems: Sequence[ContactProblem], coupling: CycleCompliance | None) -> bool:
-    """Whether each position mirrors another along x, and the middle one itself."""
-    mirrored = all(
-        abs(one.load - other.load) <= MIRRORED * one.load and _mirrors(one.gap, other.gap)
-        for one, other in zip(problems, reversed(problems), strict=True)
-    )
-    return mirrored and (coupling is None or _bodies_mirror(coupling))
-
-
-def _bodies_mirror(coupling: CycleCompliance) -> bool:
-    """Whether two positions that mirror each other lie so on the bodies, too."""
-    for compliance, starts in coupling.bodies:
-        rows = len(compliance)
-        beyond = rows - (coupling.rows.stop - coupling.rows.start)
-        pairs = zip(starts, reversed(starts), strict=True)
-        if not _mirrors(compliance, compliance) or any((a + b - beyond) % rows for a, b in pairs):
-            return False
-    return True
-
-
-def _mirrors(field: Array, other: Array) -> bool:
-    least = MIRRORED * float(np.max(np.abs(field)))
-    return bool(np.max(np.abs(field[::-1] - other)) <= least)
-
-
-def _one_side(coupling: CycleCompliance, half: int) -> CycleCompliance:
-    shares = coupling.shares[:half].copy()
-    # The middle position mirrors itself.
-    shares[-1] *= 0.5
-    bodies = [(compliance, starts[:half]) for compliance, starts in coupling.bodies]
-    return replace(coupling, shares=shares, bodies=bodies, mirrored=True)
-
-
-def _mirrored(contact: ContactSolution) -> ContactSolution:
-    pressure, overlap = contact.pressure[::-1].copy(), contact.overlap[::-1].copy()
-    return replace(contact, pressure=pressure, overlap=overlap, iterations=0)
-
-
-def _symmetric(contact: ContactSolution) -> ContactSolution:
-    """Return the mean of a contact and its mirror image: what rounding made of it goes."""
-    pressure = 0.5 * (contact.pressure + contact.pressure[::-1])
-    overlap = 0.5 * (contact.overlap + contact.overlap[::-1])
-    return replace(contact, pressure=pressure, overlap=overlap)
-
-
 def moment_after(state: State, increment: float, time: float) -> Moment:
     """Return the end of a step from `state`."""
     return Moment(time, state.distance + increment, increment / (time - state.time))
@@ -269,79 +181,6 @@ def law_states_after(
                 change = slid * model.average(name, values, position)
                 after[name][field] = after[name][field] + change
     return after
-
-
-@dataclass(frozen=True)
-class LinearWear:
-    """The wear of a step at the positions of a cycle, linear in their pressures.
-
-    Parameters
-    ----------
-    alone : sequence of WearCompliance or None
-        By position, what its own pressure wears; where the positions are coupled, none.
-    coupling : CycleCompliance or None
-        What the pressures of all positions wear at each.
-    """
-
-    alone: Sequence[WearCompliance | None]
-    coupling: CycleCompliance | None = None
-
-    def depths(self, contacts: Sequence[ContactSolution], dx: float) -> Array:
-        """Return the depth worn at each position, shape (positions, nx, ny), in m."""
-        pressure = np.stack([contact.pressure for contact in contacts])
-        if self.coupling is not None:
-            return self.coupling.depth(pressure, dx)
-        pairs = zip(self.alone, pressure, strict=True)
-        return np.stack([part.depth(p, dx) if part else np.zeros_like(p) for part, p in pairs])
-
-
-def linear_wear(
-    model: Model, rates: CycleRates, contacts: Sequence[ContactSolution], increment: float
-) -> LinearWear:
-    """Return the wear over `increment` (m), linear in the pressures about those of `contacts`."""
-    if model.couples:
-        return LinearWear([None] * len(contacts), _coupling(model, rates, contacts, increment))
-    return LinearWear(
-        [
-            wear_compliance(model, of_bodies, contact.pressure, increment)
-            for of_bodies, contact in zip(rates, contacts, strict=True)
-        ]
-    )
-
-
-def wear_compliance(
-    model: Model, rates: Mapping[str, WearRate], pressure: Array, increment: float
-) -> WearCompliance:
-    """Return the wear over `increment` (m) at a position, linear in pressure, as a compliance."""
-    local = np.zeros(model.grid.cells)
-    swept = np.zeros(model.grid.cells[1])
-    for name, rate in rates.items():
-        part = model.exposures[name].compliance(rate.depth_slope, pressure)
-        if part is not None:
-            local += increment * part.local
-            swept += increment * part.swept
-    return WearCompliance(local, swept)
-
-
-def _coupling(
-    model: Model, rates: CycleRates, contacts: Sequence[ContactSolution], increment: float
-) -> CycleCompliance:
-    """Return the wear at all positions, each point of a body with the mean slope of its law."""
-    shares = np.array([position.share for position in model.cycle])
-    bodies = []
-    for name in rates[0]:
-        shape = (model.exposures[name].rows, model.grid.cells[1])
-        weighed, load, nearby = np.zeros(shape), np.zeros(shape), np.zeros(shape)
-        for position, (share, contact) in enumerate(zip(shares, contacts, strict=True)):
-            pressure, slope = contact.pressure, rates[position][name].depth_slope
-            weighed += share * model.average(name, slope * pressure, position)
-            load += share * model.spread(name, pressure, position)
-            np.maximum(nearby, model.average(name, slope, position), out=nearby)
-        # A point that is yet to be touched has the slope that its law gives near it, on its row.
-        slope = np.where(load > 0, weighed / np.where(load > 0, load, 1.0), np.max(nearby, axis=0))
-        starts = model.exposures[name].starts or [0] * len(shares)
-        bodies.append((increment * slope, starts))
-    return CycleCompliance(shares, bodies, slice(0, model.grid.cells[0]))
 
 
 def worn_bodies(state: State, worn: Mapping[str, Array], law: LawStates) -> dict[str, BodyState]:

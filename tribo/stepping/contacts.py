@@ -1,0 +1,106 @@
+"""The contacts of a cycle, solved together where the solver can."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from tribo.core.arrays import Array
+from tribo.core.contact import ContactProblem, ContactSolution, CycleCompliance, WearCompliance
+from tribo.core.loads import ByPosition
+from tribo.stepping.linear_wear import LinearWear
+
+if TYPE_CHECKING:
+    from tribo.simulation.model import Model
+
+MIRRORED = 1e-12
+"""Relative difference below which two positions mirror each other: rounding."""
+
+
+def solve(
+    model: Model,
+    gap: Array,
+    load: float,
+    wear: WearCompliance | None = None,
+    start: ContactSolution | None = None,
+) -> ContactSolution:
+    """Solve the contact of the case at a gap, shape (nx, ny), in m, under a load, in N."""
+    return model.solver.solve(ContactProblem(model.system, gap, load, wear), start)
+
+
+def solve_cycle(
+    model: Model,
+    gaps: Iterable[Array],
+    loads: ByPosition,
+    starts: Sequence[ContactSolution],
+    wear: LinearWear | None = None,
+) -> list[ContactSolution]:
+    """Solve the contact at each position of a cycle, from gaps of shape (nx, ny), in m.
+
+    `loads` are in N. Where the positions are solved together and each mirrors another along x, as
+    on a stroke of smooth bodies, half of them are solved.
+    """
+    alone = [None] * len(loads) if wear is None else wear.alone
+    coupling = None if wear is None else wear.coupling
+    problems = [
+        ContactProblem(model.system, *given) for given in zip(gaps, loads, alone, strict=True)
+    ]
+    if not (model.couples and _all_mirror(problems, coupling)):
+        return model.solver.solve_cycle(problems, starts, coupling)
+    half = len(problems) // 2 + 1
+    one_side = None if coupling is None else _one_side(coupling, half)
+    *left, middle = model.solver.solve_cycle(problems[:half], starts[:half], one_side)
+    return [*left, _symmetric(middle), *map(_mirrored, reversed(left))]
+
+
+def solved(contacts: Sequence[ContactSolution]) -> int:
+    """Return how many of the contacts of a cycle were solved, others being mirrored."""
+    return sum(contact.iterations > 0 for contact in contacts)
+
+
+def _all_mirror(problems: Sequence[ContactProblem], coupling: CycleCompliance | None) -> bool:
+    """Whether each position mirrors another along x, and the middle one itself."""
+    mirrored = all(
+        abs(one.load - other.load) <= MIRRORED * one.load and _mirrors(one.gap, other.gap)
+        for one, other in zip(problems, reversed(problems), strict=True)
+    )
+    return mirrored and (coupling is None or _bodies_mirror(coupling))
+
+
+def _bodies_mirror(coupling: CycleCompliance) -> bool:
+    """Whether two positions that mirror each other lie so on the bodies, too."""
+    for compliance, starts in coupling.bodies:
+        rows = len(compliance)
+        beyond = rows - (coupling.rows.stop - coupling.rows.start)
+        pairs = zip(starts, reversed(starts), strict=True)
+        if not _mirrors(compliance, compliance) or any((a + b - beyond) % rows for a, b in pairs):
+            return False
+    return True
+
+
+def _mirrors(field: Array, other: Array) -> bool:
+    least = MIRRORED * float(np.max(np.abs(field)))
+    return bool(np.max(np.abs(field[::-1] - other)) <= least)
+
+
+def _one_side(coupling: CycleCompliance, half: int) -> CycleCompliance:
+    shares = coupling.shares[:half].copy()
+    # The middle position mirrors itself.
+    shares[-1] *= 0.5
+    bodies = [(compliance, starts[:half]) for compliance, starts in coupling.bodies]
+    return replace(coupling, shares=shares, bodies=bodies, mirrored=True)
+
+
+def _mirrored(contact: ContactSolution) -> ContactSolution:
+    pressure, overlap = contact.pressure[::-1].copy(), contact.overlap[::-1].copy()
+    return replace(contact, pressure=pressure, overlap=overlap, iterations=0)
+
+
+def _symmetric(contact: ContactSolution) -> ContactSolution:
+    """Return the mean of a contact and its mirror image: what rounding made of it goes."""
+    pressure = 0.5 * (contact.pressure + contact.pressure[::-1])
+    overlap = 0.5 * (contact.overlap + contact.overlap[::-1])
+    return replace(contact, pressure=pressure, overlap=overlap)

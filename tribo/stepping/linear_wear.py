@@ -1,0 +1,90 @@
+"""The wear of a step, linear in the pressures of a cycle: a compliance of the contact."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from tribo.core.arrays import Array
+from tribo.core.contact import ContactSolution, CycleCompliance, WearCompliance
+from tribo.core.fields import WearRate
+from tribo.stepping.rates import CycleRates
+
+if TYPE_CHECKING:
+    from tribo.simulation.model import Model
+
+
+@dataclass(frozen=True)
+class LinearWear:
+    """The wear of a step at the positions of a cycle, linear in their pressures.
+
+    Parameters
+    ----------
+    alone : sequence of WearCompliance or None
+        By position, what its own pressure wears; where the positions are coupled, none.
+    coupling : CycleCompliance or None
+        What the pressures of all positions wear at each.
+    """
+
+    alone: Sequence[WearCompliance | None]
+    coupling: CycleCompliance | None = None
+
+    def depths(self, contacts: Sequence[ContactSolution], dx: float) -> Array:
+        """Return the depth worn at each position, shape (positions, nx, ny), in m."""
+        pressure = np.stack([contact.pressure for contact in contacts])
+        if self.coupling is not None:
+            return self.coupling.depth(pressure, dx)
+        pairs = zip(self.alone, pressure, strict=True)
+        return np.stack([part.depth(p, dx) if part else np.zeros_like(p) for part, p in pairs])
+
+
+def linear_wear(
+    model: Model, rates: CycleRates, contacts: Sequence[ContactSolution], increment: float
+) -> LinearWear:
+    """Return the wear over `increment` (m), linear in the pressures about those of `contacts`."""
+    if model.couples:
+        return LinearWear([None] * len(contacts), _coupling(model, rates, contacts, increment))
+    return LinearWear(
+        [
+            wear_compliance(model, of_bodies, contact.pressure, increment)
+            for of_bodies, contact in zip(rates, contacts, strict=True)
+        ]
+    )
+
+
+def wear_compliance(
+    model: Model, rates: Mapping[str, WearRate], pressure: Array, increment: float
+) -> WearCompliance:
+    """Return the wear over `increment` (m) at a position, linear in pressure, as a compliance."""
+    local = np.zeros(model.grid.cells)
+    swept = np.zeros(model.grid.cells[1])
+    for name, rate in rates.items():
+        part = model.exposures[name].compliance(rate.depth_slope, pressure)
+        if part is not None:
+            local += increment * part.local
+            swept += increment * part.swept
+    return WearCompliance(local, swept)
+
+
+def _coupling(
+    model: Model, rates: CycleRates, contacts: Sequence[ContactSolution], increment: float
+) -> CycleCompliance:
+    """Return the wear at all positions, each point of a body with the mean slope of its law."""
+    shares = np.array([position.share for position in model.cycle])
+    bodies = []
+    for name in rates[0]:
+        shape = (model.exposures[name].rows, model.grid.cells[1])
+        weighed, load, nearby = np.zeros(shape), np.zeros(shape), np.zeros(shape)
+        for position, (share, contact) in enumerate(zip(shares, contacts, strict=True)):
+            pressure, slope = contact.pressure, rates[position][name].depth_slope
+            weighed += share * model.average(name, slope * pressure, position)
+            load += share * model.spread(name, pressure, position)
+            np.maximum(nearby, model.average(name, slope, position), out=nearby)
+        # A point that is yet to be touched has the slope that its law gives near it, on its row.
+        slope = np.where(load > 0, weighed / np.where(load > 0, load, 1.0), np.max(nearby, axis=0))
+        starts = model.exposures[name].starts or [0] * len(shares)
+        bodies.append((increment * slope, starts))
+    return CycleCompliance(shares, bodies, slice(0, model.grid.cells[0]))
