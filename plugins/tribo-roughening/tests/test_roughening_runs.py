@@ -88,6 +88,18 @@ def test_the_law_knows_the_depth_it_has_worn():
         np.testing.assert_allclose(patch.state["worn"], patch.wear_depth, rtol=1e-12)
 
 
+@pytest.mark.slow
+def test_two_bodies_that_slide_over_each_other_each_know_their_own_depth(monkeypatch):
+    monkeypatch.syspath_prepend(ROOT / "examples")
+    rough_on_rough = runpy.run_path(str(ROOT / "examples/rough_on_rough.py"))["rough_on_rough"]
+    data = rough_on_rough(20e-9, True, cells=16, particles=2, positions="cells", layers=1)
+    with Simulation(data).run() as result:
+        for body in map(result.body, result.body_names):
+            np.testing.assert_allclose(body.state["worn"], body.wear_depth[:], rtol=1e-12)
+            # Four particles in one layer: ±0.5/√4.
+            assert body.wear_depth[-1].mean() == pytest.approx(THICKNESS, rel=0.5, abs=0)
+
+
 def test_a_run_resumed_has_the_same_bits(tmp_path):
     data = case(20e-9, cells=16, particles=2, layers=1)
     with Simulation(data).run(tmp_path / "whole.h5") as whole:

@@ -1,0 +1,45 @@
+"""A patch slides over a rough plate, both periodic, the cycle resolved.
+
+python rough_on_rough.py [CELLS [PARTICLES [POSITIONS]]]: the plate hard, then worn as well.
+"""
+
+import sys
+
+from settled_roughness import case
+from tribo import Simulation
+from tribo.lab.roughness import parameters
+
+
+def rough_on_rough(sq, plate_wears, *, cells=32, particles=4, positions=9, layers=5):
+    """Return a patch of roughness `sq` (m) that slides over a plate of 20 nm."""
+    data = case(sq, cells=cells, particles=particles, layers=layers)
+    patch, size = data["bodies"]["patch"], data["grid"]["size"]
+    surface = {**patch["surface"], "sq": 20e-9, "seed": 9}
+    data["bodies"]["plate"] = {
+        "surface": surface,
+        "material": patch["material"],
+        "wear": {**patch["wear"], "seed": 5} if plate_wears else None,
+    }
+    data["kinematics"] |= {"track_length": size, "positions": positions}
+    return data
+
+
+def main(cells=32, particles=4, positions=9):
+    """Print Ra of the patch along and across the sliding over the depth worn."""
+    sizes = {"cells": cells, "particles": particles, "positions": positions}
+    for words, sq, plate_wears in (
+        ("hard plate, rough patch", 160e-9, False),
+        ("hard plate, smooth patch", 20e-9, False),
+        ("both wear", 20e-9, True),
+    ):
+        print(f"{words}\nlayers worn       Sa    along   across   in nm")
+        with Simulation(rough_on_rough(sq, plate_wears, **sizes)).run() as result:
+            patch = result.body("patch")
+            for save in range(len(result.times)):
+                measured = parameters(patch.surface(save))
+                shown = measured.Sa_m, measured.Ra_along_m, measured.Ra_across_m
+                print(f"{save / 2:11.1f}", *(f"{1e9 * each:8.2f}" for each in shown))
+
+
+if __name__ == "__main__":
+    main(*map(int, sys.argv[1:]))
