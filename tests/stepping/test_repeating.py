@@ -1,5 +1,7 @@
 """A cycle resolved in a window that repeats: bodies that pass come in again at the other end."""
 
+import re
+
 import numpy as np
 import pytest
 from contact_problems import pressed
@@ -12,6 +14,7 @@ from paper_models import (
     motion,
     named,
     small,
+    sphere,
     steel,
 )
 
@@ -31,10 +34,11 @@ from tribo import (
     Winkler,
 )
 from tribo.observers.observer import Observer
+from tribo.simulation.march import begin
 from tribo.simulation.predict import predict
 from tribo.stepping.step import first_contact
 
-GRID = Grid((0.32e-3, 0.24e-3), (16, 12))
+GRID = Grid((0.32e-3, 0.32e-3), (16, 16))
 (DX, DY), LOAD = GRID.spacing, 20.0
 
 
@@ -159,6 +163,21 @@ def test_a_window_may_have_few_cells(cells, kinematics):
     depth = K * LOAD / (GRID.size[0] * GRID.size[1]) * state.distance
     for body in state.bodies.values():
         np.testing.assert_allclose(body.wear, depth, rtol=1e-10)
+
+
+def test_a_surface_that_ends_at_the_window_is_told_of():
+    ending = rough(1).model_copy(update={"period": None})
+    model = repeating(track(), bodies=bodies(flat(), ending))
+    (notice,) = begin(model).notices
+    assert notice.kind == "period"
+    assert re.match(r"the surface of lower does not repeat .* along x it jumps by", notice.text)
+    assert notice.text in predict(model).problems
+
+
+@pytest.mark.parametrize("surface", [rough(3), sphere(), Waves(amplitude=1e-7, wavelength=8e-5)])
+def test_a_surface_that_repeats_goes_without_a_word(surface):
+    model = repeating(motion(stroke=1.0), bodies=bodies(surface, flat()))
+    assert begin(model).notices == ()
 
 
 def test_a_check_foresees_them():

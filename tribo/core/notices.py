@@ -13,6 +13,7 @@ Kind = Literal[
     "averaging",
     "chattering",
     "lap",
+    "period",
     "resolution",
     "stop",
     "failed",

@@ -14,6 +14,7 @@ from tribo.simulation.beginning import first_state
 from tribo.simulation.doubt import doubting
 from tribo.simulation.model import Model
 from tribo.simulation.validity import (
+    broken_period,
     check_stroke,
     coarse_cycle,
     few_cells,
@@ -163,6 +164,8 @@ def _noticed(model: Model, state: State) -> State:
     if state.steps == 0:
         if lap := short_of_a_lap(model):
             state = state.with_notice("lap", lap)
+        if ends := broken_period(model):
+            state = state.with_notice("period", ends)
         if few := few_cells(model, state.contact):
             state = state.with_notice("resolution", few)
     if chatters(state) and not state.has_notice("chattering"):

@@ -21,6 +21,7 @@ from tribo.simulation.measure import measure
 from tribo.simulation.memory import memory_needed, size_of_fields
 from tribo.simulation.model import Model
 from tribo.simulation.validity import (
+    broken_period,
     check_stroke,
     few_cells,
     limitation,
@@ -129,6 +130,7 @@ def predict(model: Model) -> Prediction:
     problems = (
         *unusual(model.case),
         few_cells(model, state.contact),
+        broken_period(model),
         *(text for _, text in stopping),
         warned,
         *(too_wide(model, first) or too_wide(model, last or first)),

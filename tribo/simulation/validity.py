@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
 from tribo.core.errors import located
 from tribo.core.measures import Measures, half_widths
@@ -19,6 +20,9 @@ COARSE, FINE = 0.05, 0.01
 """Error of a cycle, of the depth, from which on it is spoken of, and with the positions advised."""
 STEEP = 0.3
 """Half-width of a contact over the radius of a body, from which on it is spoken of."""
+SEAM = 4
+"""How many times more a surface bends at the edge of a window than inside if it ends there."""
+ROUNDING = 1e-9
 WHOLE = 1 - 1e-9
 FEW_CELLS = 8
 
@@ -39,6 +43,34 @@ def few_cells(model: Model, first: ContactSolution) -> str | None:
         f"the first contact is only {cells:.1f} cells wide, so its pressure is inaccurate "
         f"until it has grown: raise grid.cells for {FEW_CELLS} or more"
     )
+
+
+def broken_period(model: Model) -> str | None:
+    """Say so if the contact repeats with the window, but the surface of a body does not."""
+    if not model.contact.periodic:
+        return None
+    for name, surface in model.surfaces.items():
+        for axis, along in enumerate("xy"):
+            jump = _jump(np.moveaxis(surface.height, axis, 0))
+            if jump > 0:
+                return (
+                    f"the surface of {name} does not repeat with the window: along {along} it "
+                    f"jumps by {1e9 * jump:.3g} nm (root mean square) from one period to the next, "
+                    "and presses there; give it a period of the window's length or a part of it"
+                )
+    return None
+
+
+def _jump(height: Array) -> float:
+    """Return the height by which the last row misses the first one as next; 0 if it goes on."""
+    steps = np.diff(height, axis=0, append=height[:1])
+    bends = steps - 0.5 * (np.roll(steps, 1, axis=0) + np.roll(steps, -1, axis=0))
+    # Those beside the last step have it in them.
+    inside, last = bends[1:-2], bends[-1:]
+    if len(inside) < SEAM or np.mean(last**2) <= SEAM**2 * np.mean(inside**2):
+        return 0.0
+    jump = float(np.sqrt(np.mean(steps[-1] ** 2)))
+    return jump if jump > ROUNDING * float(np.ptp(height)) else 0.0
 
 
 def too_wide(model: Model, measures: Measures) -> list[str]:
