@@ -168,6 +168,25 @@ def test_a_law_keeps_what_it_remembers_and_another_starts_afresh(tmp_path):
         assert third.field("slip", -1, "disk").max() > slipped["disk"].max() > 0
 
 
+def test_a_law_keeps_what_it_remembers_along_a_resolved_track(tmp_path):
+    bodies = [named("ball", sphere(), steel(), archard()), named("disk", flat(), steel(), Slips())]
+    kinematics = motion(stroke=12 * GRID.spacing[0], duration=0.2, positions=9)
+    parts = {"bodies": bodies, "kinematics": kinematics}
+    begin = tmp_path / "first.h5"
+    with Simulation(worn_case(**parts)).run(begin) as first:
+        slipped = first.field("track_state_slip", -1, "disk")
+        window = first.field("slip", -1, "disk")
+        assert np.all(np.isnan(first.field("track_state_slip", -1, "ball")))
+    np.testing.assert_array_equal(slipped[6:-6], window)
+    assert slipped[10:-10, 16].max() > 2 * slipped[9, 16] > 0
+    with Simulation(worn_case(begin=begin, **parts)).run() as second:
+        np.testing.assert_array_equal(second.field("track_state_slip", 0, "disk"), slipped)
+    with edited(begin) as file:
+        del file["track_state_slip"]
+    with pytest.raises(CaseError, match=r"begin\.result: .*older tribo"):
+        Simulation(worn_case(begin=begin, **parts)).run()
+
+
 @pytest.mark.slow
 def test_hard_bodies_keep_what_has_yielded(tmp_path):
     bodies = [

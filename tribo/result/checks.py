@@ -13,7 +13,16 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
-from tribo.result.layout import EFFECT, FIXED, ROUGHNESS, STATE, TRACK, TRACK_PLASTIC, Variable
+from tribo.result.layout import (
+    EFFECT,
+    FIXED,
+    ROUGHNESS,
+    STATE,
+    TRACK,
+    TRACK_PLASTIC,
+    TRACK_STATE,
+    Variable,
+)
 
 LARGEST = 1e100
 """No quantity comes near it; its square and cube are still finite."""
@@ -122,9 +131,11 @@ def read_variables(file: h5py.File, bodies: tuple[str, ...]) -> dict[str, Variab
                 str(values.attrs[key]) for key in ("kind", "field", "units", "long_name")
             )
             owners = tuple(map(str, values.attrs["bodies"]))
-            if name in FIXED or kind not in (STATE, EFFECT) or not {*owners} <= {*bodies}:
+            known = kind in (STATE, EFFECT, TRACK_STATE)
+            if name in FIXED or not known or not {*owners} <= {*bodies}:
                 raise ValueError(f"{name!r} is no field of a model of these bodies")
-            shaped = replace(FIXED["wear_depth"], unit=unit, meaning=meaning)
+            like = FIXED[TRACK if kind == TRACK_STATE else "wear_depth"]
+            shaped = replace(like, unit=unit, meaning=meaning)
             table[name] = replace(shaped, kind=kind, field=field, bodies=owners)
     named = tuple(file["body"].asstr()[:].tolist())
     if named != bodies:

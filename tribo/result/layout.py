@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -11,11 +11,11 @@ import numpy as np
 
 from tribo.core.arrays import Array, middle_rows
 from tribo.core.measures import Measures
-from tribo.core.state import RunInfo, Snapshot
+from tribo.core.state import RunInfo, Snapshot, State
 from tribo.result.columns import BODY_COLUMNS, COLUMNS, ROUGHNESS_COLUMNS
 
 FORMAT = 2
-STATE, EFFECT = "state", "effect"
+STATE, EFFECT, TRACK_STATE = "state", "effect", "track_state"
 TRACK, TRACK_PLASTIC = "track_depth", "track_plastic"
 
 Rows = dict[str, Any]
@@ -35,8 +35,8 @@ class Variable:
     values : ndarray, optional
         Its values; None of one that grows with the run.
     kind : str, optional
-        ``"state"`` for a field that a wear law keeps, ``"effect"`` for one
-        that an effect provides.
+        ``"state"`` for a field that a wear law keeps, ``"track_state"`` for that along the whole
+        track, ``"effect"`` for one that an effect provides.
     field : str, optional
         The name that such a field has in its model.
     bodies : tuple of str, optional
@@ -54,6 +54,7 @@ class Variable:
 
 _ON_WINDOW = ("time", "x", "y")
 _ON_BODY = ("time", "body", "x", "y")
+_ON_TRACK = ("time", "body", "track_x", "y")
 
 
 def attributes(run: RunInfo) -> dict[str, Any]:
@@ -88,12 +89,8 @@ def _fixed() -> dict[str, Variable]:
         "wear_depth": Variable(_ON_BODY, "m", "Depth worn away"),
         "plastic_depth": Variable(_ON_BODY, "m", "Permanent displacement"),
         "track_x": Variable(("track_x",), "m", "Position along the track"),
-        TRACK: Variable(
-            ("time", "body", "track_x", "y"), "m", "Depth worn away along the whole track"
-        ),
-        TRACK_PLASTIC: Variable(
-            ("time", "body", "track_x", "y"), "m", "Permanent displacement along the whole track"
-        ),
+        TRACK: Variable(_ON_TRACK, "m", "Depth worn away along the whole track"),
+        TRACK_PLASTIC: Variable(_ON_TRACK, "m", "Permanent displacement along the whole track"),
     }
     for prefix, dim in (("", "time"), ("history_", "step")):
         for column in COLUMNS:
@@ -114,7 +111,8 @@ ROUGHNESS = tuple(f"history_{part.name}" for part in ROUGHNESS_COLUMNS)
 def variables(run: RunInfo) -> dict[str, Variable]:
     """Return the variables of a run by name, the fields of its models among them.
 
-    A field whose name is taken has ``effect_`` or ``state_`` before it.
+    A field whose name is taken has ``effect_`` or ``state_`` before it; one along the whole track
+    has ``track_state_``.
     """
     grid, bodies = run.system.grid, run.bodies
     values = {
@@ -140,13 +138,14 @@ def variables(run: RunInfo) -> dict[str, Variable]:
     for body in bodies:
         for field in body.state_fields:
             fields[STATE, field] = (*fields.get((STATE, field), ()), body.name)
+            if body.rows > grid.cells[0]:
+                fields[TRACK_STATE, field] = (*fields.get((TRACK_STATE, field), ()), body.name)
     for (kind, field), owners in fields.items():
-        name = field.name
+        name = f"{kind}_{field.name}" if kind == TRACK_STATE else field.name
         while name in FIXED or name in table or name == "body":
             name = f"{kind}_{name}"
-        table[name] = Variable(
-            _ON_BODY, field.unit, field.description, None, kind, field.name, owners
-        )
+        dims = _ON_TRACK if kind == TRACK_STATE else _ON_BODY
+        table[name] = Variable(dims, field.unit, field.description, None, kind, field.name, owners)
     return table
 
 
@@ -172,10 +171,14 @@ def save_row(snapshot: Snapshot, table: Mapping[str, Variable]) -> Rows:
         ),
     }
     if TRACK in table:
-        row[TRACK] = _on_track([body.wear for body in state.bodies.values()], shape)
+        row[TRACK] = _on_track(state, {n: b.wear for n, b in state.bodies.items()})
     if TRACK_PLASTIC in table:
-        row[TRACK_PLASTIC] = _on_track([body.plastic for body in state.bodies.values()], shape)
+        row[TRACK_PLASTIC] = _on_track(state, {n: b.plastic for n, b in state.bodies.items()})
     for name, variable in table.items():
+        if variable.kind == TRACK_STATE:
+            along = {n: state.bodies[n].law[variable.field] for n in variable.bodies}
+            row[name] = _on_track(state, along)
+            continue
         if variable.kind == STATE:
             of_bodies = {n: state.bodies[n].law[variable.field] for n in variable.bodies}
         elif variable.kind == EFFECT:
@@ -207,14 +210,16 @@ def _stacked(
     return np.stack([np.broadcast_to(field, shape) for field in fields])
 
 
-def _on_track(fields: Sequence[Array], shape: tuple[int, ...]) -> Array:
+def _on_track(state: State, of_bodies: Mapping[str, Array]) -> Array:
     """Return fields on bodies' own surfaces, NaN but for those that are longer than the window."""
-    rows = max(field.shape[0] for field in fields)
-    stacked = np.full((len(fields), rows, shape[1]), np.nan)
-    for on_track, field in zip(stacked, fields, strict=True):
-        if field.shape[0] > shape[0]:
-            first = (rows - field.shape[0]) // 2
-            on_track[first : first + field.shape[0]] = field
+    nx, ny = state.contact.pressure.shape
+    rows = max(len(body.wear) for body in state.bodies.values())
+    stacked = np.full((len(state.bodies), rows, ny), np.nan)
+    for on_track, name in zip(stacked, state.bodies, strict=True):
+        field = of_bodies.get(name)
+        if field is not None and len(field) > nx:
+            first = (rows - len(field)) // 2
+            on_track[first : first + len(field)] = field
     return stacked
 
 

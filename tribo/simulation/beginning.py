@@ -15,8 +15,7 @@ from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.core.state import BodyState, State
-from tribo.result.body import BodyResult
-from tribo.result.layout import TRACK, TRACK_PLASTIC
+from tribo.result.layout import TRACK, TRACK_PLASTIC, TRACK_STATE
 from tribo.result.read import Result
 from tribo.simulation.model import Model
 from tribo.stepping.step import first_contact
@@ -106,50 +105,52 @@ def _check_alike(model: Model, result: Result) -> None:
 
 def _worn(model: Model, result: Result, name: str, save: int) -> BodyState:
     """Return what a result has of a body, on the rows that the body has in the case."""
-    (nx, ny), rows = model.grid.cells, model.exposures[name].rows
+    nx, rows = model.grid.cells[0], model.exposures[name].rows
     body, track = result.body(name), _along_track(result, TRACK, name, save)
     if body.swept != (name in model.swept):
         ways = "passes through the contact", "stays in it"
         was, is_now = ways if body.swept else ways[::-1]
         raise CaseError(f"{name} {was} in {result.name}, and {is_now} in the case", PLACE)
-    kept = body.wear_depth[save] if track is None else track
-    wear = _on_rows(kept, rows, nx)
-    if wear is None:
-        raise CaseError(
-            f"{name} has {len(kept)} rows along its path in {result.name}, and {rows} in the case; "
-            "give the case the same stroke, and resolve both cycles or neither",
-            PLACE,
-        )
-    plastic, state = body.plastic_depth[save], _law_state(model, result, body)
-    if track is not None:
-        if state:
+    if track is None:
+        kept = [body.wear_depth[save], body.plastic_depth[save]]
+        state = {field: values[save] for field, values in body.state.items()}
+    else:
+        plastic = _along_track(result, TRACK_PLASTIC, name, save)
+        kept = [track, np.zeros_like(track) if plastic is None else plastic]
+        along = {f.name: key for key, f in result.fields_of(TRACK_STATE, name).items()}
+        found = {field: _along_track(result, key, name, save) for field, key in along.items()}
+        state = {field: values for field, values in found.items() if values is not None}
+        yielded = result.saves()[save]["bodies"][name]["max_plastic_depth_m"] > 0
+        if (yielded and plastic is None) or set(body.state) - set(state):
             raise CaseError(
-                f"{result.name} keeps the wear of {name} along its whole path, but the state of "
-                "its law in the window only, so that nothing can begin with it; average the "
-                "stroke, or take a law without memory",
+                f"{result.name} is of an older tribo, which kept of what has yielded, and of what "
+                f"a law remembers, only the part of {name} in the window; run its case again",
                 PLACE,
             )
-        yielded = _along_track(result, TRACK_PLASTIC, name, save)
-        plastic = np.zeros((rows, ny)) if yielded is None else yielded
+    wear = _on_rows(kept[0], rows, nx)
+    if wear is None:
+        raise CaseError(
+            f"{name} has {len(kept[0])} rows along its path in {result.name}, and {rows} in the "
+            "case; give the case the same stroke, and resolve both cycles or neither",
+            PLACE,
+        )
     law = {}
     if name in model.laws:
         law = {k: np.full_like(wear, v) for k, v in model.laws[name].initial_state.items()}
-    for field, values in state.items():
-        on_rows = _on_rows(values[save], rows, nx)
-        assert on_rows is not None
-        law[field] = on_rows
-    return BodyState(wear=wear, plastic=plastic, law=law)
+        if _same_law(model, result, name):
+            remembered = {k: _on_rows(state[k], rows, nx) for k in law if k in state}
+            law |= {k: values for k, values in remembered.items() if values is not None}
+    return BodyState(wear=wear, plastic=kept[1], law=law)
 
 
-def _law_state(model: Model, result: Result, body: BodyResult) -> Mapping[str, Array]:
-    """Return the fields of a body's law at each save, if the case has the same law."""
-    law, was = model.case.bodies[body.name].wear, result.case["bodies"][body.name].get("wear")
-    same = law is not None and isinstance(was, Mapping) and law.type == was.get("type")
-    return body.state if same else {}
+def _same_law(model: Model, result: Result, name: str) -> bool:
+    """Whether a body has a law of the same type in a result and in the case."""
+    law, was = model.case.bodies[name].wear, result.case["bodies"][name].get("wear")
+    return law is not None and isinstance(was, Mapping) and law.type == was.get("type")
 
 
 def _along_track(result: Result, variable: str, name: str, save: int) -> Array | None:
-    """Return a depth along the whole path of a body, shape (rows, ny), if it is kept."""
+    """Return a field along the whole path of a body, shape (rows, ny), if it is kept."""
     if variable not in dir(result):
         return None
     track = result.field(variable, save, name)

@@ -51,9 +51,10 @@ def size_of_fields(case: Case, exposures: Exposures) -> float:
     each = 1 + len(bodies) * (2 + effects + len(states))
     saves = 2 + len(case.output.save_times)
     nx, ny = case.grid.cells
-    # And all bodies' rows along a track that is longer than the window: wear, and what yielded.
+    # And all bodies' rows along a track that is longer than the window: wear, what
+    # has yielded and what laws remember.
     longest = max(exposure.rows for exposure in exposures.values())
-    kept = 1 + any(body.material.hardness is not None for body in bodies)
+    kept = 1 + any(body.material.hardness is not None for body in bodies) + len(states)
     track = kept * len(bodies) * longest if longest > nx else 0
     return 8.0 * ny * (nx * len(bodies) + saves * (nx * each + track))
 
