@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Sequence
+from functools import cached_property
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -94,8 +95,7 @@ class ResultWriter:
         """Write what was added, and the state after it with the time spent so far, in s."""
         self._finish_part()
         if self._folder is not None:
-            case = fingerprint(self._run.case)
-            kept = Checkpoint(case, state, wall_time, self._count, self.saves, self.rows)
+            kept = Checkpoint(self._case, state, wall_time, self._count, self.saves, self.rows)
             self._folder.write_checkpoint(kept)
 
     def finish(self, status: str, wall_time: float, notices: Sequence[Notice] = ()) -> None:
@@ -127,6 +127,11 @@ class ResultWriter:
     def result(self) -> Result:
         """Return the result."""
         return Result.open(self._path) if self._path else Result(self._image, "the result")
+
+    @cached_property
+    def _case(self) -> str:
+        # With a map of heights in the case this takes as long as a step.
+        return fingerprint(self._run.case)
 
     def _begin(self, run: RunInfo, **changed: Any) -> None:
         self._run, self._table = run, variables(run)
