@@ -59,6 +59,7 @@ def assemble(case: Case) -> Model:
         if body.wear is not None:
             with located(f"bodies.{name}.wear"):
                 laws[name] = GuardedLaw(body.wear, name, body.material)
+                laws[name].ask(body.wear.check_cells, grid.spacing)
                 _check_places(laws[name], exposures[name])
     if case.load.along and case.contact.periodic:
         raise CaseError(

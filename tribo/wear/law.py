@@ -26,6 +26,9 @@ class WearLaw(Component):
     def check(self, material: Material) -> None:
         """Raise `CaseError` if the law cannot serve a body of `material`."""
 
+    def check_cells(self, spacing: tuple[float, float]) -> None:
+        """Raise `CaseError` if cells of this length along x and y, in m, are too large for it."""
+
     def initial_state(self) -> dict[str, float]:
         """Return the initial value of each state field; zero unless overridden."""
         return {field.name: 0.0 for field in self.state_fields}

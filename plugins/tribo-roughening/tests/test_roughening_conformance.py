@@ -4,10 +4,11 @@ from tribo.testing import parametrize_checks
 
 from tribo_roughening.detachment import Detachment
 
+# The cells of the checks are 0.04 mm long.
 test_detachment = parametrize_checks(
     Detachment,
     configs=[
-        {"k": 1e-16, "diameter": "10 um", "thickness": "0.5 um"},
-        {"k": 1e-16, "diameter": 1e-5, "thickness": 5e-7, "spread": 1, "period": 1e-4, "seed": 3},
+        {"k": 1e-16, "diameter": "0.2 mm", "thickness": "0.5 um"},
+        {"k": 1e-16, "diameter": 2e-4, "thickness": 5e-7, "spread": 1, "period": 1e-3, "seed": 3},
     ],
 )

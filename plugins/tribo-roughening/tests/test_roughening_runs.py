@@ -119,6 +119,15 @@ def test_a_body_swept_by_the_average_has_no_places():
         Simulation(data)
 
 
+def test_particles_of_fewer_than_four_cells_are_refused():
+    data = case(20e-9, cells=32, particles=16)
+    data["bodies"]["patch"]["surface"] = "flat"
+    with pytest.raises(
+        CaseError, match=r"patch\.wear: particles of 16 µm are 2 cells of 8 µm, and 4"
+    ):
+        Simulation(data)
+
+
 def test_a_period_that_is_no_whole_number_of_particles_is_refused():
     data = case(20e-9)
     data["bodies"]["patch"]["wear"]["period"] = 3.5 * DIAMETER

@@ -6,10 +6,12 @@ from typing import Annotated, Self
 
 from pydantic import ConfigDict, model_validator
 from pydantic import Field as Bounded
-from tribo import Field, LocalConditions, Quantity, WearLaw, WearRate
+from tribo import CaseError, Field, LocalConditions, Quantity, WearLaw, WearRate
 
 from tribo_roughening.resistance import resistance
 
+CELLS = 4
+"""Cells that a particle must have."""
 WORN = Field("worn", "m", "Depth worn so far, by which a point knows its particle.")
 
 
@@ -64,6 +66,16 @@ class Detachment(WearLaw):
             if round(count) < 1 or abs(count - round(count)) > 1e-6 * count:
                 raise ValueError("period must be a whole number of diameters")
         return self
+
+    def check_cells(self, spacing: tuple[float, float]) -> None:
+        """Require four cells for a particle, so that finer ones find the same roughness."""
+        width, cell = self.diameter, max(spacing)
+        if width < CELLS * cell * (1 - 1e-9):
+            raise CaseError(
+                f"particles of {1e6 * width:.4g} µm are {width / cell:.2g} cells of "
+                f"{1e6 * cell:.4g} µm, and {CELLS} at least are needed; raise grid.cells, or give "
+                "a larger diameter"
+            )
 
     def rate(self, local: LocalConditions) -> WearRate:
         """Return k p / R and k / R; the depth worn is a state of the law."""
