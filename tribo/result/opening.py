@@ -60,7 +60,9 @@ def is_unfinished(path: Path) -> bool:
             raise CaseError(
                 f"{path} is no result of tribo, or its beginning is damaged{hint}"
             ) from error
-        raise
+        raise CaseError(
+            f"{error}; xarray may still read the fields whose own checksums match"
+        ) from error
     with interpreting(str(path)), h5py.File(path) as file:
         written = file.attrs.get("tribo_format")
         if not np.array_equal(written, FORMAT):

@@ -60,7 +60,4 @@ def _check(file: BinaryIO, path: Path) -> None:
             "to it"
         )
     if end != _MARK + digest.digest():
-        raise CaseError(
-            f"{path} is damaged: its checksum does not match. xarray can still read the fields "
-            "whose own checksums match"
-        )
+        raise CaseError(f"{path} is damaged: its checksum does not match")
