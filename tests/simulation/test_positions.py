@@ -7,7 +7,9 @@ from paper_models import archard, case, flat, last, motion, named, sphere, steel
 from tribo import Begin, CaseError, Grid, Load, Simulation, TriboWarning, Unidirectional
 from tribo.config.load import validate_case
 from tribo.simulation import positions
+from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.positions import alike, chosen, composed
+from tribo.simulation.predict import predict
 from tribo.stepping.explicit import Explicit
 from tribo.surfaces.waves import Waves
 
@@ -167,3 +169,10 @@ def test_worn_bodies_go_on_in_the_positions_they_had(tmp_path, positions):
     given = left_open("0.7 mm", grid=grid, distance="20 m")
     given = given.model_copy(update={"begin": Begin(result=str(tmp_path / "a.h5"))})
     assert composed(given).case.kinematics.positions == positions
+
+
+def test_coarser_grids_of_a_case_keep_its_positions():
+    model = composed(left_open())
+    coarse = assemble(varied(model.case, grid=Grid(GRID.size, (32, 32))))
+    assert (len(model.cycle), len(coarse.cycle)) == (35, 35)
+    assert predict(model).positions == 35

@@ -37,8 +37,9 @@ class Reciprocating(Kinematics):
     The track average is the paper's model, and makes a groove too deep at mid-stroke. One as deep
     as the elastic approach is 4 % too deep where S is 10 half-widths of the contact and 12 % where
     it is 4; one several times deeper, twice as much, where both bodies wear alike (see
-    `tribo.motion.averaging`). Resolved into `positions` it holds for any stroke of two cells and
-    more, gross slip in fretting among them.
+    `tribo.motion.averaging`). Resolved into `positions`, as a run does by itself where the average
+    would cost 1 %, it holds for any stroke of two cells and more, gross slip in fretting among
+    them.
     """
 
     model_config = ConfigDict(
