@@ -1,5 +1,7 @@
 """A run that begins with the worn bodies of a result."""
 
+from io import StringIO
+
 import numpy as np
 import pytest
 from edited import edited
@@ -31,6 +33,8 @@ from tribo import (
     WearRate,
 )
 from tribo.cli.check import _facts
+from tribo.cli.console import Console
+from tribo.cli.report import print_report
 from tribo.observers.observer import Observer
 from tribo.plotting.pressure import pressure_map
 from tribo.simulation.predict import predict
@@ -263,6 +267,9 @@ def test_worn_bodies_are_not_held_against_hertz(run_in):
         assert "the bodies were worn already" in result.report().first_contact_words
         assert result.report().first_contact.hertz_peak_pressure_Pa is None
         assert len(pressure_map(result).legends) == 0
+        console = Console(file=StringIO(), width=80)
+        print_report(result, console)
+        assert "Wear after 0.1 m, what it began with included" in console.file.getvalue()
     facts = dict(_facts(model, predict(model)))
     assert str(run_in) in facts["first contact"]
 

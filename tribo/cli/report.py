@@ -167,7 +167,8 @@ def _saves(result: Result, left_out: Sequence[str]) -> Table:
 def _bodies(result: Result, bodies: Mapping[str, BodyReport]) -> Table:
     last = result.saves()[-1]
     tracks = [f"{n} (track)" if body.scar_along_m is None else n for n, body in bodies.items()]
-    table = titled(f"Wear after {last['distance_m']:.4g} m", *tracks)
+    before = ", what it began with included" if result.case.get("begin") else ""
+    table = titled(f"Wear after {last['distance_m']:.4g} m{before}", *tracks)
     worn = [_worn(body, last["bodies"][name]) for name, body in bodies.items()]
     for row in worn[0]:
         cells = [body[row] for body in worn]
