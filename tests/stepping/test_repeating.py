@@ -15,6 +15,7 @@ from paper_models import (
     named,
     small,
     sphere,
+    states,
     steel,
 )
 
@@ -186,6 +187,12 @@ def test_a_check_foresees_them():
     assert foreseen.problems == ()
     assert [b.max_wear_depth for b in foreseen.last.bodies.values()] == pytest.approx([depth] * 2)
     assert foreseen.positions == 16
+
+
+def test_an_even_number_of_positions_has_no_middle_to_mirror():
+    # Nothing wears, so that all positions are alike.
+    model = repeating(track(), bodies=bodies(flat(), flat(), wears=(False, False)))
+    assert {len(state.contacts) for state in states(model)} == {16}
 
 
 def test_waves_press_at_each_position_as_far_apart_as_they_have_come():

@@ -63,7 +63,7 @@ def solved(contacts: Sequence[ContactSolution]) -> int:
 
 def _all_mirror(problems: Sequence[ContactProblem], coupling: CycleCompliance | None) -> bool:
     """Whether each position mirrors another along x, and the middle one itself."""
-    mirrored = all(
+    mirrored = len(problems) % 2 == 1 and all(
         abs(one.load - other.load) <= MIRRORED * one.load and _mirrors(one.gap, other.gap)
         for one, other in zip(problems, reversed(problems), strict=True)
     )
