@@ -186,9 +186,9 @@ def material_ratio(height: Array) -> tuple[Array, Array]:
 
 def is_rough(height: Array) -> bool:
     """Whether a height map is more than a smooth form, as that of a ball, a cylinder or a flat."""
-    relief = without_form(height, FINE_FORM)
     span = float(np.nanmax(height) - np.nanmin(height))
-    return areal_parameters(relief)[1] > ROUGH * span
+    # The fit to a flat would take more memory than any other part of its run.
+    return span > 0 and areal_parameters(without_form(height, FINE_FORM))[1] > ROUGH * span
 
 
 def _scaled(cells: NDArray[np.intp]) -> Array:
