@@ -13,6 +13,7 @@ from tribo.core.measures import (
     plastic_area,
 )
 from tribo.core.state import BodyInfo, BodyState, RunInfo, Snapshot, State
+from tribo.lab.running_in import contact_roughness
 from tribo.result.provenance import provenance
 from tribo.result.store import ResultWriter
 
@@ -61,7 +62,14 @@ def made(
         RunInfo(
             system=ContactSystem(grid, 1.137e11, 100.0, cap, curvature),
             bodies=tuple(
-                BodyInfo(name, is_swept, density, _height(grid, i, relief), grid.cells[0])
+                BodyInfo(
+                    name,
+                    is_swept,
+                    density,
+                    _height(grid, i, relief),
+                    grid.cells[0],
+                    rough=relief > 0 and i == 0,
+                )
                 for i, (name, is_swept, _, density) in enumerate(bodies)
             ),
             end_time=3600.0,
@@ -70,7 +78,7 @@ def made(
             provenance=provenance({}),
         )
     )
-    looks = bodies, plastic, power, shape, grid, texture, cap
+    looks = bodies, plastic, power, shape, grid, texture, cap, relief
     for before, time in zip((0.0, *times), times, strict=False):
         snapshot = _snapshot(time, *looks)
         # Two steps to each save.
@@ -100,7 +108,7 @@ def _height(grid, body, relief):
     return waves - (x**2 + y**2) / (2 * RADIUS) if body == 0 else np.zeros(grid.cells)
 
 
-def _snapshot(time, bodies, plastic, power, shape, grid, texture, cap):
+def _snapshot(time, bodies, plastic, power, shape, grid, texture, cap, relief):
     x, y = grid.mesh
     a = half_width(time)
     inside = np.maximum(1 - ((x / shape[0]) ** 2 + (y / shape[1]) ** 2) / a**2, 0.0)
@@ -116,7 +124,11 @@ def _snapshot(time, bodies, plastic, power, shape, grid, texture, cap):
         wear = 0.1 * field.mean(axis=0, keepdims=True) if swept else field
         states[name] = BodyState(wear, plastic * inside, {})
         volume = 3.11e-14 * 0.1 * time if wears else 0.0
-        measures[name] = BodyMeasures(wear.max(), centre(wear), volume, plastic * inside.max())
+        rough = {}
+        if relief > 0 and name == bodies[0][0]:
+            rough = contact_roughness(_height(grid, 0, relief) - wear, pressure)._asdict()
+        deepest = plastic * inside.max()
+        measures[name] = BodyMeasures(wear.max(), centre(wear), volume, deepest, rough)
     state = State(
         time=time,
         distance=0.1 * time,

@@ -15,6 +15,7 @@ from tribo.plotting import figures, pressure_map, pressure_sections, save_figure
 
 CONTACT = ["pressure_map", "pressure_map_early", "pressure_sections"]
 OVER_TIME = ["wear_history", "contact_history"]
+RUNNING_IN = ["real_contact", "roughness_history"]
 WORN = ["disk_groove", "worn_section"]
 BALL = ["ball_along", "ball_across"]
 RELIEF = ["ball_height_map", "ball_material_ratio"]
@@ -61,7 +62,7 @@ def test_the_pictures_are_images_of_the_width_of_a_column(tmp_path):
         ),
         (INDENTED, [*EARLY, *BALL, *WORN]),
         (COARSE, [*EARLY, *BALL, *WORN, *OVER_TIME, "real_contact"]),
-        (ROUGH, [*CONTACT, *BALL, WORN[0], *RELIEF, WORN[1], *OVER_TIME, "real_contact"]),
+        (ROUGH, [*CONTACT, *BALL, WORN[0], *RELIEF, WORN[1], *OVER_TIME, *RUNNING_IN]),
     ],
 )
 def test_each_result_gets_the_pictures_that_make_sense(changes, expected, monkeypatch, tmp_path):

@@ -5,7 +5,7 @@ import pytest
 from made_results import made
 
 from tribo.lab.running_in import reliefs
-from tribo.plotting.history import real_contact
+from tribo.plotting.history import real_contact, roughness_history
 from tribo.plotting.relief import height_map, material_ratio_curves
 
 
@@ -46,3 +46,12 @@ def test_the_real_contact_is_drawn_with_its_part_at_the_hardness():
         np.testing.assert_allclose(line.get_ydata(), 1e6 * history[column])
     (line,) = real_contact(made()).axes[0].lines
     assert line.get_label() == "all"
+
+
+def test_the_roughness_in_the_contact_is_drawn_of_rough_bodies_alone(rough):
+    (axes,) = roughness_history(rough).axes
+    (line,) = axes.lines
+    assert line.get_label() == "ball"
+    history = rough.table("history")
+    np.testing.assert_allclose(line.get_ydata(), 1e9 * history["bodies.ball.Sq_m"])
+    assert "bodies.disk.Sq_m" not in history

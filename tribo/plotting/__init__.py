@@ -1,7 +1,12 @@
 """Pictures of a result, for print and for notebooks."""
 
 from tribo.plotting.figures import save_figures
-from tribo.plotting.history import contact_history, real_contact, wear_history
+from tribo.plotting.history import (
+    contact_history,
+    real_contact,
+    roughness_history,
+    wear_history,
+)
 from tribo.plotting.pressure import pressure_map, pressure_sections
 from tribo.plotting.profiles import body_profiles, groove, worn_section
 from tribo.plotting.relief import height_map, material_ratio_curves
@@ -15,6 +20,7 @@ __all__ = [
     "pressure_map",
     "pressure_sections",
     "real_contact",
+    "roughness_history",
     "save_figures",
     "wear_history",
     "worn_section",

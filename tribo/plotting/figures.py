@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from tribo.core.errors import CaseError
 from tribo.core.files import writing
 from tribo.lab.running_in import reliefs, rough_bodies
-from tribo.plotting.history import contact_history, real_contact, wear_history
+from tribo.plotting.history import contact_history, real_contact, roughness_history, wear_history
 from tribo.plotting.pressure import pressure_map, pressure_sections
 from tribo.plotting.profiles import along_track, body_profiles, groove, worn_section
 from tribo.plotting.relief import height_map, material_ratio_curves
@@ -50,7 +50,8 @@ def save_figures(result: Result, folder: Path, suffix: str = "png") -> list[Path
         and ``NAME_across`` of each worn body NAME, or ``NAME_groove`` of a
         swept one, ``NAME_height_map`` and ``NAME_material_ratio`` of each rough
         one, ``worn_section``, ``wear_history``, ``contact_history`` and, of rough
-        bodies, ``real_contact``; besides those of the plugins of the result's models.
+        bodies, ``real_contact`` and ``roughness_history``; besides those of the plugins of the
+        result's models.
 
     Raises
     ------
@@ -116,4 +117,6 @@ def _pictures(result: Result) -> dict[str, Callable[[], Figure]]:
         pictures["contact_history"] = partial(contact_history, result)
         if rough:
             pictures["real_contact"] = partial(real_contact, result)
+        if any(label.endswith(".Sq_m") for label in history):
+            pictures["roughness_history"] = partial(roughness_history, result)
     return pictures

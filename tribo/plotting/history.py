@@ -135,6 +135,27 @@ def real_contact(result: Result) -> Figure:
     return figure
 
 
+def roughness_history(result: Result) -> Figure:
+    """Draw the root mean square height Sq of rough bodies within the contact against time."""
+    number_of_saves(result)
+    history, unit = result.table("history"), time_unit(result.times)
+    labels = {name: f"bodies.{name}.Sq_m" for name in result.body_names}
+    drawn = {name: history[label] for name, label in labels.items() if label in history}
+    values = np.concatenate(list(drawn.values()))
+    shown = height_unit(float(np.nanmax(values)))
+    with house_style():
+        figure = new_figure(55.0)
+        axes = figure.subplots()
+        for (name, heights), look in zip(drawn.items(), (UNDER, OVER), strict=False):
+            axes.plot(history["time_s"] / size(unit), heights / size(shown), label=name, **look)
+        axes.set_ylabel(f"Sq in the contact ({shown})")
+        axes.set_xlabel(f"Time ({unit})")
+        axes.set_xlim(left=0.0)
+        _fit_scale(axes, values)
+        axes.legend(loc="best")
+    return figure
+
+
 def _steps(width: Array, cell: float) -> Mask:
     """Return the moments between which a line is nowhere more than a cell from a width.
 
