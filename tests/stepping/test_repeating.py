@@ -140,7 +140,9 @@ def test_which_body_is_called_moving_changes_nothing():
         np.testing.assert_allclose(found, expected, atol=2e-3 * expected.max())
 
 
-@pytest.mark.parametrize("kinematics", [strokes(6), strokes(40, positions=5), track(positions=5)])
+@pytest.mark.parametrize(
+    "kinematics", [strokes(6), strokes(40, positions=5), strokes(40.3), track(positions=5)]
+)
 def test_two_flats_wear_evenly(kinematics):
     state = last(repeating(kinematics, contact=Periodic(), bodies=bodies(flat(), flat())))
     depth = K * LOAD / (GRID.size[0] * GRID.size[1]) * state.distance

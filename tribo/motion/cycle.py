@@ -69,12 +69,12 @@ class Stroke:
         """Offsets from mid-stroke, shape (positions,), in cells, over the stroke or a period."""
         half = self._half
         sides = half if isinstance(self.count, str) else min(half, self.count // 2)
-        if self._round is None:
+        if self.goes_round is None:
             right = np.round(np.linspace(0, half, sides + 1))
-        elif 2 * sides + 1 < self._round:
-            right = np.round(np.arange(sides + 1) * (self._round / (2 * sides + 1)))
+        elif 2 * sides + 1 < self.goes_round:
+            right = np.round(np.arange(sides + 1) * (self.goes_round / (2 * sides + 1)))
         else:
-            return np.arange(self._round, dtype=float) - self._round // 2
+            return np.arange(self.goes_round, dtype=float) - self.goes_round // 2
         return np.asarray(np.concatenate([-right[:0:-1], right]))
 
     @property
@@ -89,6 +89,11 @@ class Stroke:
         """Whether the stroke is an even whole number of cells."""
         half = 0.5 * self.length / self.dx
         return abs(half - round(half)) <= WHOLE * half
+
+    @property
+    def goes_round(self) -> int | None:
+        """The period that the stroke is as long as or longer, in cells; None if it is shorter."""
+        return self.period if self.period is not None and 2 * self._half >= self.period else None
 
     @property
     def ends(self) -> Array:
@@ -137,18 +142,13 @@ class Stroke:
         given = 0.5 * self.length / self.dx
         return max(1, round(given) if self.is_whole else int(np.ceil(given)))
 
-    @property
-    def _round(self) -> int | None:
-        """The period that the stroke goes round, in cells; None if it does not."""
-        return self.period if self.period is not None and 2 * self._half >= self.period else None
-
     def _near(self, path: Array, weights: Array | float = 1.0) -> Array:
         """Return the length of the path that falls to each position, shape (positions,)."""
         nodes = self.cells * self.dx
-        if self._round is None:
+        if self.goes_round is None:
             return near(nodes, path, weights)
         # The last position but for a period comes before the first, and the other way round.
-        around = self._round * self.dx
+        around = self.goes_round * self.dx
         closed = np.concatenate([[nodes[-1] - around], nodes, [nodes[0] + around]])
         lengths = near(closed, *_folded(path, weights, closed[0], around))
         lengths[1] += lengths[-1]

@@ -152,7 +152,7 @@ class Reciprocating(Kinematics):
         stroke = Stroke(self.stroke, dx, self.positions, grid.period)
         if not self.allow_short_stroke:
             stroke.check_cells("kinematics.stroke")
-        if self.positions == "cells" and not stroke.is_whole:
+        if self.positions == "cells" and not (stroke.is_whole or stroke.goes_round):
             cells = self.stroke / dx
             near = 2e3 * dx * max(1, round(0.5 * cells))
             raise CaseError(
