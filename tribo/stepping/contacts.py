@@ -71,7 +71,10 @@ def _all_mirror(problems: Sequence[ContactProblem], coupling: CycleCompliance | 
 
 
 def _bodies_mirror(coupling: CycleCompliance) -> bool:
-    """Whether two positions that mirror each other lie so on the bodies, too."""
+    """Whether two positions that mirror each other wear alike, and lie so on the bodies."""
+    shares = coupling.shares
+    if np.max(np.abs(shares - shares[::-1])) > MIRRORED:
+        return False
     for compliance, starts in coupling.bodies:
         rows = len(compliance)
         beyond = rows - (coupling.rows.stop - coupling.rows.start)
