@@ -251,6 +251,7 @@ def test_a_run_that_began_with_what_is_another_file_by_now_is_neither_taken_nor_
 def test_a_depth_that_is_reached_already_ends_the_run_at_once(run_in):
     with Simulation(worn_case(begin=run_in, stop=Stop(depth=1e-9))).run() as result:
         assert (len(result.times), result.status) == (1, "done")
+        assert "ended at 0 s, where the wear depth reached 0.001 µm" in "".join(result.notices)
 
 
 def test_a_check_shows_the_first_contact_of_the_worn_bodies(run_in):

@@ -54,6 +54,8 @@ def begin(model: Model) -> State:
         model.stepping.check(model, state)
     if model.chosen is not None:
         state = state.with_notice("positions", model.chosen)
+    if _depth(model, state) >= _limit(model):
+        state = _stopped(model, state)
     return _noticed(model, replace(state, saves=1, speed=model.end_distance / model.end_time))
 
 
@@ -68,8 +70,7 @@ def march(model: Model, state: State) -> Iterator[Accepted]:
     CaseError
         If a time step exceeds the stability limit.
     """
-    stop = model.case.stop.depth
-    limit = np.inf if stop is None else stop
+    limit = _limit(model)
     if _depth(model, state) >= limit:
         return
     with doubting(model.case):
@@ -88,11 +89,7 @@ def _march(model: Model, state: State, limit: float) -> Iterator[Accepted]:
             if last:
                 state = _concluded(model, state)
             if worn_out and state.time < model.end_time:
-                state = state.with_notice(
-                    "stop",
-                    f"ended at {state.time:.6g} s, where the wear depth reached "
-                    f"{1e6 * limit:.4g} µm",
-                )
+                state = _stopped(model, state)
             save = last or (state.time >= until and until in model.saves)
             if save:
                 state = replace(state, saves=state.saves + 1)
@@ -134,6 +131,19 @@ def _up_to_depth(model: Model, state: State, after: State, limit: float) -> Stat
         else:
             low, depth_low = trial, depth
     return after
+
+
+def _limit(model: Model) -> float:
+    stop = model.case.stop.depth
+    return np.inf if stop is None else stop
+
+
+def _stopped(model: Model, state: State) -> State:
+    """Say that the wear depth has ended the run."""
+    return state.with_notice(
+        "stop",
+        f"ended at {state.time:.6g} s, where the wear depth reached {1e6 * _limit(model):.4g} µm",
+    )
 
 
 def _depth(model: Model, state: State) -> float:
