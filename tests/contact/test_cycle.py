@@ -101,6 +101,11 @@ def test_a_box_grows_to_what_any_position_touches():
     assert np.max(np.abs(found - needed)) <= 1e-7 * np.max(needed)
 
 
+class ByItself:
+    def solve(self, problem, start=None):
+        raise NotImplementedError
+
+
 def test_a_solver_of_ones_own_takes_them_one_by_one():
     class Own(DcFft):
         type = "test.own"
@@ -108,6 +113,10 @@ def test_a_solver_of_ones_own_takes_them_one_by_one():
         def solve(self, problem, start=None):
             return DcFft.solve(self, problem, start)
 
+    class Mixed(ByItself, DcFft):
+        type = "test.mixed"
+
     assert DcFft.couples
-    assert not Own.couples
-    assert Own.solve_cycle is not DcFft.solve_cycle
+    for taken in (Own, Mixed):
+        assert not taken.couples
+        assert taken.solve_cycle is not DcFft.solve_cycle

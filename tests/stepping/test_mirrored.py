@@ -22,6 +22,10 @@ def test_a_cycle_that_is_solved_by_half_is_the_one_that_is_solved_whole(path, mo
     by_half = last(model)
     monkeypatch.setattr(contacts, "_all_mirror", lambda *_: False)
     whole = last(model)
+    for contact in by_half.contacts:
+        # Each observer is given them.
+        assert not contact.pressure.flags.writeable
+        assert not contact.overlap.flags.writeable
     assert (by_half.contact_solves < whole.contact_solves) == (path is EVEN)
     for name, body in whole.bodies.items():
         off = np.abs(by_half.bodies[name].wear - body.wear)

@@ -34,7 +34,11 @@ class ContactSolver(Component):
     def __init_subclass__(cls, **named: Any) -> None:
         """Take the positions one by one where a subclass solves a contact of its own."""
         super().__init_subclass__(**named)
-        if "solve" in vars(cls) and "solve_cycle" not in vars(cls):
+        one, several = (
+            next(n for n, base in enumerate(cls.__mro__) if name in vars(base))
+            for name in ("solve", "solve_cycle")
+        )
+        if one < several:
             cls.couples = False
             cls.solve_cycle = ContactSolver.solve_cycle  # type: ignore[method-assign]
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tribo.core.arrays import Array
+from tribo.core.arrays import Array, readonly
 from tribo.core.contact import ContactProblem, ContactSolution, CycleCompliance, WearCompliance
 from tribo.core.loads import ByPosition
 from tribo.stepping.linear_wear import LinearWear
@@ -98,12 +98,16 @@ def _one_side(coupling: CycleCompliance, half: int) -> CycleCompliance:
 
 
 def _mirrored(contact: ContactSolution) -> ContactSolution:
-    pressure, overlap = contact.pressure[::-1].copy(), contact.overlap[::-1].copy()
-    return replace(contact, pressure=pressure, overlap=overlap, iterations=0)
+    return replace(
+        contact,
+        pressure=readonly(contact.pressure[::-1].copy()),
+        overlap=readonly(contact.overlap[::-1].copy()),
+        iterations=0,
+    )
 
 
 def _symmetric(contact: ContactSolution) -> ContactSolution:
     """Return the mean of a contact and its mirror image: what rounding made of it goes."""
     pressure = 0.5 * (contact.pressure + contact.pressure[::-1])
     overlap = 0.5 * (contact.overlap + contact.overlap[::-1])
-    return replace(contact, pressure=pressure, overlap=overlap)
+    return replace(contact, pressure=readonly(pressure), overlap=readonly(overlap))
