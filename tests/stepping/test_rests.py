@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from paper_models import motion, small
+from paper_models import K, foundation, motion, small, states
 
-from tribo import Simulation
+from tribo import Load, Simulation, Stage
 from tribo.motion.unidirectional import Unidirectional
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
@@ -55,3 +55,18 @@ def test_a_motion_may_begin_or_end_at_rest(rest, stepping):
         worn = [r.saves()[-1]["bodies"]["ball"]["wear_volume_m3"] for r in (rested, steady)]
         assert rested.times[-1] == 15
     assert worn[0] == pytest.approx(worn[1], rel=1e-9, abs=0)
+
+
+@pytest.mark.parametrize("ramp", [(2.0, 11.0), (4.0, 9.0), (5.0, 11.0), (2.0, 7.0)])
+def test_a_load_may_rise_as_the_motion_comes_to_rest_and_goes_on(ramp):
+    up, there = ramp
+    stages = Stage(until=up, normal=50), Stage(at=there, normal=100), Stage(until=15, normal=100)
+    model = small(contact=foundation(), kinematics=pauses(), load=Load(normal=stages))
+    last = states(model)[-1]
+    times = np.linspace(0, 15, 150_001)
+    slides = 0.1 * ((times < 4) | (times > 9))
+    load_distance = np.trapezoid(slides * np.interp(times, ramp, (50, 100)), times)
+    assert last.load_distance == pytest.approx(load_distance, rel=1e-4)
+    for name, body in last.bodies.items():
+        volume = model.exposures[name].volume(body.wear)
+        assert volume == pytest.approx(K * last.load_distance, rel=1e-9, abs=0)

@@ -28,6 +28,7 @@ from tribo.stepping.step import (
     distance_until,
     geometry,
     law_states_after,
+    load_changes,
     lost,
     moment_after,
     rested,
@@ -49,6 +50,9 @@ LATE = 0.003
 SAFETY = 0.9
 SHRINK, GROW = 0.2, 2.5
 MAX_REJECTIONS = 40
+AT_REST, FEW = 1e-9, 3
+"""Of the distance until the next stop, what a step slides that is one over a rest; and the steps
+rejected in a row, while the load changes, after which one is looked for."""
 
 
 class StepRejected(NumericalError):
@@ -147,7 +151,15 @@ class Implicit(Scheme):
                 errors = self.errors(model, state, trial)
                 if max(errors.depth, errors.pressure, errors.volume) <= 1:
                     break
-                factor = errors.factor
+                changes = load_changes(model, state.time, time)
+                if changes and increment < AT_REST * target and errors.depth <= 1:
+                    # The load goes on to change over a rest, however short the step.
+                    return replace(
+                        trial.state,
+                        increment=0.0,
+                        rejected_steps=state.rejected_steps + rejected,
+                    )
+                factor = SHRINK if changes and rejected >= FEW else errors.factor
                 failure: NumericalError | None = None
             except (StepRejected, BadValues) as error:
                 check_repeatable(model, state)

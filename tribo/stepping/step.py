@@ -16,6 +16,7 @@ from tribo.core.loads import ByPosition
 from tribo.core.measures import Invariants, reaches_border
 from tribo.core.state import BodyState, State
 from tribo.stepping.contacts import solve, solve_cycle, solved
+from tribo.stepping.invariants import ONE_LOAD
 from tribo.stepping.rates import CycleRates, LawStates, Moment
 
 if TYPE_CHECKING:
@@ -134,6 +135,12 @@ def rests(model: Model, state: State, time: float) -> bool:
         abs(model.motion.distance_at(t) - state.distance) <= SMALLEST * state.distance
         for t in (time, 0.5 * (state.time + time))
     )
+
+
+def load_changes(model: Model, begin: float, end: float) -> bool:
+    """Whether the load changes between two times (s), so that the pressure does."""
+    pairs = zip(model.loads.after(begin), model.loads.before(end), strict=True)
+    return any(abs(last - first) > ONE_LOAD * first for first, last in pairs)
 
 
 def rested(model: Model, state: State, time: float) -> State:
