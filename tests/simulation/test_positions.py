@@ -10,7 +10,9 @@ from tribo.simulation import positions
 from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.positions import alike, chosen, composed
 from tribo.simulation.predict import predict
+from tribo.simulation.validity import check_stroke
 from tribo.stepping.explicit import Explicit
+from tribo.stepping.step import first_contact
 from tribo.surfaces.waves import Waves
 
 GRID = Grid((1.4e-3, 1.4e-3), (48, 48))
@@ -159,6 +161,13 @@ def test_a_load_that_changes_along_the_stroke_is_resolved_always():
     model = composed(left_open(distance="0.1 m").model_copy(update={"load": load}))
     assert len(model.cycle) == 35
     assert model.chosen.endswith("as the load changes along the stroke")
+
+
+def test_a_load_that_falls_in_the_middle_of_the_stroke_takes_positions_for_the_contact_there():
+    along = ((-1e-3, 1.0), (0.0, 0.05), (1e-3, 1.0))
+    load = Load(normal=60, along=[{"at": at, "share": share} for at, share in along])
+    model = composed(case(load=load, kinematics=motion(positions="auto")))
+    check_stroke(model, first_contact(model))
 
 
 @pytest.mark.parametrize("positions", ["average", 21])

@@ -135,7 +135,7 @@ class Load(Table):
                 "kinematics.positions, as 33, or leave it out",
                 "load.along",
             )
-        at, shares = zip(*((place.at, place.share) for place in self.along), strict=True)
+        at, shares = self._along
         first, last = float(np.min(places)), float(np.max(places))
         if at[0] > first + reach or at[-1] < last - reach:
             raise CaseError(
@@ -149,15 +149,26 @@ class Load(Table):
         """Return about the mean of the load over the places along the stroke, for all of it."""
         if not self.along:
             return self
-        at, shares = zip(*((place.at, place.share) for place in self.along), strict=True)
-        mean = float(np.trapezoid(shares, at)) / (at[-1] - at[0])
+        at, shares = self._along
+        return self._times(float(np.trapezoid(shares, at)) / (at[-1] - at[0]))
+
+    def in_the_middle(self) -> Load:
+        """Return the load in the middle of the stroke, for all of it."""
+        return self._times(float(np.interp(0.0, *self._along))) if self.along else self
+
+    def _times(self, share: float) -> Load:
         if isinstance(self.normal, float):
-            return Load(normal=mean * self.normal)
+            return Load(normal=share * self.normal)
         return Load(
             normal=tuple(
-                stage.model_copy(update={"normal": mean * stage.normal}) for stage in self.normal
+                stage.model_copy(update={"normal": share * stage.normal}) for stage in self.normal
             )
         )
+
+    @property
+    def _along(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """Places along the stroke, in m, and the shares there."""
+        return tuple(p.at for p in self.along), tuple(p.share for p in self.along)
 
     def thinned(self) -> Load:
         """Return the load in a few stages, held at the mean of those that they stand for."""

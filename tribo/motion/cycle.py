@@ -182,8 +182,8 @@ def check_spacing(length: float, count: int | str, half_width: float) -> None:
     # Further apart they leave ripples of up to 10 % of its depth in the groove.
     if apart > 0.5 * half_width * (1 + 1e-9):
         raise CaseError(
-            f"{count} positions lie every {1e3 * apart:.3g} mm, further apart than half the "
-            f"half-width of the first contact, {1e3 * half_width:.3g} mm; give at least "
+            f"{count} positions lie every {1e3 * apart:.3g} mm, further apart than "
+            f"{0.5e3 * half_width:.3g} mm, half the half-width of the first contact; give at least "
             f"{least_positions(length, half_width)}",
             "kinematics.positions",
         )

@@ -57,8 +57,8 @@ def composed(case: Case) -> Model:
         return assemble(case)
     if case.begin is not None:
         return assemble(_fixed(case, _begun_with(case.begin)))
-    # Over a cycle of which the load is the mean.
-    even = case.model_copy(update={"load": case.load.averaged()})
+    # The first contact is that in the middle of the stroke.
+    even = case.model_copy(update={"load": case.load.in_the_middle()})
     try:
         averaged = assemble(_fixed(even, "average"))
     except CaseError:
