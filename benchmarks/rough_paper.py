@@ -33,18 +33,22 @@ PATHS = (0.0, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0)
 
 
 def hour(cells: int, positions: int, seed: int, duration: float) -> Iterator[Row]:
-    """Yield what is seen of the rough ball and disk at each time."""
+    """Yield what is seen of the ball and disk at each time; smooth ones where the seed is 0."""
     times = [time for time in TIMES if time < duration] + [duration]
     wavy = f'type = "rough", sq = {SQ}, cut_off = {CUT_OFF}, roll_off = {ROLL_OFF}'
+    rough = [
+        f"bodies.ball.surface={{ {wavy}, seed = {seed}, on = {{ type = 'sphere', radius = "
+        "'5 mm' } }",
+        f"bodies.disk.surface={{ {wavy}, seed = {100 + seed} }}",
+    ]
     case = load_case(
         files("tribo.templates") / "ball_on_disk.toml",
         overrides=[
             f"grid.size={WINDOW}",
             f"grid.cells={cells}",
-            f"bodies.ball.surface={{ {wavy}, seed = {seed}, on = {{ type = 'sphere', radius = "
-            "'5 mm' } }",
-            f"bodies.disk.surface={{ {wavy}, seed = {100 + seed} }}",
+            *(rough if seed else []),
             f"kinematics.positions={positions}",
+            "contact.tolerance=1e-6",
             f"kinematics.duration={duration}",
             f"output.save_times={times}",
         ],
@@ -129,7 +133,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def measure(options: argparse.Namespace) -> Tables:
     """Return the tables; the first seed is run on all grids, the others on the first."""
     warnings.simplefilter("ignore", TriboWarning)
-    hours, patches = [], []
+    hours = list(hour(options.cells[0], options.positions, 0, options.duration))
+    patches: list[Row] = []
     for grid, cells in enumerate(options.cells):
         for seed in options.seeds[: 1 if grid else None]:
             hours += list(hour(cells, options.positions, seed, options.duration))

@@ -1,4 +1,4 @@
-"""Show what `benchmarks/moving_contact.py` found in an executed page."""
+"""Show what `benchmarks/moving_contact.py` and `resolved_hour.py` found in an executed page."""
 
 from __future__ import annotations
 
@@ -10,13 +10,21 @@ from typing import Any
 
 from IPython.display import Markdown
 
-FIGURES = Path(os.environ["TRIBO_REPOSITORY"]) / "docs" / "_data" / "moving_contact.json"
+DATA = Path(os.environ["TRIBO_REPOSITORY"]) / "docs" / "_data"
 QUANTITIES = {
     "groove of the disk, µm": "groove_{}_um",
     "ball depth, µm": "ball_{}_um",
     "crown of the ball, µm": "crown_{}_um",
     "contact along, mm": "along_{}_mm",
     "centre pressure, MPa": "centre_{}_MPa",
+}
+RESOLVED = {
+    "groove at mid-stroke, µm": "groove_um",
+    "groove where the contact turns round, µm": "end_of_stroke_um",
+    "ball depth, µm": "ball_um",
+    "crown of the ball, µm": "crown_um",
+    "contact along at mid-stroke, mm": "along_mm",
+    "centre pressure, MPa": "centre_MPa",
 }
 
 
@@ -28,7 +36,21 @@ def hours() -> Markdown:
         [name, *(_cell(row[key.format(how)]) for row in rows for how in ("average", "resolved"))]
         for name, key in QUANTITIES.items()
     ]
-    return _table(lines)
+    return table(lines)
+
+
+def positions() -> Markdown:
+    """Return the hour of both cases by the average and at 33 positions, on two grids."""
+    rows = _rows("resolved hour", "resolved_hour")
+    shown = [row for row in rows if row["positions"] != "average" or row["cells"] == 96]
+    shown.sort(key=lambda row: (row["case"], row["positions"] != "average"))
+    lines = [["", *(f"{row['case']}, {_how(row)}" for row in shown)]]
+    lines += [[name, *(_cell(row[key]) for row in shown)] for name, key in RESOLVED.items()]
+    return table(lines)
+
+
+def _how(row: dict[str, Any]) -> str:
+    return "average" if row["positions"] == "average" else f"{row['cells']}² cells"
 
 
 def grooves() -> Markdown:
@@ -45,13 +67,13 @@ def grooves() -> Markdown:
                 if row["stroke_mm"] == stroke
             ]
             lines.append([name, f"{stroke:.3g}", *cells])
-    return _table(lines)
+    return table(lines)
 
 
 def short_strokes() -> Markdown:
     """Return by how much the average is too deep for short strokes and little wear."""
     rows = _rows("short strokes, worn little")
-    return _table(
+    return table(
         [
             ["stroke, half-widths", *(f"{row['half_widths']:.2g}" for row in rows)],
             ["too deep by", *(f"{row['too_deep_percent']:+.0f} %" for row in rows)],
@@ -59,8 +81,9 @@ def short_strokes() -> Markdown:
     )
 
 
-def _rows(title: str) -> list[dict[str, Any]]:
-    rows: list[dict[str, Any]] = json.loads(FIGURES.read_text(encoding="utf-8"))["tables"][title]
+def _rows(title: str, data: str = "moving_contact") -> list[dict[str, Any]]:
+    text = (DATA / f"{data}.json").read_text(encoding="utf-8")
+    rows: list[dict[str, Any]] = json.loads(text)["tables"][title]
     return rows
 
 
@@ -68,7 +91,8 @@ def _cell(value: float) -> str:
     return f"{value:.0f}" if value >= 100 else f"{value:.2f}"
 
 
-def _table(lines: Sequence[Sequence[str]]) -> Markdown:
+def table(lines: Sequence[Sequence[str]]) -> Markdown:
+    """Return a table, its first line the head."""
     head, *rest = lines
     ruled = [head, ["---:"] * len(head), *rest]
     return Markdown("\n".join(f"| {' | '.join(line)} |" for line in ruled))
