@@ -148,6 +148,16 @@ def test_cases_of_which_one_cannot_be_resolved_are_all_averaged():
     assert {each.kinematics.positions for each in alike(cases).values()} == {"average"}
 
 
+def test_cases_that_must_be_resolved_stay_so_beside_each_other():
+    load = Load(normal=100, along=[{"at": -1e-3, "share": 1}, {"at": 1e-3, "share": 0.5}])
+    averaged = left_open("1.9 mm", stepping=Explicit(time_step=0.25))
+    must = averaged.model_copy(update={"load": load})
+    count = len(composed(must).cycle)
+    for others in ({}, {"averaged": averaged}):
+        for each in alike({"must": must, **others}).values():
+            assert each.kinematics.positions == count
+
+
 def test_a_choice_becomes_a_setting_where_there_was_one():
     given = left_open()
     assert chosen(given, composed(given)) == {"kinematics.positions": 35}

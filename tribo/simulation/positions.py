@@ -99,19 +99,21 @@ def chosen(case: Case, model: Model) -> dict[str, Any]:
 def alike(cases: Mapping[str, Case]) -> dict[str, Case]:
     """Return cases with one choice for all that leave their positions open.
 
-    They take as many as the one that needs most, or the average if one of them cannot be resolved.
+    They take as many as the one that needs most, or the average if one of them cannot be resolved;
+    the other of the two if that is refused.
     """
     left = {label: case for label, case in cases.items() if is_open(case)}
-    counts = [len(composed(case).cycle) for case in left.values()]
-    taken: int | str = max(counts, default=1)
-    if taken == 1 or not all(map(_resolvable, left.values())):
-        taken = "average"
-    try:
+    counts = {label: len(composed(case).cycle) for label, case in left.items()}
+    most = max(counts.values(), default=1)
+    held = any(counts[label] == 1 and not _resolvable(case) for label, case in left.items())
+    choices: list[int | str] = ["average"] if most == 1 else [most, "average"]
+    fixed: dict[str, Case] = {}
+    for taken in reversed(choices) if held else choices:
         fixed = {label: _fixed(case, taken) for label, case in left.items()}
-        for case in fixed.values():
-            assemble(case)
-    except CaseError:
-        fixed = {label: _fixed(case, "average") for label, case in left.items()}
+        with suppress(CaseError):
+            for case in fixed.values():
+                assemble(case)
+            break
     return {label: fixed.get(label, case) for label, case in cases.items()}
 
 
