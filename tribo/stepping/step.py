@@ -66,20 +66,10 @@ def first_contact(model: Model, worn: Mapping[str, BodyState] | None = None) -> 
             "grid.size",
         )
     middle = len(contacts) // 2
-    overlap = contacts[middle].overlap
-    if np.any(overlap > 0):
-        bodies = {
-            name: replace(
-                body,
-                plastic=body.plastic
-                + model.plastic_share[name] * model.spread(name, overlap, middle),
-            )
-            for name, body in bodies.items()
-        }
     return State(
         time=0.0,
         distance=0.0,
-        bodies=dict(bodies),
+        bodies=_yielded(model, bodies, contacts, [middle]),
         contacts=contacts,
         increment=0.0,
         # The approach counts from the lowest point of unworn bodies.
@@ -260,8 +250,12 @@ def _at_rest(model: Model, state: State, loads: ByPosition) -> State:
     """Return `state` after what yields in its contacts, under `loads`, has come to rest."""
     if not yields(state.contacts):
         return state
-    yielded = replace(state, bodies=_yielded(model, state.bodies, state.contacts))
-    return _settle(model, yielded, loads) if state.distance > 0 else yielded
+    if state.distance > 0:
+        yielded = _yielded(model, state.bodies, state.contacts)
+        return _settle(model, replace(state, bodies=yielded), loads)
+    # Before it slides the load stands in the middle alone.
+    middle = [len(state.contacts) // 2]
+    return replace(state, bodies=_yielded(model, state.bodies, state.contacts, middle))
 
 
 def yields(contacts: Sequence[ContactSolution]) -> bool:
@@ -270,16 +264,19 @@ def yields(contacts: Sequence[ContactSolution]) -> bool:
 
 
 def _yielded(
-    model: Model, bodies: Mapping[str, BodyState], contacts: Sequence[ContactSolution]
+    model: Model,
+    bodies: Mapping[str, BodyState],
+    contacts: Sequence[ContactSolution],
+    places: Sequence[int] | None = None,
 ) -> dict[str, BodyState]:
-    """Return the bodies with what yields at each position, once where positions overlap."""
+    """Return the bodies with what yields at positions, all if None, once where these overlap."""
     if not yields(contacts):
         return dict(bodies)
     yielded = {}
     for name, body in bodies.items():
         overlaps = [
-            model.spread(name, contact.overlap, position)
-            for position, contact in enumerate(contacts)
+            model.spread(name, contacts[position].overlap, position)
+            for position in (range(len(contacts)) if places is None else places)
         ]
         deepest = reduce(np.maximum, overlaps)
         yielded[name] = replace(body, plastic=body.plastic + model.plastic_share[name] * deepest)
