@@ -15,6 +15,7 @@ from paper_models import (
     named,
     small,
     sphere,
+    states,
     steel,
 )
 
@@ -200,6 +201,49 @@ def test_starts_that_do_not_fit_the_cycle_are_refused(starts):
 
     with pytest.raises(PluginError, match="starts"):
         resolved(kinematics=Odd(stroke=1e-3, frequency=1.0, cycles=1))
+
+
+@pytest.mark.parametrize("factor", [1.0, 0.5])
+def test_an_average_that_is_not_the_rate_itself_is_refused_where_a_body_has_rows(factor):
+    class Scaled(Passing):
+        def average(self, rate):
+            return factor * rate
+
+    class Odd(type(motion())):
+        type = "test.odd"
+
+        def exposures(self, grid, bodies):
+            passing = Scaled(grid, self._stroke(grid).starts, self.stroke)
+            return {bodies[0]: Stationary(grid), bodies[1]: passing}
+
+    model = resolved(kinematics=Odd(stroke=STROKE, frequency=1.0, cycles=1, positions=13))
+    if factor == 1:
+        assert states(model)[-1].bodies["disk"].wear.max() > 0
+    else:
+        with pytest.raises(PluginError, match="not the rate itself"):
+            states(model)
+
+
+def test_a_body_that_stays_may_have_one_row_for_all_beside_one_that_passes():
+    class Row(Stationary):
+        rows = 1
+
+        def average(self, rate):
+            return np.mean(rate, axis=0, keepdims=True)
+
+        def volume(self, depth):
+            return GRID.cells[0] * super().volume(depth)
+
+    class Odd(type(motion())):
+        type = "test.odd"
+
+        def exposures(self, grid, bodies):
+            return {**super().exposures(grid, bodies), bodies[0]: Row(grid)}
+
+    kinematics = Odd(stroke=STROKE, frequency=1.0, cycles=1, positions=13)
+    state = last(resolved(kinematics=kinematics, contact=half_space()))
+    assert state.bodies["ball"].wear.shape == (1, GRID.cells[1])
+    assert state.bodies["ball"].wear.max() > 0
 
 
 def test_the_section_of_the_track_is_that_at_mid_stroke():

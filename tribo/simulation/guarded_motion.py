@@ -193,6 +193,14 @@ class GuardedExposure(Guard[Kinematics]):
         if answer is asked and (self.starts is not None or not self.swept):
             # What was held to the contract as a law's answer.
             return asked
+        if self.starts is not None:
+            laid = self.field("an average", answer, self._cells)[0]
+            if not np.array_equal(laid, asked):
+                raise PluginError(
+                    f"{self} gave an average that is not the rate itself, which is laid on the "
+                    "body at each of its starts"
+                )
+            return asked
         average, least, _ = self.field("an average", answer, self._own)
         if least < 0 <= np.min(rate):
             raise BadValues(

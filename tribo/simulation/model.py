@@ -142,7 +142,8 @@ class Model:
     @cached_property
     def couples(self) -> bool:
         """Whether the positions of the cycle are solved together, with the wear they share."""
-        own_rows = all(e.starts is not None or not e.swept for e in self.exposures.values())
+        along = self.grid.cells[0]
+        own_rows = all(e.starts is not None or e.rows == along for e in self.exposures.values())
         return len(self.cycle) > 1 and self.contact.couples and own_rows
 
     @cached_property
