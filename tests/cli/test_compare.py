@@ -55,6 +55,7 @@ def test_the_table_has_a_column_a_variant(compared):
     assert percent == [f"+{100 * (float(springs) / float(half_space) - 1):.1f}", "%"]
 
 
+@pytest.mark.slow
 def test_results_and_pictures_stand_beside_the_case(folder, compared):
     names = {path.name for path in (folder / "my-compare").iterdir()}
     assert {"contact.type=dcfft.h5", "contact.type=winkler.h5", "pressure_60s.png"} <= names

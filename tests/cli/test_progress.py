@@ -41,6 +41,7 @@ def shown(monkeypatch, stream):
     return stream.getvalue(), steps
 
 
+@pytest.mark.slow
 def test_the_bar_and_the_time_left_go_on_evenly_past_many_saves(monkeypatch):
     for name, value in {"TERM": "xterm", "COLUMNS": "200", "NO_COLOR": "1"}.items():
         monkeypatch.setenv(name, value)

@@ -68,6 +68,7 @@ def flip(path, at):
     path.write_bytes(data)
 
 
+@pytest.mark.slow
 def test_a_killed_run_is_shown_as_far_as_it_came_and_goes_on_to_the_same_bits(killed, undisturbed):
     with Result.open(killed) as result:
         assert (result.status, result.wall_time) == ("killed", None)
@@ -97,6 +98,7 @@ def test_where_the_newest_checkpoint_is_damaged_the_one_before_is_used(
         assert bits(result) == undisturbed
 
 
+@pytest.mark.slow
 def test_a_damaged_checkpoint_is_told_of_once_and_never_the_only_one(killed, undisturbed):
     folder = RunFolder(killed)
     flip(folder.checkpoint, 2000)
@@ -136,6 +138,7 @@ def test_killed_between_two_checkpoints_the_one_before_is_used(killed, undisturb
         assert bits(result) == undisturbed
 
 
+@pytest.mark.slow
 def test_a_save_is_on_the_disk_once_observers_are_told_of_it(tmp_path):
     path = tmp_path / "run.h5"
 
@@ -192,6 +195,7 @@ def test_every_bit_of_a_state_is_kept(killed, tmp_path):
     assert first == second
 
 
+@pytest.mark.slow
 def test_only_one_process_writes_a_result(killed, undisturbed):
     folder = RunFolder(killed)
     before = folder.checkpoint.read_bytes()

@@ -120,6 +120,7 @@ def test_every_pressure_belongs_to_the_geometry_saved_with_it(run):
         assert again.overlap.max() <= 1e-5 * state.bodies["disk"].plastic.max()
 
 
+@pytest.mark.slow
 def test_a_load_that_rises_before_it_slides_presses_in_where_the_first_one_did():
     grid = Grid((0.8e-3, 0.6e-3), (24, 20))
     end = 6 * grid.spacing[0]

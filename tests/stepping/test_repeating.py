@@ -132,6 +132,7 @@ def test_both_bodies_wear_as_in_a_plain_loop_that_goes_round(path):
         assert volume == pytest.approx(K * LOAD * state.distance, rel=1e-10, abs=0)
 
 
+@pytest.mark.slow
 def test_which_body_is_called_moving_changes_nothing():
     one, other = (last(repeating(strokes(6, swept=name))) for name in ("lower", "upper"))
     for name in ("lower", "upper"):

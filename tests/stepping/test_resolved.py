@@ -142,6 +142,7 @@ def depth_after(steps, positions=7):
     return float(state.bodies["ball"].wear.max())
 
 
+@pytest.mark.slow
 def test_a_resolved_step_is_of_first_order():
     exact, coarse, fine = (depth_after(steps) for steps in (64, 2, 4))
     assert (coarse - exact) / (fine - exact) == pytest.approx(2, abs=0.35)
@@ -262,6 +263,7 @@ class StopAfter(Observer):
             raise KeyboardInterrupt
 
 
+@pytest.mark.slow
 def test_a_stopped_run_goes_on_to_the_same_bits_with_the_groove_along_its_track(tmp_path):
     kinematics = motion(stroke=STROKE, duration=20, positions=7)
     simulation = Simulation(case(grid=GRID, contact=foundation(), kinematics=kinematics))

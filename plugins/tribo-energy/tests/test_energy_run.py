@@ -95,6 +95,7 @@ def test_wear_begins_at_the_threshold_energy():
         np.testing.assert_allclose(body.wear, expected, atol=0.04 * body.wear.max())
 
 
+@pytest.mark.slow
 def test_a_threshold_traction_narrows_the_scar():
     _, plain, _ = run(case(100))
     _, cut, _ = run(case(100, threshold_traction="20 MPa"))

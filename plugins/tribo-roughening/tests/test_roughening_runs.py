@@ -82,6 +82,7 @@ def test_wear_is_that_of_archard_on_the_mean():
     assert parameters(depth).Sq_m < THICKNESS
 
 
+@pytest.mark.slow
 def test_the_law_knows_the_depth_it_has_worn():
     with Simulation(case(20e-9, cells=16, particles=2, layers=2)).run() as result:
         patch = result.body("patch")
@@ -100,6 +101,7 @@ def test_two_bodies_that_slide_over_each_other_each_know_their_own_depth(monkeyp
             assert body.wear_depth[-1].mean() == pytest.approx(THICKNESS, rel=0.5, abs=0)
 
 
+@pytest.mark.slow
 def test_a_run_resumed_has_the_same_bits(tmp_path):
     data = case(20e-9, cells=16, particles=2, layers=1)
     with Simulation(data).run(tmp_path / "whole.h5") as whole:

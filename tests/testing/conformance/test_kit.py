@@ -33,6 +33,7 @@ def test_a_report_is_a_table_of_every_check_with_every_configuration():
     assert len(text) == 3 + len(report.outcomes)
 
 
+@pytest.mark.slow
 def test_a_failure_says_what_was_found():
     report = check(InwardHeight, [{}])
     (failure,) = report.failures
