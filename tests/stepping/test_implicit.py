@@ -19,7 +19,7 @@ from paper_models import (
 from tribo.core.contact import ContactProblem
 from tribo.core.fields import ContactConditions, Field, WearRate
 from tribo.effects.effect import Effect
-from tribo.stepping.implicit import Implicit
+from tribo.stepping.implicit import Errors, Implicit
 from tribo.stepping.step import first_contact, geometry
 from tribo.wear.law import WearLaw
 from tribo.wear.power import Power
@@ -159,3 +159,8 @@ def test_a_law_gets_the_fields_it_requires_for_its_own_body():
     np.testing.assert_allclose(
         state.bodies["ball"].wear, K * (1 + 2 * rise) * p, atol=1e-6 * K * p.max()
     )
+
+
+def test_an_error_of_nothing_holds_no_step_back():
+    nothing, rounding = (Errors(depth=0.09, pressure=0.37, volume=v) for v in (0.0, 1e-14))
+    assert nothing.factor == rounding.factor

@@ -83,9 +83,9 @@ class Errors:
         """By how much the next increment may differ."""
         # The depth error of a step grows as its square, the two others in proportion.
         wanted = SAFETY * min(
-            1 / math.sqrt(self.depth) if self.depth > 0 else GROW,
-            1 / self.pressure if self.pressure > 0 else GROW,
-            1 / self.volume if self.volume > 0 else GROW,
+            1 / math.sqrt(self.depth) if self.depth > 0 else math.inf,
+            1 / self.pressure if self.pressure > 0 else math.inf,
+            1 / self.volume if self.volume > 0 else math.inf,
         )
         return min(GROW, max(SHRINK, wanted))
 
