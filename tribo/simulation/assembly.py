@@ -199,8 +199,9 @@ def _check_sliding(surface: GuardedSurface, exposure: GuardedExposure) -> None:
     if not stays and _varies_along_x(surface.height):
         raise CaseError(
             f"body {surface.body!r} is swept along x, so its surface must not vary along x, as "
-            f"{surface.component.type!r} does; let kinematics.swept name the other body, use a "
-            "'flat' or a 'cylinder' with axis = 'x', or, for a ring on a block, a motion of type "
+            f"{surface.component.type!r} does; resolve the cycle (kinematics.positions, for "
+            "'unidirectional' where the contact is periodic), let kinematics.swept name the other "
+            "body, use a 'flat' or a 'cylinder' with axis = 'x', or, for a ring on a block, "
             "'unidirectional' with turns = true"
         )
 

@@ -97,19 +97,27 @@ def chosen(case: Case, model: Model) -> dict[str, Any]:
 
 
 def alike(cases: Mapping[str, Case]) -> dict[str, Case]:
-    """Return cases with one choice for all that leave their positions open.
+    """Return cases of which those that leave their positions open have them chosen alike.
 
-    They take as many as the one that needs most, or the average if one of them cannot be resolved;
-    the other of the two if that is refused.
+    Those that are resolved take as many as the one that needs most; where the average costs under
+    1 % it stays. If one cannot be resolved all take the average; the other of the two if that is
+    refused.
     """
     left = {label: case for label, case in cases.items() if is_open(case)}
-    counts = {label: len(composed(case).cycle) for label, case in left.items()}
-    most = max(counts.values(), default=1)
-    held = any(counts[label] == 1 and not _resolvable(case) for label, case in left.items())
+    models = {label: composed(case) for label, case in left.items()}
+    averaged = {label: model for label, model in models.items() if len(model.cycle) == 1}
+    most = max((len(model.cycle) for model in models.values()), default=1)
+    held = any(
+        model.chosen is not None or not _resolvable(left[label])
+        for label, model in averaged.items()
+    )
     choices: list[int | str] = ["average"] if most == 1 else [most, "average"]
     fixed: dict[str, Case] = {}
     for taken in reversed(choices) if held else choices:
-        fixed = {label: _fixed(case, taken) for label, case in left.items()}
+        fixed = {
+            label: _fixed(case, "average" if label in averaged and not held else taken)
+            for label, case in left.items()
+        }
         with suppress(CaseError):
             for case in fixed.values():
                 assemble(case)
