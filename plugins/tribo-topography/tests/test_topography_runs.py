@@ -70,7 +70,7 @@ def test_rough_contact_is_smaller_and_harder_and_runs_in(case):
 def test_swept_rough_body_is_refused_with_a_remedy(case):
     swept = case()
     swept["kinematics"]["swept"] = "ball"
-    with pytest.raises(CaseError, match=r"'ball' is swept along x.*'topography\.file' does; let"):
+    with pytest.raises(CaseError, match=r"'ball' is swept .*'topography\.file' does; resolve"):
         Simulation(swept)
 
 
