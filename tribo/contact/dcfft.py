@@ -16,7 +16,7 @@ from tribo.contact.nested_start import coarsen, prolong
 from tribo.contact.operator import HalfSpace, Operator, WornOperator
 from tribo.contact.projection import over
 from tribo.contact.residuals import check_window
-from tribo.contact.solver import ContactSolver
+from tribo.contact.solver import ContactSolver, stacked
 from tribo.core.arrays import Array, Mask
 from tribo.core.box import Box, around, whole
 from tribo.core.contact import (
@@ -83,14 +83,8 @@ class DcFft(ContactSolver):
         """Solve all positions of a cycle as one problem; see `ContactSolver.solve_cycle`."""
         if len(problems) == 1 or any(problem.wear is not None for problem in problems):
             return super().solve_cycle(problems, starts)
-        return self._solve(
-            problems[0].system,
-            np.stack([problem.gap for problem in problems]),
-            np.array([problem.load for problem in problems]),
-            coupling,
-            np.stack([start.pressure for start in starts]),
-            self.tolerance,
-        )
+        gap, load, guess = stacked(problems, starts)
+        return self._solve(problems[0].system, gap, load, coupling, guess, self.tolerance)
 
     def smallest_compliance(self, system: ContactSystem) -> float:
         """Return the compliance of the chequerboard mode, in m/Pa."""

@@ -14,7 +14,7 @@ from pydantic import Field
 from tribo.contact.bounded_cg import solve_together
 from tribo.contact.projection import CELLS, over
 from tribo.contact.residuals import check_window
-from tribo.contact.solver import ContactSolver
+from tribo.contact.solver import ContactSolver, stacked
 from tribo.core.arrays import Array
 from tribo.core.contact import (
     ContactProblem,
@@ -119,13 +119,8 @@ class Periodic(ContactSolver):
         """Solve all positions of a cycle as one problem; see `ContactSolver.solve_cycle`."""
         if len(problems) == 1 or any(problem.wear is not None for problem in problems):
             return super().solve_cycle(problems, starts)
-        return self._solve(
-            problems[0].system,
-            np.stack([problem.gap for problem in problems]),
-            np.array([problem.load for problem in problems]),
-            coupling,
-            np.stack([start.pressure for start in starts]),
-        )
+        gap, load, guess = stacked(problems, starts)
+        return self._solve(problems[0].system, gap, load, coupling, guess)
 
     def _solve(
         self,

@@ -6,7 +6,10 @@ from abc import abstractmethod
 from collections.abc import Sequence
 from typing import Any, ClassVar
 
+import numpy as np
+
 from tribo.component import Component
+from tribo.core.arrays import Array
 from tribo.core.contact import (
     ContactProblem,
     ContactSolution,
@@ -103,3 +106,12 @@ class ContactSolver(Component):
         It limits explicit steps: Δs · d(rate)/dp < 2 · smallest compliance.
         """
         return None
+
+
+def stacked(
+    problems: Sequence[ContactProblem], starts: Sequence[ContactSolution]
+) -> tuple[Array, Array, Array]:
+    """Return gaps and loads of problems, and pressures to start from, positions first."""
+    gaps = np.stack([problem.gap for problem in problems])
+    loads = np.array([problem.load for problem in problems])
+    return gaps, loads, np.stack([start.pressure for start in starts])
