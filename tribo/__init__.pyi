@@ -105,6 +105,10 @@ from tribo.units import nm as nm
 from tribo.units import um as um
 from tribo.wear.archard import Archard as Archard
 from tribo.wear.law import WearLaw as WearLaw
+from tribo.wear.modified import ModifiedLaw as ModifiedLaw
+from tribo.wear.modified import Scaled as Scaled
 from tribo.wear.power import Power as Power
+from tribo.wear.running_in import RunningIn as RunningIn
+from tribo.wear.running_in import Smoothing as Smoothing
 
 __all__: list[str]

@@ -182,7 +182,12 @@ class Case(Table):
         return Simulation(self).run(output, **options)
 
     def components(self) -> Iterator[tuple[str, Component]]:
-        """Yield every component with its place in the case."""
+        """Yield every component with its place in the case, those within others too."""
+        for place, component in self._outer():
+            yield place, component
+            yield from ((f"{place}.{inner}", part) for inner, part in component.within())
+
+    def _outer(self) -> Iterator[tuple[str, Component]]:
         for name, body in self.bodies.items():
             yield f"bodies.{name}.surface", body.surface
             if body.wear is not None:

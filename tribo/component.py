@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from abc import ABC
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from pydantic import (
@@ -51,7 +51,7 @@ class Component(Table, ABC):
     @classmethod
     def __pydantic_init_subclass__(cls, **kwargs: Any) -> None:
         """Check its fields, and name a class that has no name after itself, as ``hot_wear``."""
-        check_declared(cls)
+        check_declared(cls, cls.__qualname__)
         if Component not in cls.__bases__ and not hasattr(cls, "type"):
             cls.type = _snake_case(cls.__name__)
 
@@ -134,6 +134,16 @@ class Component(Table, ABC):
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle the class and its configuration."""
         return type(self).model_validate, (dict(self),)
+
+    def within(self) -> Iterator[tuple[str, Component]]:
+        """Yield the components that its fields hold, and those within them, each with its place."""
+        for name, value in self:
+            several = isinstance(value, tuple | list)
+            for at, part in enumerate(value if several else (value,)):
+                if isinstance(part, Component):
+                    place = f"{name}[{at}]" if several else name
+                    yield place, part
+                    yield from ((f"{place}.{inner}", each) for inner, each in part.within())
 
     def facts(self) -> Mapping[str, str]:
         """Return facts that a user should see before a run, such as how a file was read.

@@ -47,8 +47,15 @@ class Field:
         return ""
 
 
-def check_declared(owner: type) -> None:
+def check_declared(owner: object, who: str) -> None:
     """Check the fields that a class provides or keeps, and the names of those that it requires.
+
+    Parameters
+    ----------
+    owner : object
+        A class, whose properties are those of its objects only, or an object.
+    who : str
+        What messages call it.
 
     Raises
     ------
@@ -56,7 +63,9 @@ def check_declared(owner: type) -> None:
         If they are not tuples of `Field`, each with a name of its own, and of names.
     """
     for attribute in ("provides", "state_fields"):
-        fields, where = getattr(owner, attribute, ()), f"{owner.__qualname__}.{attribute}"
+        fields, where = getattr(owner, attribute, ()), f"{who}.{attribute}"
+        if isinstance(fields, property):
+            continue
         if not (isinstance(fields, tuple | list) and all(isinstance(f, Field) for f in fields)):
             raise TypeError(
                 f"{where} is {fields!r}; it must be a tuple of Field, as in "
@@ -72,10 +81,10 @@ def check_declared(owner: type) -> None:
             if names.count(name) > 1:
                 raise TypeError(f"{where}: the field {name!r} is declared twice")
     required = getattr(owner, "requires", ())
-    if not (isinstance(required, tuple | list) and all(isinstance(n, str) for n in required)):
+    named = isinstance(required, tuple | list) and all(isinstance(n, str) for n in required)
+    if not (named or isinstance(required, property)):
         raise TypeError(
-            f"{owner.__qualname__}.requires is {required!r}; it must be a tuple of names, as in "
-            '("temperature",)'
+            f'{who}.requires is {required!r}; it must be a tuple of names, as in ("temperature",)'
         )
 
 

@@ -26,7 +26,9 @@ from tribo.surfaces.texture import Texture
 from tribo.surfaces.waves import Waves
 from tribo.templates import TEMPLATES, template
 from tribo.wear.archard import Archard
+from tribo.wear.modified import Scaled
 from tribo.wear.power import Power
+from tribo.wear.running_in import RunningIn, Smoothing
 
 
 @hookimpl
@@ -34,7 +36,7 @@ def tribo_components() -> tuple[type[Component], ...]:
     """Offer contact solvers, wear laws, motions, surfaces and observers."""
     return (
         *(DcFft, Periodic, Winkler),
-        *(Archard, Power),
+        *(Archard, Power, RunningIn, Scaled, Smoothing),
         *(Measured, Reciprocating, Rotating, Unidirectional),
         *(Sphere, Paraboloid, Cylinder, Flat, Pin, HeightMap, Rough, Texture, Waves),
         *(Recorder, Progress),

@@ -87,7 +87,7 @@ def describe(cls: type[Component], plugin: Plugin) -> str:
         value = getattr(cls, attribute, ())
         if isinstance(value, bool):
             lines.append(f"{words}: {'yes' if value else 'no'}")
-        elif value:
+        elif value and not isinstance(value, property):
             lines.append(f"{words}: {'; '.join(map(str, value))}")
     lines.append(f"Class: {cls.__module__}.{cls.__qualname__}")
     with suppress(TypeError, OSError):

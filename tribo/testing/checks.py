@@ -124,8 +124,9 @@ class Checks(ABC):
 
     def declared_fields_have_units(self) -> None:
         """Each field that it declares has an SI unit and a description."""
+        component = self._make()
         for declared in ("provides", "state_fields"):
-            for field in getattr(self._cls, declared, ()):
+            for field in getattr(component, declared, ()):
                 where = f"{declared}: {field.name!r}"
                 require(field.description.strip(), f"{where} has no description")
                 try:

@@ -24,7 +24,9 @@ from tribo.surfaces.texture import Texture
 from tribo.surfaces.waves import Waves
 from tribo.testing import parametrize_checks
 from tribo.wear.archard import Archard
+from tribo.wear.modified import Scaled
 from tribo.wear.power import Power
+from tribo.wear.running_in import RunningIn, Smoothing
 
 REFERENCE = {"k": "3e-16 1/Pa", "reference_pressure": "1 GPa"}
 BACK_AND_FORTH = {"stroke": "2 mm", "frequency": "25 Hz"}
@@ -35,6 +37,9 @@ test_archard = parametrize_checks(Archard, [{"k": "3e-16 1/Pa"}, {"K": 1e-6}])
 test_power = parametrize_checks(
     Power, [{**REFERENCE, "p_exponent": 1.5}, {**REFERENCE, "p_exponent": 3}]
 )
+test_scaled = parametrize_checks(Scaled)
+test_running_in = parametrize_checks(RunningIn)
+test_smoothing = parametrize_checks(Smoothing)
 test_dcfft = parametrize_checks(DcFft)
 test_periodic = parametrize_checks(Periodic)
 test_winkler = parametrize_checks(Winkler, [{}, {"modulus": 1.3e15}, {"layer": LAYER}])

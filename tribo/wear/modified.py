@@ -1,0 +1,92 @@
+"""Laws made of another: what all have in common, and the simplest, a factor."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Annotated, ClassVar, Self
+
+from pydantic import ConfigDict, model_validator
+
+from tribo.core.arrays import Array
+from tribo.core.fields import Field, LocalConditions, WearRate, check_declared
+from tribo.core.material import Material
+from tribo.core.units import Quantity
+from tribo.wear.law import WearLaw
+
+
+class ModifiedLaw(WearLaw):
+    """A law that changes what another one gives.
+
+    It requires what `law` requires, keeps what that keeps beside its own state, and is refused
+    where that is. A subclass writes `rate`, in which ``self.law.rate(local)`` is the other law's.
+    """
+
+    law: WearLaw
+    """The law that it changes."""
+
+    own_requires: ClassVar[tuple[str, ...]] = ()
+    """Names of the local fields that it needs itself."""
+
+    own_state: ClassVar[tuple[Field, ...]] = ()
+    """Fields that it keeps itself per material point."""
+
+    @model_validator(mode="after")
+    def _distinct_fields(self) -> Self:
+        try:
+            check_declared(self, f"{self.type!r} on {self.law.type!r}")
+        except TypeError as error:
+            raise ValueError(str(error)) from None
+        return self
+
+    @property
+    def requires(self) -> tuple[str, ...]:  # type: ignore[override]
+        """What either needs."""
+        return tuple(dict.fromkeys((*self.law.requires, *self.own_requires)))
+
+    @property
+    def state_fields(self) -> tuple[Field, ...]:  # type: ignore[override]
+        """What either keeps."""
+        return (*self.law.state_fields, *self.own_state)
+
+    def check(self, material: Material) -> None:
+        """Ask the other law; see `WearLaw.check`."""
+        self.law.check(material)
+
+    def check_cells(self, spacing: tuple[float, float]) -> None:
+        """Ask the other law; see `WearLaw.check_cells`."""
+        self.law.check_cells(spacing)
+
+    def initial_state(self) -> dict[str, float]:
+        """Return what the other law's state begins with, and zero for its own."""
+        return {**self.law.initial_state(), **{field.name: 0.0 for field in self.own_state}}
+
+
+def times(factor: float | Array, rate: WearRate) -> WearRate:
+    """Return a rate with its depth and derivative times a factor; the state changes as it did."""
+    slope = rate.depth_slope
+    return replace(
+        rate,
+        depth_rate=factor * rate.depth_rate,
+        depth_slope=None if slope is None else factor * slope,
+    )
+
+
+class Scaled(ModifiedLaw):
+    """dh/ds = f r(p), with r another law: any law, times a factor.
+
+    Valid where that is; the factor is a fit, for a lubricant, a coating or another test.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "examples": [{"factor": 0.2, "law": {"type": "archard", "k": "3.11e-16 1/Pa"}}]
+        }
+    )
+
+    type = "scaled"
+    factor: Annotated[float, Quantity("1", at_least=0)]
+    """The factor f."""
+
+    def rate(self, local: LocalConditions) -> WearRate:
+        """Return the other law's rate and derivative, times the factor."""
+        return times(self.factor, self.law.rate(local))
