@@ -21,6 +21,8 @@ from tribo.simulation.model import Model
 from tribo.stepping.step import first_contact
 
 PLACE = "begin.result"
+SAME = 1e-6
+"""Of the range of heights, within which two surfaces are the same."""
 
 
 def first_state(model: Model) -> State:
@@ -42,7 +44,9 @@ def first_state(model: Model) -> State:
     try:
         result = Result.open(begin.result)
     except CaseError as error:
-        raise CaseError(str(error), PLACE) from None
+        given = Path(begin.result)
+        where = "" if given.is_absolute() or given.exists() else f"; looked for in {Path.cwd()}"
+        raise CaseError(f"{error}{where}", PLACE) from None
     with result:
         save = _save(result, begin)
         _check_alike(model, result)
@@ -93,9 +97,12 @@ def _check_alike(model: Model, result: Result) -> None:
             "grid",
             PLACE,
         )
-    for body in model.bodies:
+    for body, surface in model.surfaces.items():
         was = result.case["bodies"][body].get("surface")
-        if was != model.data["bodies"][body]["surface"]:
+        # A file that a surface is read from may have changed since.
+        height = model.under(body, surface.height, len(model.cycle) // 2)
+        off = np.max(np.abs(height - result.body(body).height))
+        if was != model.data["bodies"][body]["surface"] or off > SAME * np.ptp(height):
             raise CaseError(
                 f"{name} begins with another surface of {body} than the case does; give the case "
                 "the same surfaces: what is worn is a depth below them",
@@ -129,9 +136,12 @@ def _worn(model: Model, result: Result, name: str, save: int) -> BodyState:
             )
     wear = _on_rows(kept[0], rows, nx)
     if wear is None:
+        dx = model.grid.spacing[0]
+        was, is_now = _path(kept[0], nx, dx), _path(np.empty((rows, 1)), nx, dx)
         raise CaseError(
-            f"{name} has {len(kept[0])} rows along its path in {result.name}, and {rows} in the "
-            "case; give the case the same stroke, and resolve both cycles or neither",
+            f"the cycle of {name} was {was} in {result.name}, and is {is_now} in the case; give "
+            "both the same kinematics.stroke, and kinematics.positions that resolve both or "
+            "average both",
             PLACE,
         )
     law = {}
@@ -163,6 +173,13 @@ def _on_rows(field: Array, rows: int, window: int) -> Array | None:
     if rows == 1:
         return field[:1] if len(field) == window and np.all(field == field[:1]) else None
     return field if len(field) == rows else None
+
+
+def _path(worn: Array, window: int, dx: float) -> str:
+    """Say how a body with these rows has passed through a window of so many cells."""
+    if len(worn) == 1 or (len(worn) == window and np.all(worn == worn[:1])):
+        return "averaged"
+    return f"resolved along {1e3 * (len(worn) - window) * dx:.4g} mm"
 
 
 def _cells(grid: Grid) -> str:
