@@ -5,16 +5,16 @@ import pytest
 from paper_models import archard, flat, foundation, last, named, small, steel
 from pydantic import ValidationError
 
-from tribo import CaseError, Cylinder, Grid, Unidirectional
+from tribo import CaseError, Cylinder, Grid, Unidirectional, Waves
 
 RADIUS, LENGTH, LOAD = 20e-3, 1e-3, 50.0
 GRID = Grid((3e-3, LENGTH), (60, 4))
 
 
-def block_on_ring(distance, **motion):
+def block_on_ring(distance, ring=Cylinder(radius=RADIUS), **motion):  # noqa: B008
     bodies = [
         named("block", flat(), steel(), archard(k=1e-13)),
-        named("ring", Cylinder(radius=RADIUS), steel(), archard(k=1e-15)),
+        named("ring", ring, steel(), archard(k=1e-15)),
     ]
     kinematics = Unidirectional(
         speed=1.0, track_radius=RADIUS, distance=distance, **{"turns": True, **motion}
@@ -49,6 +49,28 @@ def test_a_ring_stays_round_and_its_block_takes_its_shape():
 def test_a_body_that_is_swept_without_turning_is_refused():
     with pytest.raises(CaseError, match=r"'ring' is swept along x.*with turns = true"):
         block_on_ring(1.0, turns=False)
+
+
+@pytest.mark.parametrize(
+    ("ring", "words"),
+    [
+        (flat(), "a 'flat', is not round"),
+        (Cylinder(radius=RADIUS, axis="x"), "a 'cylinder', is not round"),
+        (
+            Waves(amplitude="1 nm", wavelength="1 mm", along="x", on=Cylinder(radius=RADIUS)),
+            "is not round",
+        ),
+        (Cylinder(radius="25 mm"), r"radius is 25 mm, but that of the track 20 mm; .* = 0\.025"),
+    ],
+)
+def test_a_ring_is_round_and_as_large_as_its_track(ring, words):
+    with pytest.raises(CaseError, match=rf"bodies\.ring\.surface: body 'ring' turns.*{words}"):
+        block_on_ring(1.0, ring=ring)
+
+
+def test_a_ring_with_grooves_round_its_rim_stays_as_it_is():
+    grooved = Waves(amplitude="1 nm", wavelength="1 mm", along="y", on=Cylinder(radius=RADIUS))
+    assert block_on_ring(1.0, ring=grooved).exposures["ring"].shape_stays
 
 
 def test_a_ring_has_no_positions():

@@ -19,6 +19,7 @@ from tribo.core.fields import PLACE_X
 from tribo.core.grid import Grid, RepeatingGrid
 from tribo.core.loads import Loads
 from tribo.core.material import contact_modulus
+from tribo.motion.unidirectional import Unidirectional
 from tribo.simulation.effects import in_order
 from tribo.simulation.guarded_motion import GuardedExposure, GuardedMotion
 from tribo.simulation.guards import (
@@ -29,6 +30,10 @@ from tribo.simulation.guards import (
 )
 from tribo.simulation.memory import check_memory, memory_needed
 from tribo.simulation.model import Model
+
+ROUNDING = 1e-9
+SAME_RADIUS = 1e-2
+"""Relative difference up to which a ring has the radius of its track."""
 
 
 def assemble(case: Case) -> Model:
@@ -56,6 +61,8 @@ def assemble(case: Case) -> Model:
         with located(f"bodies.{name}.surface"):
             surfaces[name] = GuardedSurface(body.surface, name, _own_grid(grid, exposures[name]))
             _check_sliding(surfaces[name], exposures[name])
+            if isinstance(case.kinematics, Unidirectional) and case.kinematics.turns:
+                _check_ring(surfaces[name], exposures[name], case.kinematics.lap, grid)
         if body.wear is not None:
             with located(f"bodies.{name}.wear"):
                 laws[name] = GuardedLaw(body.wear, name, body.material)
@@ -203,6 +210,29 @@ def _check_sliding(surface: GuardedSurface, exposure: GuardedExposure) -> None:
             "'unidirectional' where the contact is periodic), let kinematics.swept name the other "
             "body, use a 'flat' or a 'cylinder' with axis = 'x', or, for a ring on a block, "
             "'unidirectional' with turns = true"
+        )
+
+
+def _check_ring(surface: GuardedSurface, exposure: GuardedExposure, lap: float, grid: Grid) -> None:
+    """Raise `CaseError` if a body that turns is not round, or not of its track's radius."""
+    if not exposure.swept:
+        return
+    form = surface.ask(surface.component.smoothed)
+    curvature = (form.curvature or (0.0, 0.0))[0]
+    radius = lap / (2 * np.pi)
+    relief = surface.height - form.height(grid)
+    passing = np.max(np.ptp(relief, axis=0)) > ROUNDING * np.ptp(surface.height)
+    if curvature <= 0 or passing:
+        raise CaseError(
+            f"body {surface.body!r} turns about an axis along y (kinematics.turns = true), but its "
+            f"surface, a {surface.component.type!r}, is not round and smooth about that; give a "
+            "'cylinder' or a 'sphere', or leave turns out"
+        )
+    if abs(radius * curvature - 1) > SAME_RADIUS:
+        raise CaseError(
+            f"body {surface.body!r} turns, so that its track is its rim: its radius is "
+            f"{1e3 / curvature:.4g} mm, but that of the track {1e3 * radius:.4g} mm; give "
+            f"kinematics.track_radius = {1 / curvature:.6g}",
         )
 
 

@@ -59,7 +59,10 @@ test_measured = parametrize_checks(
     ],
 )
 test_rotating = parametrize_checks(Rotating, [ROUND])
-test_unidirectional = parametrize_checks(Unidirectional, [ROUND, {**ROUND, "turns": True}])
+test_unidirectional = parametrize_checks(
+    Unidirectional,
+    [ROUND, {**ROUND, "turns": True, "swept": "ball", "track_radius": "5 mm"}],
+)
 test_sphere = parametrize_checks(Sphere, [{"radius": "5 mm"}])
 test_paraboloid = parametrize_checks(Paraboloid, [{"radius_x": "5 mm", "radius_y": "10 mm"}])
 test_cylinder = parametrize_checks(
