@@ -14,7 +14,7 @@ LOOSE = Implicit(depth_tolerance=2e-2, pressure_tolerance=0.5, settle=0.1)
 
 
 def coarsened(case: Case, cells: int, margin: float, half_width_x: float = 0.0) -> Model:
-    """Return the model of a case on a coarse grid, its surfaces smooth and unworn, its steps long.
+    """Return the model of a case on a coarse grid, smooth and unworn, its steps long.
 
     Parameters
     ----------
@@ -32,7 +32,12 @@ def coarsened(case: Case, cells: int, margin: float, half_width_x: float = 0.0) 
     nx, ny = (max(8, 2 * round(0.5 * cells * size / largest)) for size in case.grid.size)
     lx, ly = (margin * size for size in case.grid.size)
     bodies = {
-        name: body.model_copy(update={"surface": body.surface.smoothed()})
+        name: body.model_copy(
+            update={
+                "surface": body.surface.smoothed(),
+                "wear": None if body.wear is None else body.wear.smoothed(),
+            }
+        )
         for name, body in case.bodies.items()
     }
     grid = Grid((lx, ly), (nx, ny), ends_at_window=True)

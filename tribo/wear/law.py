@@ -33,6 +33,13 @@ class WearLaw(Component):
         """Return the initial value of each state field; zero unless overridden."""
         return {field.name: 0.0 for field in self.state_fields}
 
+    def smoothed(self) -> WearLaw:
+        """Return the law without what varies from place to place, for a trial on a coarse grid.
+
+        Itself, unless overridden.
+        """
+        return self
+
     @abstractmethod
     def rate(self, local: LocalConditions) -> WearRate:
         """Return depth per metre of sliding and its derivative in pressure, at fixed fields.

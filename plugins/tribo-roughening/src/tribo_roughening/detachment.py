@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Annotated, Self
 
 from pydantic import ConfigDict, model_validator
 from pydantic import Field as Bounded
-from tribo import CaseError, Field, LocalConditions, Quantity, WearLaw, WearRate
+from tribo import Archard, CaseError, Field, LocalConditions, Quantity, WearLaw, WearRate
 
 from tribo_roughening.resistance import resistance
 
@@ -76,6 +77,22 @@ class Detachment(WearLaw):
                 f"{1e6 * cell:.4g} µm, and {CELLS} at least are needed; raise grid.cells, or give "
                 "a larger diameter"
             )
+
+    def smoothed(self) -> WearLaw:
+        """Return Archard's law with the same k, which it follows on the mean."""
+        return Archard(k=self.k)
+
+    def facts(self) -> Mapping[str, str]:
+        """Return its particles, and whether they repeat."""
+        wide, thick = f"{1e6 * self.diameter:.4g}", f"{1e6 * self.thickness:.4g}"
+        again = "none; a window that repeats needs one as long as itself"
+        if self.period is not None:
+            again = f"{1e6 * self.period:.4g} µm"
+        return {
+            "particles": f"{wide} µm wide, {thick} µm thick, a spread of {self.spread:g}",
+            "their draws": f"seed {self.seed}; a body of the same seed has the same particles",
+            "their period": again,
+        }
 
     def rate(self, local: LocalConditions) -> WearRate:
         """Return k p / R and k / R; the depth worn is a state of the law."""
