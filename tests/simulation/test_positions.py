@@ -4,7 +4,16 @@ import numpy as np
 import pytest
 from paper_models import archard, case, flat, last, motion, named, sphere, steel
 
-from tribo import Begin, CaseError, Grid, Load, Simulation, TriboWarning, Unidirectional
+from tribo import (
+    Begin,
+    CaseError,
+    Grid,
+    Load,
+    Simulation,
+    TriboWarning,
+    Unidirectional,
+    WearLaw,
+)
 from tribo.config.load import validate_case
 from tribo.simulation import positions
 from tribo.simulation.assembly import assemble, varied
@@ -190,6 +199,48 @@ def test_worn_bodies_go_on_in_the_positions_they_had(tmp_path, positions):
     given = left_open("0.7 mm", grid=grid, distance="20 m")
     given = given.model_copy(update={"begin": Begin(result=str(tmp_path / "a.h5"))})
     assert composed(given).case.kinematics.positions == positions
+
+
+def test_a_load_along_the_stroke_cannot_go_on_from_averaged_bodies(tmp_path):
+    grid = Grid((0.7e-3, 0.7e-3), (20, 20))
+    kinematics = motion(stroke="0.7 mm", duration=None, distance="0.01 m", positions="average")
+    Simulation(case(grid=grid, kinematics=kinematics)).run(tmp_path / "a.h5").close()
+    load = Load(normal=100, along=[{"at": -1e-3, "share": 1}, {"at": 1e-3, "share": 0.5}])
+    given = left_open("0.7 mm", grid=grid)
+    changes = {"load": load, "begin": Begin(result=str(tmp_path / "a.h5"))}
+    with pytest.raises(CaseError, match=r"begin\.result: the run of .* averaged its cycle, and"):
+        composed(given.model_copy(update=changes))
+
+
+def test_more_positions_than_cells_are_told():
+    model = composed(case(grid=GRID, kinematics=motion(stroke="0.58 mm", positions=501)))
+    assert model.chosen.endswith("at 21 positions, every cell of it, in place of 501")
+
+
+class Placed(WearLaw):
+    """Archard's law with a detail that needs places, and fine cells."""
+
+    type = "test.placed"
+    requires = ("place_x",)
+
+    def check_cells(self, spacing):
+        if spacing[0] > GRID.spacing[0]:
+            raise CaseError("too coarse")
+
+    def rate(self, local):
+        return self.smoothed().rate(local)
+
+    def smoothed(self):
+        return archard()
+
+
+@pytest.mark.parametrize("body", ["ball", "disk"])
+def test_a_law_that_needs_places_is_tried_without_them(body):
+    given = left_open("1 mm")
+    placed = given.bodies[body].model_copy(update={"wear": Placed()})
+    model = composed(given.model_copy(update={"bodies": {**given.bodies, body: placed}}))
+    assert len(model.cycle) > 1
+    assert predict(model).problems == predict(composed(given)).problems
 
 
 def test_coarser_grids_of_a_case_keep_its_positions():

@@ -169,7 +169,8 @@ def odd(count: int | str) -> int | str:
     """Return a number of positions, or the word for it; raise ValueError for an even number."""
     if isinstance(count, int) and count % 2 == 0:
         raise ValueError(
-            f"{count} is even; give an odd number, so that one lies in the middle: {count + 1}"
+            f"{count} is even; give an odd number, so that one lies in the middle, as {count + 1}, "
+            'or "cells" for every cell, however many there are'
         )
     return count
 

@@ -54,9 +54,9 @@ def composed(case: Case) -> Model:
     """
     motion = case.kinematics
     if not isinstance(motion, Reciprocating) or not is_open(case):
-        return assemble(case)
+        return _taken(assemble(case))
     if case.begin is not None:
-        return assemble(_fixed(case, _begun_with(case.begin)))
+        return assemble(_as_begun(case, case.begin))
     # The first contact is that in the middle of the stroke.
     even = case.model_copy(update={"load": case.load.in_the_middle()})
     try:
@@ -81,6 +81,15 @@ def composed(case: Case) -> Model:
             raise
         return replace(averaged, chosen=f"the stroke is averaged although {words}: {error}")
     return replace(resolved, chosen=_told(resolved, words))
+
+
+def _taken(model: Model) -> Model:
+    """Tell of a cycle that has fewer cells than it was to have positions."""
+    asked, taken = getattr(model.case.kinematics, "positions", None), len(model.cycle)
+    if not isinstance(asked, int) or taken >= asked:
+        return model
+    told = f"the cycle is resolved at {taken} positions, every cell of it, in place of {asked}"
+    return replace(model, chosen=told)
 
 
 def is_open(case: Case) -> bool:
@@ -135,14 +144,21 @@ def _resolvable(case: Case) -> bool:
     return case.contact.accepts_wear_compliance and not isinstance(case.stepping, Explicit)
 
 
-def _begun_with(begin: Begin) -> int | str:
-    """Return the positions of the run whose worn bodies a case begins with."""
+def _as_begun(case: Case, begin: Begin) -> Case:
+    """Return a case with the positions of the run whose worn bodies it begins with."""
+    positions: int | str = "average"
     # What is wrong with the file is said when the run begins.
     with suppress(CaseError), Result.open(begin.result) as result:
-        positions = result.case["kinematics"].get("positions")
-        if isinstance(positions, int | str):
-            return positions
-    return "average"
+        given = result.case["kinematics"].get("positions")
+        positions = given if isinstance(given, int | str) else "average"
+    if positions == "average" and case.load.along:
+        raise CaseError(
+            f"the run of {begin.result} averaged its cycle, and the bodies that it wore cannot be "
+            "resolved afterwards, as a load that changes along the stroke needs; run that case "
+            "again with a number of kinematics.positions, as 33, or leave load.along out",
+            "begin.result",
+        )
+    return _fixed(case, positions)
 
 
 def _needed(case: Case, stroke: float, half_width: float) -> int:
@@ -153,7 +169,7 @@ def _needed(case: Case, stroke: float, half_width: float) -> int:
 
 
 def _told(model: Model, words: str) -> str:
-    remedy = 'kinematics.positions = "average" takes that all the same, in a fraction of the time'
+    remedy = 'kinematics.positions = "average" is faster, and makes that error'
     told = f"the cycle is resolved at {len(model.cycle)} positions, as {words}"
     return f"{told}; {remedy}" if "average" in words else told
 
