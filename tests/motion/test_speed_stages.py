@@ -62,7 +62,7 @@ def test_a_law_is_asked_at_the_speed_of_each_stage_by_itself(motion, stepping):
 @pytest.mark.parametrize(
     ("values", "words"),
     [
-        ({"speed": []}, "give the speed up to the end of the run"),
+        ({"speed": []}, "the list is empty; give a number, or the stages of the speed up to"),
         ({"speed": [{"until": 9, "speed": 0}]}, "every stage is a rest"),
         ({"speed": [STAGES[1], STAGES[0]]}, "9 s is followed by 4 s"),
         ({"speed": {"until": 9, "speed": 1}}, "write a list"),

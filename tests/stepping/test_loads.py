@@ -241,7 +241,7 @@ def test_stages_come_from_a_file_or_a_table_and_survive_the_way_through_plain_da
 @pytest.mark.parametrize(
     ("normal", "words"),
     [
-        ([], "give the load up to the end of the run"),
+        ([], "the list is empty; give a number, or the stages of the load up to the end"),
         ([{"at": 0, "normal": 5}], "give the load up to the end of the run"),
         ([{"at": 3, "normal": 5}, {"at": 4, "normal": 5}], "begins at 3 s"),
         ([{"until": 3, "normal": 5}, {"at": 3, "normal": 9}], "3 s is followed by 3 s"),

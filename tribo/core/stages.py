@@ -29,7 +29,12 @@ def listed(value: Any) -> Any:
 
 def check_times(times: Sequence[float], what: str) -> None:
     """Raise ValueError unless the times at which stages of `what` end, in s, increase."""
-    if not times or times[-1] == 0:
+    if not times:
+        raise ValueError(
+            f"the list is empty; give a number, or the stages of the {what} up to the end of the "
+            "run"
+        )
+    if times[-1] == 0:
         raise ValueError(f"give the {what} up to the end of the run")
     if len(times) > MOST:
         raise ValueError(
