@@ -48,7 +48,7 @@ def test_the_table_has_a_column_a_variant(compared):
     text = compared.stdout
     assert "Varied: contact.type" in text
     assert row(text, "steps")[0].isdigit()
-    for words in ("time to solution, s", "at 0 s", "at 60 s", "ball depth, µm", "ball wear field"):
+    for words in ("time to solution, s", "at 0 s", "at 60 s", "ball depth, µm", "ball depth map"):
         assert words in text
     half_space, springs, *percent = row(text, "largest pressure, MPa")
     assert float(springs) / float(half_space) == pytest.approx(4 / 3, rel=0.05)
@@ -140,11 +140,11 @@ def test_names_of_files_are_shown_as_they_are_and_go_below_each_other(made):
     words = [line.split() for line in lines]
     assert [head for line in words for head in line if line[0] in names and head in names] == names
     assert text.count("contact solves") == 2
-    assert "relative to [m];" in text
+    assert "relative to [m]." in text
     # Only one has other cells.
     assert f"Note: {names[1]}: not on the grid of [m]," in text.replace("\n", " ")
     assert row(text, "pressure sections")[0] == "–"
-    assert "pressure field" in text
+    assert "pressure map" in text
 
 
 @pytest.mark.slow

@@ -7,7 +7,7 @@ import pytest
 from made_results import made
 from paper_models import archard, case, flat, foundation, motion, named, sphere, steel
 
-from tribo import Effect, Field, Grid, Simulation, Stage
+from tribo import Effect, Field, Grid, Load, Simulation, Stage
 from tribo.cli.console import Console
 from tribo.cli.report import print_report
 
@@ -61,6 +61,20 @@ def test_a_load_has_a_column_where_it_changes():
         lines = printed(result, 100).splitlines()
     column = lines[2].split().index("load")
     assert [line.split()[column] for line in lines[5:8]] == ["20", "20", "100"]
+
+
+def test_a_load_that_changes_along_the_stroke_is_told():
+    dx = 0.4e-3 / 20
+    along = [{"at": -2 * dx, "share": 0.5}, {"at": 2 * dx, "share": 1.25}]
+    with brief(
+        grid=Grid((0.4e-3, 0.4e-3), (20, 20)),
+        load=Load(normal=20, along=along),
+        contact=foundation(),
+        kinematics=motion(stroke=4 * dx, duration=0.05, positions="cells"),
+    ) as result:
+        text = printed(result, 100)
+    assert "changes along the stroke, from 0.5 to 1.25 of the normal load" in text
+    assert " load " in text.splitlines()[2]
 
 
 class Warmth(Effect):

@@ -53,6 +53,11 @@ def print_report(result: Result, console: Console | None = None) -> None:
     console = console or Console()
     lab = lab_report(result)
     _print_saves(result, console)
+    if shares := _shares_along(result):
+        console.print(
+            f"The load changes along the stroke, from {min(shares):g} to {max(shares):g} of the "
+            "normal load; the table has its mean over the path, and pressures in the middle."
+        )
     console.print(_bodies(result, lab.bodies))
     if rough := rough_bodies(result):
         console.print(_roughness(result, rough))
@@ -145,11 +150,12 @@ def _print_saves(result: Result, console: Console) -> None:
 
 def _saves(result: Result, left_out: Sequence[str]) -> Table:
     table = titled("Contact, along and across the sliding direction; wear depth of each body")
-    saves = result.saves()
+    saves, along = result.saves(), _shares_along(result)
     columns = []
     for name, unit, key, factor, digits in COLUMNS:
         cells = [f"{factor * save[key]:{digits}}" for save in saves]
-        if name not in left_out and not (name in VARYING and len(set(cells)) == 1):
+        steady = name in VARYING and len(set(cells)) == 1 and not along
+        if name not in left_out and not steady:
             table.add_column(f"{name}\n{unit}", justify="right", no_wrap=True)
             columns.append(cells)
     for body in result.body_names:
@@ -162,6 +168,12 @@ def _saves(result: Result, left_out: Sequence[str]) -> Table:
     for row in zip(*columns, strict=True):
         table.add_row(*row)
     return table
+
+
+def _shares_along(result: Result) -> list[float]:
+    """Return the shares of a load that changes along the stroke; none if it does not."""
+    load = result.case.get("load", {})
+    return [place["share"] for place in load.get("along", ())] if isinstance(load, Mapping) else []
 
 
 def _bodies(result: Result, bodies: Mapping[str, BodyReport]) -> Table:

@@ -43,8 +43,9 @@ def print_comparison(
     if paths:
         console.print(f"Varied: {', '.join(paths)}")
     console.print(
-        f"Percentages are relative to {escape(comparison.reference)}; those of fields and sections "
-        "are the L2 norm and the largest difference, of a pressure often that of a cell at the rim."
+        f"Percentages are relative to {escape(comparison.reference)}. Maps are compared cell by "
+        "cell, sections where grids differ: the L2 norm of the difference, then the largest, "
+        "which of a pressure is often that of a cell at the rim."
     )
     # A label is broken between its words, unless two of them would not fit.
     longest = max((len(word) for label in labels for word in label.split()), default=0)
@@ -96,9 +97,9 @@ def _at(comparison: Comparison, labels: Sequence[str], time: float) -> dict[str,
     first = comparison.results[reference]
     for i, label in enumerate(labels):
         result = comparison.results[label]
-        of = "field" if result.grid == first.grid else "sections"
+        of = "map" if result.grid == first.grid else "sections"
         for name, each in differences(result, first, time).items() if label != reference else ():
-            name = name.removeprefix("bodies.").replace(".wear_depth", " wear")
+            name = name.removeprefix("bodies.").replace(".wear_depth", " depth")
             cells = found.setdefault(f"{name} {of}", [NOTHING] * len(labels))
             cells[i] = f"{_percent(each.l2)}, {_percent(each.largest)} %"
     return found
