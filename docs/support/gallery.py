@@ -1,4 +1,4 @@
-"""Run a case of `examples/gallery` in an executed page, and set it against what was published."""
+"""Run a case of the gallery in an executed page, and set it against what was published."""
 
 from __future__ import annotations
 
@@ -10,19 +10,21 @@ from typing import Any
 
 from IPython.display import Markdown
 
-from tribo import Result, Simulation, TriboWarning, load_case
+from tribo import Result, Simulation, TriboWarning, load_case, templates
 
 CASES = Path(os.environ["TRIBO_REPOSITORY"]) / "examples" / "gallery"
+TEMPLATES = Path(templates.__file__).parent
 Rows = Mapping[str, tuple[float, float, float]]
 """By quantity with its unit: published, tribo's, and by how many percent they may differ."""
 
 
 def run(name: str, *changes: str) -> Result:
-    """Run ``examples/gallery/NAME.toml`` with `changes`, as ``"grid.cells=64"``."""
+    """Run a case or template with `changes`, as ``"grid.cells=64"``."""
+    folder = TEMPLATES if name in templates.TEMPLATES else CASES
     with warnings.catch_warnings():
         # What it warns of, the result has as notices.
         warnings.simplefilter("ignore", TriboWarning)
-        return Simulation(load_case(CASES / f"{name}.toml", overrides=changes)).run()
+        return Simulation(load_case(folder / f"{name}.toml", overrides=changes)).run()
 
 
 def end(result: Result) -> Mapping[str, Any]:

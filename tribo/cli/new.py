@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tomllib
 from pathlib import Path
 
 import click
@@ -12,24 +13,26 @@ from tribo.templates import TEMPLATES, template
 HOOK = "tribo_templates"
 
 
-@click.command()
+_LISTED = "\n".join(f"  {name:14} {summary}" for name, summary in TEMPLATES.items())
+HELP = f"""Write a commented case, study or measurements from TEMPLATE to FILE.
+
+\b
+Templates:
+{_LISTED}
+and those of plugins, which are listed where TEMPLATE is none of them.
+
+\b
+Example:
+  tribo new ball_on_disk my.toml
+"""
+
+
+@click.command(help=HELP)
 @click.argument("name", metavar="TEMPLATE")
 @click.argument("file", type=PATH)
 @click.option("--force", is_flag=True, help="Replace an existing file.")
 def new(name: str, file: Path, force: bool) -> None:
-    """Write a commented case that runs, from TEMPLATE to FILE.
-
-    \b
-    Templates:
-      ball_on_disk   the paper's one-hour test
-      weighed_split  the same with the loss that was weighed, 10:1
-      pin_on_disk    a ball on a turning disk, as in ASTM G99
-    and those of plugins, which are listed where TEMPLATE is none of them.
-
-    \b
-    Example:
-      tribo new ball_on_disk my.toml
-    """
+    """Write a template to a file."""
     from tribo.core.errors import CaseError
     from tribo.core.files import write_whole, writing
     from tribo.registry.contributions import choose
@@ -39,4 +42,12 @@ def new(name: str, file: Path, force: bool) -> None:
         if file.exists() and not force:
             raise CaseError(f"{file} exists; choose another name, or replace it with --force")
         write_whole(file, text)
-    click.echo(f"Wrote {file}; look it over, then: tribo check {file}")
+    click.echo(f"Wrote {file}; look it over, then: {_next(text, file)}")
+
+
+def _next(text: str, file: Path) -> str:
+    """Return the command that takes a file of such a text."""
+    tables = tomllib.loads(text)
+    if "measured" in tables:
+        return f"tribo calibrate CASE --measured {file}"
+    return f"tribo sweep {file}" if "case" in tables else f"tribo check {file}"

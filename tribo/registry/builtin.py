@@ -51,5 +51,5 @@ def tribo_export_formats() -> tuple[ExportFormat, ...]:
 
 @hookimpl
 def tribo_templates() -> list[CaseTemplate]:
-    """Offer the paper's test and a pin on a disk."""
+    """Offer a case for each kind of test, a study and measurements."""
     return [CaseTemplate(name, summary, template(name)) for name, summary in TEMPLATES.items()]
