@@ -18,6 +18,7 @@ from tribo.contact.residuals import residuals as residuals
 from tribo.contact.solver import ContactSolver as ContactSolver
 from tribo.contact.winkler import Winkler as Winkler
 from tribo.core.arrays import Array as Array
+from tribo.core.coating import Coating as Coating
 from tribo.core.contact import ContactProblem as ContactProblem
 from tribo.core.contact import ContactSolution as ContactSolution
 from tribo.core.contact import ContactSystem as ContactSystem

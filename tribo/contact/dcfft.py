@@ -11,10 +11,11 @@ import numpy as np
 from pydantic import Field
 
 from tribo.contact.bounded_cg import solve_together
+from tribo.contact.coated import surface_modulus
 from tribo.contact.love import nyquist_compliance
 from tribo.contact.nested_start import coarsen, prolong
 from tribo.contact.operator import HalfSpace, Operator, WornOperator
-from tribo.contact.projection import over
+from tribo.contact.projection import CELLS, over
 from tribo.contact.residuals import check_window
 from tribo.contact.solver import ContactSolver, stacked
 from tribo.core.arrays import Array, Mask
@@ -37,7 +38,7 @@ _COARSE_TOLERANCE = 1e-3
 class DcFft(ContactSolver):
     """Contact of two elastic half-spaces, yielding where the pressure reaches the hardness.
 
-    Each cell is under uniform pressure (Love 1929); the convolution is exact
+    They may be coated. Each cell is under uniform pressure (Love 1929); the convolution is exact
     in free space (DC-FFT: Liu, Wang & Liu 2000, Wear 243, 101-111). With a
     hardness 0 <= p <= H, and what still overlaps at p = H is permanent
     (Almqvist et al. 2007): no volume is conserved, and real onset of yield,
@@ -57,6 +58,7 @@ class DcFft(ContactSolver):
 
     accepts_wear_compliance: ClassVar[bool] = True
     honours_cap: ClassVar[bool] = True
+    takes_coatings: ClassVar[bool] = True
     couples: ClassVar[bool] = True
 
     def check(self, system: ContactSystem) -> None:
@@ -87,7 +89,9 @@ class DcFft(ContactSolver):
         return self._solve(problems[0].system, gap, load, coupling, guess, self.tolerance)
 
     def smallest_compliance(self, system: ContactSystem) -> float:
-        """Return the compliance of the chequerboard mode, in m/Pa."""
+        """Return the compliance of the chequerboard mode, or the least on coatings, in m/Pa."""
+        if system.coatings:
+            return float(np.min(_half_space(system.grid.cells, system).symbol()))
         return nyquist_compliance(system.grid.spacing) / system.modulus
 
     def _solve(
@@ -100,7 +104,7 @@ class DcFft(ContactSolver):
         tolerance: float,
     ) -> list[ContactSolution]:
         """Solve one position or several on a box that grows until nothing overlaps beyond it."""
-        spacing, cap = system.grid.spacing, system.cap
+        cap = system.cap
         box = whole(system.grid.cells)
         if guess is not None:
             needed = 0.0 if cap is None else float(load.max()) / cap / system.grid.cell_area
@@ -109,7 +113,7 @@ class DcFft(ContactSolver):
         while True:
             here = (..., *box.slices)
             solutions = solve_together(
-                _half_space(box.shape, spacing, system.modulus),
+                _half_space(box.shape, system),
                 gap[here],
                 load,
                 cap,
@@ -143,9 +147,12 @@ class DcFft(ContactSolver):
         return prolong(found.pressure, cells)
 
 
-@lru_cache(maxsize=16)
-def _half_space(shape: tuple[int, int], spacing: tuple[float, float], modulus: float) -> HalfSpace:
-    return HalfSpace(shape, spacing, modulus)
+def _half_space(shape: tuple[int, int], system: ContactSystem) -> HalfSpace:
+    coatings = tuple(system.coatings.values())
+    return _cached(shape, system.grid.spacing, surface_modulus(system), coatings)
+
+
+_cached = lru_cache(maxsize=16)(HalfSpace)
 
 
 def _anywhere(cells: Mask) -> Mask:
@@ -185,8 +192,11 @@ def _overlapping_outside(
 ) -> Mask:
     """Find cells of the window, outside `box`, at which the bodies overlap at any position."""
     approach = over(np.reshape([each.approach for each in solutions], load.shape))
-    # All displacements are positive: an undeformed gap above the approach stays open.
-    doubtful: Mask = gap < approach
+    # All displacements are positive: an undeformed gap above the approach stays open. Beside a
+    # contact a soft layer may rise, but by less than it sinks below it.
+    coated = bool(system.coatings)
+    highest = 2 * approach - over(gap.min(CELLS)) if coated else approach
+    doubtful: Mask = gap < highest
     doubtful[(..., *box.slices)] = False
     if box.is_window or not doubtful.any():
         return _anywhere(doubtful)
@@ -194,10 +204,10 @@ def _overlapping_outside(
     here = (..., *near.slices)
     suspects, gap = doubtful[here], gap[here]
     pressure = np.reshape([box.embed(each.pressure) for each in solutions], doubtful.shape)[here]
-    spacing, modulus = system.grid.spacing, system.modulus
-    bound = _displacement_bound(_anywhere(pressure > 0), spacing, float(load.min()) / modulus)
-    if (gap + bound < approach)[suspects].any():
-        operator: Operator = _half_space(near.shape, spacing, modulus)
+    strength = float(load.min()) / system.modulus
+    bound = _displacement_bound(_anywhere(pressure > 0), system.grid.spacing, strength)
+    if coated or (gap + bound < approach)[suspects].any():
+        operator: Operator = _half_space(near.shape, system)
         if wear is not None:
             operator = WornOperator(operator, wear.on(near))
         suspects &= gap + operator.apply(pressure) < approach

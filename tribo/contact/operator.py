@@ -10,8 +10,10 @@ import numpy as np
 import scipy.fft
 from numpy.typing import NDArray
 
+from tribo.contact.coated import base_kernel
 from tribo.contact.love import nyquist_compliance, wrapped_kernel
 from tribo.core.arrays import Array
+from tribo.core.coating import Coating
 from tribo.core.contact import CycleCompliance, WearCompliance
 
 _CACHED = 1 << 15
@@ -61,7 +63,7 @@ class Operator(Protocol):
 
 
 class HalfSpace:
-    """Elastic half-space under pressure that is constant in each cell.
+    """Elastic half-space, coated or not, under pressure that is constant in each cell.
 
     The discrete convolution is evaluated with zero padding (DC-FFT), which
     makes it the exact sum of Love's displacements: no periodic images.
@@ -73,7 +75,9 @@ class HalfSpace:
     spacing : tuple of float
         Edge lengths of a cell along x and y, in m.
     modulus : float
-        Contact modulus E*, in Pa.
+        Contact modulus E*, in Pa; with coatings that of what lies at the surface.
+    coatings : tuple of Coating, optional
+        Elastic layers on the half-spaces.
 
     References
     ----------
@@ -82,16 +86,26 @@ class HalfSpace:
     """
 
     def __init__(
-        self, shape: tuple[int, int], spacing: tuple[float, float], modulus: float
+        self,
+        shape: tuple[int, int],
+        spacing: tuple[float, float],
+        modulus: float,
+        coatings: tuple[Coating, ...] = (),
     ) -> None:
         self.shape = shape
         self.spacing = spacing
         self.modulus = modulus
         self._padded = tuple(scipy.fft.next_fast_len(2 * n - 1, real=True) for n in shape)
-        kernel = wrapped_kernel((self._padded[0], self._padded[1]), spacing)
+        whole = self._padded[0], self._padded[1]
+        kernel = wrapped_kernel(whole, spacing)
         # An even kernel has a real spectrum.
         self._spectrum = scipy.fft.rfft2(kernel).real / modulus
         periodic = scipy.fft.rfft2(_folded(kernel, shape, spacing)).real
+        if coatings:
+            twice = 2 * shape[0], 2 * shape[1]
+            self._spectrum += scipy.fft.rfft2(base_kernel(whole, spacing, coatings)).real
+            near = base_kernel(twice, spacing, coatings).reshape(2, shape[0], 2, shape[1])
+            periodic += modulus * scipy.fft.rfft2(near.sum(axis=(0, 2))).real
         # The spectrum of a kernel that is cut off oscillates, and could become negative; the
         # bound keeps the preconditioner definite on any box.
         self._symbol = np.maximum(periodic, 0.5 * nyquist_compliance(spacing)) / modulus

@@ -12,10 +12,12 @@ import scipy.fft
 from pydantic import Field
 
 from tribo.contact.bounded_cg import solve_together
+from tribo.contact.coated import surface_modulus
 from tribo.contact.projection import CELLS, over
 from tribo.contact.residuals import check_window
 from tribo.contact.solver import ContactSolver, stacked
 from tribo.core.arrays import Array
+from tribo.core.coating import Coating
 from tribo.core.contact import (
     ContactProblem,
     ContactSolution,
@@ -40,7 +42,9 @@ class PeriodicHalfSpace:
     spacing : tuple of float
         Edge lengths of a cell along x and y, in m.
     modulus : float
-        Contact modulus E*, in Pa.
+        Contact modulus E*, in Pa; with coatings that of what lies at the surface.
+    coatings : tuple of Coating, optional
+        Elastic layers on the half-spaces.
 
     References
     ----------
@@ -50,7 +54,11 @@ class PeriodicHalfSpace:
     """
 
     def __init__(
-        self, shape: tuple[int, int], spacing: tuple[float, float], modulus: float
+        self,
+        shape: tuple[int, int],
+        spacing: tuple[float, float],
+        modulus: float,
+        coatings: tuple[Coating, ...] = (),
     ) -> None:
         self.shape = shape
         self.spacing = spacing
@@ -59,6 +67,9 @@ class PeriodicHalfSpace:
         wavenumber = 2 * np.pi * np.hypot(along, across)
         wavenumber[0, 0] = np.inf
         self._spectrum = 2.0 / (modulus * wavenumber)
+        finite = np.where(np.isinf(wavenumber), 0.0, wavenumber)
+        for coating in coatings:
+            self._spectrum += 2.0 * coating.influence(finite) / (coating.modulus * wavenumber)
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement under `pressure`; see `Operator.apply`."""
@@ -96,6 +107,7 @@ class Periodic(ContactSolver):
     accepts_wear_compliance: ClassVar[bool] = True
     honours_cap: ClassVar[bool] = True
     couples: ClassVar[bool] = True
+    takes_coatings: ClassVar[bool] = True
     periodic: ClassVar[bool] = True
 
     def check(self, system: ContactSystem) -> None:
@@ -133,7 +145,7 @@ class Periodic(ContactSolver):
         # The digits of a deep uniform wear would be lost to a contact that hardly displaces.
         lowest = gap.min(CELLS)
         solutions = solve_together(
-            _half_space(system.grid.cells, system.grid.spacing, system.modulus),
+            _half_space(system),
             gap - over(lowest),
             load,
             system.cap,
@@ -148,13 +160,16 @@ class Periodic(ContactSolver):
         ]
 
     def smallest_compliance(self, system: ContactSystem) -> float:
-        """Return the compliance of the chequerboard mode, in m/Pa."""
+        """Return the compliance of the chequerboard mode, or the least on coatings, in m/Pa."""
+        if system.coatings:
+            return float(np.min(_half_space(system).symbol()))
         dx, dy = system.grid.spacing
         return 2.0 / (system.modulus * np.pi * float(np.hypot(1 / dx, 1 / dy)))
 
 
-@lru_cache(maxsize=8)
-def _half_space(
-    shape: tuple[int, int], spacing: tuple[float, float], modulus: float
-) -> PeriodicHalfSpace:
-    return PeriodicHalfSpace(shape, spacing, modulus)
+def _half_space(system: ContactSystem) -> PeriodicHalfSpace:
+    grid, coatings = system.grid, tuple(system.coatings.values())
+    return _cached(grid.cells, grid.spacing, surface_modulus(system), coatings)
+
+
+_cached = lru_cache(maxsize=8)(PeriodicHalfSpace)

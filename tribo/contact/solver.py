@@ -27,6 +27,9 @@ class ContactSolver(Component):
     honours_cap: ClassVar[bool] = False
     """Whether `solve` limits the pressure to ``problem.system.cap``."""
 
+    takes_coatings: ClassVar[bool] = False
+    """Whether `solve` honours ``problem.system.coatings``, the elastic layers on the bodies."""
+
     periodic: ClassVar[bool] = False
     """Whether the contact repeats with the window, so that it may reach the window's edge."""
 

@@ -69,9 +69,15 @@ class Winkler(ContactSolver):
 
     accepts_wear_compliance: ClassVar[bool] = True
     honours_cap: ClassVar[bool] = True
+    takes_coatings: ClassVar[bool] = True
 
     def check(self, system: ContactSystem) -> None:
         """Raise `CaseError` if the foundation modulus cannot be found from `system`."""
+        if system.coatings and self.modulus is None and self.layer is None:
+            raise CaseError(
+                "Hertz's contact, to which the foundation modulus is matched, knows no elastic "
+                "layer; give modulus or layer, or leave young and poisson out of the body's layers"
+            )
         self.foundation_modulus(system)
 
     def foundation_modulus(self, system: ContactSystem) -> float:

@@ -10,6 +10,7 @@ import numpy as np
 
 from tribo.core.arrays import Array, Region, add_from, bounds, rows_from
 from tribo.core.box import Box
+from tribo.core.coating import Coating
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 
@@ -152,6 +153,8 @@ class ContactSystem:
         1/m; None where the surfaces do not state one.
     materials : Mapping[str, Material]
         The bodies' materials, by name; empty where only E* is known.
+    coatings : Mapping[str, Coating]
+        The elastic layers on them, by name of the body; `modulus` does not know of these.
     """
 
     grid: Grid
@@ -160,6 +163,7 @@ class ContactSystem:
     cap: float | None = None
     curvature: tuple[float, float] | None = None
     materials: Mapping[str, Material] = field(default_factory=dict)
+    coatings: Mapping[str, Coating] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

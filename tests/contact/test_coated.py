@@ -1,0 +1,263 @@
+"""Coated half-spaces: closed forms, a published fit, and the limits of a coating."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.special import j1
+
+from tribo import CaseError, HalfSpace, Periodic, Winkler, residuals
+from tribo.contact.coated import base_kernel, surface_modulus
+from tribo.contact.dcfft import DcFft
+from tribo.contact.periodic import PeriodicHalfSpace
+from tribo.core.coating import Coating
+from tribo.core.contact import ContactProblem, ContactSystem
+from tribo.core.grid import Grid
+from tribo.core.material import Material
+from tribo.core.measures import between_cells
+
+H = 20e-6
+SOFT = Material(young=100e9, poisson=0.3)
+STIFF = Material(young=300e9, poisson=0.2)
+RIGID = Material(young=1e20, poisson=0.3)
+PAIRS = [(SOFT, STIFF), (STIFF, SOFT), (SOFT, RIGID)]
+
+
+def modulus(material):
+    return material.young / (1 - material.poisson**2)
+
+
+def wave(xi, layer, base):
+    """Displacement of a coated half-space under a pressure wave over that of the layer alone.
+
+    Plane strain: the stress function [(a + bz) e^−qz + (c + dz) e^qz] cos qx in
+    the layer and [(e + fz) e^−qz] cos qx in the base meet six conditions.
+    """
+
+    # With z in units of 1/q: stresses −F and F', displacements by Hooke's law.
+    def terms(z, material):
+        nu, two_g = material.poisson, material.young / (1 + material.poisson)
+        rows = []
+        for sign in (-1.0, 1.0):
+            grown = np.exp(sign * z)
+            plain = (grown, sign * grown, grown, sign * grown)
+            times_z = [(n * sign ** (n + 1) + z * sign**n) * grown for n in range(4)]
+            for f, f1, f2, f3 in (plain, times_z):
+                across = ((1 - nu) * f2 + nu * f) / two_g
+                down = ((1 - nu) * f3 - (2 - nu) * f1) / two_g
+                rows.append((-f, f1, across, down))
+        return np.array(rows).T
+
+    top, under, base_top = terms(0.0, layer), terms(xi, layer), terms(0.0, base)[:, :2]
+    matrix = np.zeros((6, 6))
+    matrix[:2, :4] = top[:2]
+    matrix[2:, :4], matrix[2:, 4:] = under, -base_top
+    scale = np.array([1, 1, 1, 1, layer.young, layer.young])
+    a = np.linalg.solve(matrix * scale[:, None], [-1.0, 0, 0, 0, 0, 0])
+    return top[3] @ a[:4] * modulus(layer) / 2
+
+
+@pytest.mark.parametrize(("layer", "base"), [*PAIRS, (SOFT, SOFT)])
+def test_the_influence_is_that_of_elasticity(layer, base):
+    xi = np.array([0.05, 0.3, 1.0, 2.5])
+    expected = [wave(x, layer, base) for x in xi]
+    np.testing.assert_allclose(1 + Coating(H, layer, base).influence(xi / H), expected, rtol=1e-6)
+
+
+@pytest.mark.parametrize("ratio", [0.3, 1.0, 4.0])
+def test_to_first_order_a_flat_punch_meets_the_modulus_of_gao(ratio):
+    # Gao, Chiu, Lee (1992), Int. J. Solids Struct. 29, 2471-2492, for one Poisson's ratio.
+    nu, a, change = 0.3, H / ratio, 1e-5
+    base = Material(young=100e9, poisson=nu)
+    layer = Material(young=100e9 * (1 + change), poisson=nu)
+    # Under p = F/(2πa √(a² − r²)) the compliance is ∫ C(q) [sin qa/qa]² q dq/2π.
+    q, dq = np.linspace(0, 400 / a, 400_001)[1:], 1e-3 / a
+    coating = Coating(H, layer, base)
+    softer = (1 + coating.influence(q)) / coating.modulus - 1 / modulus(base)
+    found = np.sum(softer * (np.sin(q * a) / (q * a)) ** 2) * dq / np.pi
+    # Beyond, sin² is a half on the mean.
+    found += softer[-1] / (2 * 400 * a) / np.pi
+    bare = 1 / (2 * a * modulus(base))
+    inner = 2 / np.pi * np.arctan(ratio) + (
+        (1 - 2 * nu) * ratio * np.log((1 + ratio**2) / ratio**2) - ratio / (1 + ratio**2)
+    ) / (2 * np.pi * (1 - nu))
+    assert -found / bare / change == pytest.approx(inner, rel=2e-4)
+
+
+@pytest.mark.parametrize(("layer", "base"), PAIRS)
+@pytest.mark.parametrize("thickness", [0.1, 1.0, 8.0])
+def test_a_disc_of_pressure_displaces_as_the_hankel_transform_says(layer, base, thickness):
+    # Δu(0) = ∫ (C − C_layer) a J1(qa) dq of the base alone, on cells of a 16th of the radius.
+    a = 16.0
+    coating = Coating(thickness, layer, base)
+    q = (np.arange(200_000) + 0.5) * 5e-4 / min(thickness, 1.0)
+    exact = np.sum(coating.influence(q) / q * a * j1(q * a)) * (q[1] - q[0])
+    kernel = base_kernel((64, 64), (1.0, 1.0), [coating])
+    x = np.minimum(np.arange(64), 64 - np.arange(64))
+    # The part of each cell that lies within the disc.
+    part = np.zeros((64, 64))
+    fine = (np.arange(8) - 3.5) / 8
+    for dx in fine:
+        for dy in fine:
+            part += (x[:, None] + dx) ** 2 + (x + dy) ** 2 < a**2
+    found = np.sum(kernel * part) / 64
+    # Relative to the displacement of the layer alone, 2 a/E'.
+    scale = 2 * a / coating.modulus
+    assert found / scale == pytest.approx(2 * exact / coating.modulus / scale, rel=2e-3, abs=2e-4)
+
+
+def test_a_large_cell_is_the_sum_of_small_ones():
+    # Beyond a layer as thin as these, three points of Gauss's rule would miss the load.
+    coating = Coating(0.5, SOFT, STIFF)
+    large = base_kernel((8, 8), (5.0, 3.0), [coating])
+    small = base_kernel((64, 64), (1.0, 0.6), [coating])
+    for i, j in ((0, 0), (1, 0), (0, 2), (2, 1)):
+        rows, columns = 5 * i + np.arange(-2, 3), 5 * j + np.arange(-2, 3)
+        assert large[i, j] == pytest.approx(np.sum(small[np.ix_(rows, columns)]), rel=1e-5, abs=0)
+
+
+def test_a_coating_of_the_base_is_no_coating():
+    plain = HalfSpace((24, 30), (5e-6, 4e-6), modulus(SOFT))
+    coated = HalfSpace((24, 30), (5e-6, 4e-6), modulus(SOFT), (Coating(H, SOFT, SOFT),))
+    pressure = np.random.default_rng(1).random((24, 30))
+    np.testing.assert_array_equal(coated.apply(pressure), plain.apply(pressure))
+
+
+def system(grid, load, **coatings):
+    """A rigid ball on a coated base."""
+    base = next(iter(coatings.values())).base
+    return ContactSystem(grid, modulus(base), load, coatings=coatings)
+
+
+def ball(coating, load, width, cells=48, radius=1e-3):
+    grid = Grid((width, width), (cells, cells))
+    x, y = grid.mesh
+    return ContactProblem(system(grid, load, disk=coating), (x**2 + y**2) / (2 * radius), load)
+
+
+def published(depth):
+    """Reduced load of a paraboloid on a bonded incompressible layer, by its reduced depth."""
+    root = np.sqrt(depth)
+    if depth < 0.4:
+        terms = (1, 1.1053416390578608, 1.606749412034415, 1.6018294436819807)
+        return 4 / 3 * depth * root * sum(c * root**n for n, c in enumerate(terms))
+    terms = (
+        0.6157882175705465,
+        -3.1143156864367647,
+        6.692972504122468,
+        -7.1702772387228935,
+        8.227673152332168,
+        0,
+        np.pi / 2,
+    )
+    return sum(c * root**n for n, c in enumerate(terms))
+
+
+@pytest.mark.parametrize("depth", [0.01, 0.16, 1.0, 4.0])
+def test_hertz_on_a_layer_is_the_published_one(depth):
+    # Hermanowicz (2021), Int. J. Mech. Sci. 193, 106138: F R (1 − ν²)/(E t³) by δ R/t².
+    rubber = Material(young=1e6, poisson=0.5 - 1e-6)
+    load = published(depth) * modulus(rubber) * H**3 / 1e-3
+    problem = ball(Coating(H, rubber, RIGID), load, 3.4 * H * np.sqrt(depth))
+    solution = DcFft().solve(problem)
+    found = (solution.approach + between_cells(-problem.gap)) * 1e-3 / H**2
+    # 0.05 % on 128² cells.
+    assert published(found) == pytest.approx(published(depth), rel=5e-3)
+
+
+def test_a_thick_layer_is_a_half_space_of_the_layer():
+    problem = ball(Coating(H, SOFT, STIFF), 0.5, 0.1e-3)
+    bare = replace(problem.system, modulus=modulus(SOFT), coatings={})
+    plain = DcFft().solve(replace(problem, system=bare)).pressure
+    differences = []
+    for thickness in (0.2e-3, 0.4e-3, 0.8e-3):
+        coatings = {"disk": Coating(thickness, SOFT, STIFF)}
+        coated = replace(problem, system=replace(problem.system, coatings=coatings))
+        pressure = DcFft(tolerance=1e-10).solve(coated).pressure
+        differences.append(np.max(np.abs(pressure - plain)) / plain.max())
+    # Only how the base's part varies over the contact counts: that falls with thickness cubed.
+    assert differences[-1] < 1e-3
+    assert np.all(np.divide(differences[:-1], differences[1:]) > 7)
+
+
+def test_a_layer_thinner_than_any_cell_is_the_base():
+    problem = ball(Coating(1e-10, SOFT, STIFF), 0.5, 0.1e-3)
+    bare = DcFft().solve(replace(problem, system=replace(problem.system, coatings={})))
+    coated = DcFft().solve(problem)
+    assert coated.pressure.max() == pytest.approx(bare.pressure.max(), rel=1e-3)
+
+
+def test_a_thin_layer_on_a_rigid_base_is_a_foundation():
+    nu = SOFT.poisson
+    foundation = SOFT.young * (1 - nu) / ((1 + nu) * (1 - 2 * nu) * H)
+    shape, cell = (96, 96), (H / 4, H / 4)
+    operator = HalfSpace(shape, cell, modulus(SOFT), (Coating(H, SOFT, RIGID),))
+    pressure = np.zeros(shape)
+    pressure[8:88, 8:88] = 1e9
+    assert 1e9 / operator.apply(pressure)[48, 48] == pytest.approx(foundation, rel=1e-4)
+
+
+@pytest.mark.parametrize("poisson", [0.3, 0.499])
+def test_the_box_of_the_contact_sees_what_the_whole_window_does(poisson):
+    # A nearly incompressible layer rises beside the contact.
+    rubber = Material(young=1e6, poisson=poisson)
+    problem = ball(Coating(H, rubber, RIGID), 1e-4, 0.4e-3, cells=64)
+    found = DcFft(tolerance=1e-11).solve(problem)
+    assert np.ptp(np.nonzero(found.pressure)[0]) < 40
+    system = problem.system
+    whole = HalfSpace(
+        system.grid.cells,
+        system.grid.spacing,
+        surface_modulus(system),
+        tuple(system.coatings.values()),
+    )
+    displacement = whole.apply(found.pressure)
+    cap, total = np.inf, problem.load / system.grid.cell_area
+    judged = residuals(found.pressure, problem.gap, displacement, found.approach, total, cap)
+    assert judged.worst < 1e-9
+
+
+def test_two_coated_bodies_add_their_compliances():
+    one, other = Coating(H, SOFT, STIFF), Coating(2 * H, STIFF, SOFT)
+    grid = Grid((64e-6, 64e-6), (16, 16))
+    bases = 1 / (1 / modulus(STIFF) + 1 / modulus(SOFT))
+    both = ContactSystem(grid, bases, 1.0, coatings={"ball": one, "disk": other})
+    pressure = np.random.default_rng(2).random(grid.cells)
+    parts = [
+        HalfSpace(grid.cells, grid.spacing, each.modulus, (each,)).apply(pressure)
+        for each in (one, other)
+    ]
+    joint = HalfSpace(grid.cells, grid.spacing, surface_modulus(both), (one, other))
+    np.testing.assert_allclose(joint.apply(pressure), sum(parts), rtol=1e-12)
+
+
+def test_a_wave_of_pressure_on_a_periodic_coating_is_one_of_displacement():
+    coating = Coating(H, SOFT, STIFF)
+    operator = PeriodicHalfSpace((32, 8), (H / 8, H / 8), coating.modulus, (coating,))
+    x = np.arange(32) * H / 8
+    q = 2 * np.pi / (4 * H)
+    pressure = np.broadcast_to(np.cos(q * x)[:, None], (32, 8))
+    expected = 2 * wave(q * H, SOFT, STIFF) / (coating.modulus * q) * pressure
+    np.testing.assert_allclose(operator.apply(pressure), expected, atol=1e-6 * expected.max())
+
+
+@pytest.mark.parametrize("solver", [DcFft(), Periodic()])
+def test_the_smallest_compliance_is_below_that_of_every_mode(solver):
+    grid = Grid((64e-6, 64e-6), (12, 12))
+    for coating in (Coating(1e-6, SOFT, STIFF), Coating(1e-6, STIFF, SOFT)):
+        asked = system(grid, 1.0, disk=coating)
+        smallest = solver.smallest_compliance(asked)
+        kind = PeriodicHalfSpace if solver.periodic else HalfSpace
+        operator = kind(grid.cells, grid.spacing, surface_modulus(asked), (coating,))
+        unit = np.eye(144).reshape(144, 12, 12)
+        dense = np.array([operator.apply(each).ravel() for each in unit])
+        least = np.sort(np.linalg.eigvalsh(dense))[1 if solver.periodic else 0]
+        assert 0.3 * least < smallest < 1.0001 * least
+
+
+def test_a_foundation_matched_to_hertz_refuses_a_coating():
+    grid = Grid((64e-6, 64e-6), (12, 12))
+    asked = replace(system(grid, 1.0, disk=Coating(H, SOFT, STIFF)), curvature=(1e3, 1e3))
+    with pytest.raises(CaseError, match="knows no elastic layer; give modulus or layer"):
+        Winkler().check(asked)
+    Winkler(modulus=1e15).check(asked)
