@@ -12,7 +12,7 @@ from tribo.motion.cycle import Stroke
 from tribo.motion.exposure import Track
 from tribo.simulation import assembly
 from tribo.simulation.guards import GuardedSolver
-from tribo.stepping import implicit, step
+from tribo.stepping import evolution, step
 from tribo.verification.suite import REFERENCES
 from tribo.wear.archard import Archard
 from tribo.wear.power import Power
@@ -117,7 +117,7 @@ MUTANTS = {
         "flat pin under even pressure",
     ),
     "one coefficient for both": (
-        (implicit, "wear_rates"),
+        (evolution, "wear_rates"),
         one_rate_for_both,
         "three times the coefficient",
     ),

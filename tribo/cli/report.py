@@ -237,8 +237,13 @@ def _inferred(volumes: Sequence[InferredVolume]) -> Table:
 
 
 def _effects(result: Result) -> Iterator[str]:
-    """Yield the range of each field that the effects provide, at the last save."""
-    for body, values in result.summary()["saves"][-1]["bodies"].items():
-        for name, ends in values.get("effects", {}).items():
+    """Yield the range of each field that effects and laws provide or keep, at the last save."""
+    last = result.summary()["saves"][-1]
+    of_bodies = [
+        (body, {**values.get("effects", {}), **values.get("state", {})})
+        for body, values in last["bodies"].items()
+    ]
+    for where, ranges in [*of_bodies, ("between the bodies", last.get("between", {}))]:
+        for name, ends in ranges.items():
             low, high = (NOTHING if end is None else f"{end:.4g}" for end in ends.values())
-            yield f"{body} {name}: {low} to {high} at the end."
+            yield f"{where} {name}: {low} to {high} at the end."

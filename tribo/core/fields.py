@@ -26,6 +26,9 @@ class Field:
         Limits that its values keep.
     typical : float, optional
         A usual value, at which models that require it are tested.
+    uniform : bool, optional
+        Whether the state of an effect is one number, as the temperature of a bath, and not one at
+        each point.
     """
 
     name: str
@@ -34,6 +37,7 @@ class Field:
     at_least: float | None = None
     at_most: float | None = None
     typical: float | None = None
+    uniform: bool = False
 
     def __str__(self) -> str:
         return f"{self.name} [{self.unit}] {self.description}"
@@ -182,7 +186,14 @@ class ContactConditions:
     swept : frozenset of str
         Names of the bodies whose points pass through the contact.
     fields : Mapping[str, Mapping[str, ndarray]]
-        Fields of the effects that ran before, by field and body.
+        Fields of the effects that ran before, and what effects and wear laws remember if it is
+        required, by field and body.
+    state : Mapping[str, ndarray]
+        The effect's own state fields where the window is, shape (nx, ny), or (1, 1) of one that is
+        uniform.
+    wear_rates : Mapping[str, ndarray]
+        Depth that each body loses per metre of sliding, in m/m, by name; empty where fields are
+        asked for, on which these depend.
     """
 
     grid: Grid
@@ -194,3 +205,5 @@ class ContactConditions:
     materials: Mapping[str, Material]
     swept: frozenset[str]
     fields: Mapping[str, Mapping[str, Array]] = field(default_factory=dict)
+    state: Mapping[str, Array] = field(default_factory=dict)
+    wear_rates: Mapping[str, Array] = field(default_factory=dict)

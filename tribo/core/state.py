@@ -48,6 +48,9 @@ class State:
         Time in s and sliding distance in m.
     bodies : Mapping[str, BodyState]
         By name.
+    between : Mapping[str, ndarray]
+        State fields of the effects, by name: shape (nx, ny) in the contact frame, where one state
+        serves all positions of a cycle, as `BodyState.wear` on a body, (1, 1) if uniform.
     contacts : tuple of ContactSolution
         The solved contact at each position of a cycle; they belong to the geometry
         of `bodies` and are the start of the next solves.
@@ -90,6 +93,7 @@ class State:
     solver_iterations: int = 0
     saves: int = 0
     rates: Sequence[Mapping[str, WearRate]] = ()
+    between: Mapping[str, Array] = field(default_factory=dict)
     notices: tuple[Notice, ...] = ()
     invariants: Invariants = field(default_factory=Invariants)
     previous: tuple[Array, ...] = ()
@@ -113,6 +117,11 @@ class State:
         where = (self.time, self.distance) if from_here else ()
         return replace(self, notices=(*self.notices, Notice(kind, text, *where)))
 
+    def remembered(self, body: str, field: str) -> Array:
+        """Return a state field on a body's surface: that of its law, or of an effect it carries."""
+        law = self.bodies[body].law
+        return law[field] if field in law else self.between[field]
+
 
 @dataclass(frozen=True)
 class BodyInfo:
@@ -131,7 +140,7 @@ class BodyInfo:
     rows : int
         Cells along x on its own surface.
     state_fields : tuple of Field, optional
-        What its wear law keeps per material point.
+        What its wear law keeps per material point, and what effects keep on it.
     rough : bool, optional
         Whether it is more than a smooth form at first.
     """
@@ -165,6 +174,8 @@ class RunInfo:
         Versions and the classes that take part, as plain data.
     effect_fields : tuple of Field, optional
         What the effects provide.
+    between_fields : tuple of Field, optional
+        What the effects remember in the contact frame, or as one number.
     resumed_from : Snapshot or None
         The state a resumed run starts from.
     wall_time : float
@@ -178,6 +189,7 @@ class RunInfo:
     case: Mapping[str, object]
     provenance: Mapping[str, object]
     effect_fields: tuple[Field, ...] = ()
+    between_fields: tuple[Field, ...] = ()
     resumed_from: Snapshot | None = None
     wall_time: float = 0.0
 

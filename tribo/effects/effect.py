@@ -1,8 +1,7 @@
-"""The interface of effects: fields between the bodies, such as a temperature."""
+"""The interface of effects: what lies between the bodies."""
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from collections.abc import Mapping
 from typing import ClassVar
 
@@ -13,17 +12,26 @@ from tribo.core.material import Material
 
 
 class Effect(Component):
-    """Derives local fields, such as a temperature, from the solved contact.
+    """What lies between the bodies, such as a temperature, debris or a film.
 
-    Effects run after the contact is solved and cannot alter load or gap. An
-    implicit step evaluates them anew in each of its passes.
+    It provides fields of the solved contact, which wear laws and other effects
+    read, and may own state that evolves with the run. Every pass of a step
+    asks it anew, so that its answers must follow from its configuration and
+    what it is given alone.
+
+    State is integrated inside each step, at the pressure of the step, to an
+    accuracy of its own; steps of the contact need not be short for it.
     """
 
-    provides: ClassVar[tuple[Field, ...]]
+    provides: ClassVar[tuple[Field, ...]] = ()
     """The fields it answers with."""
 
     requires: ClassVar[tuple[str, ...]] = ()
-    """Names of the fields it needs from effects before it, or from the case."""
+    """Names of the fields it needs: of other effects, of the case, or what a wear law remembers."""
+
+    state_fields: ClassVar[tuple[Field, ...]] = ()
+    """What it remembers; each field starts at `initial_state`, is kept in the result, and answers
+    whoever requires its name."""
 
     def check(self, materials: Mapping[str, Material], swept: frozenset[str]) -> None:
         """Raise `CaseError` if the effect cannot serve these bodies.
@@ -36,7 +44,18 @@ class Effect(Component):
             Names of the bodies whose points pass through the contact.
         """
 
-    @abstractmethod
+    def carrier(self) -> str | None:
+        """Return the body whose surface carries the state and moves it; None for the contact.
+
+        In the contact frame one state serves all positions of a cycle. What is uniform has no
+        carrier.
+        """
+        return None
+
+    def initial_state(self) -> dict[str, float]:
+        """Return the initial value of each state field; zero unless overridden."""
+        return {field.name: 0.0 for field in self.state_fields}
+
     def fields(self, contact: ContactConditions) -> Mapping[str, Mapping[str, Array]]:
         """Return each provided field for each body.
 
@@ -50,3 +69,22 @@ class Effect(Component):
         Mapping[str, Mapping[str, ndarray]]
             By field name and body name; arrays that broadcast to (nx, ny).
         """
+        return {}
+
+    def state_rates(self, contact: ContactConditions) -> Mapping[str, Array]:
+        """Return by how much each state field changes per second.
+
+        What goes with sliding is a rate per metre times `contact.speed`, which
+        is 0 while the motion rests; what relaxes in time goes on then.
+
+        Parameters
+        ----------
+        contact : ContactConditions
+            The contact, with the depth rates of both bodies; its arrays must not be written to.
+
+        Returns
+        -------
+        Mapping[str, ndarray]
+            By field name; arrays that broadcast to (nx, ny), one number of a uniform field.
+        """
+        return {}

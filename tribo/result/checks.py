@@ -14,6 +14,7 @@ import numpy as np
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.result.layout import (
+    BETWEEN,
     EFFECT,
     FIXED,
     ROUGHNESS,
@@ -57,6 +58,8 @@ _LATER = {
     for name in ("plastic_area", "load", "load_distance", "cycle_error")
 } | {*ROUGHNESS, TRACK_PLASTIC}
 """Variables that older files lack, or those without a body that is rough or yields."""
+_LIKE = {STATE: "wear_depth", EFFECT: "wear_depth", TRACK_STATE: TRACK, BETWEEN: "pressure"}
+"""By kind, the variable that a field of a model has the dimensions of."""
 
 
 @contextmanager
@@ -131,10 +134,11 @@ def read_variables(file: h5py.File, bodies: tuple[str, ...]) -> dict[str, Variab
                 str(values.attrs[key]) for key in ("kind", "field", "units", "long_name")
             )
             owners = tuple(map(str, values.attrs["bodies"]))
-            known = kind in (STATE, EFFECT, TRACK_STATE)
-            if name in FIXED or not known or not {*owners} <= {*bodies}:
+            if name in FIXED or kind not in _LIKE or not {*owners} <= {*bodies}:
                 raise ValueError(f"{name!r} is no field of a model of these bodies")
-            like = FIXED[TRACK if kind == TRACK_STATE else "wear_depth"]
+            like = FIXED[_LIKE[kind]]
+            if kind == BETWEEN and values.ndim == 1:
+                like = FIXED["time"]
             shaped = replace(like, unit=unit, meaning=meaning)
             table[name] = replace(shaped, kind=kind, field=field, bodies=owners)
     named = tuple(file["body"].asstr()[:].tolist())

@@ -11,6 +11,7 @@ import numpy as np
 from tribo.core.arrays import Array
 from tribo.core.errors import OutputError
 from tribo.result.columns import labelled
+from tribo.result.layout import BETWEEN
 from tribo.result.read import Result
 
 
@@ -72,6 +73,11 @@ def _profiles(result: Result, axis: int) -> dict[str, Array]:
             profile(result.field("pressure", i), axis) for i in range(len(times))
         ),
     }
+    for key, field in result.fields_of(BETWEEN).items():
+        kept = [result.field(key, i) for i in range(len(times))]
+        columns[f"{BETWEEN}.{labelled(field.name, field.unit)}"] = _stacked(
+            np.full(len(position), each) if each.ndim == 0 else profile(each, axis) for each in kept
+        )
     for name in result.body_names:
         body = result.body(name)
         for label, fields in (

@@ -15,7 +15,7 @@ from tribo.core.state import RunInfo, Snapshot, State
 from tribo.result.columns import BODY_COLUMNS, COLUMNS, ROUGHNESS_COLUMNS
 
 FORMAT = 2
-STATE, EFFECT, TRACK_STATE = "state", "effect", "track_state"
+STATE, EFFECT, TRACK_STATE, BETWEEN = "state", "effect", "track_state", "between"
 TRACK, TRACK_PLASTIC = "track_depth", "track_plastic"
 
 Rows = dict[str, Any]
@@ -35,8 +35,8 @@ class Variable:
     values : ndarray, optional
         Its values; None of one that grows with the run.
     kind : str, optional
-        ``"state"`` for a field that a wear law keeps, ``"track_state"`` for that along the whole
-        track, ``"effect"`` for one that an effect provides.
+        ``"state"`` for a field kept on a body, ``"track_state"`` for that along the whole
+        track, ``"effect"`` for one that an effect provides, ``"between"`` for one that it keeps.
     field : str, optional
         The name that such a field has in its model.
     bodies : tuple of str, optional
@@ -135,6 +135,7 @@ def variables(run: RunInfo) -> dict[str, Variable]:
     table |= {name: replace(table[name], values=array) for name, array in values.items()}
     everybody = tuple(body.name for body in bodies)
     fields = {(EFFECT, field): everybody for field in run.effect_fields}
+    fields |= {(BETWEEN, field): () for field in run.between_fields}
     for body in bodies:
         for field in body.state_fields:
             fields[STATE, field] = (*fields.get((STATE, field), ()), body.name)
@@ -144,9 +145,15 @@ def variables(run: RunInfo) -> dict[str, Variable]:
         name = f"{kind}_{field.name}" if kind == TRACK_STATE else field.name
         while name in FIXED or name in table or name == "body":
             name = f"{kind}_{name}"
-        dims = _ON_TRACK if kind == TRACK_STATE else _ON_BODY
+        dims = _dims(kind, uniform=field.uniform)
         table[name] = Variable(dims, field.unit, field.description, None, kind, field.name, owners)
     return table
+
+
+def _dims(kind: str, *, uniform: bool) -> tuple[str, ...]:
+    if kind == BETWEEN:
+        return ("time",) if uniform else _ON_WINDOW
+    return _ON_TRACK if kind == TRACK_STATE else _ON_BODY
 
 
 def step_row(measures: Measures) -> Rows:
@@ -176,11 +183,15 @@ def save_row(snapshot: Snapshot, table: Mapping[str, Variable]) -> Rows:
         row[TRACK_PLASTIC] = _on_track(state, {n: b.plastic for n, b in state.bodies.items()})
     for name, variable in table.items():
         if variable.kind == TRACK_STATE:
-            along = {n: state.bodies[n].law[variable.field] for n in variable.bodies}
+            along = {n: state.remembered(n, variable.field) for n in variable.bodies}
             row[name] = _on_track(state, along)
             continue
+        if variable.kind == BETWEEN:
+            kept = state.between[variable.field]
+            row[name] = kept if variable.dims == _ON_WINDOW else float(kept[0, 0])
+            continue
         if variable.kind == STATE:
-            of_bodies = {n: state.bodies[n].law[variable.field] for n in variable.bodies}
+            of_bodies = {n: state.remembered(n, variable.field) for n in variable.bodies}
         elif variable.kind == EFFECT:
             # An effect that has failed leaves none.
             of_bodies = dict(snapshot.effects.get(variable.field, {}))

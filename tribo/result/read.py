@@ -21,7 +21,7 @@ from tribo.core.words import did_you_mean, suggestion
 from tribo.result import checks
 from tribo.result.body import BodyResult, checked_save
 from tribo.result.columns import BODY_COLUMNS, COLUMNS, INVARIANTS, ROUGHNESS_COLUMNS, labelled
-from tribo.result.layout import EFFECT, STATE
+from tribo.result.layout import BETWEEN, EFFECT, STATE
 from tribo.result.opening import source_of
 from tribo.result.sealed import write_sealed
 
@@ -341,18 +341,27 @@ class Result:
 
     def _saves_with_ranges(self) -> list[dict[str, Any]]:
         rows = self.saves()
-        for index, body in enumerate(self.body_names):
-            for key, field in self.fields_of(EFFECT, body).items():
-                for i, row in enumerate(rows):
-                    values = self._read(key, i, index)
-                    low, high = float(np.min(values)), float(np.max(values))
-                    ranges = row["bodies"][body].setdefault("effects", {})
-                    failed = math.isnan(low)
-                    ranges[labelled(field.name, field.unit)] = {
-                        "min": None if failed else low,
-                        "max": None if failed else high,
-                    }
+        for i, row in enumerate(rows):
+            for index, body in enumerate(self.body_names):
+                for what, kind in (("effects", EFFECT), ("state", STATE)):
+                    if found := self._ranges(self.fields_of(kind, body), i, index):
+                        row["bodies"][body][what] = found
+            if found := self._ranges(self.fields_of(BETWEEN), i):
+                row[BETWEEN] = found
         return rows
+
+    def _ranges(self, fields: Mapping[str, Field], *index: int) -> dict[str, dict[str, Any]]:
+        """Return the least and the largest value of fields at a save; None where one failed."""
+        ranges = {}
+        for key, field in fields.items():
+            values = self._read(key, *index)
+            low, high = float(np.min(values)), float(np.max(values))
+            failed = math.isnan(low)
+            ranges[labelled(field.name, field.unit)] = {
+                "min": None if failed else low,
+                "max": None if failed else high,
+            }
+        return ranges
 
     def totals(self) -> Mapping[str, Any]:
         """Return what the run cost: solves, iterations, steps and `wall_time`."""
@@ -375,7 +384,11 @@ class Result:
         }
 
     def fields_of(self, kind: str, body: str | None = None) -> dict[str, Field]:
-        """Return the fields of a kind, ``"state"`` or ``"effect"``, by variable; of one body."""
+        """Return the fields of a kind by variable, of one body if it is given.
+
+        Kinds are ``"state"`` and ``"effect"``, and ``"between"`` for what effects keep of the
+        contact as a whole.
+        """
         return {
             name: Field(its.field, its.unit, its.meaning)
             for name, its in self._variables.items()

@@ -93,7 +93,7 @@ def assemble(case: Case) -> Model:
             "time_step, or a contact type that does",
             "stepping.type",
         )
-    effects = tuple(GuardedEffect(effect) for effect in in_order(case))
+    effects = tuple(GuardedEffect(effect, list(bodies)) for effect in in_order(case))
     end = motion.end_time(case.stop.distance)
     motion.check_distance(end)
     model = Model(

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from tribo.case import Case
 from tribo.core.errors import CaseError
-from tribo.core.fields import FRICTION_COEFFICIENT, PLACE_X, PLACE_Y
+from tribo.core.fields import FRICTION_COEFFICIENT, PLACE_X, PLACE_Y, Field
 from tribo.effects.effect import Effect
 
 
@@ -21,26 +21,28 @@ def in_order(case: Case) -> tuple[Effect, ...]:
         If a field is provided twice.
     """
     known = {PLACE_X.name, PLACE_Y.name}
+    of_laws = {f.name for b in case.bodies.values() if b.wear for f in b.wear.state_fields}
     if case.friction is not None:
         known.add(FRICTION_COEFFICIENT.name)
+    for effect in case.effects:
+        for field in effect.state_fields:
+            if field.name in known | of_laws:
+                raise _twice(field, effect)
+            known.add(field.name)
     ordered: list[Effect] = []
     waiting = list(case.effects)
     while waiting:
-        ready = next((e for e in waiting if set(e.requires) <= known), None)
+        ready = next((e for e in waiting if set(e.requires) <= known | of_laws), None)
         if ready is None:
             first = waiting[0]
-            missing = sorted(set(first.requires) - known)
+            missing = sorted(set(first.requires) - known - of_laws)
             text = _missing(f"effect {first.type!r}", missing, waiting)
             raise MissingFieldError(text, "effects", missing)
         waiting.remove(ready)
         ordered.append(ready)
         for field in ready.provides:
             if field.name in known:
-                raise CaseError(
-                    f"{field.name!r} is provided twice, the second time by "
-                    f"{ready.type!r}; keep one",
-                    "effects",
-                )
+                raise _twice(field, ready)
             known.add(field.name)
     for name, body in case.bodies.items():
         if body.wear is not None and not set(body.wear.requires) <= known:
@@ -48,6 +50,11 @@ def in_order(case: Case) -> tuple[Effect, ...]:
             text = _missing(f"wear law {body.wear.type!r}", missing, [])
             raise MissingFieldError(text, f"bodies.{name}.wear", missing)
     return tuple(ordered)
+
+
+def _twice(field: Field, effect: Effect) -> CaseError:
+    text = f"{field.name!r} is provided twice, the second time by {effect.type!r}; keep one"
+    return CaseError(text, "effects")
 
 
 class MissingFieldError(CaseError):

@@ -17,8 +17,8 @@ from tribo.core.contact import (
     Residuals,
     WearCompliance,
 )
-from tribo.core.errors import BadValues, PluginError
-from tribo.core.fields import ContactConditions, LocalConditions, WearRate
+from tribo.core.errors import BadValues, CaseError, PluginError
+from tribo.core.fields import ContactConditions, Field, LocalConditions, WearRate
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.effects.effect import Effect
@@ -52,6 +52,29 @@ class GuardedSurface(Guard[Surface]):
             self.curvature = float(along), float(across)
 
 
+def _initial_state(
+    who: GuardedLaw | GuardedEffect, fields: Sequence[Field], given: object
+) -> dict[str, float]:
+    """Return the initial value of each state field, in the order in which they are declared.
+
+    Raises
+    ------
+    PluginError
+        If these are not the fields, or beyond their limits.
+    """
+    declared = {field.name: field for field in fields}
+    if not isinstance(given, Mapping) or set(given) != set(declared):
+        raise PluginError(
+            f"{who} declares the state fields {sorted(declared)}, but starts with {given!r:.80}"
+        )
+    first = {}
+    for name, field in declared.items():
+        first[name] = who.number(f"an initial {name!r}", given[name])
+        if outside := field.outside(first[name], first[name]):
+            raise BadValues(f"{who} gave an initial {name!r} that is {outside}")
+    return first
+
+
 class GuardedLaw(Guard[WearLaw]):
     """A wear law that suits its body, and the initial values of its state fields.
 
@@ -69,16 +92,7 @@ class GuardedLaw(Guard[WearLaw]):
         self.requires = law.requires
         self.state_fields = law.state_fields
         self.ask(law.check, material)
-        given = self.ask(law.initial_state)
-        declared = {field.name for field in law.state_fields}
-        if not isinstance(given, Mapping) or set(given) != declared:
-            raise PluginError(
-                f"{self} declares the state fields {sorted(declared)}, but starts with "
-                f"{given!r:.80}"
-            )
-        self.initial_state = {
-            name: self.number(f"an initial {name!r}", value) for name, value in given.items()
-        }
+        self.initial_state = _initial_state(self, law.state_fields, self.ask(law.initial_state))
 
     def rate(self, local: LocalConditions) -> WearRate:
         """Return the law's rate at the shape of the pressure, its slope not negative.
@@ -133,12 +147,28 @@ class GuardedLaw(Guard[WearLaw]):
 
 
 class GuardedEffect(Guard[Effect]):
-    """An effect whose fields are finite, within their limits and there for each body."""
+    """An effect whose fields are finite, within their limits and there for each body.
 
-    def __init__(self, effect: Effect) -> None:
+    Raises
+    ------
+    CaseError
+        If none of `bodies` is the one that its state is to lie on.
+    PluginError
+        If its state is not as it declares it.
+    """
+
+    def __init__(self, effect: Effect, bodies: Sequence[str] = ()) -> None:
         super().__init__(effect)
         self.requires = effect.requires
         self.provides = effect.provides
+        self.state_fields = tuple(effect.state_fields)
+        self.carrier = self.ask(effect.carrier)
+        if self.carrier is not None and self.carrier not in bodies:
+            raise CaseError(
+                f"{self} lies on {self.carrier!r}; the bodies are {', '.join(bodies)}", "effects"
+            )
+        given = self.ask(effect.initial_state)
+        self.initial_state = _initial_state(self, self.state_fields, given)
 
     def fields(self, contact: ContactConditions) -> dict[str, dict[str, Array]]:
         """Return each provided field for each body, shape (nx, ny).
@@ -167,6 +197,28 @@ class GuardedEffect(Guard[Effect]):
                 if outside := field.outside(low, high):
                     raise BadValues(f"{self} gave {what} that is {outside}")
                 found[field.name][body] = array
+        return found
+
+    def state_rates(self, contact: ContactConditions) -> dict[str, Array]:
+        """Return the change of each state field per second, (nx, ny), or (1, 1) if uniform.
+
+        Raises
+        ------
+        BadValues
+            If one is not finite, or of another shape.
+        PluginError
+            If one is missing.
+        """
+        answer = self.ask(self.component.state_rates, contact)
+        if not isinstance(answer, Mapping):
+            raise self.wrong(answer, "as rates of its state")
+        found = {}
+        for field in self.state_fields:
+            if field.name not in answer:
+                raise PluginError(f"{self} gave no rate for its state field {field.name!r}")
+            shape = (1, 1) if field.uniform else contact.pressure.shape
+            what = f"a rate of {field.name!r}"
+            found[field.name] = self.field(what, answer[field.name], shape, spread=True)[0]
         return found
 
 

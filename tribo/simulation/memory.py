@@ -33,6 +33,7 @@ def memory_needed(case: Case, exposures: Exposures, *, plastic: bool) -> float:
     """
     fields = sum(len(body.wear.state_fields) for body in case.bodies.values() if body.wear)
     fields += len(case.bodies) * sum(len(effect.provides) for effect in case.effects)
+    fields += sum(len(effect.state_fields) for effect in case.effects)
     arrays = FIELDS + FIELDS_IF_PLASTIC * plastic + FIELDS_PER_FIELD * fields
     positions = max(len(exposure.starts or (0,)) for exposure in exposures.values())
     if positions > 1:
@@ -46,6 +47,7 @@ def size_of_fields(case: Case, exposures: Exposures) -> float:
     """Return the size of all fields that a result keeps, before they are compressed, in bytes."""
     bodies = case.bodies.values()
     states = {field for body in bodies if body.wear for field in body.wear.state_fields}
+    states |= {field for effect in case.effects for field in effect.state_fields}
     effects = sum(len(effect.provides) for effect in case.effects)
     # The pressure, and for each body wear, plastic depth and what its models keep.
     each = 1 + len(bodies) * (2 + effects + len(states))

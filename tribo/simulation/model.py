@@ -13,7 +13,7 @@ from tribo.case import Body, Case
 from tribo.contact.solver import ContactSolver
 from tribo.core.arrays import Array, laid_from, readonly, rows_from
 from tribo.core.contact import ContactSystem
-from tribo.core.fields import PLACE_X, PLACE_Y
+from tribo.core.fields import PLACE_X, PLACE_Y, Field
 from tribo.core.grid import Grid
 from tribo.core.loads import Loads
 from tribo.core.measures import between_cells
@@ -103,6 +103,27 @@ class Model:
     def gap(self) -> Array:
         """Initial gap in the middle of the cycle, shape (nx, ny), in m."""
         return self.gaps[len(self.gaps) // 2]
+
+    @cached_property
+    def between(self) -> Mapping[str, tuple[GuardedEffect, Field]]:
+        """The state fields of the effects, by name, each with its effect."""
+        return {f.name: (effect, f) for effect in self.effects for f in effect.state_fields}
+
+    @cached_property
+    def required(self) -> frozenset[str]:
+        """Names of the fields that laws and effects need."""
+        of_laws = (name for law in self.laws.values() for name in law.requires)
+        return frozenset((*of_laws, *(n for effect in self.effects for n in effect.requires)))
+
+    def kept_on(self, body: str | None) -> tuple[Field, ...]:
+        """Return the state fields on a body's surface; None for those of the contact as a whole."""
+        law = self.laws.get(body) if body is not None else None
+        carried = (
+            field
+            for effect, field in self.between.values()
+            if (None if field.uniform else effect.carrier) == body
+        )
+        return (*(law.state_fields if law else ()), *carried)
 
     @property
     def load(self) -> float:

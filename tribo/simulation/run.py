@@ -277,7 +277,7 @@ class Simulation:
                     density=body.material.density,
                     height=model.under(name, model.surfaces[name].height, len(model.cycle) // 2),
                     rows=model.exposures[name].rows,
-                    state_fields=() if body.wear is None else tuple(body.wear.state_fields),
+                    state_fields=model.kept_on(name),
                     rough=name in model.rough,
                 )
                 for name, body in model.bodies.items()
@@ -287,6 +287,7 @@ class Simulation:
             case=model.data,
             provenance=made,
             effect_fields=tuple(f for effect in model.effects for f in effect.provides),
+            between_fields=model.kept_on(None),
             resumed_from=resumed_from,
             wall_time=wall_time,
         )

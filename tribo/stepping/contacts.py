@@ -16,6 +16,8 @@ from tribo.stepping.linear_wear import LinearWear
 if TYPE_CHECKING:
     from tribo.simulation.model import Model
 
+NUDGE = 1e-4
+"""Part of the pressure by which it is varied to find what a wear rate makes of it."""
 MIRRORED = 1e-12
 """Relative difference below which two positions mirror each other: rounding."""
 
@@ -54,6 +56,23 @@ def solve_cycle(
     one_side = None if coupling is None else _one_side(coupling, half)
     *left, middle = model.solver.solve_cycle(problems[:half], starts[:half], one_side)
     return [*left, _symmetric(middle), *map(_mirrored, reversed(left))]
+
+
+def in_stripes(
+    contacts: Sequence[ContactSolution],
+) -> tuple[list[ContactSolution], list[Array]]:
+    """Return contacts with pressures varied up and down from row to row, and by how much, in Pa.
+
+    It is the mode that grows first, under the same load.
+    """
+    stripes = [NUDGE * contact.pressure for contact in contacts]
+    for each in stripes:
+        each[:, ::2] *= -1
+    nudged = [
+        replace(contact, pressure=readonly(contact.pressure + each))
+        for contact, each in zip(contacts, stripes, strict=True)
+    ]
+    return nudged, stripes
 
 
 def solved(contacts: Sequence[ContactSolution]) -> int:

@@ -14,17 +14,18 @@ from tribo.core.errors import CaseError
 from tribo.core.fields import WearRate
 from tribo.core.state import State
 from tribo.core.units import Quantity
-from tribo.stepping.contacts import solve_cycle, solved
+from tribo.stepping.contacts import in_stripes, solve_cycle, solved
+from tribo.stepping.evolution import Course, course
 from tribo.stepping.invariants import wear_balance
 from tribo.stepping.linear_wear import wear_compliance
+from tribo.stepping.memory import remembered
 from tribo.stepping.quadrature import with_missed
-from tribo.stepping.rates import CycleRates, Moment, law_states, wear_rates
+from tribo.stepping.rates import CycleRates, Moment, wear_rates
 from tribo.stepping.scheme import Scheme
 from tribo.stepping.step import (
     accepted,
     distance_until,
     geometry,
-    law_states_after,
     moment_after,
     rested,
     rests,
@@ -37,8 +38,6 @@ if TYPE_CHECKING:
     from tribo.simulation.model import Model
 
 MOST_STEPS = 1e8
-NUDGE = 1e-4
-"""Part of the pressure by which it is varied to find what a wear rate makes of it."""
 PLACE = "stepping.time_step"
 
 
@@ -102,15 +101,19 @@ class Explicit(Scheme):
     def step(self, model: Model, state: State, increment: float, time: float) -> State:
         """Return the state after one forward Euler step; see `Scheme.step`."""
         moment = moment_after(state, increment, time)
-        rates = rated(model, state, moment).rates
-        worn = worn_depths(model, rates, increment)
-        law = law_states_after(model, law_states(state), rates, increment)
-        bodies = with_missed(model, worn_bodies(state, worn, law), rates, increment)
+        slid = Course(rated(model, state, moment).rates, remembered(state))
+        if slid.memory.values:
+            slid = course(model, slid.memory, state.contacts, increment, moment)
+        rates, worn = slid.rates, worn_depths(model, slid.rates, increment)
+        bodies = with_missed(model, worn_bodies(state, worn, slid.memory), rates, increment)
         gaps = [geometry(model, bodies, position) for position in range(len(model.cycle))]
         loads = model.loads.before(time)
         contacts = solve_cycle(model, gaps, loads, _extrapolated(state))
         kept = replace(
-            state, rates=(), invariants=wear_balance(model, worn, rates, increment, state)
+            state,
+            rates=(),
+            between=slid.memory.between,
+            invariants=wear_balance(model, worn, rates, increment, state),
         )
         iterations = sum(contact.iterations for contact in contacts)
         return accepted(model, kept, bodies, contacts, loads, moment, solved(contacts), iterations)
@@ -152,7 +155,7 @@ def rated(model: Model, state: State, moment: Moment) -> State:
     """Return `state` with the rates of its contact, asked for unless it has them."""
     if state.rates:
         return state
-    return replace(state, rates=wear_rates(model, state.contacts, law_states(state), moment))
+    return replace(state, rates=wear_rates(model, state.contacts, remembered(state), moment))
 
 
 def largest_stable_increment(model: Model, state: State, moment: Moment) -> float | None:
@@ -185,22 +188,12 @@ def _steepest(model: Model, rates: Mapping[str, WearRate], contact: ContactSolut
 
 
 def _steepened(model: Model, state: State, rates: CycleRates, moment: Moment) -> CycleRates:
-    """Return `rates` with the derivative in all, where laws follow the fields of effects.
-
-    The pressure is varied in stripes, up and down from row to row: the mode
-    that grows first, under the same load.
-    """
+    """Return `rates` with the derivative in all, where laws follow the fields of effects."""
     following = [name for name, law in model.laws.items() if law.requires]
     if not model.effects or not following:
         return rates
-    stripes = [NUDGE * contact.pressure for contact in state.contacts]
-    for each in stripes:
-        each[:, ::2] *= -1
-    nudged = [
-        replace(contact, pressure=contact.pressure + each)
-        for contact, each in zip(state.contacts, stripes, strict=True)
-    ]
-    others = wear_rates(model, nudged, law_states(state), moment)
+    nudged, stripes = in_stripes(state.contacts)
+    others = wear_rates(model, nudged, remembered(state), moment)
     steeper = []
     for at, other, each in zip(rates, others, stripes, strict=True):
         steeper.append(dict(at))

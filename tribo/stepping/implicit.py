@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 import numpy as np
@@ -16,10 +17,12 @@ from tribo.core.errors import BadValues, NumericalError, PluginError
 from tribo.core.state import State
 from tribo.core.units import Quantity
 from tribo.stepping.contacts import solve_cycle, solved
+from tribo.stepping.evolution import Course, course, sloped
 from tribo.stepping.invariants import wear_balance
 from tribo.stepping.linear_wear import linear_wear
+from tribo.stepping.memory import remembered
 from tribo.stepping.quadrature import with_missed
-from tribo.stepping.rates import CycleRates, LawStates, Moment, law_states, wear_rates
+from tribo.stepping.rates import Moment, wear_rates
 from tribo.stepping.repeated import check_repeatable
 from tribo.stepping.scheme import Scheme
 from tribo.stepping.step import (
@@ -27,7 +30,6 @@ from tribo.stepping.step import (
     accepted,
     distance_until,
     geometry,
-    law_states_after,
     load_changes,
     lost,
     moment_after,
@@ -94,14 +96,13 @@ class Errors:
 class Guess:
     """What a step would wear if its contacts were these.
 
-    `worn` and `law` have the depth and the state of the law by body, on the body's surface;
-    `depths` what they add to the gap at each position, shape (positions, nx, ny), in m.
+    `worn` has the depth by body, on the body's surface; `depths` what it adds to the gap at each
+    position, shape (positions, nx, ny), in m.
     """
 
     contacts: Sequence[ContactSolution]
-    rates: CycleRates
+    course: Course
     worn: Mapping[str, Array]
-    law: LawStates
     depths: Array
 
 
@@ -211,15 +212,17 @@ class Implicit(Scheme):
         tolerance = self.cycle_tolerance if resolved else self.nonlinear_tolerance
         base = np.stack([geometry(model, state.bodies, m) for m in range(len(model.cycle))])
         dx = model.grid.spacing[0]
-        before = law_states(state)
-        rates = state.rates or wear_rates(model, state.contacts, before, moment)
-        guess = _guess(model, before, state.contacts, rates, increment)
+        before = remembered(state)
+        slide = partial(course, model, before, increment=increment, moment=moment)
+        slid = Course(state.rates, before) if state.rates else slide(contacts=state.contacts)
+        guess = _guess(model, state.contacts, slid, increment)
         loads = model.loads.mean(state.time, time)
         heavier = loads[0] / model.loads.after(state.time)[0]
         forward = {name: heavier * depth for name, depth in guess.worn.items()}
-        law, passes, solves, iterations = before, 0, 0, 0
+        passes = solves = iterations = 0
         while True:
-            wear = linear_wear(model, guess.rates, guess.contacts, increment)
+            rates = sloped(model, before, guess.contacts, increment, moment, guess.course)
+            wear = linear_wear(model, rates, guess.contacts, increment)
             # Of what is worn, the part that is not linear in the pressures.
             beyond = guess.depths - wear.depths(guess.contacts, dx)
             try:
@@ -231,33 +234,26 @@ class Implicit(Scheme):
             implied = beyond + wear.depths(contacts, dx)
             passes, solves = passes + 1, solves + solved(contacts)
             iterations += sum(contact.iterations for contact in contacts)
-            law = guess.law
-            for _ in range(2):
-                rates = wear_rates(model, contacts, law, moment)
-                guess = _guess(model, before, contacts, rates, increment)
-                off = np.abs(guess.depths - implied)
-                mismatch = _loaded_mean(model, contacts, off) if resolved else _largest(off)
-                drift = _largest_change(law, guess.law)
-                met = mismatch <= tolerance * _largest(guess.depths)
-                if not met or drift <= tolerance:
-                    break
-                # The law may wear the same at the state it has now come to: no solve then.
-                law = guess.law
-            if met and drift <= tolerance:
+            slid = slide(contacts=contacts, parts=guess.course.parts)
+            guess = _guess(model, contacts, slid, increment)
+            off = np.abs(guess.depths - implied)
+            mismatch = _loaded_mean(model, contacts, off) if resolved else _largest(off)
+            if mismatch <= tolerance * _largest(guess.depths):
                 break
             if passes == self.max_passes:
                 raise StepRejected(
                     f"the implicit step of {increment:.3g} m at {state.distance:.6g} m did not "
-                    f"converge in {passes} passes: wear depth still off by {mismatch:.2g} m, the "
-                    f"state of a law by {drift:.2g} of its largest; raise stepping.max_passes or "
-                    "lower stepping.pressure_tolerance"
+                    f"converge in {passes} passes: wear depth still off by {mismatch:.2g} m; "
+                    "raise stepping.max_passes or lower stepping.pressure_tolerance"
                 )
-        bodies = worn_bodies(state, guess.worn, guess.law)
-        bodies = with_missed(model, bodies, rates, increment)
+        rates, memory = guess.course.rates, guess.course.memory
+        bodies = with_missed(model, worn_bodies(state, guess.worn, memory), rates, increment)
         # Set first: settling a groove leaves the pressure that these rates belong to.
         kept = replace(
             state,
-            rates=rates,
+            # What is remembered changes them along a step.
+            rates=() if memory.values else rates,
+            between=memory.between,
             invariants=wear_balance(model, guess.worn, rates, increment, state),
         )
         after = accepted(model, kept, bodies, contacts, loads, moment, solves, iterations)
@@ -324,22 +320,17 @@ def _fitted(natural: float, remaining: float, last: float) -> float:
 
 
 def _guess(
-    model: Model,
-    before: LawStates,
-    contacts: Sequence[ContactSolution],
-    rates: CycleRates,
-    increment: float,
+    model: Model, contacts: Sequence[ContactSolution], slid: Course, increment: float
 ) -> Guess:
-    worn = worn_depths(model, rates, increment)
-    law = law_states_after(model, before, rates, increment)
+    worn = worn_depths(model, slid.rates, increment)
     depths = np.stack([lost(model, worn, position) for position in range(len(contacts))])
-    return Guess(contacts, rates, worn, law, depths)
+    return Guess(contacts, slid, worn, depths)
 
 
 def _first_increment(model: Model, state: State, remaining: float) -> float:
     """Return a first increment that wears a small part of the elastic approach, in m."""
     moment = Moment(state.time, state.distance, remaining / (model.end_time - state.time))
-    rates = wear_rates(model, state.contacts, law_states(state), moment)
+    rates = wear_rates(model, state.contacts, remembered(state), moment)
     fastest = _largest(rate.depth_rate for of_bodies in rates for rate in of_bodies.values())
     first = FIRST * state.reference_depth / fastest if fastest > 0 else 0.0
     # Two flats that repeat have no approach but rounding, and wear evenly.
@@ -369,14 +360,3 @@ def _loaded_mean(model: Model, contacts: Sequence[ContactSolution], arrays: Arra
         weighed += position.share * float(np.sum(contact.pressure * array))
         load += position.share * float(np.sum(contact.pressure))
     return weighed / load
-
-
-def _largest_change(old: LawStates, new: LawStates) -> float:
-    """Return by how much state fields differ, relative to the largest of each."""
-    changes = [0.0]
-    for name, fields in new.items():
-        for field, values in fields.items():
-            size = float(np.max(np.abs(values)))
-            if size > 0:
-                changes.append(float(np.max(np.abs(values - old[name][field]))) / size)
-    return max(changes)

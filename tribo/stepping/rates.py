@@ -13,14 +13,18 @@ from tribo.core.box import around_region, whole
 from tribo.core.contact import ContactSolution
 from tribo.core.fields import (
     FRICTION_COEFFICIENT,
+    PLACE_X,
+    PLACE_Y,
     ContactConditions,
     LocalConditions,
     WearRate,
 )
 from tribo.core.state import State
 from tribo.motion.cycle import Speeds
+from tribo.stepping.memory import Memory, fields_of, in_window, laid, remembered, under
 
 if TYPE_CHECKING:
+    from tribo.simulation.guards import GuardedEffect
     from tribo.simulation.model import Model
 
 # Cells around the contact where laws are asked too: what a step may newly touch.
@@ -28,7 +32,6 @@ MARGIN = 8
 FINE = 0.1
 """Relative speed between two at which laws are asked, where rows have their own."""
 
-LawStates = Mapping[str, Mapping[str, Array]]
 CycleRates = Sequence[Mapping[str, WearRate]]
 """Rates in the contact frame, by position of a cycle and body."""
 
@@ -45,13 +48,16 @@ class Moment:
     speed: float
 
 
-def law_states(state: State) -> LawStates:
-    """Return the state fields of each body's law."""
-    return {name: body.law for name, body in state.bodies.items()}
+@dataclass(frozen=True)
+class Rates:
+    """Rates per metre in the contact frame, at a position: of wear by body, of effects by field."""
+
+    wear: Mapping[str, WearRate]
+    between: Mapping[str, Array]
 
 
 def wear_rates(
-    model: Model, contacts: Sequence[ContactSolution], law_states: LawStates, moment: Moment
+    model: Model, contacts: Sequence[ContactSolution], memory: Memory, moment: Moment
 ) -> CycleRates:
     """Return the rate of every body that wears, in the contact frame, at each position.
 
@@ -61,36 +67,60 @@ def wear_rates(
         The composed case.
     contacts : sequence of ContactSolution
         The contact at each position of a cycle.
-    law_states : Mapping[str, Mapping[str, ndarray]]
-        State fields of each body's law, on the body's surface.
+    memory : Memory
+        What laws and effects remember.
     moment : Moment
         When.
     """
-    return tuple(
-        _rates_at(model, position, contact, law_states, moment)
+    return tuple(rates.wear for rates in rates_at_each(model, contacts, memory, moment))
+
+
+def rates_at_each(
+    model: Model, contacts: Sequence[ContactSolution], memory: Memory, moment: Moment
+) -> list[Rates]:
+    """Return the rates of bodies and effects at each position, as `wear_rates`."""
+    return [
+        _rates_at(model, position, contact, under(model, memory, position), moment)
         for position, contact in enumerate(contacts)
-    )
+    ]
+
+
+def resting_rates(
+    model: Model, contacts: Sequence[ContactSolution], memory: Memory, moment: Moment
+) -> dict[str, Array]:
+    """Return what effects change per second while nothing slides, where each state lies.
+
+    Nobody knows at which position it rests; it is the mean over the cycle.
+    """
+    total: dict[str, Array] = {}
+    for position, contact in enumerate(contacts):
+        here = under(model, memory, position)
+        still = dict.fromkeys(model.bodies, readonly(np.zeros(model.grid.cells)))
+        fields = local_fields(model, contact.pressure, moment, position, here)
+        changes = _changes(model, contact, moment, here, fields, still)
+        for key, rate in changes.items():
+            part = model.cycle[position].share * laid(model, key, rate, position)
+            total[key] = total[key] + part if key in total else part
+    return total
 
 
 def _rates_at(
-    model: Model, position: int, contact: ContactSolution, law_states: LawStates, moment: Moment
-) -> dict[str, WearRate]:
+    model: Model, position: int, contact: ContactSolution, memory: Memory, moment: Moment
+) -> Rates:
     """Return the rates at a position per metre of the motion: the mean over its speeds."""
-    under = {
-        name: {field: model.under(name, values, position) for field, values in of.items()}
-        for name, of in law_states.items()
-        if of
-    }
     place = model.cycle[position]
-    rates: dict[str, WearRate] = {}
+    wear: dict[str, WearRate] = {}
+    between: dict[str, Array] = {}
     speeds = place.speeds or [(moment.speed, 1.0)]
     weighed = speeds if place.reach is None else _by_row(speeds, place.reach)
     for speed, share in weighed:
-        at_speed = _rates_of(model, position, contact, under, replace(moment, speed=speed))
-        for name, rate in at_speed.items():
+        at_speed = _rates_of(model, position, contact, memory, replace(moment, speed=speed))
+        for name, rate in at_speed.wear.items():
             part = rate if np.ndim(share) == 0 and share == 1 else _times(share, rate)
-            rates[name] = _sum(rates[name], part) if name in rates else part
-    return rates
+            wear[name] = _sum(wear[name], part) if name in wear else part
+        for key, change in at_speed.between.items():
+            between[key] = between.get(key, 0.0) + share * change
+    return Rates(wear, between)
 
 
 def _by_row(speeds: Speeds, reach: Array) -> list[tuple[float, Array]]:
@@ -119,11 +149,11 @@ def _sum(one: WearRate, other: WearRate) -> WearRate:
 
 
 def _rates_of(
-    model: Model, position: int, contact: ContactSolution, law_states: LawStates, moment: Moment
-) -> dict[str, WearRate]:
-    """Return the rate of each law for what lies in the window, at the speed of `moment`."""
+    model: Model, position: int, contact: ContactSolution, memory: Memory, moment: Moment
+) -> Rates:
+    """Return the rate of each law and effect for the window, at the speed of `moment`."""
     pressure = readonly(contact.pressure)
-    fields = local_fields(model, pressure, moment, position)
+    fields = local_fields(model, pressure, moment, position, memory)
     near = around_region(contact.extent, model.grid.cells, MARGIN)
     rates = {}
     for name, law in model.laws.items():
@@ -139,14 +169,38 @@ def _rates_of(
                 fields={field: fields[field][name][part] for field in law.requires},
                 state={
                     field: np.broadcast_to(values, pressure.shape)[part]
-                    for field, values in law_states.get(name, {}).items()
+                    for field, values in memory.laws.get(name, {}).items()
                 },
             )
         )
         if not box.is_window:
             rate = WearRate(box.embed(rate.depth_rate), box.embed(rate.depth_slope))
         rates[name] = rate
-    return rates
+    if not memory.between:
+        return Rates(rates, {})
+    depths = {name: readonly(rate.depth_rate) for name, rate in rates.items()}
+    still = readonly(np.zeros(model.grid.cells))
+    depths = {name: depths.get(name, still) for name in model.bodies}
+    changes = _changes(model, contact, moment, memory, fields, depths)
+    slid = moment.speed if moment.speed > 0 else np.inf
+    return Rates(rates, {key: change / slid for key, change in changes.items()})
+
+
+def _changes(
+    model: Model,
+    contact: ContactSolution,
+    moment: Moment,
+    memory: Memory,
+    fields: Mapping[str, Mapping[str, Array]],
+    depths: Mapping[str, Array],
+) -> dict[str, Array]:
+    """Return by how much each state of an effect changes per second, in the window."""
+    changes: dict[str, Array] = {}
+    for effect in model.effects:
+        if effect.initial_state:
+            given = _conditions(model, contact.pressure, moment, fields, effect, memory)
+            changes |= effect.state_rates(replace(given, wear_rates=depths))
+    return changes
 
 
 def effect_fields(model: Model, state: State) -> dict[str, dict[str, Array]]:
@@ -157,30 +211,50 @@ def effect_fields(model: Model, state: State) -> dict[str, dict[str, Array]]:
     speed = state.speed if here is None else 1 / sum(share / v for v, share in here)
     middle = len(model.cycle) // 2
     moment = Moment(state.time, state.distance, speed)
-    fields = local_fields(model, state.contact.pressure, moment, middle)
+    memory = under(model, remembered(state), middle)
+    fields = local_fields(model, state.contact.pressure, moment, middle, memory)
     return {field.name: fields[field.name] for e in model.effects for field in e.provides}
 
 
 def local_fields(
-    model: Model, pressure: Array, moment: Moment, position: int
+    model: Model, pressure: Array, moment: Moment, position: int, memory: Memory
 ) -> dict[str, dict[str, Array]]:
-    """Return what the effects and the case provide at a position, by field and body, (nx, ny)."""
-    fields = model.places(position)
+    """Return what the effects and the case provide at a position, by field and body, (nx, ny).
+
+    `memory` is that of the window at this position; what is remembered is among the fields.
+    """
+    fields = fields_of(model, memory)
+    if model.required & {PLACE_X.name, PLACE_Y.name}:
+        fields |= model.places(position)
     friction = model.friction_coefficient
     if friction is not None:
         uniform = readonly(np.full(pressure.shape, friction))
         fields[FRICTION_COEFFICIENT.name] = dict.fromkeys(model.bodies, uniform)
     for effect in model.effects:
-        conditions = ContactConditions(
-            grid=model.grid,
-            pressure=readonly(pressure),
-            speed=moment.speed,
-            time=moment.time,
-            distance=moment.distance,
-            friction_coefficient=friction,
-            materials=dict(model.system.materials),
-            swept=model.swept,
-            fields={name: dict(of_bodies) for name, of_bodies in fields.items()},
-        )
-        fields |= effect.fields(conditions)
+        if effect.provides:
+            conditions = _conditions(model, pressure, moment, fields, effect, memory)
+            fields |= effect.fields(conditions)
     return fields
+
+
+def _conditions(
+    model: Model,
+    pressure: Array,
+    moment: Moment,
+    fields: Mapping[str, Mapping[str, Array]],
+    effect: GuardedEffect,
+    memory: Memory,
+) -> ContactConditions:
+    """Return what an effect is told of the window."""
+    return ContactConditions(
+        grid=model.grid,
+        pressure=readonly(pressure),
+        speed=moment.speed,
+        time=moment.time,
+        distance=moment.distance,
+        friction_coefficient=model.friction_coefficient,
+        materials=dict(model.system.materials),
+        swept=model.swept,
+        fields={name: dict(of_bodies) for name, of_bodies in fields.items()},
+        state={key: in_window(model, key, memory.between[key]) for key in effect.initial_state},
+    )

@@ -10,7 +10,8 @@ import numpy as np
 from tribo.core.arrays import Array
 from tribo.core.errors import PluginError
 from tribo.core.state import State
-from tribo.stepping.rates import Moment, law_states, local_fields, wear_rates
+from tribo.stepping.memory import remembered, under
+from tribo.stepping.rates import Moment, local_fields, rates_at_each
 
 if TYPE_CHECKING:
     from tribo.simulation.model import Model
@@ -36,11 +37,15 @@ def check_repeatable(model: Model, state: State) -> None:
 
 def _answers(model: Model, state: State, moment: Moment) -> Iterator[tuple[Any, Array]]:
     """Yield each array that the effects, and then the laws, answer at `state`, with who did."""
-    fields = local_fields(model, state.contact.pressure, moment, len(model.cycle) // 2)
+    middle, memory = len(model.cycle) // 2, remembered(state)
+    here = under(model, memory, middle)
+    fields = local_fields(model, state.contact.pressure, moment, middle, here)
     for effect in model.effects:
         for field in effect.provides:
             yield from ((effect, values) for values in fields[field.name].values())
-    for of_bodies in wear_rates(model, state.contacts, law_states(state), moment):
-        for name, rate in of_bodies.items():
+    for rates in rates_at_each(model, state.contacts, memory, moment):
+        for name, rate in rates.wear.items():
             for values in (rate.depth_rate, rate.depth_slope, *rate.state_rates.values()):
                 yield model.laws[name], values
+        for key, values in rates.between.items():
+            yield model.between[key][0], values

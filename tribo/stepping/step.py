@@ -16,8 +16,10 @@ from tribo.core.loads import ByPosition
 from tribo.core.measures import Invariants, reaches_border
 from tribo.core.state import BodyState, State
 from tribo.stepping.contacts import solve, solve_cycle, solved
+from tribo.stepping.evolution import rested_memory
 from tribo.stepping.invariants import ONE_LOAD
-from tribo.stepping.rates import CycleRates, LawStates, Moment
+from tribo.stepping.memory import Memory, first_memory
+from tribo.stepping.rates import CycleRates, Moment
 
 if TYPE_CHECKING:
     from tribo.simulation.model import Model
@@ -75,6 +77,7 @@ def first_contact(model: Model, worn: Mapping[str, BodyState] | None = None) -> 
         # The approach counts from the lowest point of unworn bodies.
         reference_depth=contacts[middle].approach - float(np.min(gaps[middle])),
         load_distance=0.0,
+        between=first_memory(model),
         contact_solves=len(solved),
         solver_iterations=sum(contact.iterations for contact in solved.values()),
     )
@@ -138,7 +141,10 @@ def rested(model: Model, state: State, time: float) -> State:
     loads = model.loads.before(time)
     if loads != model.loads.before(state.time):
         state = _under(model, state, loads)
-    return replace(state, time=time, steps=state.steps + 1, invariants=Invariants())
+    between = rested_memory(model, state, time).between
+    return replace(
+        state, time=time, between=between, steps=state.steps + 1, invariants=Invariants()
+    )
 
 
 def worn_depths(
@@ -166,24 +172,11 @@ def lost(model: Model, worn: Mapping[str, Array], position: int) -> Array:
     return depth
 
 
-def law_states_after(
-    model: Model, before: LawStates, rates: CycleRates, increment: float
-) -> dict[str, dict[str, Array]]:
-    """Return the state fields of the laws after `increment` (m)."""
-    after = {name: dict(fields) for name, fields in before.items()}
-    for position, of_bodies in enumerate(rates):
-        slid = increment * model.cycle[position].share
-        for name, rate in of_bodies.items():
-            for field, values in rate.state_rates.items():
-                change = slid * model.average(name, values, position)
-                after[name][field] = after[name][field] + change
-    return after
-
-
-def worn_bodies(state: State, worn: Mapping[str, Array], law: LawStates) -> dict[str, BodyState]:
+def worn_bodies(state: State, worn: Mapping[str, Array], memory: Memory) -> dict[str, BodyState]:
     """Return the bodies of `state` after they have lost the depths `worn`, in m."""
+    laws = memory.laws
     return {
-        name: replace(body, wear=body.wear + worn[name], law=law[name]) if name in worn else body
+        name: replace(body, wear=body.wear + worn[name], law=laws[name]) if name in worn else body
         for name, body in state.bodies.items()
     }
 

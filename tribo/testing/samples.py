@@ -122,6 +122,10 @@ def contact_conditions(
     """Return what an effect is told; the second body is swept."""
     pressure = hertz_pressure(GRID)
     known = fields(effect.requires, given, pressure)
+    state = {
+        f.name: np.full((1, 1) if f.uniform else GRID.cells, effect.initial_state()[f.name])
+        for f in effect.state_fields
+    }
     return ContactConditions(
         grid=GRID,
         pressure=pressure,
@@ -132,6 +136,8 @@ def contact_conditions(
         materials=dict.fromkeys(names, STEEL),
         swept=frozenset(names[1:]),
         fields={name: {body: values.copy() for body in names} for name, values in known.items()},
+        state=state,
+        wear_rates=dict.fromkeys(names, 1e-16 * pressure),
     )
 
 
@@ -186,7 +192,7 @@ def run(
     """
     kinematics = kinematics or sliding(3.0)
     known = {FRICTION_COEFFICIENT.name, PLACE_X.name, PLACE_Y.name}
-    known = known.union(*({f.name for f in e.provides} for e in effects))
+    known = known.union(*({f.name for f in (*e.provides, *e.state_fields)} for e in effects))
     averaged = {n for n, e in kinematics.exposures(GRID, BODIES).items() if e.averaged}
     wearing = {*BODIES} - (averaged if PLACE_X.name in law.requires else set())
     needed = sorted({*law.requires}.union(*(e.requires for e in effects)) - known)

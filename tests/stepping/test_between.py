@@ -1,0 +1,207 @@
+"""State of effects: where it lies, its limits, rests, and that it goes on after a stop."""
+
+import json
+from collections.abc import Mapping
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from paper_models import K, archard, flat, foundation, motion, named, small, sphere, states, steel
+from strangers.debris import Covered, Debris
+
+from tribo import CaseError, Effect, Field, Grid, Result, Simulation, WearLaw, WearRate
+from tribo.cli.show import show
+from tribo.core.errors import PluginError
+from tribo.motion.unidirectional import Unidirectional
+from tribo.observers.observer import Observer
+from tribo.stepping.explicit import Explicit
+
+COVERED = Covered(k=K, cover="50 nm")
+WARM = Field("warm", "K", "Temperature of a bath.", uniform=True, at_least=0)
+
+
+class Bath(Effect):
+    """dT/dt = h v − (T − 300 K)/τ."""
+
+    type = "test.bath"
+    time: float = 20.0
+    begin: float = 300.0
+    heats: float = 100.0
+
+    state_fields = (WARM,)
+
+    def initial_state(self):
+        return {"warm": self.begin}
+
+    def state_rates(self, contact):
+        return {"warm": self.heats * contact.speed - (contact.state["warm"] - 300.0) / self.time}
+
+
+class Reads(WearLaw):
+    type = "test.reads_warm"
+    requires = ("warm",)
+
+    def rate(self, local):
+        k = K * local.fields["warm"] / 300
+        return WearRate(k * local.pressure, k)
+
+
+def model(law=COVERED, effects=(), **changes):
+    bodies = [named("ball", sphere(), steel(), law), named("disk", flat(), steel(), law)]
+    return small(
+        **{
+            "grid": Grid((0.7e-3, 0.7e-3), (20, 20)),
+            "bodies": bodies,
+            "contact": foundation(),
+            "kinematics": motion(duration=30),
+            "effects": effects,
+            **changes,
+        }
+    )
+
+
+def test_what_is_uniform_is_one_number_and_relaxes_as_it_should():
+    stages = [
+        {"until": 30, "speed": "0.1 m/s"},
+        {"until": 50, "speed": 0},
+        {"until": 70, "speed": "0.2 m/s"},
+    ]
+    case = model(
+        Reads(),
+        effects=[Bath()],
+        kinematics=Unidirectional(speed=stages, track_length="2 mm", duration=70),
+    )
+    seen = {state.time: state.between["warm"] for state in states(case)}
+    assert {values.shape for values in seen.values()} == {(1, 1)}
+    rise = 0.0
+    for end, speed, span in ((30, 0.1, 30), (50, 0.0, 20), (70, 0.2, 20)):
+        # Heated at a constant speed it tends to h v τ; at rest it cools.
+        rise = 2000 * speed + (rise - 2000 * speed) * np.exp(-span / 20)
+        assert seen[end][0, 0] - 300 == pytest.approx(rise, rel=2e-4)
+
+
+@pytest.mark.parametrize("stepping", ["implicit", "explicit"])
+def test_both_schemes_come_to_the_same(stepping):
+    steps = {"stepping": Explicit(time_step="1 s")} if stepping == "explicit" else {}
+    last = states(model(effects=[Debris(length="0.5 m")], **steps))[-1]
+    middle = last.between["debris_thickness"][10, 10]
+    assert middle == pytest.approx(1.038e-7, rel=0.02, abs=0)
+
+
+def test_on_a_body_that_passes_it_moves_with_it():
+    case = model(
+        effects=[Debris(length="2 mm", on="disk")],
+        kinematics=motion(stroke="0.5 mm", frequency=5, duration=10, positions=9),
+    )
+    last = states(case)[-1]
+    wear, debris = last.bodies["disk"].wear, last.between["debris_thickness"]
+    assert debris.shape == wear.shape
+    assert len(wear) > 20
+    # It mirrors itself about mid-stroke, as the stroke does.
+    np.testing.assert_allclose(debris, debris[::-1], rtol=1e-6, atol=1e-13)
+    assert np.count_nonzero(debris) == np.count_nonzero(wear)
+
+
+class Kill(Observer):
+    type = "test.kill"
+    after: int = 5
+
+    def on_step(self, snapshot):
+        if snapshot.state.steps == self.after:
+            raise KeyboardInterrupt
+
+
+@pytest.mark.parametrize("on", [None, "disk"])
+def test_a_resumed_run_has_the_same_bits(tmp_path, on):
+    case = model(effects=[Debris(length="0.5 m", on=on), Bath()], save_times=(15,)).case
+    with Simulation(case).run() as whole:
+        expected = whole.dataset.load()
+    path = tmp_path / "run.h5"
+    with pytest.raises(BaseException, match="stopped"):
+        Simulation(case).run(path, observers=[Kill()])
+    with Simulation(case).resume(path) as resumed:
+        for name, values in resumed.dataset.data_vars.items():
+            np.testing.assert_array_equal(values, expected[name], err_msg=name)
+
+
+def test_the_result_has_it_without_being_asked(tmp_path):
+    path = tmp_path / "run.h5"
+    Simulation(model(effects=[Debris(length="0.5 m"), Bath()]).case).run(path).close()
+    with Result.open(path) as result:
+        thickness, warm = result.dataset.debris_thickness, result.dataset.warm
+        assert thickness.dims == ("time", "x", "y")
+        assert warm.dims == ("time",)
+        assert thickness.attrs["units"] == "m"
+        assert warm[-1] > warm[0] == 300
+    told = CliRunner().invoke(show, [str(path), "--json"], catch_exceptions=False)
+    last = json.loads(told.output)["saves"][-1]["between"]
+    assert last["debris_thickness_m"]["max"] == pytest.approx(
+        float(thickness[-1].max()), rel=1e-9, abs=0
+    )
+    assert last["warm_K"]["min"] == last["warm_K"]["max"] > 300
+    shown = CliRunner().invoke(show, [str(path)], catch_exceptions=False).output
+    assert "between the bodies warm_K" in shown
+
+
+class Runaway(Effect):
+    type = "test.runaway"
+    state_fields = (Field("left", "1", "Part that is left.", at_least=0, at_most=1),)
+
+    def initial_state(self):
+        return {"left": 1.0}
+
+    def state_rates(self, contact):
+        assert contact.state["left"].min() >= 0, "beyond its limits at a trial"
+        return {"left": np.full((1, 1), -0.1)}
+
+
+def test_a_state_that_leaves_its_limits_ends_the_run_by_name():
+    words = r"'left' of effect 'test\.runaway' goes on beyond its limits of 0 to 1"
+    with pytest.raises(PluginError, match=words):
+        states(model(archard(), effects=[Runaway()]))
+
+
+class Twice(Bath):
+    type = "test.twice"
+
+
+@pytest.mark.parametrize(
+    ("effects", "words"),
+    [
+        ([Debris(length=1, on="pin")], "lies on 'pin'; the bodies are ball, disk"),
+        ([Bath(), Twice()], "'warm' is provided twice"),
+        ([Bath(begin=-1)], "initial 'warm' that is below 0 K"),
+    ],
+)
+def test_a_state_that_cannot_be_is_refused(effects, words):
+    with pytest.raises((CaseError, PluginError), match=words):
+        model(archard(), effects=effects)
+
+
+class Follows(Effect):
+    """Reads what a law remembers."""
+
+    type = "test.follows"
+    requires = ("rubbed",)
+    provides = (Field("rubbed_twice", "m", "Twice that."),)
+
+    def fields(self, contact) -> Mapping:
+        both = contact.fields["rubbed"]
+        assert set(both) == {"ball"}
+        return {"rubbed_twice": dict.fromkeys(contact.materials, 2 * both["ball"])}
+
+
+class Rubbed(WearLaw):
+    type = "test.rubbed"
+    state_fields = (Field("rubbed", "m", "Slid."),)
+
+    def rate(self, local):
+        k = np.full_like(local.pressure, K)
+        return WearRate(k * local.pressure, k, {"rubbed": np.where(local.pressure > 0, 1.0, 0.0)})
+
+
+def test_an_effect_may_require_what_a_law_remembers():
+    bodies = [named("ball", sphere(), steel(), Rubbed()), named("disk", flat(), steel(), archard())]
+    with Simulation(model(bodies=bodies, effects=[Follows()])).run() as result:
+        twice = result.body("disk").effects["rubbed_twice"][-1]
+        assert twice.max() == pytest.approx(2 * result.distances[-1])

@@ -1,0 +1,159 @@
+"""What bodies wear, and what laws and effects come to remember, under contacts that stay."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from tribo.core.arrays import Array
+from tribo.core.contact import ContactSolution
+from tribo.core.fields import Field, WearRate
+from tribo.core.state import State
+from tribo.stepping.contacts import in_stripes
+from tribo.stepping.extrapolation import Limits, Values, integrated
+from tribo.stepping.memory import Memory, laid, remembered
+from tribo.stepping.rates import CycleRates, Moment, rates_at_each, resting_rates, wear_rates
+
+if TYPE_CHECKING:
+    from tribo.simulation.model import Model
+
+
+@dataclass(frozen=True)
+class Course:
+    """An increment under contacts that stay as they are.
+
+    Parameters
+    ----------
+    rates : sequence of Mapping[str, WearRate]
+        Mean rates over it, by position and body; no slopes where something is remembered.
+    memory : Memory
+        What is remembered at its end.
+    parts : tuple of float
+        Parts of the increment in which that is accurate.
+    """
+
+    rates: CycleRates
+    memory: Memory
+    parts: tuple[float, ...] = (1.0,)
+
+
+def course(
+    model: Model,
+    before: Memory,
+    contacts: Sequence[ContactSolution],
+    increment: float,
+    moment: Moment,
+    parts: Sequence[float] = (1.0,),
+    **exact: float,
+) -> Course:
+    """Return what an increment (m) comes to, from what is remembered before it.
+
+    It is divided into `parts`, or finer. Without anything to remember, rates stay as they are.
+    """
+    if not before.values:
+        return Course(wear_rates(model, contacts, before, moment), before)
+    of_model = partial(_rates, model, before, contacts, moment)
+    values, depths, taken = integrated(
+        of_model, before.values, increment, _limits(model, before), parts, **exact
+    )
+    each = iter(depths)
+    mean = [
+        {name: WearRate(np.maximum(next(each), 0.0) / increment) for name in model.laws}
+        for _ in contacts
+    ]
+    return Course(mean, before.with_values(iter(values)), taken)
+
+
+def sloped(
+    model: Model,
+    before: Memory,
+    contacts: Sequence[ContactSolution],
+    increment: float,
+    moment: Moment,
+    known: Course,
+) -> CycleRates:
+    """Return the mean rates of a course with their slopes in pressure, through all that follows it.
+
+    Where nothing presses the slope is that of the law.
+    """
+    if not before.values:
+        return known.rates
+    nudged, stripes = in_stripes(contacts)
+    other = course(model, before, nudged, increment, moment, known.parts, accuracy=np.inf)
+    laws = wear_rates(model, contacts, known.memory, moment)
+    sloped = []
+    for rates, higher, law, stripe in zip(known.rates, other.rates, laws, stripes, strict=True):
+        sloped.append(
+            {
+                name: replace(rate, depth_slope=_slope(rate, higher[name], law[name], stripe))
+                for name, rate in rates.items()
+            }
+        )
+    return sloped
+
+
+def rested_memory(model: Model, state: State, time: float) -> Memory:
+    """Return what is remembered after a rest until `time` (s): what relaxes in time goes on."""
+    before = remembered(state)
+    if not before.between:
+        return before
+    of_effects = partial(resting_rates, model, state.contacts)
+
+    def rates(values: Sequence[Array]) -> Values:
+        memory = Memory(before.laws, dict(zip(before.between, values, strict=True)))
+        return [
+            of_effects(memory, Moment(time, state.distance, 0.0))[key] for key in before.between
+        ]
+
+    limits = _limits(model, Memory({}, before.between))
+    values, _, _ = integrated(rates, [*before.between.values()], time - state.time, limits)
+    return Memory(before.laws, dict(zip(before.between, values, strict=True)))
+
+
+def _rates(
+    model: Model,
+    before: Memory,
+    contacts: Sequence[ContactSolution],
+    moment: Moment,
+    values: Sequence[Array],
+) -> Values:
+    """Return the rates of what is remembered, where it lies, and the depths in the contact."""
+    found = rates_at_each(model, contacts, before.with_values(iter(values)), moment)
+    total: Values = [np.zeros_like(value) for value in values]
+    for position, rates in enumerate(found):
+        share = model.cycle[position].share
+        laws = (
+            model.average(name, rates.wear[name].state_rates[key], position)
+            for name, of_law in before.laws.items()
+            for key in of_law
+        )
+        effects = (laid(model, key, rates.between[key], position) for key in before.between)
+        each = zip(total, (*laws, *effects), strict=True)
+        total = [value + share * rate for value, rate in each]
+    return total + [rate.depth_rate for rates in found for rate in rates.wear.values()]
+
+
+def _slope(rate: WearRate, higher: WearRate, law: WearRate, stripe: Array) -> Array:
+    change = higher.depth_rate - rate.depth_rate
+    slope = np.divide(change, stripe, out=law.depth_slope.copy(), where=stripe != 0)
+    return np.maximum(slope, 0.0)
+
+
+def _limits(model: Model, memory: Memory) -> list[Limits]:
+    """Return the limits of all that is remembered, in the order of `Memory.values`."""
+    found = []
+    for name, of_law in memory.laws.items():
+        declared = {field.name: field for field in model.laws[name].state_fields} if of_law else {}
+        found += [_limits_of(declared[key], f"{model.laws[name]}") for key in of_law]
+    between = (model.between[key] for key in memory.between)
+    return found + [_limits_of(field, f"{effect}") for effect, field in between]
+
+
+def _limits_of(field: Field, who: str) -> Limits:
+    least = -np.inf if field.at_least is None else field.at_least
+    most = np.inf if field.at_most is None else field.at_most
+    return Limits(least, most, f"{field.name!r} of {who}")

@@ -1,0 +1,101 @@
+"""What laws and effects remember, and where it lies."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from tribo.core.arrays import Array, readonly
+from tribo.core.state import State
+
+if TYPE_CHECKING:
+    from tribo.simulation.model import Model
+
+
+@dataclass(frozen=True)
+class Memory:
+    """State fields, by name: those of each body's law, by body, and those of the effects.
+
+    All lie where they belong: on the body's own surface, or in the contact frame.
+    """
+
+    laws: Mapping[str, Mapping[str, Array]]
+    between: Mapping[str, Array]
+
+    @property
+    def values(self) -> list[Array]:
+        """All of them, in a fixed order: those of the laws first."""
+        of_laws = [array for fields in self.laws.values() for array in fields.values()]
+        return [*of_laws, *self.between.values()]
+
+    def with_values(self, values: Iterator[Array]) -> Memory:
+        """Return the same with other arrays, in the order of `values`."""
+        laws = {name: {key: next(values) for key in of} for name, of in self.laws.items()}
+        return Memory(laws, {key: next(values) for key in self.between})
+
+
+def remembered(state: State) -> Memory:
+    """Return what laws and effects remember at `state`."""
+    return Memory({name: body.law for name, body in state.bodies.items()}, state.between)
+
+
+def first_memory(model: Model) -> dict[str, Array]:
+    """Return the state fields of the effects before anything slides."""
+    first = {}
+    for key, (effect, field) in model.between.items():
+        rows, ny = model.grid.cells
+        if effect.carrier is not None:
+            rows = model.exposures[effect.carrier].rows
+        first[key] = np.full((1, 1) if field.uniform else (rows, ny), effect.initial_state[key])
+    return first
+
+
+def under(model: Model, memory: Memory, position: int) -> Memory:
+    """Return what is remembered where the window is, at a position of the cycle."""
+    laws = {
+        name: {key: model.under(name, values, position) for key, values in of.items()}
+        for name, of in memory.laws.items()
+    }
+    between = dict(memory.between)
+    for key, carrier in _carried(model):
+        between[key] = model.under(carrier, between[key], position)
+    return Memory(laws, between)
+
+
+def laid(model: Model, key: str, rate: Array, position: int) -> Array:
+    """Return what a rate in the window adds, by its share, to that of the state of an effect."""
+    effect, field = model.between[key]
+    if field.uniform:
+        return np.asarray(np.mean(rate, keepdims=True))
+    return rate if effect.carrier is None else model.average(effect.carrier, rate, position)
+
+
+def fields_of(model: Model, memory: Memory) -> dict[str, dict[str, Array]]:
+    """Return what of it is required, where the window is, by field and body, shape (nx, ny)."""
+    fields: dict[str, dict[str, Array]] = {}
+    for name, of_law in memory.laws.items():
+        for key in of_law.keys() & model.required:
+            of_body = np.broadcast_to(of_law[key], model.grid.cells)
+            fields.setdefault(key, {})[name] = of_body
+    for key in memory.between.keys() & model.required:
+        everywhere = np.broadcast_to(memory.between[key], model.grid.cells)
+        fields[key] = dict.fromkeys(model.bodies, everywhere)
+    return fields
+
+
+def in_window(model: Model, key: str, values: Array) -> Array:
+    """Return the state of an effect as it is told of it: (nx, ny), or (1, 1) if uniform."""
+    _, field = model.between[key]
+    return readonly(values if field.uniform else np.broadcast_to(values, model.grid.cells))
+
+
+def _carried(model: Model) -> list[tuple[str, str]]:
+    """Return the state fields that lie on a body's surface, each with the body."""
+    return [
+        (key, effect.carrier)
+        for key, (effect, field) in model.between.items()
+        if effect.carrier is not None and not field.uniform
+    ]
