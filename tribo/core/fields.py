@@ -97,8 +97,16 @@ SPEED = Field("speed", "m/s", "Sliding speed.")
 FRICTION_COEFFICIENT = Field(
     "friction_coefficient",
     "1",
-    "Coefficient of friction of the case, uniform.",
+    "Coefficient of friction, of the case or of an effect.",
     at_least=0.0,
+    typical=0.3,
+)
+LOAD_SHARE = Field(
+    "load_share",
+    "1",
+    "Part of the pressure that what lies between the bodies carries; the rest wears them.",
+    at_least=0.0,
+    at_most=1.0,
     typical=0.3,
 )
 PLACE_X = Field(
@@ -179,8 +187,6 @@ class ContactConditions:
         Time at the end of the step, in s.
     distance : float
         Sliding distance at the end of the step, in m.
-    friction_coefficient : float or None
-        Coefficient of friction of the case, if it has one.
     materials : Mapping[str, Material]
         The bodies' materials, by name.
     swept : frozenset of str
@@ -201,7 +207,6 @@ class ContactConditions:
     speed: float
     time: float
     distance: float
-    friction_coefficient: float | None
     materials: Mapping[str, Material]
     swept: frozenset[str]
     fields: Mapping[str, Mapping[str, Array]] = field(default_factory=dict)

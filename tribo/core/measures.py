@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -68,6 +69,8 @@ class Measures:
     bodies: Mapping[str, BodyMeasures]
     invariants: Invariants = field(default_factory=Invariants)
     cycle_error: float = 0.0
+    friction_force: float = math.nan
+    friction_energy: float = math.nan
 
 
 def centre(field: Array) -> float:

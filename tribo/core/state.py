@@ -61,6 +61,8 @@ class State:
         first increments are judged.
     load_distance : float
         Load times sliding distance, summed over the steps, in N m.
+    friction_energy : float
+        Work of friction, summed over the steps, in J; 0 without a coefficient of friction.
     steps, rejected_steps, contact_solves, solver_iterations : int
         Counted from the beginning of the run.
     saves : int
@@ -94,6 +96,7 @@ class State:
     saves: int = 0
     rates: Sequence[Mapping[str, WearRate]] = ()
     between: Mapping[str, Array] = field(default_factory=dict)
+    friction_energy: float = 0.0
     notices: tuple[Notice, ...] = ()
     invariants: Invariants = field(default_factory=Invariants)
     previous: tuple[Array, ...] = ()

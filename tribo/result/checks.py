@@ -52,10 +52,11 @@ _NEVER_NEGATIVE = {
     *("wear_depth", TRACK, "max_wear_depth", "wear_volume", "density"),
     *("plastic_depth", TRACK_PLASTIC),
 }
+_FRICTION = ("friction_force", "friction_energy")
 _LATER = {
     prefix + name
     for prefix in ("", "history_")
-    for name in ("plastic_area", "load", "load_distance", "cycle_error")
+    for name in ("plastic_area", "load", "load_distance", "cycle_error", *_FRICTION)
 } | {*ROUGHNESS, TRACK_PLASTIC}
 """Variables that older files lack, or those without a body that is rough or yields."""
 _LIKE = {STATE: "wear_depth", EFFECT: "wear_depth", TRACK_STATE: TRACK, BETWEEN: "pressure"}
@@ -163,7 +164,7 @@ def check_values(name: str, variable: Variable, values: Array) -> None:
     """Raise ValueError if numbers of a variable are not finite, or cannot be what it means."""
     bare = name.removeprefix("history_")
     sound = np.abs(values) < LARGEST
-    may_lack = {"density", "plastic_area", TRACK, TRACK_PLASTIC, *ROUGHNESS}
+    may_lack = {"density", "plastic_area", *_FRICTION, TRACK, TRACK_PLASTIC, *ROUGHNESS}
     if variable.kind or {name, bare} & may_lack:
         # A body that has none, an effect that failed.
         sound |= np.isnan(values)

@@ -41,6 +41,10 @@ COLUMNS: tuple[Column[Measures], ...] = (
     Column(
         "load_distance", "N m", "Load times path, summed over the run", lambda m: m.load_distance
     ),
+    Column("friction_force", "N", "Friction force, mean over a cycle", lambda m: m.friction_force),
+    Column(
+        "friction_energy", "J", "Work of friction, summed over the run", lambda m: m.friction_energy
+    ),
     Column("max_pressure", "Pa", "Largest contact pressure", lambda m: m.max_pressure),
     Column("centre_pressure", "Pa", "Pressure at the window's centre", lambda m: m.centre_pressure),
     Column(

@@ -56,7 +56,12 @@ def first_state(model: Model) -> State:
     if isnan(load_distance):
         # Older files lack it; their load was constant.
         load_distance = result.system.load * carried["distance_m"]
-    state = replace(first_contact(model, bodies), load_distance=load_distance)
+    energy = carried["friction_energy_J"]
+    state = replace(
+        first_contact(model, bodies),
+        load_distance=load_distance,
+        friction_energy=0.0 if isnan(energy) else energy,
+    )
     return state.with_notice(
         "begin",
         f"the bodies begin as worn as in {begin.result} at {carried['time_s']:g} s; wear depths, "

@@ -18,7 +18,14 @@ from tribo.core.contact import (
     WearCompliance,
 )
 from tribo.core.errors import BadValues, CaseError, PluginError
-from tribo.core.fields import ContactConditions, Field, LocalConditions, WearRate
+from tribo.core.fields import (
+    FRICTION_COEFFICIENT,
+    LOAD_SHARE,
+    ContactConditions,
+    Field,
+    LocalConditions,
+    WearRate,
+)
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.effects.effect import Effect
@@ -28,6 +35,8 @@ from tribo.wear.law import WearLaw
 
 NUDGE = 1e-6
 """Part of the largest pressure by which it is raised to find a slope that a law leaves out."""
+LIMITED = {field.name: field for field in (FRICTION_COEFFICIENT, LOAD_SHARE)}
+"""Fields that a run itself acts on, whose limits are its own."""
 LOAD_BALANCE = 1e-6
 ABOVE_CAP = 1e-6
 
@@ -194,7 +203,7 @@ class GuardedEffect(Guard[Effect]):
                     raise PluginError(f"{self} gave no {what}")
                 shape = contact.pressure.shape
                 array, low, high = self.field(what, values, shape, spread=True)
-                if outside := field.outside(low, high):
+                if outside := LIMITED.get(field.name, field).outside(low, high):
                     raise BadValues(f"{self} gave {what} that is {outside}")
                 found[field.name][body] = array
         return found

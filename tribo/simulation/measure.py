@@ -15,6 +15,7 @@ from tribo.core.measures import (
 from tribo.core.state import State
 from tribo.lab.running_in import contact_roughness
 from tribo.simulation.model import Model
+from tribo.stepping.friction import mean_friction
 from tribo.stepping.quadrature import cycle_error
 
 
@@ -22,6 +23,8 @@ def measure(model: Model, state: State) -> Measures:
     """Return the scalars of `state` that are recorded at every step."""
     pressure = state.contact.pressure
     touched = pressure[state.contact.extent]
+    load = model.loads.over_cycle(model.loads.before(state.time))
+    friction = mean_friction(model, state)
     width, breadth = half_widths(state.contact, model.grid)
     bodies = {
         name: BodyMeasures(
@@ -36,8 +39,10 @@ def measure(model: Model, state: State) -> Measures:
     return Measures(
         time=state.time,
         distance=state.distance,
-        load=model.loads.over_cycle(model.loads.before(state.time)),
+        load=load,
         load_distance=state.load_distance,
+        friction_force=np.nan if friction is None else friction * load,
+        friction_energy=np.nan if friction is None else state.friction_energy,
         max_pressure=float(np.max(touched)),
         centre_pressure=centre(pressure),
         half_width_x=width,

@@ -13,6 +13,7 @@ from tribo.core.box import around_region, whole
 from tribo.core.contact import ContactSolution
 from tribo.core.fields import (
     FRICTION_COEFFICIENT,
+    LOAD_SHARE,
     PLACE_X,
     PLACE_Y,
     ContactConditions,
@@ -156,14 +157,16 @@ def _rates_of(
     fields = local_fields(model, pressure, moment, position, memory)
     near = around_region(contact.extent, model.grid.cells, MARGIN)
     rates = {}
+    shares = fields.get(LOAD_SHARE.name)
     for name, law in model.laws.items():
         # A law is pointwise, so it need not be asked where nothing touches; its state
         # fields, though, may change there.
         box = whole(model.grid.cells) if law.state_fields else near
         part = box.slices
+        solid = None if shares is None else readonly(1.0 - shares[name][part])
         rate = law.rate(
             LocalConditions(
-                pressure=pressure[part],
+                pressure=pressure[part] if solid is None else readonly(solid * pressure[part]),
                 speed=moment.speed,
                 material=law.material,
                 fields={field: fields[field][name][part] for field in law.requires},
@@ -173,6 +176,8 @@ def _rates_of(
                 },
             )
         )
+        if solid is not None:
+            rate = replace(rate, depth_slope=solid * rate.depth_slope)
         if not box.is_window:
             rate = WearRate(box.embed(rate.depth_rate), box.embed(rate.depth_slope))
         rates[name] = rate
@@ -252,7 +257,6 @@ def _conditions(
         speed=moment.speed,
         time=moment.time,
         distance=moment.distance,
-        friction_coefficient=model.friction_coefficient,
         materials=dict(model.system.materials),
         swept=model.swept,
         fields={name: dict(of_bodies) for name, of_bodies in fields.items()},

@@ -132,7 +132,6 @@ def contact_conditions(
         speed=SPEED,
         time=10.0,
         distance=1.0,
-        friction_coefficient=_friction(given),
         materials=dict.fromkeys(names, STEEL),
         swept=frozenset(names[1:]),
         fields={name: {body: values.copy() for body in names} for name, values in known.items()},

@@ -20,7 +20,6 @@ def traction(pressure):
         speed=0.1,
         time=1.0,
         distance=0.1,
-        friction_coefficient=MU,
         materials={"ball": STEEL, "disk": STEEL},
         swept=frozenset({"disk"}),
         fields={"friction_coefficient": {"ball": friction, "disk": friction}},

@@ -28,7 +28,6 @@ def contact(radius, swept=("disk",), material=None, load=100.0):
         speed=0.1,
         time=1.0,
         distance=0.1,
-        friction_coefficient=0.1,
         materials={"ball": steel, "disk": steel},
         swept=frozenset(swept),
         fields={"friction_coefficient": {"ball": friction, "disk": friction}},

@@ -51,7 +51,6 @@ def faster(data, save):
         speed=0.1,
         time=300.0,
         distance=30.0,
-        friction_coefficient=0.1,
         materials={name: body.material for name, body in model.bodies.items()},
         swept=frozenset({"disk"}),
         fields={"friction_coefficient": {"ball": np.full(model.grid.cells, 0.1)}},

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 from matplotlib.figure import Figure
 from tribo import Array, CaseTemplate, Component, LabRow, Result, hookimpl
 
@@ -28,12 +29,9 @@ def tribo_templates() -> list[CaseTemplate]:
 
 
 def dissipated(result: Result) -> Array | None:
-    """Return the energy dissipated by each step of the run, μ F s, in J; None without friction."""
-    friction = result.case.get("friction")
-    if friction is None:
-        return None
-    energy: Array = friction["coefficient"] * result.table("history")["load_distance_N_m"]
-    return energy
+    """Return the energy dissipated by each step of the run, in J; None without friction."""
+    energy = result.table("history")["friction_energy_J"]
+    return None if np.isnan(energy).all() else energy
 
 
 @hookimpl

@@ -1,0 +1,129 @@
+"""Effects that carry load or set the friction, and the work of friction."""
+
+import numpy as np
+import pytest
+from paper_models import (
+    K,
+    archard,
+    flat,
+    foundation,
+    half_space,
+    motion,
+    named,
+    small,
+    sphere,
+    steel,
+)
+
+from tribo import FRICTION_COEFFICIENT, LOAD_SHARE, CaseError, Effect, Grid, Simulation
+from tribo.core.errors import PluginError
+from tribo.motion.unidirectional import Unidirectional
+from tribo.wear.power import Power
+
+
+class Film(Effect):
+    """A film that carries a given part of the load."""
+
+    type = "test.film"
+    share: float
+    provides = (LOAD_SHARE,)
+
+    def fields(self, contact):
+        share = np.full((1, 1), self.share)
+        return {"load_share": dict.fromkeys(contact.materials, share)}
+
+
+class Faster(Effect):
+    """A coefficient of friction in proportion to the speed."""
+
+    type = "test.faster"
+    per_speed: float = 2.0
+    provides = (FRICTION_COEFFICIENT,)
+
+    def fields(self, contact):
+        friction = np.full((1, 1), self.per_speed * contact.speed)
+        return {"friction_coefficient": dict.fromkeys(contact.materials, friction)}
+
+
+def run(law=None, **changes):
+    law = law or archard()
+    return Simulation(
+        small(
+            **{
+                "grid": Grid((0.7e-3, 0.7e-3), (24, 24)),
+                "bodies": [named("ball", sphere(), steel(), law), named("disk", flat(), steel())],
+                "contact": half_space(),
+                "kinematics": motion(duration=20),
+                **changes,
+            }
+        ).case
+    ).run()
+
+
+def volume(result):
+    return result.saves()[-1]["bodies"]["ball"]["wear_volume_m3"]
+
+
+def test_a_film_that_carries_nothing_is_the_dry_case_to_the_bit():
+    with run() as dry, run(effects=[Film(share=0.0)]) as wet:
+        for name, values in dry.dataset.data_vars.items():
+            np.testing.assert_array_equal(wet.dataset[name], values, err_msg=name)
+
+
+def test_a_film_that_carries_all_leaves_no_wear():
+    with run(effects=[Film(share=1.0)]) as result:
+        assert volume(result) == 0
+        assert result.body("disk").effects["load_share"][-1].min() == 1
+
+
+@pytest.mark.parametrize("law", [archard(), Power(k=K, reference_pressure="1 GPa", p_exponent=2)])
+def test_what_it_carries_does_not_wear(law):
+    # A flat pin has an even pressure, which the film takes a quarter of.
+    shape = {
+        "grid": Grid((1e-3, 1e-3), (8, 8)),
+        "bodies": [named("pin", flat(), steel(), law), named("disk", flat(), steel())],
+        "contact": foundation(),
+        "kinematics": Unidirectional(speed=0.1, track_length="10 mm", distance=2),
+        "ends_at_window": True,
+    }
+    with run(**shape) as dry, run(effects=[Film(share=0.25)], **shape) as wet:
+        lost = [r.saves()[-1]["bodies"]["pin"]["wear_volume_m3"] for r in (dry, wet)]
+    power = 1 if law == archard() else 2
+    assert lost[1] == pytest.approx(0.75**power * lost[0], rel=1e-9, abs=0)
+
+
+def test_more_than_the_load_is_refused():
+    with pytest.raises(PluginError, match="'load_share' for body 'ball' that is above 1"):
+        run(effects=[Film(share=1.5)])
+
+
+def test_the_work_of_friction_is_that_of_the_load():
+    load = [{"at": 0, "normal": 50}, {"at": 20, "normal": 150}]
+    with run(friction_coefficient=0.3, load={"normal": load}) as result:
+        history = result.table("history")
+    work, force = history["friction_energy_J"], history["friction_force_N"]
+    np.testing.assert_allclose(work, 0.3 * history["load_distance_N_m"], rtol=1e-10)
+    np.testing.assert_allclose(force, 0.3 * history["load_N"], rtol=1e-10)
+    # ∫ μ F ds by hand.
+    assert work[-1] == pytest.approx(0.3 * 100 * result.distances[-1], rel=1e-10)
+
+
+def test_friction_may_follow_the_speed():
+    stages = [{"until": 10, "speed": "0.1 m/s"}, {"until": 20, "speed": "0.2 m/s"}]
+    motion = Unidirectional(speed=stages, track_length="2 mm", duration=20)
+    with run(effects=[Faster()], kinematics=motion, save_times=(10,)) as result:
+        first, last = result.saves()[1:]
+    assert first["friction_force_N"] == pytest.approx(20.0, rel=1e-9)
+    assert last["friction_force_N"] == pytest.approx(40.0, rel=1e-9)
+    assert first["friction_energy_J"] == pytest.approx(20.0, rel=1e-9)
+    assert last["friction_energy_J"] == pytest.approx(20.0 + 80.0, rel=1e-9)
+
+
+def test_friction_has_one_source():
+    with pytest.raises(CaseError, match="'friction_coefficient' is provided twice"):
+        run(effects=[Faster()], friction_coefficient=0.1)
+
+
+def test_without_friction_its_columns_are_empty():
+    with run() as result:
+        assert np.isnan(result.table("history")["friction_energy_J"]).all()
