@@ -10,6 +10,7 @@ from command_line import tribo
 from rich.console import Console
 
 from tribo.cli.calibrate import _estimates
+from tribo.config.load import load_case
 from tribo.study.calibration.outcome import Calibration
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -51,7 +52,9 @@ def test_wide_tables_break_no_value_at_80_columns(capsys):
     estimate |= {"lower": 1.111e-16, "upper": 1.357e-14, "resolution_limit": 1.34, "held": False}
     table = pd.DataFrame([estimate])
     none = pd.DataFrame()
-    found = Calibration(0.95, 5, table, none, none, 0.1, 1, np.eye(1), np.ones(1), ())
+    found = Calibration(
+        0.95, 5, table, none, none, 0.1, 1, 0.0, False, {}, np.eye(1), np.ones(1), ()
+    )
     Console(width=80).print(_estimates(found))
     text = capsys.readouterr().out
     assert max(map(len, text.splitlines())) <= 80
@@ -61,16 +64,37 @@ def test_wide_tables_break_no_value_at_80_columns(capsys):
 
 def test_json_is_finite_and_in_si_units():
     data = json.loads(tribo(*WEIGHED, "--json", cwd=EXAMPLES).stdout, parse_constant=pytest.fail)
-    keys = "level runs parameters data predictions chi_square degrees_of_freedom p_value"
+    keys = "level runs parameters data predictions chi_square degrees_of_freedom p_value "
+    keys += "repeatability repeatability_estimated"
     assert list(data) == [*keys.split(), "correlation", "singular_values", "notes"]
     ball, _ = data["parameters"]
     estimate = "path unit value lower upper resolution_share resolution_limit held"
     assert list(ball) == estimate.split()
     assert (ball["path"], ball["unit"]) == ("bodies.ball.wear.k", "1/Pa")
     assert ball["value"] == pytest.approx(7.08e-15, rel=1e-3, abs=0)
-    datum = "body quantity time_s position_m unit measured sigma computed residual"
+    datum = "test body quantity time_s position_m unit measured below sigma computed residual"
     assert list(data["data"][0]) == datum.split()
-    assert list(data["predictions"][0]) == ["body", "quantity", "unit", "value", "lower", "upper"]
+    assert list(data["predictions"][0]) == [
+        "test",
+        "body",
+        "quantity",
+        "unit",
+        "value",
+        "lower",
+        "upper",
+    ]
+
+
+def test_the_fitted_case_is_written_to_run(tmp_path):
+    ran = tribo(*WEIGHED, "-o", tmp_path / "fitted.toml", cwd=EXAMPLES)
+    assert ran.stdout.splitlines()[-1] == f"Run it: tribo run {tmp_path / 'fitted.toml'}"
+    case = load_case(tmp_path / "fitted.toml")
+    assert case.bodies["disk"].wear.k == pytest.approx(7.077e-16, rel=1e-3, abs=0)
+    assert case.grid.cells == (24, 24)
+    again = tribo(*WEIGHED, "-o", tmp_path / "fitted.toml", cwd=EXAMPLES)
+    assert again.returncode == 2
+    assert "fitted.toml exists; choose another name" in again.stderr
+    assert "run 1" not in again.stderr
 
 
 def test_bad_input_is_one_message(tmp_path):

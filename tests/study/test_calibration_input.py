@@ -62,7 +62,7 @@ def test_every_quantity_can_be_asked_for():
         ({"value": None}, "[0]", "give value, or before and after"),
         ({"value": None, "before": "27 g"}, "[0]", "give value, or before and after"),
         ({"value": None, "before": "27.1 g", "after": "27.2 g"}, "[0]", "no loss was weighed"),
-        ({"value": ["1 mg", "2 mg"]}, "[0]", "one value, without position"),
+        ({"position": ["1 mm"]}, "[0]", "mass has no position; profile_along"),
         ({"time": "2 h"}, "[0].time", "the run ends at 3600 s"),
         ({"time": "2 m"}, "[0].time", "a time [s] is needed"),
         (
@@ -123,7 +123,7 @@ def test_a_wrong_parameter_is_told(fit, place, words):
     [
         ([GOOD, GOOD], ["load.normal", 'load."normal"'], "fit[1].path: "),
         ([GOOD], [K, "bodies.disk.wear.k"], "2 parameters cannot be fitted to 1 measured value:"),
-        ([], [K], "measured: "),
+        ([], [K], "nothing is measured; give each value as [[measured]]"),
     ],
 )
 def test_parameters_that_data_do_not_fit_are_told(measured, fit, start):
@@ -157,6 +157,33 @@ def test_a_case_that_lacks_what_is_needed_is_told(changes, remedy):
 def test_a_level_is_a_probability():
     with pytest.raises(CaseError, match="the level, 95, must lie between 0 and 1"):
         calibrate(CASE, {"measured": [GOOD]}, level=95)
+
+
+@pytest.mark.parametrize(
+    ("test", "words"),
+    [
+        ({"set": {"load.normal": "-5 N"}}, "test[0].set: load.normal: "),
+        ({"set": {"bodies": {"bal": {"wear": {"k": 1}}}}}, "test[0].set: bodies.bal.wear.k: "),
+        ({"set": {K: 1e-15}}, f"test[0].set: {K} is given, and {K} is fitted"),
+        ({"set": {"bodies.ball.wear": {"type": "archard", "k": 1}}}, "test[0].set: bodies.ball."),
+        ({"measured": []}, "nothing is measured"),
+        ({"measured": [changed(time="2 h")]}, "test[0].measured[0].time: 7200 s is not reached"),
+        ({"measured": [changed(value="< 2 mm")]}, "test[0].measured[0].value: '2 mm' is a length"),
+        ({"measured": [changed(value=[])]}, "test[0].measured[0]: the list of values is empty"),
+        ({"sett": {}}, "test[0].sett: unknown"),
+    ],
+)
+def test_a_wrong_test_is_told(test, words):
+    measured = {"test": [{"measured": [GOOD], **test}], "fit": [{"path": K}]}
+    with pytest.raises(CaseError) as caught:
+        calibrate(CASE, measured, on_run=unreached)
+    assert str(caught.value).startswith(words)
+
+
+def test_tests_that_differ_have_names_of_their_own():
+    tests = [{"name": "a", "set": {"load.normal": load}, "measured": [GOOD]} for load in (50, 70)]
+    with pytest.raises(CaseError, match="two tests that differ are called 'a'"):
+        calibrate(CASE, {"test": tests}, on_run=unreached)
 
 
 def test_a_profile_that_noise_makes_negative_is_taken():

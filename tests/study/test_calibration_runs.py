@@ -11,7 +11,8 @@ from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError, NumericalError, TriboWarning
 from tribo.simulation.run import Simulation
-from tribo.study.calibration.calibrate import calibrate, far_off, make_run
+from tribo.study.calibration.bench import make_run
+from tribo.study.calibration.calibrate import calibrate, far_off
 from tribo.study.calibration.measured import read_measurements
 from tribo.study.calibration.parameters import Parameter, find_parameters
 from tribo.study.calibration.quantities import Reading, percent, read
@@ -114,6 +115,32 @@ def test_masses_give_each_coefficient_in_four_runs():
     assert list(table["upper"] / table["value"]) == pytest.approx([1 + half] * 2, rel=5e-5)
     assert abs(found.correlation[0, 1]) < 1e-6
     assert found.singular_values == pytest.approx([20, 20])
+
+
+@pytest.mark.slow
+def test_several_tests_give_one_coefficient_and_share_runs():
+    """Twice the same load, and half of it, of which a loss was not seen."""
+    half = {"set": {"load": {"normal": LOAD / 2}}}
+    seen, unseen = (measured("ball", "mass", part * mass(BALL)) for part in (0.5, 1))
+    tests = [
+        {"measured": [measured("ball", "mass", 1.1 * mass(BALL))]},
+        {"measured": [measured("ball", "mass", 0.9 * mass(BALL))]},
+        {**half, "name": "half", "measured": [seen]},
+        {**half, "name": "half", "measured": [{**unseen, "value": f"< {mass(BALL)} kg"}]},
+    ]
+    found = calibrate(
+        CASE, {"test": tests, "repeatability": 0.2, "fit": fitting(BALL_K, start=1.5 * BALL)}
+    )
+    # A start, a difference and the estimate, for each of two loads.
+    assert found.runs == 6
+    assert found.settings == pytest.approx({BALL_K: BALL}, rel=0.02, abs=0)
+    (each,) = found.parameters.itertuples()
+    assert each.upper / each.value == pytest.approx(1 + 1.96 * 0.2 / 3**0.5, rel=0.02)
+    assert list(found.data["test"]) == ["test 1", "test 2", "half", "half"]
+    assert {*found.predictions["test"]} == {"test 1", "half"}
+    loads = {name: case["load"]["normal"] for name, case in found.fitted.items()}
+    assert loads == {"test 1": "100 N", "half": LOAD / 2}
+    assert found.fitted["half"]["bodies"]["ball"]["wear"]["k"] == float(f"{each.value:.7g}")
 
 
 @pytest.mark.slow
@@ -331,7 +358,7 @@ def test_a_parameter_stays_within_an_open_bound():
     """Poisson's ratio is below a half."""
     data = [measured("ball", "mass", mass(BALL))]
     asked = read_measurements({"measured": data, "fit": fitting("bodies.ball.material.poisson")})
-    parameters = find_parameters(validate_case(CASE), asked.fit, asked.measured)
+    parameters = find_parameters(validate_case(CASE), asked.fit, ["ball"])
     assert 0.499 < parameters[0].upper < 0.5
     run = make_run(CASE, parameters, np.array([0.5 + 1e-12]), [Reading("ball", "mass")])
     assert run.responses == pytest.approx([mass(BALL)], rel=1e-6, abs=0)

@@ -34,26 +34,46 @@ LONGEST_NAME = 30
 @click.option(
     "--level", type=float, default=0.95, show_default=True, help="Probability of the intervals."
 )
+@click.option(
+    "-o",
+    "--output",
+    type=PATH,
+    help="Write the fitted case to a file; of several tests, one each, named after the test.",
+)
+@click.option("--force", is_flag=True, help="Replace existing files.")
 @JSON
 def calibrate(
-    case: Path, measured: Path, overrides: tuple[str, ...], level: float, as_json: bool
+    case: Path,
+    measured: Path,
+    overrides: tuple[str, ...],
+    level: float,
+    output: Path | None,
+    force: bool,
+    as_json: bool,
 ) -> None:
     """Fit CASE's wear coefficients, or other numbers of it, to measured wear.
 
-    Prints estimates with intervals, how each measured value is met, what the data cannot tell, and
-    what else the fitted case gives.
+    Takes one test or several that differ from CASE, repeated or not. Prints estimates with
+    intervals, how each measured value is met, what the data cannot tell, and what else the fitted
+    case gives.
 
     \b
     Example:
-      tribo calibrate my.toml --measured weighed.toml
+      tribo calibrate my.toml --measured weighed.toml -o fitted.toml
     """
     from tribo.config.load import read_toml
     from tribo.config.overrides import apply_settings
+    from tribo.config.write import to_toml
+    from tribo.core.files import write_whole
     from tribo.study.calibration.calibrate import calibrate
+    from tribo.study.calibration.measured import read_measurements
 
-    found = calibrate(
-        apply_settings(read_toml(case), overrides), measured, level=level, on_run=_tell
-    )
+    asked = read_measurements(measured)
+    files = _files(output, list(dict.fromkeys(test.name for test in asked.tests.values())), force)
+    found = calibrate(apply_settings(read_toml(case), overrides), asked, level=level, on_run=_tell)
+    for name, tables in found.fitted.items():
+        if name in files:
+            write_whole(files[name], to_toml(tables))
     if as_json:
         echo_json(found.as_json())
         return
@@ -64,9 +84,30 @@ def calibrate(
         console.print(_predictions(found))
     for line in _judgement(found):
         console.print(line)
+    if output is not None:
+        for name in found.fitted:
+            click.echo(f"Run it: tribo run {shlex.quote(str(files[name]))}")
+        return
     settings = [*overrides, *(f"{path}={value:.4g}" for path, value in found.settings.items())]
     options = " ".join(f"--set {shlex.quote(setting)}" for setting in settings)
     click.echo(f"Run it: tribo run {shlex.quote(str(case))} {options}")
+
+
+def _files(output: Path | None, names: list[str], force: bool) -> dict[str, Path]:
+    """Return the file of each test's fitted case."""
+    from tribo.core.errors import CaseError
+    from tribo.study.runs import file_names
+
+    if output is None:
+        return {}
+    files = {"": output}
+    for name, file in zip(names, file_names(names), strict=True):
+        if name:
+            files[name] = output.with_name(f"{output.stem}-{Path(file).stem}.toml")
+    for path in (files[name] for name in names):
+        if path.exists() and not force:
+            raise CaseError(f"{path} exists; choose another name, or replace it with --force")
+    return files
 
 
 def _tell(run: int, misfit: float) -> None:
@@ -107,6 +148,8 @@ def _data(found: Calibration) -> Table:
     for name, each in zip(names, found.data.itertuples(), strict=True):
         values = (each.measured, each.sigma, each.computed)
         shown = [in_words(each.quantity, value) for value in values]
+        if each.below:
+            shown[0] = f"< {shown[0]}"
         table.add_row(name, *shown, f"{round(each.residual, 1) + 0.0:+.1f}")
     return table
 
@@ -129,6 +172,9 @@ def _judgement(found: Calibration) -> Iterator[str]:
             f"χ² {found.chi_square:.3g} with {found.degrees_of_freedom} to spare, "
             f"p = {found.p_value:.2g}."
         )
+    if found.repeatability or found.repeatability_estimated:
+        how = "estimated" if found.repeatability_estimated else "as stated"
+        yield f"Repeatability, {how}: ±{percent(found.repeatability)} % from test to test."
     values = ", ".join(f"{value:.3g}" for value in found.singular_values)
     yield f"Standard deviations by which a change by a factor e would show: {values}."
     paths = list(found.parameters["path"])
@@ -143,6 +189,8 @@ def _judgement(found: Calibration) -> Iterator[str]:
 def _name(row: Any) -> str:
     """Return the name of a row of the data or of the predictions."""
     text = f"{row.body}, {row.quantity}"
+    if getattr(row, "test", ""):
+        text = f"{row.test}: {text}"
     if pd.notna(getattr(row, "time_s", None)):
         text += f" at {row.time_s:g} s"
     if pd.notna(getattr(row, "position_m", None)):

@@ -3,37 +3,25 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from tribo.case import Case
 from tribo.config.load import case_tables, validate_case
-from tribo.config.overrides import apply_settings
 from tribo.core.arrays import Array
-from tribo.core.errors import CaseError, NumericalError, TriboWarning
+from tribo.core.errors import CaseError, NumericalError
 from tribo.registry.registry import Registry
-from tribo.simulation.model import Model
-from tribo.simulation.positions import chosen
-from tribo.simulation.run import Simulation
-from tribo.study.calibration.fit import Problem, fit
-from tribo.study.calibration.measured import Measured, Measurements, read_measurements
+from tribo.study.calibration.bench import Run, benches, make_run
+from tribo.study.calibration.fit import fit
+from tribo.study.calibration.linearised import Problem
+from tribo.study.calibration.measured import Measurements, read_measurements
 from tribo.study.calibration.outcome import Calibration, outcome
-from tribo.study.calibration.parameters import Parameter, find_parameters
-from tribo.study.calibration.quantities import (
-    AXES,
-    PROFILES,
-    QUANTITIES,
-    Reading,
-    in_si,
-    read,
-    unavailable,
-)
-from tribo.study.variation import unknown_body
+from tribo.study.calibration.parameters import Parameter, check_set, find_parameters
+from tribo.study.calibration.quantities import PROFILES, in_si
 
 NOTABLE, TOO_FAR = 5.0, 300.0
 """Factors between measured and computed: mentioned if a run fails, refused.
@@ -50,24 +38,25 @@ def calibrate(
     registry: Registry | None = None,
     on_run: Callable[[int, float], None] | None = None,
 ) -> Calibration:
-    """Fit parameters of a case to measured wear.
+    """Fit parameters of a case to wear that was measured in one test or several.
 
-    Weighted least squares, by Gauss-Newton on a surrogate of power laws: it is
-    exact for volumes under Archard's law, so that few runs are needed. All
-    runs are in memory, without the case's observers.
+    Weighted least squares by Gauss-Newton steps in logarithms, which are exact
+    for volumes under Archard's law, so that few runs are needed. Tests alike
+    share their runs. All runs are in memory, without the case's observers.
 
     Parameters
     ----------
     case : Case, Mapping, str or Path
         A case, its tables, or its TOML file.
     measured : Measurements, Mapping, str or Path
-        What was measured and what is to be fitted, or its TOML file.
+        What was measured, in the case or in tests that differ from it, and what
+        is to be fitted; or its TOML file.
     level : float, optional
         Probability with which each interval is to cover the truth.
     registry : Registry, optional
         Where to look components up; the installed plugins if left out.
     on_run : callable, optional
-        Called after each run with its number and its misfit χ².
+        Called after each round of runs with the number of runs and their misfit χ².
 
     Returns
     -------
@@ -84,44 +73,60 @@ def calibrate(
     """
     if not 0 < level < 1:
         raise CaseError(f"the level, {level:g}, must lie between 0 and 1, as 0.95 does")
-    tables = case_tables(case)
-    asked = read_measurements(measured)
+    tables, asked = case_tables(case), read_measurements(measured)
     base = validate_case(tables, registry=registry)
-    model = Simulation(base, registry).model
-    for i, entry in enumerate(asked.measured):
-        _check_entry(model, entry, f"measured[{i}]")
-    parameters = find_parameters(base, asked.fit, asked.measured)
     data = asked.table()
+    tested = benches(tables, asked.tests, data, registry)
+    parameters = find_parameters(base, asked.fit, data["body"].unique())
+    for place, test in asked.tests.items():
+        check_set(parameters, test.set, f"{place}set")
     if len(data) < len(parameters):
         raise CaseError(
             f"{len(parameters)} parameters cannot be fitted to {len(data)} measured "
             f"value{'' if len(data) == 1 else 's'}: measure more, or leave parameters out of fit"
         )
-    predicted = _not_measured(model, asked.measured)
-    columns = ["body", "quantity", "time_s", "position_m"]
-    wanted = [*(Reading(*row) for row in data[columns].itertuples(index=False)), *predicted]
-    times = sorted({entry.time for entry in asked.measured if entry.time is not None})
-    kept = {"output.save_times": times, "observers": [], **chosen(base, model)}
-    tables = apply_settings(tables, kept)
+    data["edge"] = 0.0
+    for bench in tested:
+        data.loc[bench.rows, "edge"] = [
+            bench.edge(name) for name in data.loc[bench.rows, "quantity"]
+        ]
+    first_predicted = len(data)
+    predicted = [(bench.name, each) for bench in tested for each in bench.predicted]
+    places = iter(range(first_predicted, first_predicted + len(predicted)))
+    rows = [[*bench.rows, *(next(places) for _ in bench.predicted)] for bench in tested]
     runs: dict[bytes, Run] = {}
 
     def run(values: Array) -> Run:
         key = values.tobytes()
         if key not in runs:
-            found = make_run(tables, parameters, values, wanted, registry, f"run {len(runs) + 1}")
-            _check_positive(data, found.responses)
-            runs[key] = found
+            responses, read_off = np.empty((2, len(data) + len(predicted)))
+            notices: dict[str, None] = {}
+            for i, bench in enumerate(tested):
+                name = f"run {len(tested) * len(runs) + i + 1}"
+                made = make_run(bench.tables, parameters, values, bench.wanted, registry, name)
+                responses[rows[i]], read_off[rows[i]] = made.responses, made.read_off
+                notices |= dict.fromkeys(made.notices)
+            _check_positive(data, responses)
+            runs[key] = Run(responses, read_off, tuple(notices))
         return runs[key]
 
     # Rounded as in the fit, which works with logarithms.
     start = np.exp(np.log([p.start for p in parameters]))
     first = run(start)
     far = far_off(data, first.responses, parameters)
+    repeated = data[~data["below"]].groupby(
+        ["bench", "body", "quantity", "time_s", "position_m"], dropna=False
+    )["specimen"]
+    repeatability = 0.0 if repeated.nunique().max() == 1 else None
+    quantities = [*data["quantity"], *(each.quantity for _, each in predicted)]
     problem = Problem(
         names=tuple(p.path for p in parameters),
         observed=data["measured"].to_numpy(),
         sigma=np.hypot(data["sigma"], first.read_off[: len(data)]).to_numpy(),
-        logged=np.array([each.quantity not in PROFILES for each in wanted]),
+        below=data["below"].to_numpy(),
+        specimen=data["specimen"].to_numpy(),
+        repeatability=repeatability if asked.repeatability is None else asked.repeatability,
+        logged=np.array([name not in PROFILES for name in quantities]),
         lower=np.array([math.log(p.lower) if p.lower > 0 else -math.inf for p in parameters]),
         upper=np.array([math.log(p.upper) for p in parameters]),
     )
@@ -129,7 +134,8 @@ def calibrate(
     def responses(values: Array) -> Array:
         found = run(values).responses
         if on_run is not None:
-            on_run(len(runs), float(np.sum(problem.residuals(found) ** 2)))
+            misfit = problem.residuals(found, 1 / problem.sigma)
+            on_run(len(tested) * len(runs), float(np.sum(misfit**2)))
         # A prediction of 0 is left out.
         return np.where(problem.logged & (found <= 0), 1.0, found)
 
@@ -146,48 +152,12 @@ def calibrate(
         parameters,
         data,
         {i: each for i, each in enumerate(predicted, len(data)) if positive[i]},
-        grid=model.grid,
+        cases={bench.name: bench.case for bench in tested},
         read_off=last.read_off,
         level=level,
-        runs=len(runs),
+        runs=len(tested) * len(runs),
         notices=last.notices,
     )
-
-
-class Run(NamedTuple):
-    """Responses of a run, their standard deviations due to the grid, and its notices."""
-
-    responses: Array
-    read_off: Array
-    notices: tuple[str, ...]
-
-
-def make_run(
-    tables: Mapping[str, Any],
-    parameters: Sequence[Parameter],
-    values: Array,
-    wanted: Sequence[Reading],
-    registry: Registry | None = None,
-    name: str = "run",
-) -> Run:
-    """Run a case with other values of its parameters, and read numbers off the result."""
-    # Taking logarithms may round to just beyond a bound.
-    settings = {
-        p.path: min(max(float(value), p.lower), p.upper)
-        for p, value in zip(parameters, values, strict=True)
-    }
-    with warnings.catch_warnings():
-        # The calibration has the notices of the last run.
-        warnings.simplefilter("ignore", TriboWarning)
-        try:
-            case = validate_case(apply_settings(tables, settings), registry=registry)
-            result = Simulation(case, registry).run()
-        except (CaseError, NumericalError) as error:
-            named = ", ".join(f"{path} = {value:.4g}" for path, value in settings.items())
-            raise type(error)(f"{name}, with {named}: {error}") from error
-    with result:
-        given, blurred = np.array([read(result, each) for each in wanted]).T
-        return Run(given, blurred, result.notices)
 
 
 def far_off(data: pd.DataFrame, computed: Array, parameters: Sequence[Parameter]) -> list[str]:
@@ -197,15 +167,16 @@ def far_off(data: pd.DataFrame, computed: Array, parameters: Sequence[Parameter]
     the factor is above 300, one line per entry.
     """
     given = ", ".join(f"{p.path} = {in_si(p.start, p.unit)}" for p in parameters)
-    sizes = data[["unit", "sigma"]].assign(
+    sizes = data[["unit", "sigma", "below"]].assign(
         value=data["measured"].abs(), own=np.abs(computed[: len(data)])
     )
     found, refused = [], []
-    for place, unit, sigma, value, own in (
+    for place, unit, sigma, below, value, own in (
         sizes.groupby(data["place"], sort=False).max().itertuples()
     ):
-        # A value below its uncertainty only says that the quantity is no larger than that.
-        factor = max(value / own, own / max(value, sigma)) if own > 0 < value else 1.0
+        # A value below its uncertainty only says that the quantity is no larger than that, as a
+        # limit does.
+        factor = max(0 if below else value / own, own / max(value, sigma)) if own > 0 < value else 1
         text = (
             f"{place} was read as {in_si(value, unit)}, and the case gives {in_si(own, unit)} "
             f"with {given}"
@@ -229,41 +200,3 @@ def _check_positive(data: pd.DataFrame, computed: Array) -> None:
             "wear: give start in fit",
             each.place,
         )
-
-
-def _check_entry(model: Model, entry: Measured, place: str) -> None:
-    if entry.body not in model.bodies:
-        raise unknown_body(entry.body, model.bodies, f"{place}.body")
-    reason = unavailable(model, entry.body, entry.quantity)
-    if reason:
-        raise CaseError(reason, f"{place}.quantity")
-    if entry.time is not None and entry.time > model.end_time * (1 + 1e-12):
-        raise CaseError(
-            f"{entry.time:g} s is not reached: the run ends at {model.end_time:g} s",
-            f"{place}.time",
-        )
-    for position in entry.position or ():
-        half = 0.5 * model.grid.size[AXES[entry.quantity]]
-        if abs(position) > half:
-            raise CaseError(
-                f"{1e3 * position:g} mm lies outside the window, which reaches "
-                f"{1e3 * half:g} mm from the centre",
-                f"{place}.position",
-            )
-
-
-def _not_measured(model: Model, measured: Sequence[Measured]) -> list[Reading]:
-    """Return all quantities at the end of the run that were not measured."""
-    known = {
-        (entry.body, entry.quantity)
-        for entry in measured
-        if entry.time is None or entry.time >= model.end_time * (1 - 1e-12)
-    }
-    return [
-        Reading(body, quantity)
-        for body in model.bodies
-        for quantity in QUANTITIES
-        if quantity not in PROFILES
-        and (body, quantity) not in known
-        and not unavailable(model, body, quantity)
-    ]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
@@ -11,12 +11,18 @@ import pandas as pd
 from pydantic import ValidationError, ValidationInfo, field_validator, model_validator
 
 from tribo.config.load import read_toml
-from tribo.core.arrays import Array
+from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError
 from tribo.core.explain import case_error
 from tribo.core.table import Table
 from tribo.core.units import Quantity
 from tribo.study.calibration.quantities import PROFILES, QUANTITIES, in_words
+from tribo.study.sweeping.study_file import by_path
+
+
+class Below(float):
+    """A limit that a value is below, as ``"< 0.1 mg"``."""
+
 
 FINEST = 1e-6
 """Smallest uncertainty, relative to the value: runs are good to about a thousandth."""
@@ -42,7 +48,10 @@ class Measured(Table):
     ]
     """What was measured; what a body lost, the diameters of its scar, its largest depth."""
     value: float | tuple[float, ...] | None = None
-    """The value, with its unit; for a profile a list of depths."""
+    """The value, with its unit; for a profile a list of depths, for tests alike one of values.
+
+    A loss that was not seen is less than the smallest that would have been: ``"< 0.1 mg"``.
+    """
     before: Annotated[float, Quantity("kg", above=0)] | None = None
     """Instead of the value of a mass: the balance's reading before the test."""
     after: Annotated[float, Quantity("kg", above=0)] | None = None
@@ -56,19 +65,33 @@ class Measured(Table):
     time: Annotated[float, Quantity("s", above=0)] | None = None
     """When it was measured; at the end if left out."""
 
-    @field_validator("value", "uncertainty", "resolution", mode="before")
+    @field_validator("value", mode="plain")
+    @classmethod
+    def _values(cls, value: Any, info: ValidationInfo) -> Any:
+        name = info.data.get("quantity")
+        if value is None or name is None:
+            return None
+        # The depths of a profile may be 0, or below it by noise.
+        mark = Quantity(QUANTITIES[name].unit, above=None if name in PROFILES else 0)
+
+        def read(part: object) -> float:
+            if isinstance(part, str) and part.lstrip().startswith("<") and name not in PROFILES:
+                return Below(mark.read(part.lstrip()[1:].strip()))
+            return part if isinstance(part, Below) else mark.read(part)
+
+        try:
+            return tuple(map(read, value)) if isinstance(value, list | tuple) else read(value)
+        except CaseError as error:
+            raise ValueError(str(error)) from None
+
+    @field_validator("uncertainty", "resolution", mode="before")
     @classmethod
     def _in_si(cls, value: Any, info: ValidationInfo) -> Any:
         name = info.data.get("quantity")
         if value is None or name is None:
             return None
-        # The depths of a profile may be 0, or below it by noise.
-        signed = info.field_name == "value" and name in PROFILES
-        mark = Quantity(QUANTITIES[name].unit, above=None if signed else 0)
         try:
-            if isinstance(value, list | tuple):
-                return tuple(mark.read(part) for part in value)
-            return mark.read(value)
+            return Quantity(QUANTITIES[name].unit, above=0).read(value)
         except CaseError as error:
             raise ValueError(str(error)) from None
 
@@ -81,11 +104,12 @@ class Measured(Table):
                     f"{self.quantity} needs value and position, two lists of the same length, not "
                     f"{len(depths)} and {len(self.position or ())} long"
                 )
-        elif self.position is not None or isinstance(self.value, tuple):
+        elif self.position is not None:
             raise ValueError(
-                f"{self.quantity} is one value, without position; a list goes with "
-                f"{' or '.join(PROFILES)}"
+                f"{self.quantity} has no position; {' and '.join(PROFILES)} are measured at some"
             )
+        elif self.value == ():
+            raise ValueError("the list of values is empty; give one for each test")
         is_mass = self.quantity == "mass"
         missing = [reading is None for reading in (self.before, self.after)]
         if not (all(missing) if self.value is not None else is_mass and not any(missing)):
@@ -118,10 +142,41 @@ class Measured(Table):
 
     @property
     def values(self) -> Array:
-        """What was measured, shape (n,); n = 1 but for a profile."""
+        """What was measured, shape (n,): a profile's depths, else a value a test."""
         if self.before is not None and self.after is not None:
             return np.array([self.before - self.after])
         return np.atleast_1d(np.array(self.value, dtype=float))
+
+    @property
+    def below(self) -> Mask:
+        """Which of the values are limits that the true reading is below, shape (n,)."""
+        given = self.value if isinstance(self.value, tuple) else (self.value,)
+        return np.array([isinstance(each, Below) for each in given])
+
+    @property
+    def tests(self) -> int:
+        """How many tests the values are of."""
+        return 1 if self.quantity in PROFILES else len(self.values)
+
+    def rows(self) -> Iterator[dict[str, Any]]:
+        """Yield the values one by one, as `Measurements.table` has them."""
+        step_sigma, step_most = self.from_resolution
+        at = self.position or (None,) * len(self.values)
+        for i, value in enumerate(self.values):
+            yield {
+                "specimen": 0 if self.position else i,
+                "body": self.body,
+                "quantity": self.quantity,
+                "time_s": self.time,
+                "position_m": at[i],
+                "unit": QUANTITIES[self.quantity].unit,
+                "measured": value,
+                "below": bool(self.below[i]),
+                "sigma": self.sigma,
+                "step": self.resolution or 0.0,
+                "step_sigma": step_sigma,
+                "step_most": step_most,
+            }
 
     @property
     def from_resolution(self) -> tuple[float, float]:
@@ -153,47 +208,76 @@ class Fitted(Table):
     """Largest value allowed."""
 
 
+class Tested(Table):
+    """A test, or several alike, on a changed case."""
+
+    name: str = ""
+    """What it is called in tables."""
+    set: Mapping[str, Any] = {}
+    """How it differs from the case: values by path, as ``load.normal = "50 N"``."""
+    measured: tuple[Measured, ...]
+    """What was measured in it. The nth values of all lists are of one test, the nth."""
+
+    @field_validator("set", mode="before")
+    @classmethod
+    def _flat(cls, value: Any) -> Any:
+        try:
+            return by_path(value, "set")
+        except CaseError as error:
+            raise ValueError(str(error)) from None
+
+
 class Measurements(Table):
     """What was measured, and what is to be fitted to it."""
 
     fit: tuple[Fitted, ...] = ()
     """The parameters; if left out, the k of each body that something was measured of."""
-    measured: tuple[Measured, ...]
-    """The measured values."""
+    measured: tuple[Measured, ...] = ()
+    """What was measured in a test of the case as it is."""
+    test: tuple[Tested, ...] = ()
+    """What was measured in tests that differ from it."""
+    repeatability: Annotated[float, Quantity("1", at_least=0, below=3)] | None = None
+    """Relative standard deviation of the fitted parameters from test to test.
+
+    If left out it is estimated where tests were repeated, and else 0.
+    """
+
+    @property
+    def tests(self) -> dict[str, Tested]:
+        """All tests, by their place in the file."""
+        own = {"": Tested(measured=self.measured)} if self.measured else {}
+        named = enumerate(self.test, 1)
+        told = (each.model_copy(update={"name": each.name or f"test {i}"}) for i, each in named)
+        return own | {f"test[{i}].": each for i, each in enumerate(told)}
 
     def table(self) -> pd.DataFrame:
         """Return the measured numbers in SI, one row each.
 
-        `place` is the entry in the file; `step_sigma` and `step_most` are the
-        standard deviation and the largest error due to the resolution, `step`.
+        `place` is the entry in the file, `test` the name of its test, `of` the
+        index of that in `tests`, and `specimen` that of the single test;
+        `step_sigma` and `step_most` are the standard deviation and the largest
+        error due to the resolution, `step`.
         """
-        rows = []
-        for i, each in enumerate(self.measured):
-            step_sigma, step_most = each.from_resolution
-            rows += [
-                {
-                    "place": f"measured[{i}]",
-                    "body": each.body,
-                    "quantity": each.quantity,
-                    "time_s": each.time,
-                    "position_m": position,
-                    "unit": QUANTITIES[each.quantity].unit,
-                    "measured": value,
-                    "sigma": each.sigma,
-                    "step": each.resolution or 0.0,
-                    "step_sigma": step_sigma,
-                    "step_most": step_most,
-                }
-                for value, position in zip(each.values, each.position or (None,), strict=True)
-            ]
+        rows: list[dict[str, Any]] = []
+        specimens = 0
+        for of, (place, test) in enumerate(self.tests.items()):
+            for i, entry in enumerate(test.measured):
+                rows += [
+                    {"place": f"{place}measured[{i}]", "test": test.name, "of": of, **row}
+                    | {"specimen": specimens + row["specimen"]}
+                    for row in entry.rows()
+                ]
+            specimens += max(entry.tests for entry in test.measured)
         return pd.DataFrame(rows).astype({"time_s": float, "position_m": float})
 
-    @field_validator("measured")
-    @classmethod
-    def _some(cls, measured: tuple[Measured, ...]) -> tuple[Measured, ...]:
-        if not measured:
-            raise ValueError("nothing is measured; give each value as [[measured]]")
-        return measured
+    @model_validator(mode="after")
+    def _some(self) -> Self:
+        if not self.tests or not all(test.measured for test in self.tests.values()):
+            raise ValueError(
+                "nothing is measured; give each value as [[measured]], or as [[test.measured]] of "
+                "a [[test]]"
+            )
+        return self
 
 
 def read_measurements(source: Measurements | Mapping[str, Any] | str | Path) -> Measurements:
@@ -207,7 +291,7 @@ def read_measurements(source: Measurements | Mapping[str, Any] | str | Path) -> 
     if isinstance(source, Measurements):
         return source
     data = read_toml(source) if isinstance(source, str | Path) else source
-    if "bodies" in data and "measured" not in data:
+    if "bodies" in data and not {"measured", "test"} & data.keys():
         name = "this" if isinstance(source, Mapping) else f"{source}"
         raise CaseError(f"{name} is a case, not measured values; those are entries [[measured]]")
     try:

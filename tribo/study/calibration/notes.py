@@ -11,8 +11,7 @@ import pandas as pd
 from scipy.special import chdtrc
 
 from tribo.core.arrays import Array
-from tribo.core.grid import Grid
-from tribo.study.calibration.quantities import AXES, EDGES, PROFILES, in_si, in_words, percent
+from tribo.study.calibration.quantities import in_si, in_words, percent
 
 UNLIKELY = 0.01
 """Probability of so large a misfit below which data and model are said to disagree."""
@@ -26,21 +25,21 @@ def notes(
     estimates: pd.DataFrame,
     data: pd.DataFrame,
     jacobian: Array,
-    grid: Grid,
-    spare: int,
+    spare: int | None,
 ) -> list[str]:
     """Return the notes, one or two sentences each.
 
     `estimates` are those of a `Calibration`; `data` as well, with the columns
     of `Measurements.table` and `stated`, the standard deviation without that of
-    the grid; `jacobian` the derivatives of the residuals by the logarithms of the parameters, and
-    `spare` the degrees of freedom of χ².
+    the grid, and `edge`, that of a diameter due to the grid; `jacobian` the derivatives of the
+    residuals by the logarithms of the parameters, and
+    `spare` the degrees of freedom of χ², None where the data tell their own scatter.
     """
     return [
         *_on_parameters(estimates, data, jacobian),
         *_entangled(list(estimates["path"]), jacobian),
         *_on_misfit(data, spare),
-        *_on_instruments(data, grid),
+        *_on_instruments(data),
     ]
 
 
@@ -89,7 +88,9 @@ def _entangled(paths: Sequence[str], jacobian: Array) -> Iterator[str]:
         )
 
 
-def _on_misfit(data: pd.DataFrame, spare: int) -> Iterator[str]:
+def _on_misfit(data: pd.DataFrame, spare: int | None) -> Iterator[str]:
+    if spare is None:
+        return
     if spare == 0:
         yield (
             "there are no more data than parameters, so that nothing is left to test the model with"
@@ -106,24 +107,22 @@ def _on_misfit(data: pd.DataFrame, spare: int) -> Iterator[str]:
         )
 
 
-def _on_instruments(data: pd.DataFrame, grid: Grid) -> Iterator[str]:
+def _on_instruments(data: pd.DataFrame) -> Iterator[str]:
     """Name quantities for which the instrument or the grid is too coarse."""
     largest = data["measured"].abs().groupby(data["place"]).transform("max")
     for entry in data.assign(largest=largest).drop_duplicates("place").itertuples():
         name = entry.quantity
-        if entry.step_most >= entry.largest:
+        if entry.step_most >= entry.largest and not entry.below:
             yield (
                 f"the {_instrument(entry)} is too coarse: read to {in_words(name, entry.step)}, "
                 f"the {_named(entry)} may be off by {in_words(name, entry.step_most)}, and "
                 f"{in_words(name, entry.largest)} is given"
             )
-        if name in AXES and name not in PROFILES:
-            blur = EDGES * grid.spacing[AXES[name]]
-            if entry.stated < blur:
-                yield (
-                    f"the {_named(entry)} is measured to {in_words(name, entry.stated)}, the grid "
-                    f"is good to about {in_words(name, blur)}: raise grid.cells"
-                )
+        if entry.stated < entry.edge:
+            yield (
+                f"the {_named(entry)} is measured to {in_words(name, entry.stated)}, the grid "
+                f"is good to about {in_words(name, entry.edge)}: raise grid.cells"
+            )
 
 
 def _instrument(entry: Any) -> str:

@@ -11,13 +11,17 @@ import numpy as np
 import pandas as pd
 from scipy.special import chdtrc, chdtri
 
+from tribo.config.overrides import apply_settings
 from tribo.core.arrays import Array
-from tribo.core.grid import Grid
-from tribo.study.calibration.fit import NOTABLE, Surrogate, interval, root_covariance
+from tribo.study.calibration.fit import NO_EFFECT, NOTABLE, interval
+from tribo.study.calibration.linearised import Linearised, root_covariance, weigh
 from tribo.study.calibration.notes import notes
 from tribo.study.calibration.parameters import Parameter
 from tribo.study.calibration.quantities import QUANTITIES, Reading
 
+DATA = ["test", "body", "quantity", "time_s", "position_m", "unit"]
+DATA += ["measured", "below", "sigma", "computed", "residual"]
+"""Columns of a calibration's data."""
 AT_BOUND = 1e-6
 """Relative distance below which an estimate counts as on its bound."""
 
@@ -41,19 +45,31 @@ class Calibration:
         `value`; `held`, whether it lies on one of its bounds, so that it has no
         interval; `lower` and `upper` are then its bounds.
     data : DataFrame
-        A row a measured value: `body`, `quantity`, `time_s`, `position_m` of a
-        profile's point, `unit`, `measured`, `sigma`, `computed`, and
+        A row a measured value: `test`, empty for one of the case as it is;
+        `body`, `quantity`, `time_s`, `position_m` of a
+        profile's point, `unit`, `measured`, `below` for a limit that the
+        reading was below, `sigma`, `computed`, and
         `residual`, computed less measured, in units of `sigma`: the standard
-        deviation of both, of the measured value and with which the grid gives
-        the computed one.
+        deviation of the measured value, with which the grid gives the computed
+        one, and from test to test. That of a limit is √(−2 ln Φ(z)) for a
+        computed value z standard deviations below it.
     predictions : DataFrame
-        What else the fitted case gives at its end: `body`, `quantity`,
-        `unit`, `value`, `lower`, `upper`. The interval is open, 0 to infinity,
+        What else the fitted case gives at the end of each test: `test`,
+        `body`, `quantity`, `unit`, `value`, `lower`, `upper`; in the mean, where
+        tests scatter. The interval is open, 0 to infinity,
         where it depends on a parameter that a bound holds.
     chi_square : float
-        Sum of the squared residuals.
+        Sum of the squared residuals, in standard deviations of what is
+        independent where tests scatter.
     degrees_of_freedom : int
-        Data less the parameters that no bound holds.
+        Values, limits left out, less the parameters that they depend on and no
+        bound holds.
+    repeatability : float
+        Relative standard deviation of the parameters from test to test.
+    repeatability_estimated : bool
+        Whether it is estimated from tests alike, rather than stated or 0.
+    fitted : dict
+        The tables of each test's case with the estimates, by the name of the test.
     correlation : ndarray, shape (p, p)
         Between the logarithms of the parameters.
     singular_values : ndarray, shape (p,)
@@ -71,6 +87,9 @@ class Calibration:
     predictions: pd.DataFrame
     chi_square: float
     degrees_of_freedom: int
+    repeatability: float
+    repeatability_estimated: bool
+    fitted: Mapping[str, Mapping[str, Any]]
     correlation: Array
     singular_values: Array
     notes: tuple[str, ...]
@@ -82,8 +101,11 @@ class Calibration:
 
     @property
     def p_value(self) -> float | None:
-        """Probability of a misfit at least as large by chance; None without data to spare."""
-        if self.degrees_of_freedom == 0:
+        """Probability of a misfit at least as large by chance.
+
+        None without data to spare, and where they tell the repeatability.
+        """
+        if self.degrees_of_freedom == 0 or self.repeatability_estimated:
             return None
         return float(chdtrc(self.degrees_of_freedom, self.chi_square))
 
@@ -98,6 +120,8 @@ class Calibration:
             "chi_square": self.chi_square,
             "degrees_of_freedom": self.degrees_of_freedom,
             "p_value": self.p_value,
+            "repeatability": self.repeatability,
+            "repeatability_estimated": self.repeatability_estimated,
             "correlation": self.correlation.tolist(),
             "singular_values": self.singular_values.tolist(),
             "notes": list(self.notes),
@@ -105,12 +129,12 @@ class Calibration:
 
 
 def outcome(
-    fitted: Surrogate,
+    fitted: Linearised,
     parameters: Sequence[Parameter],
     data: pd.DataFrame,
-    predicted: Mapping[int, Reading],
+    predicted: Mapping[int, tuple[str, Reading]],
     *,
-    grid: Grid,
+    cases: Mapping[str, Mapping[str, Any]],
     read_off: Array,
     level: float,
     runs: int,
@@ -118,48 +142,65 @@ def outcome(
 ) -> Calibration:
     """Return the calibration that follows from a fit.
 
-    `data` are what was measured, as `Measurements.table` has it; `predicted` the
-    responses that are predictions, by their index; `read_off` the standard
+    `data` are what was measured, as `Measurements.table` has it, and the
+    standard deviation of a computed diameter, `edge`; `predicted` the responses
+    that are predictions, by their index, each with the name of its test; `cases`
+    the tables of each test's case; `read_off` the standard
     deviations with which the grid gives the responses.
     """
-    jacobian = fitted.jacobian(fitted.point)
+    jacobian = fitted.sensitivity()
     root = root_covariance(jacobian)
     deviations = np.sqrt(np.sum(root**2, axis=1))
-    estimates = _estimates(fitted, parameters, data, level)
+    estimates = _estimates(fitted, jacobian, parameters, data, level)
     held = estimates["held"].to_numpy()
-    residuals = fitted.problem.residuals(fitted.responses)
+    settled = {each.path: float(f"{each.value:.7g}") for each in estimates.itertuples()}
+    problem, computed = fitted.problem, fitted.responses[: len(data)]
+    effects = fitted.effects(fitted.point)
+    scatter = fitted.repeatability * np.sqrt(np.sum(effects**2, axis=1))
+    sigma = np.hypot(problem.sigma, scatter)
     data = data.assign(
         stated=data["sigma"],
-        sigma=fitted.problem.sigma,
-        computed=fitted.responses[: len(data)],
-        residual=residuals,
+        sigma=sigma,
+        computed=computed,
+        residual=problem.residuals(computed, 1 / sigma),
     )
-    spare = len(data) - int(np.sum(~held))
+    told = np.max(np.abs(jacobian[~problem.below]), axis=0, initial=0.0) > NO_EFFECT
+    spare = max(int(np.sum(~problem.below)) - int(np.sum(told & ~held)), 0)
     rows = []
-    for i, each in predicted.items():
+    for i, (test, each) in predicted.items():
         value, ends = float(fitted.responses[i]), (0.0, math.inf)
         if not np.any(np.abs(fitted.slopes[i][held]) > NOTABLE):
             below, above = value - value * np.exp(interval(fitted, fitted.slopes[i], level))
             by = math.sqrt(chdtri(1, 1 - level)) * float(read_off[i])
             ends = max(value - math.hypot(below, by), 0.0), value + math.hypot(above, by)
-        rows.append((each.body, each.quantity, QUANTITIES[each.quantity].unit, value, *ends))
-    columns = ["body", "quantity", "unit", "value", "lower", "upper"]
+        rows.append((test, each.body, each.quantity, QUANTITIES[each.quantity].unit, value, *ends))
+    columns = ["test", "body", "quantity", "unit", "value", "lower", "upper"]
     return Calibration(
         level=level,
         runs=runs,
         parameters=estimates,
-        data=data.drop(columns=["place", "step", "step_sigma", "step_most", "stated"]),
+        data=data[DATA],
         predictions=pd.DataFrame(rows, columns=columns),
-        chi_square=float(np.sum(residuals**2)),
+        chi_square=float(np.sum(fitted.residuals(fitted.point) ** 2)),
         degrees_of_freedom=spare,
+        repeatability=fitted.repeatability,
+        repeatability_estimated=problem.repeatability is None,
+        fitted={name: apply_settings(case, settled) for name, case in cases.items()},
         correlation=root @ root.T / np.outer(deviations, deviations),
         singular_values=np.asarray(np.linalg.svd(jacobian, compute_uv=False), dtype=np.float64),
-        notes=(*notes(estimates, data, jacobian, grid, spare), *notices),
+        notes=(
+            *notes(estimates, data, jacobian, None if problem.repeatability is None else spare),
+            *notices,
+        ),
     )
 
 
 def _estimates(
-    fitted: Surrogate, parameters: Sequence[Parameter], data: pd.DataFrame, level: float
+    fitted: Linearised,
+    jacobian: Array,
+    parameters: Sequence[Parameter],
+    data: pd.DataFrame,
+    level: float,
 ) -> pd.DataFrame:
     table = pd.DataFrame(parameters).drop(columns="start")
     values = np.exp(fitted.point)
@@ -168,9 +209,10 @@ def _estimates(
     for i in np.flatnonzero(~held):
         low, high = values[i] * np.exp(interval(fitted, np.eye(len(values))[i], level))
         lower[i], upper[i] = max(low, lower[i]), min(high, upper[i])
-    effect = np.linalg.pinv(fitted.jacobian(fitted.point))
-    deviation, most = data[["step_sigma", "step_most"]].to_numpy().T / fitted.problem.sigma
-    share = np.sum((effect * deviation) ** 2, axis=1) / np.sum(effect**2, axis=1)
+    standard = np.asarray(np.linalg.pinv(jacobian), dtype=np.float64)
+    effect = weigh(fitted.weights.T, standard.T).T
+    deviation, most = data[["step_sigma", "step_most"]].to_numpy().T
+    share = np.sum((effect * deviation) ** 2, axis=1) / np.sum(standard**2, axis=1)
     return table[["path", "unit"]].assign(
         value=values,
         lower=lower,

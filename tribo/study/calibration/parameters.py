@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Iterable, Sequence
 from typing import NamedTuple
 
 from tribo.case import Case
@@ -11,7 +11,7 @@ from tribo.config.overrides import leaves, path_keys
 from tribo.core.errors import CaseError, located
 from tribo.core.units import Quantity
 from tribo.core.words import did_you_mean, shown, suggestion
-from tribo.study.calibration.measured import Fitted, Measured
+from tribo.study.calibration.measured import Fitted
 
 WITHIN = 1e-9
 """Relative distance that a parameter keeps from an open bound."""
@@ -38,9 +38,9 @@ class Parameter(NamedTuple):
 
 
 def find_parameters(
-    case: Case, fit: Sequence[Fitted], measured: Sequence[Measured]
+    case: Case, fit: Sequence[Fitted], measured: Collection[str]
 ) -> list[Parameter]:
-    """Return the parameters that are asked for, or else the k of each measured body.
+    """Return the parameters that are asked for, or else the k of each body in `measured`.
 
     Raises
     ------
@@ -50,7 +50,7 @@ def find_parameters(
     """
     asked = {f"fit[{i}]": entry for i, entry in enumerate(fit)}
     if not fit:
-        bodies = [name for name in case.bodies if any(e.body == name for e in measured)]
+        bodies = [name for name in case.bodies if name in measured]
         with_k = [n for n in bodies if getattr(case.bodies[n].wear, "k", None) is not None]
         if not with_k:
             raise CaseError(
@@ -68,6 +68,21 @@ def find_parameters(
             value, mark = _number(case, keys)
         found[keys] = _bounded(place.split()[0], entry, value, mark)
     return list(found.values())
+
+
+def check_set(parameters: Sequence[Parameter], paths: Iterable[str], place: str) -> None:
+    """Check that no test sets a parameter, or what it is part of; CaseError if one does."""
+    for path in paths:
+        keys = path_keys(path)
+        for each in parameters:
+            if path_keys(each.path)[: len(keys)] == keys or (
+                keys[-1] == "type" and path_keys(each.path)[: len(keys) - 1] == keys[:-1]
+            ):
+                raise CaseError(
+                    f"{path} is given, and {each.path} is fitted, one value for all tests: leave "
+                    "one of them out",
+                    place,
+                )
 
 
 def _number(case: Case, keys: tuple[str, ...]) -> tuple[float, Quantity]:

@@ -89,12 +89,12 @@ def load_study(path: str | Path) -> tuple[Study, dict[str, Any]]:
 def _validated(data: dict[str, Any]) -> Study:
     for key in ("settings", "grid", "zip"):
         if key in data:
-            data[key] = _by_path(data[key], key)
+            data[key] = by_path(data[key], key)
     if isinstance(data.get("list"), list):
-        data["list"] = [_by_path(point, f"list[{i}]") for i, point in enumerate(data["list"])]
+        data["list"] = [by_path(point, f"list[{i}]") for i, point in enumerate(data["list"])]
     sample = data.get("sample")
     if isinstance(sample, dict) and "ranges" in sample:
-        sample["ranges"] = _by_path(sample["ranges"], "sample.ranges")
+        sample["ranges"] = by_path(sample["ranges"], "sample.ranges")
     try:
         study = Study.model_validate(data)
     except ValidationError as error:
@@ -135,7 +135,7 @@ def points(study: Study, data: Mapping[str, Any], most: float = math.inf) -> lis
     return [_merged(parts) for parts in product(*blocks)]
 
 
-def _by_path(table: Any, where: str, prefix: str = "") -> Any:
+def by_path(table: Any, where: str, prefix: str = "") -> Any:
     """Return values by path; a path may be a quoted key, or tables in each other."""
     if not isinstance(table, Mapping):
         return table
@@ -143,7 +143,7 @@ def _by_path(table: Any, where: str, prefix: str = "") -> Any:
     for key, value in table.items():
         path = f"{prefix}{key}"
         nested = isinstance(value, Mapping) and value and not (_RANGE & value.keys())
-        for name, item in (_by_path(value, where, f"{path}.") if nested else {path: value}).items():
+        for name, item in (by_path(value, where, f"{path}.") if nested else {path: value}).items():
             if name in found:
                 raise CaseError(f"{name!r} is given twice", where)
             found[name] = item

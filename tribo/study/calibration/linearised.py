@@ -1,0 +1,267 @@
+"""A model near a run, and how well it meets what was measured."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.linalg import solve_triangular
+from scipy.optimize import least_squares, minimize_scalar
+from scipy.special import log_ndtr
+
+from tribo.core.arrays import Array, Mask
+
+LEAP = np.log(100.0)
+"""How far a parameter may move between two runs."""
+REPEATABILITIES = 1e-3, 3.0
+"""Least and largest that is estimated."""
+_PASSES, _SAME = 30, 1e-5
+_RIDGE = 1e-12
+
+
+@dataclass(frozen=True)
+class Problem:
+    """What is fitted.
+
+    Parameters
+    ----------
+    names : tuple of str
+        What the parameters are called in messages.
+    observed, sigma : ndarray, shape (n,)
+        Measured values and their standard deviations.
+    below : ndarray of bool, shape (n,)
+        Where the value is a limit of detection that the reading was below.
+    specimen : ndarray of int, shape (n,)
+        Of which test a value is.
+    repeatability : float or None
+        Relative standard deviation of the parameters from test to test; None
+        if it is to be estimated.
+    logged : ndarray of bool, shape (m,)
+        Which of the model's responses are positive and near to power laws of
+        the parameters. The first n responses answer to `observed`.
+    lower, upper : ndarray, shape (p,)
+        Bounds of the logarithms of the parameters; infinite for none.
+    """
+
+    names: tuple[str, ...]
+    observed: Array
+    sigma: Array
+    below: Mask
+    specimen: Array
+    repeatability: float | None
+    logged: Mask
+    lower: Array
+    upper: Array
+
+    def scaled(self, responses: Array) -> Array:
+        """Return responses, of those that are `logged` the logarithms."""
+        return np.log(responses, out=responses.copy(), where=self.logged)
+
+    def residuals(self, responses: Array, weights: Array) -> Array:
+        """Return residuals whose sum of squares is twice the negative log-likelihood.
+
+        Of a value the misfit in standard deviations; of a limit of detection
+        √(−2 ln Φ(z)), where the computed value lies z standard deviations below.
+        """
+        found = weigh(weights, responses[: len(self.observed)] - self.observed)
+        found[self.below] = np.sqrt(-2 * log_ndtr(-found[self.below]))
+        return found
+
+    def together(self, effects: Array) -> Array:
+        """Return the covariance of the data per squared repeatability, shape (n, n).
+
+        A test's parameters are off by factors of their own, so that all that
+        was measured in it is off together. A limit of detection counts as a
+        test of its own.
+        """
+        same = (self.specimen[:, None] == self.specimen) & ~(self.below[:, None] | self.below)
+        same |= np.eye(len(self.observed), dtype=bool)
+        return np.where(same, effects @ effects.T, 0.0)
+
+
+@dataclass(frozen=True)
+class Linearised:
+    """The model near a run: power laws where `Problem.logged`, else linear in the logarithms.
+
+    Worn volumes, depths and widths go as powers of the wear coefficients: the
+    volume by Archard's law exactly as the first.
+
+    Parameters
+    ----------
+    problem : Problem
+        What is fitted.
+    point : ndarray, shape (p,)
+        Logarithms of the parameters of the run.
+    responses : ndarray, shape (m,)
+        What the run gave.
+    slopes : ndarray, shape (m, p)
+        Derivatives by the logarithms of the parameters: of the logarithm of a
+        response where logged, else of itself.
+    weights : ndarray, shape (n,) or (n, n)
+        Root W of the inverse covariance of the data, V⁻¹ = Wᵀ W; its diagonal
+        where the data are independent.
+    repeatability : float
+        Part of V: relative standard deviation from test to test.
+    """
+
+    problem: Problem
+    point: Array
+    responses: Array
+    slopes: Array
+    weights: Array
+    repeatability: float = 0.0
+
+    def at(self, point: Array) -> Array:
+        """Return the responses at another point."""
+        moved = self.problem.scaled(self.responses)
+        moved += np.sum(self.slopes * (point - self.point), axis=1)
+        return np.exp(moved, out=moved, where=self.problem.logged)
+
+    def effects(self, point: Array) -> Array:
+        """Return the derivatives of the data by the logarithms of the parameters, shape (n, p)."""
+        n = len(self.problem.observed)
+        factor = np.where(self.problem.logged, self.at(point), 1.0)[:n]
+        return np.asarray(factor[:, None] * self.slopes[:n])
+
+    def residuals(self, point: Array) -> Array:
+        """Return the misfit of the data; see `Problem.residuals`."""
+        return self.problem.residuals(self.at(point), self.weights)
+
+    def jacobian(self, point: Array) -> Array:
+        """Return the derivatives of `residuals`, shape (n, p)."""
+        found = weigh(self.weights, self.effects(point))
+        below = self.problem.below
+        # d/dz of √(−2 ln Φ(z)) is −φ/(Φ √(−2 ln Φ)).
+        root = self.residuals(point)[below]
+        above = (self.at(point)[: len(below)] - self.problem.observed)[below] * self._inverse(below)
+        inside = np.exp(-0.5 * above**2 + 0.5 * root**2) / np.sqrt(2 * np.pi)
+        slope = np.divide(inside, root, out=np.zeros_like(root), where=root > 0)
+        found[below] *= slope[:, None]
+        return found
+
+    def sensitivity(self) -> Array:
+        """Return the derivatives of the data in standard deviations, shape (n, p).
+
+        Those of a limit of detection are of a value that just meets it.
+        """
+        effects, observed = self.effects(self.point), self.problem.observed
+        below = self.problem.below
+        met = observed[below] / self.responses[: len(below)][below]
+        effects[below] *= np.maximum(met, 1.0)[:, None]
+        return weigh(self.weights, effects)
+
+    def bounds(self, reach: float) -> tuple[Array, Array]:
+        """Return the bounds of a point no farther than `reach` from that of the run."""
+        lower = np.maximum(self.problem.lower, self.point - reach)
+        return lower, np.minimum(self.problem.upper, self.point + reach)
+
+    def least(self, start: Array) -> Array:
+        """Return the least-squares point within the bounds and a leap."""
+        tight = {"xtol": 1e-10, "ftol": 1e-10, "gtol": 1e-10}
+        ends = self.bounds(LEAP)
+        start = np.clip(start, *ends)
+        found = least_squares(self.residuals, start, self.jacobian, ends, **tight)
+        return np.asarray(found.x)
+
+    def best(self) -> tuple[Linearised, Array]:
+        """Return the least-squares point, and the model with the data weighed as there.
+
+        The repeatability, if it is to be estimated, by restricted maximum
+        likelihood.
+        """
+        here, point = self, self.least(self.point)
+        if self.problem.repeatability == 0:
+            return here, point
+        for _ in range(_PASSES):
+            given = self.problem.repeatability
+            here = here.weighed(point, here._estimated(point) if given is None else given)
+            former, point = point, here.least(point)
+            if np.max(np.abs(point - former)) < _SAME:
+                break
+        return here, point
+
+    def weighed(self, point: Array, repeatability: float) -> Linearised:
+        """Return the model with data that repeat so well weighed as at a point."""
+        weights = 1 / self.problem.sigma
+        if repeatability > 0:
+            scatter = repeatability**2 * self.problem.together(self.effects(point))
+            root = np.linalg.cholesky(np.diag(self.problem.sigma**2) + scatter)
+            weights = solve_triangular(root, np.eye(len(root)), lower=True)
+        return replace(self, weights=weights, repeatability=repeatability)
+
+    def freedom(self, direction: Array) -> float:
+        """Return the degrees of freedom with which the variance of direction · point is known.
+
+        By Satterthwaite: 2 g²/Var(g) with the variance g and that of the
+        estimated repeatability. Infinite if that is stated.
+
+        References
+        ----------
+        Satterthwaite, F. E. (1946), An approximate distribution of estimates
+        of variance components, Biometrics Bulletin 2, 110-114.
+        """
+        if self.problem.repeatability is not None:
+            return np.inf
+        jacobian = self.sensitivity()
+        together = self.problem.together(self.effects(self.point))
+        scatter = weigh(self.weights, weigh(self.weights, together).T)
+        directions = np.linalg.svd(jacobian, full_matrices=False)[0]
+        left = scatter - directions @ (directions.T @ scatter)
+        root = root_covariance(jacobian)
+        effect = np.sum(jacobian * np.sum(root * (direction @ root), axis=1), axis=1)
+        slope = np.sum(effect * np.sum(scatter * effect, axis=1))
+        variance = np.sum((direction @ root) ** 2)
+        known = np.sum(left * left.T)
+        return float(variance**2 * known / slope**2) if slope > 0 else np.inf
+
+    def deviance(self, point: Array) -> float:
+        """Return twice the negative logarithm of the likelihood at a point."""
+        values = ~self.problem.below
+        return float(
+            np.sum(self.residuals(point) ** 2)
+            - 2 * np.sum(np.log(self._inverse(values)))
+            + np.sum(values) * np.log(2 * np.pi)
+        )
+
+    def _inverse(self, rows: Mask) -> Array:
+        """Return the diagonal of the weights in some rows."""
+        diagonal = self.weights if self.weights.ndim == 1 else np.diag(self.weights)
+        return np.asarray(diagonal[rows])
+
+    def _estimated(self, point: Array) -> float:
+        """Return the repeatability by restricted maximum likelihood about a point."""
+        bounds = self.problem.lower, self.problem.upper
+        free = np.all([np.abs(point - bound) > _SAME for bound in bounds], axis=0)
+
+        def criterion(repeatability: float) -> float:
+            here = self.weighed(point, repeatability)
+            left, sizes, _ = np.linalg.svd(here.jacobian(point)[:, free], full_matrices=False)
+            # What a step of Gauss and Newton takes off the misfit.
+            taken = np.sum(left * here.residuals(point)[:, None], axis=0)
+            lost = 2 * np.sum(np.log(sizes + _RIDGE))
+            return float(here.deviance(point) - np.sum(taken**2) + lost)
+
+        found = minimize_scalar(
+            lambda log: criterion(np.exp(log)),
+            bounds=np.log(REPEATABILITIES),
+            method="bounded",
+            options={"xatol": 1e-4},
+        )
+        return float(np.exp(found.x)) if found.fun < criterion(0.0) else 0.0
+
+
+def weigh(weights: Array, values: Array) -> Array:
+    """Return W values, for values of shape (n,) or (n, k) and W as `Linearised` has it."""
+    if weights.ndim == 2:
+        return weights @ values if values.ndim == 2 else np.sum(weights * values, axis=1)
+    return weights[:, None] * values if values.ndim == 2 else weights * values
+
+
+def root_covariance(jacobian: Array) -> Array:
+    """Return a root B of the covariance (JᵀJ)⁻¹ = B Bᵀ, shape (p, p).
+
+    Where the data tell nothing it is very large, but finite.
+    """
+    size = np.sqrt(np.sum(jacobian**2, axis=0)) + _RIDGE
+    _, values, directions = np.linalg.svd(jacobian / size, full_matrices=False)
+    return np.asarray(directions.T / np.sqrt(values**2 + _RIDGE) / size[:, None])
