@@ -107,3 +107,13 @@ def test_hertz_is_compared_in_percent_only_where_it_should_agree():
     assert "Hertz 2155.4 MPa;" in " ".join(printed(brief(contact=foundation())).split())
     cut = brief(grid=Grid((0.25e-3, 0.25e-3), (24, 24)), ends_at_window=True)
     assert "Hertz 2155.4 MPa;" in " ".join(printed(cut).split())
+
+
+def test_depths_of_some_nanometres_and_pressures_of_some_megapascals_keep_their_digits():
+    text = printed(brief(grid=Grid(size=50e-6, cells=32), load=Load(normal=0.01)))
+    header, last = (
+        text.splitlines()[3],
+        next(line for line in text.splitlines() if line.split()[:1] == ["1"]),
+    )
+    assert header.split()[-2:] == ["nm", "nm"]
+    assert float(last.split()[-2]) > 1

@@ -16,13 +16,14 @@ from tribo.plotting import figures, pressure_map, pressure_sections, save_figure
 CONTACT = ["pressure_map", "pressure_map_early", "pressure_sections"]
 OVER_TIME = ["wear_history", "contact_history"]
 RUNNING_IN = ["real_contact", "roughness_history"]
-WORN = ["disk_groove", "worn_section"]
-BALL = ["ball_along", "ball_across"]
+WORN = ["disk_scar", "disk_groove", "worn_section"]
+BALL = ["ball_scar", "ball_profiles"]
 RELIEF = ["ball_height_map", "ball_material_ratio"]
 ROUGH = {"relief": 2e-7, "cap": 4e8}
 COARSE = {**ROUGH, "grid": Grid((2e-3, 1.6e-3), (10, 8)), "times": (0.0, 200.0)}
 EARLY = [CONTACT[0], CONTACT[2]]
 INTERRUPTED = {"times": (0.0, 123.4567), "status": "interrupted"}
+TWIN_WORN = ["wheel-1_scar", "wheel-1_groove", "Wheel_β_scar", "Wheel_β_groove"]
 TWIN = {"swept": (True, True), "names": ("wheel-1", "Wheel_β"), "densities": (7850.0, 3200.0)}
 MANY = {
     "times": tuple(np.arange(40.0)),
@@ -39,7 +40,7 @@ def test_the_pictures_are_images_of_the_width_of_a_column(tmp_path):
     assert [path.stem for path in paths] == [*CONTACT, *BALL, *WORN, *OVER_TIME]
     for path in paths:
         image = imread(path)
-        wide = path.stem in ("pressure_sections", "worn_section")
+        wide = path.stem in ("pressure_sections", "ball_profiles", "worn_section")
         assert image.shape[1] == pytest.approx((130 if wide else 85) / 25.4 * 200, abs=1)
         grey = image[..., :3].mean(axis=2)
         # Paper, ink, and neither everywhere.
@@ -55,14 +56,14 @@ def test_the_pictures_are_images_of_the_width_of_a_column(tmp_path):
         (INTERRUPTED, [*EARLY, *BALL, *WORN, *OVER_TIME]),
         ({"worn": (True, False)}, [*CONTACT, *BALL, "worn_section", *OVER_TIME]),
         ({"worn": (False, False)}, [*CONTACT, "contact_history"]),
-        (TWIN, [*CONTACT, "wheel-1_groove", "Wheel_β_groove", "worn_section", *OVER_TIME]),
+        (TWIN, [*CONTACT, *TWIN_WORN, "worn_section", *OVER_TIME]),
         (
             {"swept": (False, False)},
-            [*CONTACT, *BALL, "disk_along", "disk_across", "worn_section", *OVER_TIME],
+            [*CONTACT, *BALL, "disk_scar", "disk_profiles", "worn_section", *OVER_TIME],
         ),
         (INDENTED, [*EARLY, *BALL, *WORN]),
-        (COARSE, [*EARLY, *BALL, *WORN, *OVER_TIME, "real_contact"]),
-        (ROUGH, [*CONTACT, *BALL, WORN[0], *RELIEF, WORN[1], *OVER_TIME, *RUNNING_IN]),
+        (COARSE, [*EARLY, *BALL, *WORN, *OVER_TIME]),
+        (ROUGH, [*CONTACT, *BALL, *WORN[:2], *RELIEF, WORN[2], *OVER_TIME, *RUNNING_IN]),
     ],
 )
 def test_each_result_gets_the_pictures_that_make_sense(changes, expected, monkeypatch, tmp_path):

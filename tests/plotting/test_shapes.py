@@ -5,10 +5,12 @@ import pytest
 from made_results import SHAPES, made
 
 from tribo.plotting import (
+    body_profiles,
     contact_history,
     groove,
     pressure_map,
     pressure_sections,
+    scar_map,
     worn_section,
 )
 from tribo.plotting.difference import difference_map
@@ -114,3 +116,20 @@ def test_half_widths_of_a_long_contact_both_show():
     for line in lower.lines:
         y = lower.transAxes.inverted().transform(lower.transData.transform(line.get_xydata()))[:, 1]
         assert np.all((y > 0.02) & (y < 0.98))
+
+
+def test_a_scar_from_above_is_what_is_gone_whatever_its_shape(case):
+    figure = scar_map(case, "ball")
+    figure.draw_without_rendering()
+    (image,) = figure.axes[0].images
+    deepest = 1e6 * np.max(case.body("ball").wear_depth[-1])
+    assert figure.axes[0].child_axes[0].get_ylabel() == "Depth (µm)"
+    assert np.max(image.get_array()) == pytest.approx(deepest, rel=1e-12)
+    assert image.get_array().shape == case.grid.cells[::-1]
+
+
+def test_profiles_along_and_across_have_one_scale_of_heights(case):
+    along, across = body_profiles(case, "ball").axes
+    assert along.get_ylim() == across.get_ylim()
+    assert along.get_xlabel().startswith("Along sliding")
+    assert across.get_xlabel().startswith("Across sliding")

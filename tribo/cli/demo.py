@@ -21,6 +21,15 @@ This is the paper's model: it averages the disk's wear over the stroke.
 The same hour follows, with the cycle resolved into 33 positions along the stroke,
 on 64² cells; it takes ten to thirty seconds."""
 
+LIKE = {
+    "ball_scar": "like the paper's figure 4, which was measured",
+    "disk_scar": "like figure 5, which was measured",
+    "pressure_map_early": "like figure 8",
+    "pressure_sections": "like figure 9",
+    "ball_profiles": "like figures 10 and 11",
+}
+"""The paper's figures that pictures stand for."""
+
 
 @click.command()
 @click.option(
@@ -78,7 +87,8 @@ def demo(directory: Path, force: bool) -> None:
             pictures += _pictures(average, cycle, directory)
     click.echo(f"Case, results and {len(pictures)} pictures are in {directory}/:")
     for path in (case, output, followed, *pictures):
-        click.echo(f"  {path.name}")
+        like = LIKE.get(path.stem)
+        click.echo(f"  {path.name:24}{like}" if like else f"  {path.name}")
 
 
 def _end(result: Result) -> dict[str, Any]:

@@ -14,7 +14,7 @@ from rich.text import Text
 from tribo.cli.console import Console, titled
 from tribo.lab.inferred import InferredVolume
 from tribo.lab.report import BodyReport, lab_report
-from tribo.lab.running_in import rough_bodies, worn_roughness
+from tribo.lab.running_in import groove_length, rough_bodies, worn_roughness
 from tribo.result.read import Result
 
 COLUMNS = (
@@ -46,6 +46,10 @@ WHERE = {"scar": "scar", "unworn": "at first", "beside": "beside"}
 WIDE = 10_000
 """More characters than any table needs."""
 NOTHING = "–"
+LOW = 20.0
+"""Largest pressure up to which those of a column have decimals, in MPa."""
+SHALLOW = 1e-7
+"""Depth below which the depths of a body are in nm."""
 
 
 def print_report(result: Result, console: Console | None = None) -> None:
@@ -158,16 +162,25 @@ def _saves(result: Result, left_out: Sequence[str]) -> Table:
     saves, along = result.saves(), _shares_along(result)
     columns = []
     for name, unit, key, factor, digits in COLUMNS:
-        cells = [f"{factor * save[key]:{digits}}" for save in saves]
+        values = [factor * save[key] for save in saves]
+        # Of a flat contact whole MPa are too coarse.
+        shown = ".2f" if unit == "MPa" and 0 < max(values) < LOW else digits
+        cells = [f"{value:{shown}}" for value in values]
         steady = name in VARYING and len(set(cells)) == 1 and not along
         if name not in left_out and not steady:
             table.add_column(f"{name}\n{unit}", justify="right", no_wrap=True)
             columns.append(cells)
     for body in result.body_names:
-        depths = [f"{1e6 * save['bodies'][body]['max_wear_depth_m']:.2f}" for save in saves]
+        worn = [save["bodies"][body]["max_wear_depth_m"] for save in saves]
+        # Two decimals of a µm leave nothing of a depth of some nm.
+        unit, factor = ("nm", 1e9) if 0 < max(worn) < SHALLOW else ("µm", 1e6)
+        depths = [f"{factor * depth:.2f}" for depth in worn]
         # A long name is broken before a number is.
         table.add_column(
-            f"{escape(body)}\nµm", justify="right", overflow="fold", min_width=max(map(len, depths))
+            f"{escape(body)}\n{unit}",
+            justify="right",
+            overflow="fold",
+            min_width=max(map(len, depths)),
         )
         columns.append(depths)
     for row in zip(*columns, strict=True):
@@ -186,7 +199,8 @@ def _bodies(result: Result, bodies: Mapping[str, BodyReport]) -> Table:
     tracks = [f"{n} (track)" if body.scar_along_m is None else n for n, body in bodies.items()]
     before = ", what it began with included" if result.case.get("begin") else ""
     table = titled(f"Wear after {last['distance_m']:.4g} m{before}", *tracks)
-    worn = [_worn(body, last["bodies"][name]) for name, body in bodies.items()]
+    lengths = {name: groove_length(result, name) for name in bodies}
+    worn = [_worn(body, last["bodies"][name], lengths[name]) for name, body in bodies.items()]
     for row in worn[0]:
         cells = [body[row] for body in worn]
         if any(cell != NOTHING for cell in cells):
@@ -194,14 +208,14 @@ def _bodies(result: Result, bodies: Mapping[str, BodyReport]) -> Table:
     return table
 
 
-def _worn(body: BodyReport, save: Mapping[str, float]) -> dict[str, str]:
-    """Return a body's cells by their row."""
+def _worn(body: BodyReport, save: Mapping[str, float], groove: float | None) -> dict[str, str]:
+    """Return a body's cells by their row; `groove` is the length of one that is resolved, in m."""
     scarred = body.scar_across_m > 0
     rows: dict[str, tuple[float | None, float, str]] = {
         "volume, mm³": (save["wear_volume_m3"], 1e9, ".3g"),
         "mass, mg": (body.mass_kg, 1e6, ".3g"),
         "specific wear rate, mm³/(N·m)": (body.specific_wear_rate_mm3_per_Nm, 1, ".3g"),
-        "scar along sliding, mm": (body.scar_along_m if scarred else None, 1e3, ".3f"),
+        "scar along sliding, mm": ((body.scar_along_m or groove) if scarred else None, 1e3, ".3f"),
         "scar across, mm": (body.scar_across_m or None, 1e3, ".3f"),
         "section of the track, mm²": (body.track_section_m2 if scarred else None, 1e6, ".3g"),
         "largest depth, µm": (save["max_wear_depth_m"], 1e6, ".3g"),
@@ -211,7 +225,7 @@ def _worn(body: BodyReport, save: Mapping[str, float]) -> dict[str, str]:
         row: NOTHING if value is None else f"{factor * value:{digits}}"
         for row, (value, factor, digits) in rows.items()
     }
-    if scarred and body.scar_along_m is None:
+    if scarred and body.scar_along_m is None and groove is None:
         cells["scar along sliding, mm"] = "whole track"
     return cells
 

@@ -7,7 +7,8 @@ from typing import Any, Generic, NamedTuple, TypeVar
 import numpy as np
 
 from tribo.core.arrays import Array, Mask
-from tribo.lab.roughness import Roughness, is_rough, parameters, without_form
+from tribo.lab.roughness import Roughness, parameters, without_form
+from tribo.lab.scar import diameter
 from tribo.result.body import BodyResult
 from tribo.result.export import profile
 from tribo.result.layout import TRACK
@@ -84,7 +85,16 @@ def outlined(cells: Mask) -> Mask:
 
 def rough_bodies(result: Result) -> list[str]:
     """Return the names of the bodies that are rough at first."""
-    return [name for name in result.body_names if is_rough(result.body(name).height)]
+    history = result.table("history")
+    return [name for name in result.body_names if f"bodies.{name}.Sq_m" in history]
+
+
+def groove_length(result: Result, name: str) -> float | None:
+    """Return how long a body's groove is on its track at the end, in m; None of an average."""
+    if TRACK not in dir(result):
+        return None
+    depth = np.nan_to_num(result.field(TRACK, len(result.times) - 1, name))
+    return diameter(depth, 0, result.grid.spacing[0]) if depth.any() else None
 
 
 def worn_surfaces(result: Result, name: str) -> list[dict[str, Any]]:

@@ -10,6 +10,7 @@ from tribo.plotting.history import (
 from tribo.plotting.pressure import pressure_map, pressure_sections
 from tribo.plotting.profiles import body_profiles, groove, worn_section
 from tribo.plotting.relief import height_map, material_ratio_curves
+from tribo.plotting.scars import scar_map
 
 __all__ = [
     "body_profiles",
@@ -22,6 +23,7 @@ __all__ = [
     "real_contact",
     "roughness_history",
     "save_figures",
+    "scar_map",
     "wear_history",
     "worn_section",
 ]

@@ -18,6 +18,7 @@ from tribo.plotting.history import contact_history, real_contact, roughness_hist
 from tribo.plotting.pressure import pressure_map, pressure_sections
 from tribo.plotting.profiles import along_track, body_profiles, groove, worn_section
 from tribo.plotting.relief import height_map, material_ratio_curves
+from tribo.plotting.scars import scar_map
 from tribo.plotting.sections import number_of_saves, removed
 from tribo.plotting.style import house_style
 from tribo.registry.contributions import from_plugins_of
@@ -46,10 +47,11 @@ def save_figures(result: Result, folder: Path, suffix: str = "png") -> list[Path
     -------
     list of Path
         The files: ``pressure_map`` of the last save, ``pressure_map_early`` of
-        the first after the beginning, ``pressure_sections``, ``NAME_along``
-        and ``NAME_across`` of each worn body NAME, or ``NAME_groove`` of a
-        swept one, ``NAME_height_map`` and ``NAME_material_ratio`` of each rough
-        one, ``worn_section``, ``wear_history``, ``contact_history`` and, of rough
+        the first after the beginning, ``pressure_sections``, ``NAME_scar`` and
+        ``NAME_profiles`` of each worn body NAME, or ``NAME_groove`` of a
+        swept one and ``NAME_along_track`` where the cycle is resolved,
+        ``NAME_height_map`` and ``NAME_material_ratio`` of each rough one,
+        ``worn_section``, ``wear_history``, ``contact_history`` and, of rough
         bodies, ``real_contact`` and ``roughness_history``; besides those of the plugins of the
         result's models.
 
@@ -95,13 +97,13 @@ def _pictures(result: Result) -> dict[str, Callable[[], Figure]]:
     pictures["pressure_sections"] = partial(pressure_sections, result)
     worn = [name for name in result.body_names if np.any(removed(result, name) > 0)]
     for name in worn:
+        pictures[f"{name}_scar"] = partial(scar_map, result, name)
         if result.body(name).swept:
             pictures[f"{name}_groove"] = partial(groove, result, name)
             if "track_depth" in result.dataset:
                 pictures[f"{name}_along_track"] = partial(along_track, result, name)
         else:
-            pictures[f"{name}_along"] = partial(body_profiles, result, name, 0)
-            pictures[f"{name}_across"] = partial(body_profiles, result, name, 1)
+            pictures[f"{name}_profiles"] = partial(body_profiles, result, name)
     rough = rough_bodies(result)
     for name in rough if count > 1 else ():
         # A scar of a few cells has no relief.

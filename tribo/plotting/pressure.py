@@ -112,7 +112,9 @@ def pressure_sections(result: Result) -> Figure:
         main[1].tick_params(labelleft=False)
         if faded:
             windows = [limits(fields[0] > 0, grid, axis, reach[axis]) for axis in (0, 1)]
-            axis = int(np.argmin(np.ptp(windows, axis=1)))
+            # Across a line there is no profile to show.
+            parts = np.ptp(windows, axis=1) / grid.size
+            axis = int(np.argmin(np.where(parts < 1.0, np.ptp(windows, axis=1), np.inf)))
             drawn = [0, *range(count, len(labels))]
             whole_curves = [sections[axis].curves[i] for i in drawn]
             whole = replace(sections[axis], window=windows[axis], curves=whole_curves)

@@ -30,22 +30,24 @@ UNWORN: tuple[Look, Look] = (
 UPPER, LOWER = "#e4e4e4", "#b4b4b4"
 
 
-def body_profiles(result: Result, name: str, axis: int) -> Figure:
+def body_profiles(result: Result, name: str, axis: int | None = None) -> Figure:
     """Draw a body's surface through the window's centre at every save.
 
-    It runs along axis 0, the sliding direction, or across it, along axis 1.
+    It runs along axis 0, the sliding direction, or across it, along axis 1; without one, both are
+    drawn side by side, on one scale of heights.
 
     The height points out of the body, so that material goes downwards: the
     unworn profile lies on top. Plastic displacement is part of it; elastic
     deformation is not. The picture states how much it enlarges heights.
     """
-    if axis not in (0, 1):
+    if axis not in (None, 0, 1):
         raise CaseError(f"a profile runs along axis 0 or across, axis 1; not {axis!r}")
     count = number_of_saves(result)
     body = result.body(name)
     scar = scar_mask(removed(result, name)[-1])
-    section = through_centre(axis, [(result.grid, body.surface(i), scar) for i in range(count)])
-    return draw_profiles([section], save_looks(count), time_labels(result.times), name)
+    fields = [(result.grid, body.surface(i), scar) for i in range(count)]
+    sections = [through_centre(each, fields) for each in ((0, 1) if axis is None else (axis,))]
+    return draw_profiles(sections, save_looks(count), time_labels(result.times), name)
 
 
 def groove(result: Result, name: str) -> Figure:
@@ -58,7 +60,10 @@ def groove(result: Result, name: str) -> Figure:
 
 
 def along_track(result: Result, name: str) -> Figure:
-    """Draw the groove along the whole track of a body that passes through a resolved cycle."""
+    """Draw the groove along the whole track of a body that passes through a resolved cycle.
+
+    It is by how much its height has changed: what it was at first is left out.
+    """
     if "track_depth" not in result.dataset:
         raise CaseError(f"the cycle is not resolved in {result.name}; draw the groove instead")
     count = number_of_saves(result)
@@ -69,7 +74,8 @@ def along_track(result: Result, name: str) -> Figure:
     depths = [np.nan_to_num(track.isel(time=save).values) for save in range(count)]
     scar = scar_mask(depths[-1])
     section = through_centre(0, [(grid, -depth, scar) for depth in depths])
-    return draw_profiles([section], save_looks(count), time_labels(result.times), name)
+    labels = time_labels(result.times)
+    return draw_profiles([section], save_looks(count), labels, name, what="Change of height")
 
 
 def worn_section(result: Result) -> Figure:

@@ -124,12 +124,13 @@ def draw_profiles(
     title: str,
     shape: float = 0.62,
     room: Limits = (0.05, 0.05),
+    what: str = "Height",
 ) -> Figure:
     """Draw surfaces in one panel for each section, all with one scale of heights.
 
     A curve without a label is left out of the legend. `shape` is the height of
     the axes over their width, on paper; `room` is left free below and above
-    the curves, in parts of their range.
+    the curves, in parts of their range; `what` names the heights.
     """
     parts = [line for section in sections for line in section.in_sight()]
     low, high = min(map(np.min, parts)), max(map(np.max, parts))
@@ -147,7 +148,7 @@ def draw_profiles(
             axes.set_box_aspect(shape)
             enlarged = shape * (section.window[1] - section.window[0]) / (up[1] - up[0])
             axes.set_title(f"height × {style.times(enlarged)}", loc="right", fontsize=7.0)
-        panels[0].set_ylabel(f"Height ({unit})")
+        panels[0].set_ylabel(f"{what} ({unit})")
         panels[0].set_title(title, loc="left")
         named = [line for line, label in zip(lines, labels, strict=True) if label]
         style.legend_below(figure, named)

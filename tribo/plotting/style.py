@@ -40,6 +40,8 @@ OVER: Look = {"color": "#202020", "linewidth": 1.1, "linestyle": (0.0, (3.0, 1.6
 
 PRESSURES = "viridis"
 """Colours of pressures: higher is lighter."""
+DEPTHS = "Blues"
+"""Colours of what is gone: deeper is darker."""
 DIFFERENCES = "PuOr"
 """Colours of differences: white is none, and both ends are dark."""
 

@@ -42,7 +42,7 @@ def time_unit(times: Array) -> str:
             shown = part / size(unit)
             if np.any(part > 0) and np.allclose(shown, np.round(shown, 1), rtol=0.0, atol=1e-9):
                 return unit
-    return next((unit for unit in units if longest >= 10 * size(unit)), units[-1])
+    return next((unit for unit in units if longest >= 100 * size(unit)), units[-1])
 
 
 def time_labels(times: Array) -> list[str]:

@@ -171,7 +171,8 @@ class Model:
     def rough(self) -> frozenset[str]:
         """Names of the bodies that are more than a smooth form at first."""
         middle = len(self.cycle) // 2
-        heights = {n: self.under(n, s.height, middle) for n, s in self.surfaces.items()}
+        unsure = {n: s for n, s in self.surfaces.items() if not self.case.bodies[n].surface.smooth}
+        heights = {n: self.under(n, s.height, middle) for n, s in unsure.items()}
         return frozenset(name for name, height in heights.items() if is_rough(height))
 
     @cached_property

@@ -33,6 +33,7 @@ class Pin(Surface):
     )
 
     type = "pin"
+    smooth = True
     radius: Annotated[float, Quantity("m", above=0, usual=(1e-9, 1.0))]
     """Radius R of the pin."""
     edge: Annotated[float, Quantity("m", above=0, usual=(1e-9, 1.0))]

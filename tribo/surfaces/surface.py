@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
+from typing import ClassVar
 
 from tribo.component import Component
 from tribo.core.arrays import Array
@@ -11,6 +12,9 @@ from tribo.core.grid import Grid
 
 class Surface(Component):
     """The shape of a body before it wears."""
+
+    smooth: ClassVar[bool] = False
+    """Whether it is a smooth form whatever its heights are; else they tell."""
 
     @abstractmethod
     def height(self, grid: Grid) -> Array:

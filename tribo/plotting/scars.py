@@ -1,0 +1,46 @@
+"""A worn body seen from above."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from tribo.core.grid import Grid
+from tribo.plotting import style
+from tribo.plotting.maps import new_maps
+from tribo.plotting.sections import number_of_saves, removed, scar_mask
+from tribo.plotting.units import height_unit, size, time_labels
+from tribo.result.read import Result
+
+
+def scar_map(result: Result, name: str, save: int = -1) -> Figure:
+    """Draw from above how much of a body is gone at a save: worn off and displaced.
+
+    Of a body that passes through a resolved cycle it is the groove along the
+    whole track, else what lies in the window. A long scar is drawn wider than
+    it is, and the axis says how much.
+
+    Raises
+    ------
+    CaseError
+        If the result holds no such save, or no such body.
+    """
+    number_of_saves(result)
+    grid, gone = result.grid, removed(result, name)[save]
+    if result.body(name).swept and "track_depth" in result.dataset:
+        gone = np.nan_to_num(result.track_depth.sel(body=name).isel(time=save).values)
+        grid = Grid((gone.shape[0] * grid.spacing[0], grid.size[1]), gone.shape)
+    deepest = float(np.max(gone))
+    unit = height_unit(deepest)
+    with style.house_style():
+        figure, (shown,) = new_maps(scar_mask(gone), grid)
+        shown.image(
+            gone / size(unit),
+            f"Depth ({unit})",
+            cmap=style.DEPTHS,
+            vmin=0.0,
+            vmax=deepest / size(unit) or 1.0,
+            interpolation="nearest",
+        )
+        shown.axes.set_title(f"{name}, t = {time_labels(result.times)[save]}", loc="left")
+    return figure
