@@ -1,0 +1,1 @@
+"""Debris between the bodies, a third body, for tribo."""

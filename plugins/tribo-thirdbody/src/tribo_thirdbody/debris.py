@@ -1,0 +1,60 @@
+"""Debris between the bodies: fed by wear, left behind by sliding, and bearing load."""
+
+from collections.abc import Mapping
+from typing import Annotated
+
+import numpy as np
+from pydantic import ConfigDict
+from tribo import LOAD_SHARE, Array, ContactConditions, Effect, Field, Quantity
+
+THICKNESS = Field("debris_thickness", "m", "Height of debris, without pores.", at_least=0)
+
+
+class Debris(Effect):
+    """dt/ds = c (r₁ + r₂) − t/λ: what both bodies lose per metre, less what leaves the contact.
+
+    Debris carries the part 1 − exp(−t/t₀) of the pressure and does not wear what it lies on, so
+    that wear in proportion to pressure falls by exp(−t/t₀). Under an even pressure p that wears
+    both together by K p s, it tends to t₀ W(c λ K p/t₀), with Lambert's function W.
+
+    Valid where debris stays between the bodies for many diameters of its particles, flows out in
+    proportion to its amount, and is soft or mobile enough not to abrade.
+
+    References
+    ----------
+    Godet, M. (1984), The third-body approach: a mechanical view of wear, Wear 100, 437-452.
+    Fillot, N., Iordanoff, I., Berthier, Y. (2007), Wear modeling and the third body concept, Wear
+    262, 949-957.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"examples": [{"ejection_length": "0.5 m", "cover": "1 um"}]}
+    )
+
+    type = "thirdbody.debris"
+    ejection_length: Annotated[float, Quantity("m", above=0)]
+    """Sliding distance λ over which 1/e of the debris stays."""
+    cover: Annotated[float, Quantity("m", above=0)]
+    """Thickness t₀ that leaves 1/e of the pressure to the bodies."""
+    caught: Annotated[float, Quantity("1", at_least=0, at_most=1)] = 1.0
+    """Part c of what is worn that becomes debris; the rest leaves at once."""
+    on: str | None = None
+    """The body on which it lies; in the contact, between both, if left out."""
+
+    state_fields = (THICKNESS,)
+    provides = (LOAD_SHARE,)
+
+    def carrier(self) -> str | None:
+        """Return the body on which it lies."""
+        return self.on
+
+    def fields(self, contact: ContactConditions) -> Mapping[str, Mapping[str, Array]]:
+        """Return what the debris carries."""
+        share = -np.expm1(-contact.state[THICKNESS.name] / self.cover)
+        return {LOAD_SHARE.name: dict.fromkeys(contact.materials, share)}
+
+    def state_rates(self, contact: ContactConditions) -> Mapping[str, Array]:
+        """Return what wear adds and sliding takes away per second, where the bodies touch."""
+        caught = self.caught * np.sum([*contact.wear_rates.values()], axis=0)
+        leaves = contact.state[THICKNESS.name] / self.ejection_length * (contact.pressure > 0)
+        return {THICKNESS.name: contact.speed * (caught - leaves)}

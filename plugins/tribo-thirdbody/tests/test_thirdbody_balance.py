@@ -1,0 +1,86 @@
+"""The thickness of debris against its exact balance."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.special import lambertw
+from tribo import Simulation
+
+from tribo_thirdbody.debris import Debris
+
+SIDE, LOAD, TRACK, END = 2e-3, 40.0, 8e-3, 3.0
+K, COVER = 2e-14, 50e-9
+P = LOAD / SIDE**2
+
+
+def pin(length=50e-3, on=None, **given):
+    """A square pin on a track, both of steel: its pressure is even, and stays so."""
+    steel = {"young": "207 GPa", "poisson": 0.3}
+    body = {"surface": "flat", "material": steel, "wear": {"type": "archard", "k": K}}
+    debris = Debris(ejection_length=length, cover=COVER, on=on, **given)
+    return {
+        "grid": {"size": SIDE, "cells": 8, "ends_at_window": True},
+        "load": {"normal": LOAD},
+        "bodies": {"pin": body, "disk": body},
+        "contact": {"type": "winkler", "modulus": 1e15},
+        "kinematics": {
+            "type": "unidirectional",
+            "speed": 0.1,
+            "track_length": TRACK,
+            "distance": END,
+        },
+        "effects": [debris.model_dump()],
+    }
+
+
+def end(case, on=None):
+    with Simulation(case).run() as result:
+        thickness = result.field("debris_thickness", -1, on)
+        worn = [body["wear_volume_m3"] / SIDE**2 for body in result.saves()[-1]["bodies"].values()]
+        return thickness, sum(worn)
+
+
+def balance(length, caught=1.0, under=1.0):
+    """Thickness, and depth worn off both bodies, by the exact balance."""
+
+    def rates(_, y):
+        worn = 2 * K * P * math.exp(-y[0] / COVER)
+        return [under * (caught * worn - y[0] / length), worn]
+
+    given = {"rtol": 1e-10, "atol": 1e-20, "method": "LSODA"}
+    return solve_ivp(rates, (0, END), [0.0, 0.0], **given).y[:, -1]
+
+
+@pytest.mark.parametrize(("on", "caught"), [(None, 1.0), ("pin", 0.5), ("disk", 1.0)])
+def test_it_is_in_balance(on, caught):
+    # Debris on the disk is under the pin for a part of its way.
+    under = SIDE / TRACK if on == "disk" else 1.0
+    thickness, worn = end(pin(on=on, caught=caught), on)
+    exact = balance(50e-3, caught, under)
+    assert thickness == pytest.approx(exact[0], rel=1e-4, abs=0)
+    assert worn == pytest.approx(exact[1], rel=1e-4, abs=0)
+    source = caught * 2 * K * P
+    lambert = COVER * lambertw(50e-3 * source / COVER).real
+    assert thickness == pytest.approx(lambert, rel=1e-4, abs=0)
+
+
+def test_debris_that_stays_ends_wear_as_a_logarithm():
+    # Nothing leaves: dt/ds = K p exp(−t/t₀), so that t = t₀ ln(1 + K p s/t₀).
+    thickness, worn = end(pin(length=1e9))
+    exact = COVER * math.log1p(2 * K * P * END / COVER)
+    assert thickness == pytest.approx(exact, rel=1e-4, abs=0)
+    assert worn == pytest.approx(exact, rel=1e-4, abs=0)
+
+
+def test_debris_that_leaves_at_once_is_as_if_there_were_none():
+    _, worn = end(pin(length=1e-9))
+    assert worn == pytest.approx(2 * K * P * END, rel=1e-4, abs=0)
+
+
+def test_the_result_has_its_share_of_the_load():
+    with Simulation(pin()).run() as result:
+        thickness = result.field("debris_thickness", -1)
+        share = result.body("disk").effects["load_share"][-1]
+    np.testing.assert_allclose(share, -np.expm1(-thickness / COVER), rtol=1e-12)
