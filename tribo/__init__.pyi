@@ -50,6 +50,10 @@ from tribo.core.state import State as State
 from tribo.core.table import Table as Table
 from tribo.core.units import Quantity as Quantity
 from tribo.effects.effect import Effect as Effect
+from tribo.lab.heights import Heights as Heights
+from tribo.lab.heights import read_heights as read_heights
+from tribo.lab.measured_scar import MeasuredScar as MeasuredScar
+from tribo.lab.measured_scar import measured_scar as measured_scar
 from tribo.motion.closed_track import SpeedStage as SpeedStage
 from tribo.motion.cycle import Position as Position
 from tribo.motion.exposure import Exposure as Exposure
@@ -64,6 +68,7 @@ from tribo.motion.unidirectional import Unidirectional as Unidirectional
 from tribo.observers.observer import Observer as Observer
 from tribo.registry.contributions import CaseTemplate as CaseTemplate
 from tribo.registry.contributions import ExportFormat as ExportFormat
+from tribo.registry.contributions import HeightFormat as HeightFormat
 from tribo.registry.contributions import LabRow as LabRow
 from tribo.registry.hookspecs import hookimpl as hookimpl
 from tribo.registry.registry import Registry as Registry

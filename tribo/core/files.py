@@ -89,6 +89,14 @@ def read_numbers(file: Path) -> Array:
     ValueError
         If there is no such file, or something else in it; the message says so.
     """
+    numbers = table_of_numbers(file)
+    if not np.all(np.isfinite(numbers)):
+        raise ValueError(f"{file} has values that are not numbers, or are not finite")
+    return numbers
+
+
+def table_of_numbers(file: Path) -> Array:
+    """Return the numbers of a file as `read_numbers` does, NaN where some are missing."""
     if not file.is_file():
         where = "" if file.is_absolute() else f" in {Path.cwd()}, where tribo was started"
         raise ValueError(f"there is no file {file}{where}; correct path")
@@ -103,7 +111,7 @@ def read_numbers(file: Path) -> Array:
                 numbers = numbers[1:]
     except (ValueError, OSError) as error:
         raise ValueError(f"{file} cannot be read as a table of numbers: {error}") from None
-    if numbers.dtype.kind not in "fiu" or not np.all(np.isfinite(numbers)):
+    if numbers.dtype.kind not in "fiu":
         raise ValueError(f"{file} has values that are not numbers, or are not finite")
     return np.asarray(numbers, dtype=np.float64)
 

@@ -13,6 +13,7 @@ from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.registry import default_registry
 
 if TYPE_CHECKING:
+    from tribo.lab.heights import Heights
     from tribo.result.read import Result
 
 
@@ -30,6 +31,14 @@ class ExportFormat(NamedTuple):
     name: str
     summary: str
     write: Callable[[Result, Path], Iterable[Path]]
+
+
+class HeightFormat(NamedTuple):
+    """A format of measured height maps: its name, what it holds, and a function that reads it."""
+
+    name: str
+    summary: str
+    read: Callable[[Path], Heights]
 
 
 class CaseTemplate(NamedTuple):

@@ -11,7 +11,12 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from tribo.component import Component
-    from tribo.registry.contributions import CaseTemplate, ExportFormat, LabRow
+    from tribo.registry.contributions import (
+        CaseTemplate,
+        ExportFormat,
+        HeightFormat,
+        LabRow,
+    )
     from tribo.result.read import Result
 
 PROJECT = "tribo"
@@ -43,6 +48,12 @@ def tribo_figures(result: Result) -> Mapping[str, Callable[[], Figure]]:
 @hookspec
 def tribo_export_formats() -> Iterable[ExportFormat]:
     """Return formats for `tribo export`."""
+    return ()
+
+
+@hookspec
+def tribo_height_formats() -> Iterable[HeightFormat]:
+    """Return formats of measured height maps, for `tribo scar`."""
     return ()
 
 

@@ -4,7 +4,7 @@ import zipfile
 
 import numpy as np
 import pytest
-from tribo import CaseError, Grid
+from tribo import CaseError, Grid, read_heights
 
 import tribo_topography.read
 from tribo_topography import Measured, describe
@@ -244,3 +244,14 @@ def test_too_large_a_file_is_refused_before_it_is_read(write, tmp_path, monkeypa
     assert path.stat().st_size < 20_000
     with pytest.raises(CaseError, match="MiB are read"):
         describe(path)
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::ImportWarning")
+def test_tribo_scar_reads_the_files_of_instruments(write, heights):
+    holed = heights.copy()
+    holed[20:22, 30:33] = np.nan
+    found = read_heights(write("x3p", holed))
+    np.testing.assert_allclose(found.heights, holed, rtol=0, atol=2e-12)
+    assert found.pitch == pytest.approx(np.divide(SIZE, PIXELS), rel=1e-6)
+    assert read_heights(write("x3p"), (1e-6, 2e-6)).pitch == (1e-6, 2e-6)

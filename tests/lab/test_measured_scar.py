@@ -1,0 +1,205 @@
+"""Scars measured before and after a test, of pairs of maps that are made up."""
+
+import numpy as np
+import pytest
+import scipy.ndimage as ndimage
+from click.testing import CliRunner
+
+from tribo import CaseError, Grid, Heights, Registry, Rough, Sphere, measured_scar, read_heights
+from tribo.cli.scar import scar as command
+from tribo.lab import heights
+from tribo.lab.registration import register
+from tribo.plotting.scar import scar_map
+from tribo.registry.plugins import builtin
+
+PITCH = 1e-6
+SHIFT, TURN = (3.37, -2.21), 0.01
+RADIUS = 5e-3
+WIDE = 20 * PITCH
+"""Half-width of the scars."""
+
+
+def pair(
+    *, shift=SHIFT, turn=TURN, sq=100e-9, noise=10e-9, depth=1e-6, missing=0.02, on=None, n=96
+):
+    """Return maps before and after, shifted (pixels), turned, tilted, and the depth worn."""
+    random = np.random.default_rng(7)
+    large = Grid(2 * n * PITCH, 2 * n)
+    waves = {"cut_off": 8 * PITCH, "roll_off": 30 * PITCH, "period": 2 * n * PITCH}
+    surface = Rough(sq=sq, seed=3, **waves).relief(large)
+    own = np.indices((n, n)) - 0.5 * (n - 1)
+
+    def heights(shift, turn):
+        c, s = np.cos(turn), np.sin(turn)
+        at = np.stack([c * own[0] - s * own[1] + shift[0], s * own[0] + c * own[1] + shift[1]])
+        form = 0 if on is None else -np.sum((at * PITCH) ** 2, axis=0) / (2 * on)
+        return ndimage.map_coordinates(surface, at + n - 0.5, order=5) + form, at * PITCH
+
+    (before, _), (after, (x, y)) = heights((0, 0), 0), heights(shift, turn)
+    lost = np.maximum(depth * (1 - (x**2 + y**2) / WIDE**2), 0) if depth else np.zeros((n, n))
+    after = after - lost + PITCH * (2e-3 * own[0] - 1e-3 * own[1]) + 1e-5
+    maps = []
+    for each in (before, after):
+        noisy = each + noise * random.normal(size=each.shape)
+        noisy[random.random(each.shape) < missing] = np.nan
+        maps.append(Heights(noisy, (PITCH, PITCH)))
+    return *maps, lost
+
+
+@pytest.mark.parametrize(
+    "changes", [{}, {"shift": (-8.6, 5.5), "turn": -0.03}, {"noise": 50e-9}, {"on": RADIUS}]
+)
+def test_maps_are_laid_on_each_other_within_a_tenth_of_a_pixel(changes):
+    before, after, lost = pair(**changes)
+    found = measured_scar(before, after)
+    laid, shift = found.registration, changes.get("shift", SHIFT)
+    off = np.array(laid.shift) / PITCH - shift
+    assert np.max(np.abs(off)) < 0.1
+    assert np.all(np.abs(off) < 4 * np.array(laid.shift_uncertainty) / PITCH)
+    assert laid.rotation == pytest.approx(changes.get("turn", TURN), abs=1e-3)
+    # Noise of both maps, the one before blurred as it is interpolated.
+    assert laid.noise == pytest.approx(1.3 * changes.get("noise", 10e-9), rel=0.1, abs=0)
+    volume = np.sum(lost) * PITCH**2
+    assert found.volume == pytest.approx(volume, rel=0.01, abs=0)
+    assert abs(found.volume - volume) < 3 * found.volume_uncertainty < 0.05 * volume
+
+
+def test_the_depth_is_known_as_well_as_it_says():
+    before, after, lost = pair()
+    found = measured_scar(before, after)
+    assert (found.along, found.across) == pytest.approx((2 * WIDE, 2 * WIDE), rel=0.02, abs=0)
+    assert found.depth == pytest.approx(1e-6, rel=0.02, abs=0)
+    known = np.isfinite(found.depths)
+    assert 0.8 < np.mean(known) < 0.95
+    off = (found.depths - lost)[known] / found.registration.uncertainty[known]
+    assert np.std(off) == pytest.approx(1, abs=0.15)
+    assert np.isnan(found.registration.uncertainty[~known]).all()
+
+
+def test_the_volume_of_a_hole_in_the_scar_is_interpolated_and_its_uncertainty_says_so():
+    before, after, lost = pair()
+    x, y = after.grid.mesh
+    hole = np.hypot(x + SHIFT[0] * PITCH, y) < 6 * PITCH
+    holed = Heights(np.where(hole, np.nan, after.heights), after.pitch)
+    whole, found = measured_scar(before, after), measured_scar(before, holed)
+    volume = np.sum(lost) * PITCH**2
+    assert found.missing > whole.missing + 0.03
+    assert found.volume_uncertainty > 3 * whole.volume_uncertainty
+    assert abs(found.volume - volume) < 2 * found.volume_uncertainty < 0.1 * volume
+
+
+def test_smooth_balls_tell_no_shift_but_a_volume():
+    smooth = {"sq": 1e-12, "shift": (0, 0), "turn": 0, "on": RADIUS}
+    before, after, lost = pair(**smooth)
+    volume = np.sum(lost) * PITCH**2
+    for first in (before, Sphere(radius=RADIUS)):
+        found = measured_scar(first, after)
+        assert found.volume == pytest.approx(volume, rel=0.01, abs=0)
+        assert np.all(np.isinf(found.registration.shift_uncertainty))
+        assert found.registration.shift == (0, 0)
+
+
+def test_a_ball_worn_flat_has_lost_what_the_formulas_say():
+    # A cap of this width.
+    before, after, lost = pair(on=RADIUS / 100, depth=WIDE**2 / (2 * RADIUS / 100))
+    flat, groove, along = measured_scar(before, after, radius=RADIUS / 100).inferred
+    assert (flat.standard, groove.standard, along.standard) == ("ASTM G99", "ASTM D7755", None)
+    for each in (flat, groove, along):
+        assert abs(each.relative_error) < 0.1
+    assert flat.volume_m3 == pytest.approx(np.sum(lost) * PITCH**2, rel=0.1, abs=0)
+
+
+def track(radius=50 * RADIUS):
+    before, after, _ = pair(depth=0)
+    y = after.grid.mesh[1]
+    lost = np.broadcast_to(np.maximum((WIDE**2 - y**2) / (2 * radius), 0), after.heights.shape)
+    return before, Heights(after.heights - 1e3 * lost, after.pitch), 1e3 * lost
+
+
+def test_a_track_has_a_section_and_the_volume_of_its_length():
+    before, after, lost = track()
+    found = measured_scar(before, after, radius=50 * RADIUS / 1e3, track_length=2e-3)
+    section = np.sum(lost[0]) * PITCH
+    assert np.isinf(found.along)
+    assert found.across == pytest.approx(2 * WIDE, rel=0.02, abs=0)
+    assert found.section == pytest.approx(section, rel=0.01, abs=0)
+    mean, unworn, ends = found.inferred
+    assert mean.volume_m3 == pytest.approx(2e-3 * section, rel=0.01, abs=0)
+    assert unworn.relative_error == pytest.approx(0, abs=0.05)
+    assert ends.volume_m3 > unworn.volume_m3
+
+
+def test_what_is_piled_up_beside_a_scar_is_told_apart():
+    before, after, lost = pair()
+    x, y = after.grid.mesh
+    ridge = np.where(np.abs(np.hypot(x, y) - 34 * PITCH) < 4 * PITCH, 2e-7, 0.0)
+    found = measured_scar(before, Heights(after.heights + ridge, after.pitch))
+    assert found.piled_up == pytest.approx(np.sum(ridge) * PITCH**2, rel=0.1, abs=0)
+    assert found.volume == pytest.approx(np.sum(lost) * PITCH**2, rel=0.03, abs=0)
+
+
+def test_maps_that_do_not_fit_are_refused():
+    before, after, _ = pair()
+    with pytest.raises(
+        CaseError, match=r"a pixel every 1 × 1 µm, and that after every 1\.1 × 1 µm"
+    ):
+        register(before, Heights(after.heights, (1.1e-6, 1e-6)))
+    part = np.full(before.heights.shape, np.nan)
+    part[:20] = before.heights[:20]
+    rest = np.where(np.arange(96)[:, None] < 70, np.nan, after.heights)
+    with pytest.raises(CaseError, match=r"only \d+ % of the pixels in common; 20 % at least"):
+        register(Heights(part, before.pitch), Heights(rest, after.pitch))
+    with pytest.raises(CaseError, match="every height of the map is missing"):
+        Heights(np.full((32, 32), np.nan), (PITCH, PITCH))
+    with pytest.raises(CaseError, match=r"shape \(4, 32\) are no map: 16 × 16 at least"):
+        Heights(np.zeros((4, 32)), (PITCH, PITCH))
+    with pytest.raises(CaseError, match=r"nothing is worn .* nm deep, 4 times the noise"):
+        measured_scar(*pair(depth=0)[:2])
+    with pytest.raises(CaseError, match=r"radius: a scar .* mm wide is none of a ball of 0\.01 mm"):
+        measured_scar(before, after, radius=1e-5)
+    with pytest.raises(CaseError, match="form: form is 1"):
+        measured_scar(before, after, form=3)
+
+
+@pytest.mark.slow
+def test_the_command_measures_and_draws(tmp_path):
+    before, after, lost = pair(on=RADIUS)
+    np.save(tmp_path / "before.npy", before.heights)
+    np.savetxt(tmp_path / "after.csv", after.heights, delimiter=",")
+    files = [str(tmp_path / name) for name in ("before.npy", "after.csv")]
+    picture = tmp_path / "scar.png"
+    given = [*files, "--pitch", "1 um", "--radius", "5 mm", "-o", str(picture)]
+    done = CliRunner().invoke(command, given, catch_exceptions=False)
+    volume = 1e9 * np.sum(lost) * PITCH**2
+    assert float(done.output.split("volume, mm³")[1].split()[0]) == pytest.approx(
+        volume, rel=0.01, abs=0
+    )
+    for words in ("flat scar (ASTM G99)", "Laid on each other by 3.3", "Noise of the unworn"):
+        assert words in done.output
+    assert picture.stat().st_size > 10_000
+    told = CliRunner().invoke(command, [*given[:4], "--json"], catch_exceptions=False)
+    assert '"volume_uncertainty_m3"' in told.output
+    with pytest.raises(CaseError, match="has heights and no scale; give the distance"):
+        CliRunner().invoke(command, files, catch_exceptions=False)
+    with pytest.raises(CaseError, match="1 files are given; give the maps before and after"):
+        CliRunner().invoke(command, files[:1], catch_exceptions=False)
+    ideal = [files[1], *given[2:4], "--ideal", '{ type = "sphere", radius = "5 mm" }']
+    assert CliRunner().invoke(command, ideal, catch_exceptions=False).exit_code == 0
+    with pytest.raises(CaseError, match="--ideal radius: missing"):
+        CliRunner().invoke(command, [*ideal[:-1], "sphere"], catch_exceptions=False)
+
+
+def test_a_picture_leaves_what_is_missing_white():
+    before, after, _ = pair()
+    (image,) = scar_map(measured_scar(before, after)).axes[0].images
+    assert np.ma.getmaskarray(image.get_array()).any()
+
+
+def test_a_file_of_a_format_that_nothing_reads_is_refused(tmp_path, monkeypatch):
+    monkeypatch.setattr(heights, "default_registry", lambda: Registry([builtin()]))
+    with pytest.raises(
+        CaseError, match=r"map\.x3p is no NumPy, CSV or HDF5 file .* install tribo-t"
+    ):
+        read_heights(tmp_path / "map.x3p")
+    with pytest.raises(CaseError, match=r"there is no file .*map\.npy"):
+        read_heights(tmp_path / "map.npy")

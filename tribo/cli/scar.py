@@ -1,0 +1,138 @@
+"""`tribo scar`."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from tribo.cli.options import JSON, PATH, echo_json
+from tribo.core.errors import CaseError, located
+
+if TYPE_CHECKING:
+    from tribo.lab.measured_scar import MeasuredScar
+    from tribo.surfaces.surface import Surface
+
+
+@click.command()
+@click.argument("files", nargs=-1, required=True, type=PATH, metavar="[BEFORE] AFTER")
+@click.option("--ideal", metavar="SURFACE", help="Shape in place of BEFORE, as in a case.")
+@click.option("--pitch", multiple=True, metavar="LENGTH", help="Of pixels; twice for x and y.")
+@click.option("--radius", metavar="LENGTH", help="Of the ball, for a lab's formulas.")
+@click.option("--track-length", metavar="LENGTH", help="Of the whole track; the map's.")
+@click.option("--form", type=click.IntRange(1, 2), default=1, help="2 takes a curvature off too.")
+@click.option("-o", "--output", type=PATH, help="Picture to write, as scar.png.")
+@JSON
+def scar(
+    files: tuple[Path, ...],
+    ideal: str | None,
+    pitch: tuple[str, ...],
+    radius: str | None,
+    track_length: str | None,
+    form: int,
+    output: Path | None,
+    as_json: bool,
+) -> None:
+    """Measure a scar between two height maps, BEFORE and AFTER a test.
+
+    The maps are laid on each other (shift, rotation, tilt) by their unworn
+    surface, and subtracted. Files are NumPy, CSV or HDF5 with heights in m, which
+    need --pitch, or in a format that a plugin reads, such as tribo-topography. x is
+    the sliding direction; what is missing is NaN. With one file, --ideal gives the
+    shape before the test.
+
+    \b
+    Example:
+      tribo scar before.x3p after.x3p --radius '5 mm' -o scar.png
+      tribo scar after.npy --pitch '1 um' --ideal '{ type = "sphere", radius = "5 mm" }'
+    """
+    from tribo.config.overrides import parse_value
+    from tribo.core.units import Quantity
+    from tribo.lab.heights import read_heights
+    from tribo.lab.measured_scar import measured_scar
+
+    def length(option: str, text: str | None) -> float | None:
+        with located(option):
+            return None if text is None else Quantity("m", above=0).read(parse_value(text))
+
+    if len(files) != (1 if ideal else 2):
+        raise CaseError(
+            f"{len(files)} files are given; give the maps before and after, or the one after with "
+            "the shape before as --ideal"
+        )
+    if len(pitch) > 2:
+        raise CaseError("give one --pitch, or two, along x and along y")
+    steps = [length("--pitch", text) or 0.0 for text in pitch]
+    maps = [read_heights(path, (steps[0], steps[-1]) if steps else None) for path in files]
+    found = measured_scar(
+        _surface(ideal) if ideal else maps[0],
+        maps[-1],
+        radius=length("--radius", radius),
+        track_length=length("--track-length", track_length),
+        form=form,
+    )
+    if output is not None:
+        from tribo.plotting.figures import write_figures
+        from tribo.plotting.scar import scar_map
+
+        suffix = output.suffix or ".png"
+        write_figures({output.stem: lambda: scar_map(found)}, output.parent, suffix)
+    if as_json:
+        echo_json(found.as_json() | ({} if output is None else {"picture": str(output)}))
+        return
+    _print(found)
+    if output is not None:
+        click.echo(f"Wrote {output}")
+
+
+def _surface(text: str) -> Surface:
+    """Return the surface that an option gives as a case does."""
+    from pydantic import TypeAdapter, ValidationError
+
+    from tribo.config.overrides import parse_value
+    from tribo.core.explain import case_error
+    from tribo.surfaces.surface import Surface
+
+    try:
+        surface: Surface = TypeAdapter(Surface).validate_python(parse_value(text))
+    except ValidationError as error:
+        raise CaseError(f"--ideal {case_error(error)}") from None
+    return surface
+
+
+def _print(found: MeasuredScar) -> None:
+    from tribo.cli.console import Console, titled
+
+    laid, console = found.registration, Console()
+    table = titled("Scar, with standard uncertainties", "", "±")
+    rows = [
+        ("volume, mm³", 1e9 * found.volume, 1e9 * found.volume_uncertainty),
+        ("largest depth, µm", 1e6 * found.depth, 1e6 * found.depth_uncertainty),
+        ("along sliding, mm", 1e3 * found.along, None),
+        ("across, mm", 1e3 * found.across, None),
+        ("mean section, mm²", None if found.section is None else 1e6 * found.section, None),
+        ("piled up, mm³", 1e9 * found.piled_up or None, None),
+        ("missing in it, %", 100 * found.missing or None, None),
+    ]
+    for name, value, sure in rows:
+        if value is not None:
+            shown = "whole map" if math.isinf(value) else f"{value:.4g}"
+            table.add_row(name, shown, "" if sure is None else f"{sure:.2g}")
+    console.print(table)
+    if found.inferred:
+        table = titled("Volume by a lab's formulas, and how far that is off", "mm³", "%")
+        for each in found.inferred:
+            name = f"{each.body}: {each.method}" + (f" ({each.standard})" * bool(each.standard))
+            off = f"{100 * each.relative_error:+.0f}"
+            table.add_row(name, f"{1e9 * each.volume_m3:.4g}", off)
+        console.print(table)
+    shifts = ", ".join(
+        f"{1e6 * shift:.3g} µm along {axis}"
+        + (" (the maps do not tell)" if math.isinf(sure) else f" ± {1e6 * sure:.2g}")
+        for axis, shift, sure in zip("xy", laid.shift, laid.shift_uncertainty, strict=True)
+    )
+    turned = f"{1e3 * laid.rotation:.3g} mrad"
+    console.print(f"Laid on each other by {shifts}, turned by {turned}.", markup=False)
+    console.print(f"Noise of the unworn difference {1e9 * laid.noise:.3g} nm.", markup=False)

@@ -1,0 +1,108 @@
+"""Measured height maps, and the files they are read from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from tribo.core.arrays import Array
+from tribo.core.errors import CaseError
+from tribo.core.files import table_of_numbers
+from tribo.core.grid import Grid
+from tribo.registry.registry import default_registry
+from tribo.surfaces.surface import Surface
+
+OWN = (".npy", ".csv", ".txt", ".h5", ".hdf5")
+"""Files that are read without a plugin; they state no scale."""
+FEWEST = 16
+
+
+@dataclass(frozen=True)
+class Heights:
+    """A height map on a regular grid.
+
+    Parameters
+    ----------
+    heights : ndarray, shape (nx, ny)
+        Outward from the body, in m, x along the sliding direction; NaN where missing.
+    pitch : tuple of float
+        Distance between pixels along x and y, in m.
+
+    Raises
+    ------
+    CaseError
+        If it is no map of 16 × 16 pixels or more, or has no height at all.
+    """
+
+    heights: Array
+    pitch: tuple[float, float]
+
+    def __post_init__(self) -> None:
+        shape = np.shape(self.heights)
+        if len(shape) != 2 or min(shape) < FEWEST:
+            raise CaseError(
+                f"heights of shape {shape} are no map: {FEWEST} × {FEWEST} at least are needed"
+            )
+        if not np.any(np.isfinite(self.heights)):
+            raise CaseError("every height of the map is missing; measure again, or mask less")
+        if not min(self.pitch) > 0:
+            raise CaseError(f"a pitch of {self.pitch} m is none; give one above 0")
+
+    @property
+    def grid(self) -> Grid:
+        """The pixels as the cells of a window."""
+        nx, ny = self.heights.shape
+        return Grid((nx * self.pitch[0], ny * self.pitch[1]), (nx, ny))
+
+
+def read_heights(path: str | Path, pitch: tuple[float, float] | None = None) -> Heights:
+    """Read a height map from a file.
+
+    Parameters
+    ----------
+    path : str or Path
+        A NumPy, CSV or HDF5 file with one table of heights in m, a row for each x, NaN or nothing
+        where missing; or a file in a format that a plugin reads, as tribo-topography those of
+        instruments.
+    pitch : tuple of float, optional
+        Distance between pixels along x and y, in m; that of the file if left out.
+
+    Raises
+    ------
+    CaseError
+        If it cannot be read, or states no pitch and none is given.
+    """
+    path = Path(path)
+    try:
+        if path.suffix.lower() in OWN:
+            heights = table_of_numbers(path)
+            if pitch is None:
+                raise CaseError(
+                    f"{path} has heights and no scale; give the distance between pixels (--pitch, "
+                    "as '1 um')"
+                )
+            return Heights(np.where(np.isfinite(heights), heights, np.nan), pitch)
+        found = _by_plugin(path)
+        return found if pitch is None else Heights(found.heights, pitch)
+    except ValueError as error:
+        raise CaseError(str(error)) from None
+
+
+def _by_plugin(path: Path) -> Heights:
+    registry = default_registry()
+    registry.load_all()
+    formats = [each for answer in registry.ask("tribo_height_formats") for each in answer]
+    if not formats:
+        raise CaseError(
+            f"{path} is no NumPy, CSV or HDF5 file ({', '.join(OWN)}); install tribo-topography, "
+            "which reads the files of instruments, or export it as one of those"
+        )
+    heights: Heights = formats[0].read(path)
+    return heights
+
+
+def of_shape(surface: Surface, like: Heights) -> Heights:
+    """Return the heights of an ideal shape where another map has its pixels."""
+    return Heights(surface.height(like.grid), like.pitch)
