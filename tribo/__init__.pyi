@@ -81,6 +81,16 @@ from tribo.study.calibration.calibrate import calibrate as calibrate
 from tribo.study.calibration.outcome import Calibration as Calibration
 from tribo.study.comparison import Comparison as Comparison
 from tribo.study.comparison import compare as compare
+from tribo.study.gradient.gradient import Gradient as Gradient
+from tribo.study.gradient.gradient import ValueAndGradient as ValueAndGradient
+from tribo.study.gradient.gradient import gradient as gradient
+from tribo.study.gradient.objective import Deepest as Deepest
+from tribo.study.gradient.objective import Depth as Depth
+from tribo.study.gradient.objective import Misfit as Misfit
+from tribo.study.gradient.objective import Pressure as Pressure
+from tribo.study.gradient.objective import Seeds as Seeds
+from tribo.study.gradient.objective import View as View
+from tribo.study.gradient.objective import Volume as Volume
 from tribo.study.sweeping.sweep import Sweep as Sweep
 from tribo.study.sweeping.sweep import sweep as sweep
 from tribo.surfaces.cylinder import Cylinder as Cylinder

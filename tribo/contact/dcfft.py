@@ -94,6 +94,11 @@ class DcFft(ContactSolver):
             return float(np.min(_half_space(system.grid.cells, system).symbol()))
         return nyquist_compliance(system.grid.spacing) / system.modulus
 
+    def operator(self, system: ContactSystem, touching: Mask) -> tuple[Box, Operator]:
+        """Return the half-spaces on a box around what touches; see `ContactSolver.operator`."""
+        box = around(touching, _MARGIN)
+        return box, _half_space(box.shape, system)
+
     def _solve(
         self,
         system: ContactSystem,

@@ -13,10 +13,12 @@ from pydantic import Field
 
 from tribo.contact.bounded_cg import solve_together
 from tribo.contact.coated import surface_modulus
+from tribo.contact.operator import Operator
 from tribo.contact.projection import CELLS, over
 from tribo.contact.residuals import check_window
 from tribo.contact.solver import ContactSolver, stacked
-from tribo.core.arrays import Array
+from tribo.core.arrays import Array, Mask
+from tribo.core.box import Box, whole
 from tribo.core.coating import Coating
 from tribo.core.contact import (
     ContactProblem,
@@ -165,6 +167,10 @@ class Periodic(ContactSolver):
             return float(np.min(_half_space(system).symbol()))
         dx, dy = system.grid.spacing
         return 2.0 / (system.modulus * np.pi * float(np.hypot(1 / dx, 1 / dy)))
+
+    def operator(self, system: ContactSystem, touching: Mask) -> tuple[Box, Operator]:
+        """Return the half-spaces on the whole window; see `ContactSolver.operator`."""
+        return whole(system.grid.cells), _half_space(system)
 
 
 def _half_space(system: ContactSystem) -> PeriodicHalfSpace:

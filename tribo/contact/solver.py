@@ -9,7 +9,9 @@ from typing import Any, ClassVar
 import numpy as np
 
 from tribo.component import Component
-from tribo.core.arrays import Array
+from tribo.contact.operator import Operator
+from tribo.core.arrays import Array, Mask
+from tribo.core.box import Box
 from tribo.core.contact import (
     ContactProblem,
     ContactSolution,
@@ -107,6 +109,20 @@ class ContactSolver(Component):
         """Return the smallest eigenvalue of K, in m/Pa, or None when unknown.
 
         It limits explicit steps: Δs · d(rate)/dp < 2 · smallest compliance.
+        """
+        return None
+
+    def operator(self, system: ContactSystem, touching: Mask) -> tuple[Box, Operator] | None:
+        """Return K on a box with all touching cells of the window, or None when unknown.
+
+        Gradients need it: with the cells in contact known, their pressure follows from K alone.
+
+        Parameters
+        ----------
+        system : ContactSystem
+            The constants of the contact.
+        touching : ndarray of bool, shape (nx, ny)
+            The cells with pressure.
         """
         return None
 

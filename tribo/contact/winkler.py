@@ -2,20 +2,52 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import pi, sqrt
 from typing import Annotated, ClassVar, Literal
 
+import numpy as np
 from pydantic import model_validator
 
 from tribo.closed_forms import hertz
 from tribo.contact.foundation import solve_foundation
+from tribo.contact.operator import Operator
 from tribo.contact.solver import ContactSolver
+from tribo.core.arrays import Array, Mask
+from tribo.core.box import Box, around
 from tribo.core.contact import ContactProblem, ContactSolution, ContactSystem
 from tribo.core.errors import CaseError
 from tribo.core.table import Table
 from tribo.core.units import Quantity
 
 Match = Literal["contact_radius", "peak_pressure", "approach"]
+
+
+@dataclass(frozen=True)
+class Springs:
+    """Independent springs under pressure: an `Operator`.
+
+    Parameters
+    ----------
+    shape : tuple of int
+        Cells (nx, ny) of the box.
+    spacing : tuple of float
+        Edge lengths of a cell along x and y, in m.
+    modulus : float
+        Foundation modulus K_w, in Pa/m.
+    """
+
+    shape: tuple[int, int]
+    spacing: tuple[float, float]
+    modulus: float
+
+    def apply(self, pressure: Array) -> Array:
+        """Return p/K_w; see `Operator.apply`."""
+        return pressure / self.modulus
+
+    def symbol(self) -> Array:
+        """Return 1/K_w for every mode."""
+        return np.full((self.shape[0], self.shape[1] // 2 + 1), 1.0 / self.modulus)
 
 
 class Layer(Table):
@@ -108,6 +140,11 @@ class Winkler(ContactSolver):
     def smallest_compliance(self, system: ContactSystem) -> float:
         """Return 1/K_w, in m/Pa."""
         return 1.0 / self.foundation_modulus(system)
+
+    def operator(self, system: ContactSystem, touching: Mask) -> tuple[Box, Operator]:
+        """Return the springs on a box around what touches; see `ContactSolver.operator`."""
+        box = around(touching, 0)
+        return box, Springs(box.shape, system.grid.spacing, self.foundation_modulus(system))
 
 
 def matched_modulus(system: ContactSystem, match: Match) -> float:

@@ -27,6 +27,7 @@ from tribo.simulation.guards import (
     GuardedSolver,
     GuardedSurface,
 )
+from tribo.stepping.events import Listener, unheard
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
 
@@ -69,6 +70,8 @@ class Model:
         When the run ends if no depth stops it earlier, in s.
     chosen : str or None, optional
         Which positions were taken where the case left them open, and why, if that is to be told.
+    tell : callable, optional
+        Is told what happens in each step, rejected ones too.
     """
 
     case: Case
@@ -85,6 +88,7 @@ class Model:
     gaps: tuple[Array, ...]
     end_time: float
     chosen: str | None = None
+    tell: Listener = unheard
 
     @cached_property
     def closest(self) -> float:

@@ -16,6 +16,7 @@ from tribo.core.loads import ByPosition
 from tribo.core.measures import Invariants, reaches_border
 from tribo.core.state import BodyState, State
 from tribo.stepping.contacts import solve, solve_cycle, solved
+from tribo.stepping.events import Drawn, Solved, Worn, Yielded
 from tribo.stepping.evolution import rested_memory
 from tribo.stepping.invariants import ONE_LOAD
 from tribo.stepping.memory import Memory, first_memory
@@ -67,6 +68,7 @@ def first_contact(model: Model, worn: Mapping[str, BodyState] | None = None) -> 
             "(or, for a body that ends there, set grid.ends_at_window = true)",
             "grid.size",
         )
+    model.tell(Solved(contacts))
     middle = len(contacts) // 2
     return State(
         time=0.0,
@@ -195,6 +197,7 @@ def accepted(
 
     The contacts carry `loads`, in N; they are solved anew where those at the end are others.
     """
+    model.tell(Worn(contacts, before.time, before.distance, moment))
     mean = model.loads.over_cycle(model.loads.mean(before.time, moment.time))
     state = replace(
         before,
@@ -229,6 +232,7 @@ def _under(model: Model, state: State, loads: ByPosition) -> State:
     """Return `state` with its contacts solved anew under other loads (N), and nothing worn."""
     gaps = [geometry(model, state.bodies, position) for position in range(len(model.cycle))]
     contacts = solve_cycle(model, gaps, loads, state.contacts)
+    model.tell(Solved(contacts))
     anew = replace(
         state,
         contacts=tuple(contacts),
@@ -265,12 +269,11 @@ def _yielded(
     """Return the bodies with what yields at positions, all if None, once where these overlap."""
     if not yields(contacts):
         return dict(bodies)
+    places = range(len(contacts)) if places is None else places
+    model.tell(Yielded(places))
     yielded = {}
     for name, body in bodies.items():
-        overlaps = [
-            model.spread(name, contacts[position].overlap, position)
-            for position in (range(len(contacts)) if places is None else places)
-        ]
+        overlaps = [model.spread(name, contacts[position].overlap, position) for position in places]
         deepest = reduce(np.maximum, overlaps)
         yielded[name] = replace(body, plastic=body.plastic + model.plastic_share[name] * deepest)
     return yielded
@@ -285,12 +288,14 @@ def _settle(model: Model, state: State, loads: ByPosition) -> State:
     if not drawn_out and not (len(model.cycle) > 1 and yields(state.contacts)):
         return state
     for _ in range(SETTLE_PASSES):
+        model.tell(Drawn({name: body.plastic for name, body in state.bodies.items()}))
         drawn = {
             name: replace(body, plastic=_drawn_out(model, name, body.plastic))
             for name, body in state.bodies.items()
         }
         gaps = [geometry(model, drawn, position) for position in range(len(model.cycle))]
         contacts = solve_cycle(model, gaps, loads, state.contacts)
+        model.tell(Solved(contacts))
         deepest = max(float(np.max(body.plastic)) for body in drawn.values())
         still = max(float(np.max(contact.overlap)) for contact in contacts)
         settled = still <= SETTLED * deepest

@@ -1,0 +1,52 @@
+"""What happens in a step, told as it happens: what a gradient goes through backwards."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from tribo.core.arrays import Array
+from tribo.core.contact import ContactSolution
+
+if TYPE_CHECKING:
+    from tribo.stepping.rates import Moment
+
+
+@dataclass(frozen=True)
+class Worn:
+    """The bodies were worn by a step, from a time and distance to a moment, under `contacts`."""
+
+    contacts: Sequence[ContactSolution]
+    time: float
+    distance: float
+    moment: Moment
+
+
+@dataclass(frozen=True)
+class Solved:
+    """The contacts at the positions of a cycle were solved, and nothing was worn."""
+
+    contacts: Sequence[ContactSolution]
+
+
+@dataclass(frozen=True)
+class Yielded:
+    """What overlapped at some positions became plastic depth."""
+
+    places: Sequence[int]
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """The plastic depths of the bodies, by name, were drawn out along the track."""
+
+    before: Mapping[str, Array]
+
+
+Event = Worn | Solved | Yielded | Drawn
+Listener = Callable[[Event], None]
+
+
+def unheard(event: Event) -> None:
+    """Forget an event: what a run does."""

@@ -1,0 +1,201 @@
+"""The gradient of a run: the derivative of a number of its result in every input."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from contextlib import closing
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from tribo.case import Case
+from tribo.core.arrays import Array
+from tribo.core.errors import CaseError
+from tribo.simulation.model import Model
+from tribo.simulation.run import Simulation
+from tribo.study.gradient.backwards import check_covered, swept_back
+from tribo.study.gradient.local import localised
+from tribo.study.gradient.objective import Objective, View
+from tribo.study.gradient.parameters import Chain, chain, changed, find
+from tribo.study.gradient.tape import Tape, recorded
+
+
+@dataclass(frozen=True)
+class Gradient:
+    """The derivatives of an objective.
+
+    Parameters
+    ----------
+    value : float
+        The objective.
+    parameters : Mapping[str, float]
+        By path: the derivative in each number of the case, in its SI unit.
+    relative : Mapping[str, float]
+        By path: by how many per cent the objective changes for one per cent of the number.
+    wear_rate : Mapping[str, ndarray]
+        By body: the derivative in a factor, 1 here, on its wear rate at each cell of its own
+        surface.
+    height : Mapping[str, ndarray]
+        By body: in its height outward at each cell of its own surface, in 1/m.
+    worn_before : Mapping[str, ndarray]
+        By body: in the depth worn before the run, on its own surface, in 1/m.
+    refused : Mapping[str, str]
+        By path: why the objective has no derivative in this number.
+    """
+
+    value: float
+    parameters: Mapping[str, float]
+    relative: Mapping[str, float]
+    wear_rate: Mapping[str, Array]
+    height: Mapping[str, Array]
+    worn_before: Mapping[str, Array]
+    refused: Mapping[str, str]
+
+    def __getitem__(self, path: str) -> float:
+        """Return the derivative in the number at `path`; `CaseError` if there is none."""
+        if path in self.refused:
+            raise CaseError(self.refused[path], path)
+        return self.parameters[path]
+
+
+def gradient(
+    case: Case | Mapping[str, Any] | str | Path | Model,
+    objective: Objective | Mapping[float, Objective],
+    wrt: Sequence[str] | None = None,
+    *,
+    factors: Mapping[str, Array] | None = None,
+) -> Gradient:
+    """Run a case; return the derivatives of a number of its result in every input.
+
+    They are exact for the steps that the run took (the discrete adjoint): their ends are held at
+    the same parts of the time between saves. One solve more a step gives all derivatives.
+
+    Parameters
+    ----------
+    case : Case, Mapping, str, Path or Model
+        As `Simulation` takes it.
+    objective : callable, or Mapping of float to callable
+        What is differentiated, at the end of the run; or the sum of several, by the time (s) of the
+        save that each looks at. See `tribo.study.gradient.objective`.
+    wrt : sequence of str, optional
+        Paths of numbers, as ``bodies.ball.wear.k``; ``*`` stands for each body. All numbers of
+        bodies, load, motion, friction and contact if left out.
+    factors : Mapping[str, ndarray], optional
+        By body: a factor on its wear rate at each cell of its own surface, of the shape of
+        `View.wear`; 1 if left out.
+
+    Returns
+    -------
+    Gradient
+        With the maps, which cost nothing more.
+
+    Raises
+    ------
+    CaseError
+        If the case has parts through which no gradient goes, or a path leads to no number, or to
+        one in which there is no derivative.
+    NumericalError
+        If the run fails.
+    """
+    factors = factors or {}
+    model = localised(Simulation(case).model, factors)
+    check_covered(model)
+    chains: list[Chain] = []
+    refused: dict[str, str] = {}
+    for path, places, value, unit in find(model.case, wrt):
+        try:
+            chains.append(chain(model, path, places, value, unit, factors))
+        except CaseError as error:
+            if wrt is not None:
+                raise
+            refused[path] = str(error)
+    looks: Mapping[float, Objective]
+    looks = objective if isinstance(objective, Mapping) else {model.end_time: objective}
+    with closing(Tape()) as tape:
+        states = recorded(model, list(looks), tape)
+        seen = {time: look(View(model, states[time])) for time, look in looks.items()}
+        total = sum(value for value, _ in seen.values())
+        seeds = {time: seed for time, (_, seed) in seen.items()}
+        found = swept_back(model, tape, seeds, chains)
+    parameters = {}
+    for each, through in zip(chains, found.parameters, strict=True):
+        direct = sum(
+            variant.weight * looks[time](View(variant.model, state))[0]
+            for variant in each.variants
+            for time, state in states.items()
+        )
+        parameters[each.path] = through + direct
+    scaled = {each.path: parameters[each.path] * each.value for each in chains}
+    relative = {path: each / total if total else float("nan") for path, each in scaled.items()}
+    return Gradient(
+        total, parameters, relative, found.wear_rate, found.height, found.worn_before, refused
+    )
+
+
+class ValueAndGradient:
+    """An objective and its gradient, for ``scipy.optimize.minimize(…, jac=True)``.
+
+    Unknown are the logarithms of numbers of the case, relative to what they are there, and of
+    factors on wear rates at each cell of bodies: one vector, which begins with `start`, all 0.
+
+    Parameters
+    ----------
+    case : Case, Mapping, str, Path or Model
+        As `gradient` takes it.
+    objective : callable, or Mapping of float to callable
+        As `gradient` takes it.
+    wrt : sequence of str, optional
+        Paths of the numbers.
+    wear_rate : sequence of str, optional
+        Bodies whose wear rate has a factor at each cell.
+
+    Examples
+    --------
+    >>> from tribo import ValueAndGradient, Volume
+    >>> fit = ValueAndGradient("case.toml", Volume("ball"), ["load.normal"])  # doctest: +SKIP
+    >>> value, slope = fit(fit.start)  # doctest: +SKIP
+    """
+
+    def __init__(
+        self,
+        case: Case | Mapping[str, Any] | str | Path | Model,
+        objective: Objective | Mapping[float, Objective],
+        wrt: Sequence[str] = (),
+        wear_rate: Sequence[str] = (),
+    ) -> None:
+        self._model = Simulation(case).model
+        self._objective = objective
+        self._numbers = find(self._model.case, wrt)
+        self._shapes = {
+            name: (self._model.exposures[name].rows, self._model.grid.cells[1])
+            for name in wear_rate
+        }
+
+    @property
+    def start(self) -> Array:
+        """The unknowns of the case itself: 0."""
+        return np.zeros(len(self._numbers) + sum(a * b for a, b in self._shapes.values()))
+
+    def at(self, unknowns: Array) -> tuple[Case, dict[str, Array]]:
+        """Return the case and the factors on wear rates, by body, for a vector of unknowns."""
+        case, at = self._model.case, len(self._numbers)
+        for (_, places, value, _), log in zip(self._numbers, unknowns[:at], strict=True):
+            for place in places:
+                case = changed(case, place, float(value * np.exp(log)))
+        factors = {}
+        for name, shape in self._shapes.items():
+            factors[name] = np.exp(unknowns[at : at + shape[0] * shape[1]]).reshape(shape)
+            at += factors[name].size
+        return case, factors
+
+    def __call__(self, unknowns: Array) -> tuple[float, Array]:
+        """Return the objective and its derivatives in the unknowns."""
+        case, factors = self.at(unknowns)
+        paths = [path for path, *_ in self._numbers]
+        found = gradient(case, self._objective, paths, factors=factors)
+        values = np.exp(unknowns[: len(paths)]) * [value for *_, value, _ in self._numbers]
+        parts = values * [found.parameters[path] for path in paths]
+        maps = [found.wear_rate[name].ravel() for name in self._shapes]
+        return found.value, np.concatenate([parts, *maps])

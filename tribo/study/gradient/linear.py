@@ -1,0 +1,242 @@
+"""The linear system of a step backwards: the operator of the step on the cells in contact."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.fft
+
+from tribo.contact.operator import Operator
+from tribo.contact.projection import CELLS, over
+from tribo.core.arrays import Array, Mask, add_from, rows_from
+from tribo.core.box import Box
+from tribo.core.errors import NumericalError
+
+Map = Callable[[Array], Array]
+
+TOLERANCE = 1e-10
+"""Residual of a system, relative to its right side."""
+MOST, RESTART = 400, 60
+"""Iterations of which the method gives up, and after which GMRES starts anew."""
+
+
+@dataclass(frozen=True)
+class Carrier:
+    """How a body's own surface meets the window: the transposed ways between the two.
+
+    Parameters
+    ----------
+    rows : int
+        Cells along x on the body's own surface.
+    starts : sequence of int
+        The row of it at which the window begins, at each position.
+    weights : ndarray, shape (nx, ny), or None
+        With which an average takes the cells of a row; None where points keep their own.
+    """
+
+    rows: int
+    starts: Sequence[int]
+    weights: Array | None
+
+    def gathered(self, parts: Array, box: Box) -> Array:
+        """Return what fields on a box, by position, add up to on the body: shape (rows, ny)."""
+        along, columns = box.slices
+        own = np.zeros((self.rows, box.window[1]))
+        if self.weights is not None:
+            own[0, columns] = np.sum(parts, axis=(0, 1))
+            return own
+        for part, start in zip(parts, self.starts, strict=True):
+            add_from(own[:, columns], part, start + along.start)
+        return own
+
+    def seen(self, own: Array, box: Box) -> Array:
+        """Return what rates on a box, by position, make of a sum over the body, by each rate."""
+        along, columns = box.slices
+        if self.weights is not None:
+            return np.broadcast_to(own[:, columns] * self.weights[box.slices], self._many(box))
+        rows = along.stop - along.start
+        return np.stack(
+            [rows_from(own[:, columns], start + along.start, rows) for start in self.starts]
+        )
+
+    def _many(self, box: Box) -> tuple[int, int, int]:
+        return len(self.starts), *box.shape
+
+
+@dataclass(frozen=True)
+class StepSystem:
+    """K z plus the wear that a step adds, transposed, on the free cells of each position.
+
+    With the shares ω of the positions, Tₘ from a body's surface to the window and r' the
+    derivative of the depth of the step in pressure::
+
+        (A z)ₘ = K zₘ + Σ over bodies r'ₘ Jₘᵀ Σₙ Tₙᵀ ωₙ zₙ
+
+    Parameters
+    ----------
+    operator : Operator
+        K on the box.
+    box : Box
+        The part of the window.
+    shares : ndarray, shape (positions,)
+        ω.
+    bodies : sequence of tuple
+        Of each body that wears: its `Carrier`, and r', shape (positions, nx, ny), in m/Pa.
+    free : ndarray of bool, shape (positions, nx, ny)
+        The cells whose pressure lies between its bounds.
+    """
+
+    operator: Operator
+    box: Box
+    shares: Array
+    bodies: Sequence[tuple[Carrier, Array]]
+    free: Mask
+
+    def apply(self, z: Array) -> Array:
+        """Return A z on all of the box."""
+        found = self.operator.apply(z)
+        if self.bodies:
+            weighed = over(self.shares) * z
+            for carrier, slope in self.bodies:
+                found = found + slope * carrier.seen(carrier.gathered(weighed, self.box), self.box)
+        return found
+
+    def solve(self, given: Array, fixed: Array, start: Array) -> tuple[Array, Array, Array]:
+        """Return z, and the μ and what is left of `given` − A z, which is μ on the free cells.
+
+        Parameters
+        ----------
+        given : ndarray, shape (positions, nx, ny)
+            What A z is on the free cells, but for μ of each position.
+        fixed : ndarray, of the same shape
+            z on the other cells; the sum of z over all is 0.
+        start : ndarray, of the same shape
+            A z to start from.
+        """
+        count = self.free.sum(CELLS)
+        if np.any((count == 0) & (np.sum(fixed, CELLS) != 0)):
+            raise NumericalError(
+                "all cells in contact are at the hardness at once: the approach has no derivative "
+                "there; take a finer grid or a lower load"
+            )
+        share = 1.0 / np.maximum(count, 1)
+        z = np.where(self.free, start, 0.0)
+        z -= over(share * (z.sum(CELLS) + fixed.sum(CELLS))) * self.free
+        z += fixed
+        symbol = self._symbol()
+
+        def centred(values: Array) -> Array:
+            kept: Array = values * self.free
+            kept -= over(share * kept.sum(CELLS)) * self.free
+            return kept
+
+        def preconditioned(values: Array) -> Array:
+            modes = scipy.fft.rfft2(values)
+            modes /= symbol
+            return centred(scipy.fft.irfft2(modes, s=self.box.shape, overwrite_x=True))
+
+        def applied(values: Array) -> Array:
+            return centred(self.apply(values))
+
+        left = given - self.apply(z)
+        residual = centred(left)
+        # A uniform right side is balanced by μ alone, but for rounding.
+        scale = max(_norm(given * self.free), _norm((given - left) * self.free))
+        if scale > 0 and _norm(residual) > TOLERANCE * scale:
+            method = self._conjugate if self.is_symmetric else _minimal
+            z = z + method(applied, preconditioned, residual, TOLERANCE * scale)
+            left = given - self.apply(z)
+        mean = np.sum(left * self.free, axis=CELLS) * share
+        return z, mean, left
+
+    @property
+    def is_symmetric(self) -> bool:
+        """Whether A is symmetric in the product Σ ωₘ zₘᵀ qₘ."""
+        for carrier, slope in self.bodies:
+            local = carrier.weights is None and len(self.shares) == 1
+            acts = slope if carrier.weights is None else slope * carrier.weights[self.box.slices]
+            inside = acts[self.free]
+            if not local and inside.size and np.ptp(inside) > 1e-9 * np.max(np.abs(inside)):
+                return False
+        return True
+
+    def _symbol(self) -> Array:
+        symbol = self.operator.symbol()
+        for carrier, slope in self.bodies:
+            inside = slope[self.free]
+            mean = float(np.mean(inside)) if inside.size else 0.0
+            if mean <= 0:
+                continue
+            passed = max(carrier.starts) - min(carrier.starts)
+            if carrier.weights is not None:
+                symbol[0] += mean * float(np.mean(np.sum(carrier.weights[self.box.slices], 0)))
+            elif passed:
+                symbol[0] += mean * min(1.0, self.box.shape[0] / passed)
+            else:
+                symbol += mean
+        return symbol
+
+    def _conjugate(
+        self, applied: Map, preconditioned: Map, residual: Array, tolerance: float
+    ) -> Array:
+        """Solve by conjugate gradients."""
+
+        def dot(a: Array, b: Array) -> float:
+            return float(np.sum(self.shares * np.sum(a * b, axis=CELLS)))
+
+        found = np.zeros_like(residual)
+        direction, before = np.zeros_like(residual), 1.0
+        for _ in range(MOST):
+            z = preconditioned(residual)
+            now = dot(residual, z)
+            direction = z + (now / before) * direction
+            response = applied(direction)
+            length = now / dot(direction, response)
+            found += length * direction
+            residual = residual - length * response
+            before = now
+            if _norm(residual) <= tolerance:
+                return found
+        raise _unsolved(residual, tolerance)
+
+
+def _minimal(applied: Map, preconditioned: Map, residual: Array, tolerance: float) -> Array:
+    """Solve by GMRES, started anew where it takes long."""
+    found = np.zeros_like(residual)
+    for _ in range(MOST // RESTART):
+        size = _norm(residual)
+        basis, moved = [residual / size], []
+        upper = np.zeros((RESTART + 1, RESTART))
+        for k in range(RESTART):
+            moved.append(preconditioned(basis[k]))
+            ahead = applied(moved[k])
+            for i, each in enumerate(basis):
+                upper[i, k] = float(np.sum(each * ahead))
+                ahead -= upper[i, k] * each
+            upper[k + 1, k] = _norm(ahead)
+            target = np.zeros(k + 2)
+            target[0] = size
+            parts, *_ = np.linalg.lstsq(upper[: k + 2, : k + 1], target)
+            missed = target - np.sum(upper[: k + 2, : k + 1] * parts, axis=1)
+            if _norm(missed) <= 0.5 * tolerance or upper[k + 1, k] == 0:
+                break
+            basis.append(ahead / upper[k + 1, k])
+        change = sum(part * each for part, each in zip(parts, moved, strict=True))
+        found += change
+        residual = residual - applied(change)
+        if _norm(residual) <= tolerance:
+            return found
+    raise _unsolved(residual, tolerance)
+
+
+def _norm(values: Array) -> float:
+    return float(np.sqrt(np.sum(values * values)))
+
+
+def _unsolved(residual: Array, tolerance: float) -> NumericalError:
+    return NumericalError(
+        f"the gradient of a step did not converge: its residual is {_norm(residual):.1e}, wanted "
+        f"{tolerance:.1e}"
+    )

@@ -1,0 +1,75 @@
+"""Wear rates that differ from place to place on a body: a factor at each cell of its surface."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from tribo.core.arrays import Array
+from tribo.core.errors import CaseError
+from tribo.core.fields import PLACE_X, PLACE_Y, LocalConditions, WearRate
+from tribo.simulation.guards import GuardedLaw
+from tribo.simulation.model import Model
+
+
+class LocalLaw(GuardedLaw):
+    """A law of a body, times a factor at each cell of the body's own surface.
+
+    Parameters
+    ----------
+    law : GuardedLaw
+        The law.
+    factor : ndarray, shape (rows, ny)
+        Its factor, not negative.
+    spacing : tuple of float
+        Edge lengths of a cell along x and y, in m.
+    """
+
+    def __init__(self, law: GuardedLaw, factor: Array, spacing: tuple[float, float]) -> None:
+        vars(self).update(vars(law))
+        self.requires = tuple(dict.fromkeys((*law.requires, PLACE_X.name, PLACE_Y.name)))
+        self._factor = factor
+        self._spacing = spacing
+
+    def rate(self, local: LocalConditions) -> WearRate:
+        """Return the law's rate and its derivative, times the factor of the place."""
+        cells = tuple(
+            np.rint(local.fields[place.name] / spacing + 0.5 * (count - 1)).astype(int)
+            for place, spacing, count in zip(
+                (PLACE_X, PLACE_Y), self._spacing, self._factor.shape, strict=True
+            )
+        )
+        factor, rate = self._factor[cells], super().rate(local)
+        return replace(
+            rate, depth_rate=factor * rate.depth_rate, depth_slope=factor * rate.depth_slope
+        )
+
+
+def localised(model: Model, factors: Mapping[str, Array]) -> Model:
+    """Return a model with a factor on the wear rate of bodies, at each cell of their surfaces.
+
+    Parameters
+    ----------
+    model : Model
+        The composed case.
+    factors : Mapping[str, ndarray]
+        By name of the body, of the shape of its wear.
+
+    Raises
+    ------
+    CaseError
+        If a body does not wear, or a map does not have that shape or is negative.
+    """
+    laws = dict(model.laws)
+    for name, factor in factors.items():
+        if name not in laws:
+            raise CaseError(f"there is no body {name!r} that wears: {', '.join(laws)}")
+        shape = (model.exposures[name].rows, model.grid.cells[1])
+        if factor.shape != shape:
+            raise CaseError(f"the factors of {name} have the shape {factor.shape}, not {shape}")
+        if not np.all(factor >= 0):
+            raise CaseError(f"a factor on the wear rate of {name} is negative")
+        laws[name] = LocalLaw(laws[name], factor, model.grid.spacing)
+    return replace(model, laws=laws)

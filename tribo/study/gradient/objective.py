@@ -1,0 +1,198 @@
+"""What is differentiated: a number of the saved states of a run, and its derivative in each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from tribo.core.arrays import Array
+from tribo.core.errors import CaseError
+from tribo.core.grid import Grid
+from tribo.core.state import State
+from tribo.core.words import did_you_mean, suggestion
+from tribo.simulation.model import Model
+
+
+@dataclass(frozen=True)
+class View:
+    """A saved state, as an objective sees it.
+
+    Parameters
+    ----------
+    model : Model
+        The composed case.
+    state : State
+        The state.
+    """
+
+    model: Model
+    state: State
+
+    @property
+    def grid(self) -> Grid:
+        """The window."""
+        return self.model.grid
+
+    @property
+    def pressure(self) -> Array:
+        """Pressure in the middle of the cycle, shape (nx, ny), in Pa."""
+        return self.state.contact.pressure
+
+    def wear(self, body: str) -> Array:
+        """Return the depth worn off a body's own surface, in m.
+
+        Its shape is that of the window; (1, ny) of a body that is averaged along its track, and
+        (rows, ny) of one that passes through a resolved cycle.
+        """
+        if body not in self.state.bodies:
+            meant = suggestion(did_you_mean(body, self.state.bodies))
+            raise CaseError(
+                f"there is no body {body!r}{meant} The bodies are {', '.join(self.state.bodies)}"
+            )
+        return self.state.bodies[body].wear
+
+    def volume(self, body: str) -> float:
+        """Return the volume worn off a body, in m³."""
+        return self.model.exposures[body].volume(self.wear(body))
+
+    def cell(self, field: Array, x: float, y: float) -> tuple[int, int]:
+        """Return the cell of a field, around the middle, that is nearest to a place, in m."""
+        found = []
+        for place, spacing, count in zip((x, y), self.grid.spacing, field.shape, strict=True):
+            index = 0 if count == 1 else int(np.floor(place / spacing + 0.5 * count))
+            if not 0 <= index < count:
+                raise CaseError(
+                    f"{1e3 * place:g} mm lies beyond {0.5e3 * count * spacing:g} mm from the middle"
+                )
+            found.append(index)
+        return found[0], found[1]
+
+
+@dataclass(frozen=True)
+class Seeds:
+    """The derivatives of an objective with respect to a state.
+
+    Parameters
+    ----------
+    wear : Mapping[str, ndarray], optional
+        By the depth worn off a body, by name, of its shape, in 1/m.
+    pressure : ndarray, shape (nx, ny), optional
+        By the pressure in the middle of the cycle, in 1/Pa.
+    """
+
+    wear: Mapping[str, Array] = field(default_factory=dict)
+    pressure: Array | None = None
+
+
+Objective = Callable[[View], tuple[float, Seeds]]
+"""A function of a `View` that returns a number and its `Seeds`."""
+
+
+@dataclass(frozen=True)
+class Volume:
+    """The volume worn off a body, in m³."""
+
+    body: str
+
+    def __call__(self, view: View) -> tuple[float, Seeds]:
+        """Return the volume, and the volume per depth of each cell."""
+        wear, volume = view.wear(self.body), view.model.exposures[self.body].volume
+        ones = np.ones_like(wear)
+        if len(wear) == 1 < view.grid.cells[0]:
+            # Rows of a track may be of different length.
+            each = np.array([[volume(row[None]) for row in np.eye(wear.shape[1])]])
+        else:
+            each = ones * (volume(ones) / wear.size)
+        return view.volume(self.body), Seeds({self.body: each})
+
+
+@dataclass(frozen=True)
+class Depth:
+    """The depth worn off a body at a place, in m: of the cell nearest to `x` and `y`, in m.
+
+    Places count from the middle of its own surface; `x` is left aside on a body that is averaged.
+    """
+
+    body: str
+    x: float = 0.0
+    y: float = 0.0
+
+    def __call__(self, view: View) -> tuple[float, Seeds]:
+        """Return the depth, and 1 at its cell."""
+        wear = view.wear(self.body)
+        cell, seed = view.cell(wear, self.x, self.y), np.zeros_like(wear)
+        seed[cell] = 1.0
+        return float(wear[cell]), Seeds({self.body: seed})
+
+
+@dataclass(frozen=True)
+class Deepest:
+    """The largest depth worn off a body, in m, made smooth: Σ wᵐ / Σ wᵐ⁻¹ with m = `order`.
+
+    It lies below the largest depth, within a few per cent at the default order where the scar is
+    round at its deepest.
+    """
+
+    body: str
+    order: float = 100.0
+
+    def __call__(self, view: View) -> tuple[float, Seeds]:
+        """Return the mean, and its derivative."""
+        wear = view.wear(self.body)
+        most = float(np.max(wear))
+        if most <= 0:
+            return 0.0, Seeds({self.body: np.zeros_like(wear)})
+        part, m = wear / most, self.order
+        total = float(np.sum(part ** (m - 1)))
+        mean = float(np.sum(part**m)) / total
+        slope = (m * part ** (m - 1) - (m - 1) * mean * part ** (m - 2)) / total
+        return most * mean, Seeds({self.body: slope})
+
+
+@dataclass(frozen=True)
+class Misfit:
+    """Half of the sum of squares of what a body's depth misses a measured map by.
+
+    Parameters
+    ----------
+    body : str
+        Name of the body.
+    depth : ndarray
+        The measured depth, in m, of the shape of `View.wear`; NaN where nothing was measured.
+    uncertainty : float, optional
+        By which each difference is divided, in m.
+    """
+
+    body: str
+    depth: Array
+    uncertainty: float = 1.0
+
+    def __call__(self, view: View) -> tuple[float, Seeds]:
+        """Return the misfit, and its derivative."""
+        wear = view.wear(self.body)
+        if self.depth.shape != wear.shape:
+            raise CaseError(
+                f"the measured depth of {self.body} has the shape {self.depth.shape}, its wear "
+                f"{wear.shape}; give it on the same cells"
+            )
+        off = np.where(np.isnan(self.depth), 0.0, (wear - self.depth) / self.uncertainty)
+        return 0.5 * float(np.sum(off * off)), Seeds({self.body: off / self.uncertainty})
+
+
+@dataclass(frozen=True)
+class Pressure:
+    """The pressure in the middle of the cycle at a place, in Pa: of the cell nearest to it, in m.
+
+    Where the cell touches just so, its derivative is that of the side on which it is taken.
+    """
+
+    x: float = 0.0
+    y: float = 0.0
+
+    def __call__(self, view: View) -> tuple[float, Seeds]:
+        """Return the pressure, and 1 at its cell."""
+        cell, seed = view.cell(view.pressure, self.x, self.y), np.zeros_like(view.pressure)
+        seed[cell] = 1.0
+        return float(view.pressure[cell]), Seeds(pressure=seed)

@@ -1,0 +1,185 @@
+"""The steps of a run, kept to be gone through backwards."""
+
+from __future__ import annotations
+
+import pickle
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import reduce
+from tempfile import SpooledTemporaryFile
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tribo.core.arrays import Array, Region, bounds, union
+from tribo.core.contact import ContactSolution
+from tribo.core.errors import CaseError
+from tribo.core.state import State
+from tribo.simulation.march import begin, march
+from tribo.simulation.model import Model
+from tribo.stepping.events import Drawn, Event, Worn, Yielded
+
+IN_MEMORY = 1 << 26
+"""Bytes of a tape that are kept in memory; a longer one goes to a temporary file."""
+
+
+@dataclass(frozen=True)
+class Slid:
+    """How a step slid: times in s, distances in m."""
+
+    time: float
+    distance: float
+    end_time: float
+    end_distance: float
+
+
+@dataclass(frozen=True)
+class Pressed:
+    """The contacts of a cycle, in a region of the window that holds all their pressure.
+
+    Parameters
+    ----------
+    region : tuple of slice
+        Where they lie.
+    pressure : ndarray, shape (positions, rows, columns)
+        In Pa.
+    overlap : ndarray, of the same shape, or None
+        Depth by which the bodies overlap at the hardness, in m; None where nothing yields.
+    load : str
+        The method of `tribo.core.loads.Loads` that gave their loads.
+    times : tuple of float
+        What it was asked for, in s.
+    slid : Slid or None
+        The step that wore the bodies under them; None if none did.
+    """
+
+    region: Region
+    pressure: Array
+    overlap: Array | None
+    load: str
+    times: tuple[float, ...]
+    slid: Slid | None
+
+
+@dataclass(frozen=True)
+class Gave:
+    """What overlapped at some positions became plastic depth."""
+
+    places: Sequence[int]
+
+
+@dataclass(frozen=True)
+class Enveloped:
+    """The plastic depth of averaged bodies, by name, became that of one row at each y."""
+
+    rows: Mapping[str, NDArray[np.intp]]
+
+
+@dataclass(frozen=True)
+class Saved:
+    """A state that an objective looks at."""
+
+    time: float
+
+
+Record = Pressed | Gave | Enveloped | Saved
+
+
+class Tape:
+    """The records of a run in their order, which are read backwards.
+
+    Beyond 64 MiB they lie in a temporary file, so that the memory does not grow with the run.
+    """
+
+    def __init__(self) -> None:
+        self._file = SpooledTemporaryFile(IN_MEMORY)  # noqa: SIM115
+        self._ends = [0]
+
+    def append(self, record: Record) -> None:
+        """Write a record after those there are."""
+        pickle.dump(record, self._file, pickle.HIGHEST_PROTOCOL)
+        self._ends.append(self._file.tell())
+
+    def __reversed__(self) -> Iterator[Record]:
+        for start in self._ends[-2::-1]:
+            self._file.seek(start)
+            yield pickle.load(self._file)
+
+    def close(self) -> None:
+        """Give up the records."""
+        self._file.close()
+
+    def __len__(self) -> int:
+        return len(self._ends) - 1
+
+
+def recorded(model: Model, looked_at: Sequence[float], tape: Tape) -> dict[float, State]:
+    """Run a model, recorded on a tape; return the states at times (s) that are saved."""
+    heard: list[Event] = []
+    model = replace(model, tell=heard.append)
+    states: dict[float, State] = {}
+    state = begin(model)
+    averaged = [name for name, exposure in model.exposures.items() if exposure.averaged]
+    _keep(tape, heard, averaged, "after", (0.0,), 0.0)
+    if 0.0 in looked_at:
+        states[0.0] = state
+        tape.append(Saved(0.0))
+    for accepted in march(model, state):
+        before, state = state, accepted.state
+        _keep(tape, heard, averaged, "before", (state.time,), before.time)
+        if accepted.save and state.time in looked_at:
+            states[state.time] = state
+            tape.append(Saved(state.time))
+    missing = [time for time in looked_at if time not in states]
+    if missing:
+        raise CaseError(
+            f"nothing is saved at {missing[0]:g} s, which an objective is to look at; add it to "
+            "output.save_times"
+        )
+    return states
+
+
+def _keep(
+    tape: Tape,
+    heard: list[Event],
+    averaged: Sequence[str],
+    load: str,
+    times: tuple[float, ...],
+    begun: float,
+) -> None:
+    """Write down what was heard up to an accepted state, without the steps that were rejected."""
+    steps = [i for i, event in enumerate(heard) if isinstance(event, Worn)]
+    if steps:
+        for event in heard[: steps[0]]:
+            tape.append(_written(event, averaged, "after", (begun,)))
+        del heard[: steps[-1]]
+    for event in heard:
+        tape.append(_written(event, averaged, load, times))
+    heard.clear()
+
+
+def _written(event: Event, averaged: Sequence[str], load: str, times: tuple[float, ...]) -> Record:
+    if isinstance(event, Yielded):
+        return Gave(tuple(event.places))
+    if isinstance(event, Drawn):
+        return Enveloped({n: np.argmax(event.before[n], axis=0) for n in averaged})
+    if isinstance(event, Worn):
+        moment = event.moment
+        slid = Slid(event.time, event.distance, moment.time, moment.distance)
+        return _pressed(event.contacts, "mean", (event.time, moment.time), slid)
+    return _pressed(event.contacts, load, times, None)
+
+
+def _pressed(
+    contacts: Sequence[ContactSolution], load: str, times: tuple[float, ...], slid: Slid | None
+) -> Pressed:
+    region = reduce(union, (bounds(contact.pressure > 0) for contact in contacts))
+    yields = any(np.any(contact.overlap > 0) for contact in contacts)
+    return Pressed(
+        region=region,
+        pressure=np.stack([contact.pressure[region] for contact in contacts]),
+        overlap=np.stack([c.overlap[region] for c in contacts]) if yields else None,
+        load=load,
+        times=times,
+        slid=slid,
+    )
