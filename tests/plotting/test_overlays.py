@@ -74,9 +74,11 @@ def test_a_map_is_the_result_less_the_first(results):
 def test_all_that_makes_sense_is_drawn(results, tmp_path, monkeypatch):
     monkeypatch.setattr(overlays, "write_figures", lambda pictures, *_: [*pictures])
     assert overlays.save_overlays(results, [0.0, 3600.0], tmp_path) == [
+        "comparison_0s",
         "pressure_0s",
         "difference_2_0s",
         "difference_3_0s",
+        "comparison_3600s",
         "pressure_3600s",
         "ball_3600s",
         "disk_3600s",
@@ -85,7 +87,18 @@ def test_all_that_makes_sense_is_drawn(results, tmp_path, monkeypatch):
     ]
     # Results that agree have no map of differences.
     agreed = overlays.save_overlays({"one": made(), "same": made()}, [3600.0], tmp_path)
-    assert agreed == ["pressure_3600s", "ball_3600s", "disk_3600s"]
+    assert agreed == ["comparison_3600s", "pressure_3600s", "ball_3600s", "disk_3600s"]
+
+
+def test_a_comparison_is_one_figure_of_all_that_is_worn(results):
+    figure = overlays.comparison_picture(results, 3600.0)
+    assert names(figure) == ["one", "two", "three"]
+    words = [axes.get_ylabel() for axes in figure.axes[::2]]
+    assert words == ["Pressure (MPa)", "Height of ball (µm)", "Height of disk (µm)"]
+    for axis, axes in enumerate(figure.axes[2:4]):
+        for line, result in zip(axes.lines, results.values(), strict=True):
+            expected = 1e6 * profile(result.body("ball").surface(-1), axis)
+            np.testing.assert_allclose(line.get_ydata(), expected)
 
 
 def test_a_time_without_a_save_is_refused(results):

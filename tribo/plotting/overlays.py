@@ -16,7 +16,7 @@ from tribo.plotting.difference import difference_map
 from tribo.plotting.figures import write_figures
 from tribo.plotting.sections import draw_profiles, removed, scar_mask, through_centre
 from tribo.plotting.style import WIDE, house_style, legend_below, new_figure, overlay_looks
-from tribo.plotting.units import fitting, size
+from tribo.plotting.units import fitting, height_unit, size
 from tribo.result.read import Result
 
 Results = Mapping[str, Result]
@@ -64,6 +64,41 @@ def profile_overlay(results: Results, name: str, time: float) -> Figure:
     )
 
 
+def comparison_picture(results: Results, time: float) -> Figure:
+    """Draw several results as one figure: pressure and each worn body, along and across."""
+    worn = _worn_in_all(results, time)
+    looks, labels = overlay_looks(len(results)), list(results)
+    saves = [(result, result.save_at(time)) for result in results.values()]
+    with house_style():
+        figure = new_figure(16.0 + 40.0 * (1 + len(worn)), WIDE)
+        rows = figure.subplots(1 + len(worn), 2, sharey="row", squeeze=False)
+        for row, name in zip(rows, ("", *worn), strict=True):
+            fields = [
+                (result.grid, field, field > 0)
+                if not name
+                else (
+                    result.grid,
+                    result.body(name).surface(i),
+                    scar_mask(removed(result, name)[i]),
+                )
+                for result, i in saves
+                for field in (result.field("pressure", i),)
+            ]
+            sections = [through_centre(axis, fields) for axis in (0, 1)]
+            parts = [line for section in sections for line in section.in_sight()]
+            low, high = float(min(map(np.min, parts))), float(max(map(np.max, parts)))
+            # A flat has a range too, so that its height reads as a round number.
+            margin = 0.05 * max(high - low, abs(high), 1e-8)
+            up = (low - margin if name else 0.0, high + margin)
+            unit = height_unit(max(map(abs, up))) if name else fitting("Pa", high)
+            for axes, section in zip(row, sections, strict=True):
+                curves = section.draw(axes, unit, looks, labels, up)
+            row[0].set_ylabel(f"Height of {name} ({unit})" if name else f"Pressure ({unit})")
+        rows[0, 0].set_title(f"t = {time:g} s", loc="left")
+        legend_below(figure, curves)
+    return figure
+
+
 def save_overlays(
     results: Results, times: Sequence[float], folder: Path, suffix: str = "png"
 ) -> list[Path]:
@@ -83,7 +118,7 @@ def save_overlays(
     Returns
     -------
     list of Path
-        For each time T: ``pressure_Ts``, ``NAME_Ts`` of each worn body NAME, and
+        For each time T: ``comparison_Ts``, ``pressure_Ts``, ``NAME_Ts`` of each worn body NAME, and
         ``difference_N_Ts`` of the Nth result where it is on the first one's grid
         and differs from it.
 
@@ -103,13 +138,11 @@ def save_overlays(
 def _pictures(results: Results, time: float) -> dict[str, Callable[[], Figure]]:
     first = next(iter(results.values()))
     pictures: dict[str, Callable[[], Figure]] = {
-        f"pressure_{time:g}s": partial(pressure_overlay, results, time)
+        f"comparison_{time:g}s": partial(comparison_picture, results, time),
+        f"pressure_{time:g}s": partial(pressure_overlay, results, time),
     }
-    for name in first.body_names:
-        if all(name in result.body_names for result in results.values()) and any(
-            np.any(removed(result, name)[result.save_at(time)] > 0) for result in results.values()
-        ):
-            pictures[f"{name}_{time:g}s"] = partial(profile_overlay, results, name, time)
+    for name in _worn_in_all(results, time):
+        pictures[f"{name}_{time:g}s"] = partial(profile_overlay, results, name, time)
     pressure = first.field("pressure", first.save_at(time))
     for number, (label, result) in enumerate(results.items(), start=1):
         if (result.grid.size, result.grid.cells) != (first.grid.size, first.grid.cells):
@@ -119,3 +152,16 @@ def _pictures(results: Results, time: float) -> dict[str, Callable[[], Figure]]:
                 difference_map, results, label, time
             )
     return pictures
+
+
+def _worn_in_all(results: Results, time: float) -> list[str]:
+    """Return the names of bodies that all results have and one at least has worn by then."""
+    first = next(iter(results.values()))
+    return [
+        name
+        for name in first.body_names
+        if all(name in result.body_names for result in results.values())
+        and any(
+            np.any(removed(result, name)[result.save_at(time)] > 0) for result in results.values()
+        )
+    ]

@@ -1,0 +1,62 @@
+"""Curves hold the columns that are asked for, in units that fit."""
+
+import numpy as np
+import pandas as pd
+import pytest
+from made_results import made
+
+from tribo.core.errors import CaseError
+from tribo.plotting.curves import fit_picture, history_curves, sweep_curves
+
+
+def test_columns_of_the_history_are_drawn_over_the_path():
+    result = made()
+    figure = history_curves(result, ["max_pressure_Pa", "bodies.ball.wear_volume_m3"])
+    history = result.table("history")
+    pressure, volume = figure.axes
+    np.testing.assert_allclose(pressure.lines[0].get_xdata(), history["distance_m"])
+    np.testing.assert_allclose(pressure.lines[0].get_ydata(), 1e-6 * history["max_pressure_Pa"])
+    worn = 1e9 * history["bodies.ball.wear_volume_m3"]
+    np.testing.assert_allclose(volume.lines[0].get_ydata(), worn)
+    assert pressure.get_ylabel() == "max pressure\n(MPa)"
+    assert volume.get_ylabel() == "ball wear volume\n(mm³)"
+    assert volume.get_xlabel() == "distance (m)"
+    with pytest.raises(CaseError, match=r"no column 'max_presure_Pa'.* max_pressure_Pa"):
+        history_curves(result, ["max_presure_Pa"])
+
+
+def test_runs_of_a_sweep_are_curves_in_the_order_of_what_varies():
+    runs = pd.DataFrame(
+        {
+            "status": ["done", "done", "failed", "done", "done"],
+            "load_N": [40.0, 20.0, 30.0, 20.0, 40.0],
+            "contact.type": ["dcfft", "dcfft", "dcfft", "winkler", "winkler"],
+            "max_pressure_Pa": [4e8, 3e8, np.nan, 2e8, 5e8],
+        }
+    )
+    figure = sweep_curves(runs, "load_N", "max_pressure_Pa", ["contact.type"])
+    first, second = figure.axes[0].lines
+    np.testing.assert_allclose(first.get_xydata(), [[20, 300], [40, 400]])
+    np.testing.assert_allclose(second.get_xydata(), [[20, 200], [40, 500]])
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["dcfft", "winkler"]
+    with pytest.raises(CaseError, match="no column 'load'"):
+        sweep_curves(runs, "load", "max_pressure_Pa")
+    with pytest.raises(CaseError, match="no run is done"):
+        sweep_curves(runs[2:3], "load_N", "max_pressure_Pa")
+
+
+def test_a_fit_stands_over_what_was_measured():
+    data = pd.DataFrame(
+        {
+            "body": ["ball", "disk"],
+            "quantity": ["scar_across", "mass"],
+            "measured": [1e-3, 2e-7],
+            "sigma": [1e-5, 1e-7],
+            "computed": [1.1e-3, 2e-7],
+        }
+    )
+    figure = fit_picture(data)
+    fitted = next(line for line in figure.axes[0].lines if line.get_label() == "fitted")
+    np.testing.assert_allclose(fitted.get_xdata(), [1.1, 1.0])
+    labels = [text.get_text() for text in figure.axes[0].get_yticklabels()]
+    assert labels == ["ball: scar across", "disk: mass"]

@@ -1,0 +1,175 @@
+"""Curves of what a person asks for: columns of a history, runs of a sweep, a fit and its data."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from tribo.core.arrays import Array
+from tribo.core.errors import CaseError
+from tribo.core.words import did_you_mean, suggestion
+from tribo.plotting.sections import number_of_saves
+from tribo.plotting.style import house_style, legend_below, new_figure, save_looks, ticks
+from tribo.plotting.units import fitting, size
+from tribo.result.read import Result
+
+SHOWN = {"_Pa": "Pa", "_m": "m"}
+"""Ends of names of columns that are shown in a unit which fits them."""
+OTHERS = ("_m3", "mm³"), ("_m2", "mm²"), ("_J", "J"), ("_N_m", "N m"), ("_N", "N"), ("_s", "s")
+"""Ends of other names, and their unit."""
+FIT = 4.0
+"""Height of a measured value in the picture of a fit, in mm."""
+
+
+def history_curves(result: Result, columns: Sequence[str], against: str = "distance_m") -> Figure:
+    """Draw columns of the history against another, a panel for each.
+
+    Parameters
+    ----------
+    result : Result
+        What to draw.
+    columns : sequence of str
+        Names as in ``result.table("history")``: ``"max_pressure_Pa"``.
+    against : str, optional
+        The column along the horizontal axis: ``"distance_m"``, ``"time_s"`` or any other.
+
+    Raises
+    ------
+    CaseError
+        If there is no such column, or no save.
+    """
+    number_of_saves(result)
+    history = result.table("history")
+    for name in (*columns, against):
+        if name not in history:
+            known = ", ".join(history)
+            meant = suggestion(did_you_mean(name, history))
+            raise CaseError(f"the history has no column {name!r}{meant} It has {known}")
+    with house_style():
+        figure = new_figure(15.0 + 36.0 * len(columns))
+        panels = figure.subplots(len(columns), 1, sharex=True, squeeze=False)[:, 0]
+        for axes, name in zip(panels, columns, strict=True):
+            _draw(axes, history[against], history[name], against, name)
+            axes.label_outer()
+    return figure
+
+
+def sweep_curves(runs: pd.DataFrame, x: str, y: str, by: Sequence[str] = ()) -> Figure:
+    """Draw a measure of a sweep's runs over a quantity that varies.
+
+    Parameters
+    ----------
+    runs : DataFrame
+        A row for each run, as ``runs.csv`` has them.
+    x, y : str
+        Its columns along both axes.
+    by : sequence of str, optional
+        Columns that part the runs into curves, one for each combination of their values.
+
+    Raises
+    ------
+    CaseError
+        If there is no such column, or no run is done.
+    """
+    for name in (x, y, *by):
+        if name not in runs:
+            meant = suggestion(did_you_mean(name, list(runs)))
+            raise CaseError(f"the runs have no column {name!r}{meant}")
+    done = runs[runs["status"] == "done"].sort_values(x)
+    if done.empty:
+        raise CaseError("no run is done; there is nothing to draw")
+    groups = list(done.groupby(list(by))) if by else [((), done)]
+    with house_style():
+        figure = new_figure(55.0)
+        axes = figure.subplots()
+        every = done[x].to_numpy(float), done[y].to_numpy(float)
+        curves: list[Line2D] = []
+        for look, (values, rows) in zip(save_looks(len(groups)), groups, strict=True):
+            label = ", ".join(
+                f"{value:.4g}" if isinstance(value, float) else str(value) for value in values
+            )
+            across, up = (rows[name].to_numpy(float) for name in (x, y))
+            curves += _draw(axes, across, up, x, y, every, label=label, marker="o", **look)
+        if by:
+            legend_below(figure, curves)
+    return figure
+
+
+def fit_picture(data: pd.DataFrame) -> Figure:
+    """Draw what a calibration computes over what was measured, with its standard deviation.
+
+    Parameters
+    ----------
+    data : DataFrame
+        A row for each measured value, as `data` of a calibration: at least ``body``,
+        ``quantity``, ``measured``, ``sigma`` and ``computed``.
+    """
+    measured, computed = data["measured"].to_numpy(float), data["computed"].to_numpy(float)
+    rows = np.arange(len(data))[::-1]
+    with house_style():
+        figure = new_figure(18.0 + FIT * max(len(data), 3))
+        axes = figure.subplots()
+        axes.axvline(1.0, color="black", linewidth=0.5)
+        axes.errorbar(
+            np.ones(len(data)),
+            rows,
+            xerr=data["sigma"] / np.abs(measured),
+            fmt="none",
+            ecolor="#56b4e9",
+            elinewidth=2.4,
+            label="measured, ± its standard deviation",
+        )
+        axes.plot(computed / measured, rows, "s", color="#202020", markersize=3.0, label="fitted")
+        names = [
+            f"{body}: {str(what).replace('_', ' ')}"
+            for body, what in zip(data["body"], data["quantity"], strict=True)
+        ]
+        axes.set_yticks(rows, names)
+        axes.set_ylim(-0.7, len(data) - 0.3)
+        axes.set_xlabel("Over what was measured")
+        axes.xaxis.set_major_locator(ticks(5))
+        legend_below(figure, axes.get_legend_handles_labels()[0], columns=2)
+    return figure
+
+
+def _draw(
+    axes: Axes,
+    x: Array,
+    y: Array,
+    across: str,
+    up: str,
+    every: tuple[Array, Array] | None = None,
+    **look: Any,
+) -> list[Line2D]:
+    """Draw a curve in units that fit `every` value, and label the axes."""
+    every = every or (x, y)
+    (below, scale), (beside, size_up) = _label(across, every[0]), _label(up, every[1])
+    axes.set_xlabel(below)
+    axes.set_ylabel(beside.replace(" (", "\n("))
+    return axes.plot(x / scale, y / size_up, **{"color": "#202020", **look})
+
+
+def _label(name: str, values: Array) -> tuple[str, float]:
+    """Return what an axis says of a column, with the unit for its values, and the unit's size."""
+    (unit, end), factor = _unit(name, values)
+    words = name.removesuffix(end).replace("_", " ").replace(".", " ").removeprefix("bodies ")
+    return (f"{words} ({unit})" if unit else words), factor
+
+
+def _unit(name: str, values: Array) -> tuple[tuple[str, str], float]:
+    """Return the unit for a column, the end of the name that it replaces, and its size in SI."""
+    largest = float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values)))
+    for end, si in SHOWN.items():
+        if name.endswith(end) and not name.endswith("_N_m"):
+            unit = "m" if si == "m" and largest >= 1.0 else fitting(si, largest)
+            return (unit, end), size(unit)
+    for end, unit in OTHERS:
+        if name.endswith(end):
+            return (unit, end), size(unit.replace(" ", "*"))
+    return ("", ""), 1.0
