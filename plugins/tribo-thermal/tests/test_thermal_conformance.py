@@ -15,5 +15,14 @@ test_flash_by_body = parametrize_checks(
     ],
     expected_failures={"bodies_may_have_any_names": "its configuration names the bodies"},
 )
+test_flash_in_time = parametrize_checks(
+    Flash,
+    [
+        {
+            "ambient": 363.0,
+            "heat_paths": {"ball": {"length": "5 mm", "area": "78 mm^2", "capacity": "4 J/K"}},
+        }
+    ],
+)
 test_arrhenius = parametrize_checks(Arrhenius)
 test_softening = parametrize_checks(Softening)

@@ -30,17 +30,33 @@ class HeatPath(BaseModel):
     """Mean length l of the path to the heat sink."""
     area: Annotated[float, Quantity("m^2", above=0)]
     """Nominal cross-section A of the path."""
+    capacity: Annotated[float, Quantity("J/K", above=0)] | None = None
+    """Heat capacity C of the body: its bulk warms with time. At once if left out."""
+
+    @model_validator(mode="after")
+    def _time_to_warm(self) -> Self:
+        if self.capacity is not None and self.length == 0:
+            raise ValueError("a capacity needs a length: without one the bulk stays at ambient")
+        return self
+
+    def resistance(self, conductivity: float) -> float:
+        """Return l/(A K), in K/W."""
+        return self.length / (self.area * conductivity)
 
 
 class Flash(Effect):
-    """T = T₀ + r μ F v (R_flash + l/(A K)), with R_flash after Tian & Kennedy.
+    """T = T₀ + q (R_flash + l/(A K)), with R_flash after Tian & Kennedy, and q from μ F v.
 
     The contact is a circular heat source of power μ F v, at rest on the
     stationary body (static) and moving at the sliding speed over the swept
     one; see `rise_per_power`. Each body adds the bulk resistance of its heat
-    path, K/W. The parts r of the heat make the two temperatures equal (Blok's
-    1/ΔT = 1/ΔT₁ + 1/ΔT₂, bulk included), unless the case gives them: then
-    each body has its own temperature, as across an insulating film.
+    path, K/W. The heat flows q, in sum μ F v, make the two temperatures equal
+    (Blok's 1/ΔT = 1/ΔT₁ + 1/ΔT₂, bulk included), unless the case gives their
+    parts: then each body has its own temperature, as across an insulating film.
+
+    A body with a heat capacity C warms in time: its bulk is B above ambient,
+    C dB/dt = q − B A K/l, a state that the result keeps and a rest lets cool,
+    and T = T₀ + B + q R_flash. Two bodies of which one is hotter heat the other.
 
     The field is uniform over the contact, its mean or its maximum: it has no
     hot spots and no profile. It lags nothing: valid where the contact changes
@@ -89,6 +105,22 @@ class Flash(Effect):
     provides = (TEMPERATURE, RISE)
     requires = ("friction_coefficient",)
 
+    @property
+    def state_fields(self) -> tuple[Field, ...]:  # type: ignore[override]
+        """The bulk of each body that warms in time."""
+        return tuple(
+            Field(
+                bulk(name),
+                "K",
+                f"Temperature of {name} beyond the contact, above ambient.",
+                at_least=0.0,
+                typical=10.0,
+                uniform=True,
+            )
+            for name, path in (self.heat_paths or {}).items()
+            if path.capacity is not None
+        )
+
     def check(self, materials: Mapping[str, Material], swept: frozenset[str]) -> None:
         """Require thermal properties, bodies that exist, and one that stays in contact."""
         bodies = set(materials)
@@ -118,24 +150,50 @@ class Flash(Effect):
             RISE.name: rise,
         }
 
+    def state_rates(self, contact: ContactConditions) -> Mapping[str, Array]:
+        """Return by how much the bulk of each body that warms in time does so per second."""
+        flows, rates = self._flows(contact), {}
+        for name, path in (self.heat_paths or {}).items():
+            if path.capacity is not None:
+                kept = contact.state[bulk(name)]
+                away = kept / path.resistance(
+                    _needed(name, contact.materials[name], "conductivity")
+                )
+                rates[bulk(name)] = (flows[name] - away) / path.capacity
+        return rates
+
     def rises(self, contact: ContactConditions) -> dict[str, float]:
         """Return how much hotter than ambient each body is in the contact, in K."""
+        flows = self._flows(contact)
+        return {
+            name: self._bulk(name, contact) + flows[name] * self._resistance(name, contact)
+            for name in contact.materials
+        }
+
+    def _flows(self, contact: ContactConditions) -> dict[str, float]:
+        """Return the heat that flows into each body, in W."""
         if not np.any(contact.pressure > 0):
             return dict.fromkeys(contact.materials, 0.0)
         friction = next(iter(contact.fields["friction_coefficient"].values()))
         traction = float(np.sum(friction * contact.pressure)) * contact.grid.cell_area
         power = traction * contact.speed
-        resistance = {
-            name: self._resistance(name, material, contact)
-            for name, material in contact.materials.items()
-        }
-        fractions = self.heat_fraction
-        if fractions is None:
-            together = 1 / sum(1 / r for r in resistance.values())
-            return dict.fromkeys(resistance, power * together)
-        return {name: fractions[name] * power * r for name, r in resistance.items()}
+        if self.heat_fraction is not None:
+            return {name: part * power for name, part in self.heat_fraction.items()}
+        bulks = {name: self._bulk(name, contact) for name in contact.materials}
+        resistance = {name: self._resistance(name, contact) for name in contact.materials}
+        together = 1 / sum(1 / r for r in resistance.values())
+        common = together * (power + sum(bulks[name] / r for name, r in resistance.items()))
+        return {name: (common - bulks[name]) / r for name, r in resistance.items()}
 
-    def _resistance(self, name: str, material: Material, contact: ContactConditions) -> float:
+    def _bulk(self, name: str, contact: ContactConditions) -> float:
+        """Return what a body that warms in time has come to beyond the contact, in K."""
+        return float(contact.state[bulk(name)][0, 0]) if bulk(name) in contact.state else 0.0
+
+    def _resistance(self, name: str, contact: ContactConditions) -> float:
+        """Return the temperature per heat flow, in K/W, above what its bulk has come to."""
+        if not np.any(contact.pressure > 0):
+            return 0.0
+        material = contact.materials[name]
         conductivity = _needed(name, material, "conductivity")
         radius = source_radius(contact.pressure, contact.grid.cell_area, self.source)
         peclet = 0.0
@@ -144,7 +202,13 @@ class Flash(Effect):
             peclet = contact.speed * radius * capacity / (2 * conductivity)
         flash = rise_per_power(radius, conductivity, peclet, self.source, self.rise)
         path = (self.heat_paths or {}).get(name)
-        return flash if path is None else flash + path.length / (path.area * conductivity)
+        at_once = path is not None and path.capacity is None
+        return flash + path.resistance(conductivity) if path and at_once else flash
+
+
+def bulk(name: str) -> str:
+    """Return the name of the state that is the temperature of a body beyond the contact."""
+    return f"bulk_rise_{name}"
 
 
 def _needed(name: str, material: Material, key: str) -> float:

@@ -1,0 +1,86 @@
+"""The bulk temperature as a state, against the balance of heat."""
+
+import math
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+from tribo import Simulation
+
+from tribo_thermal.flash import Flash
+
+PATH = {"length": "20 mm", "area": "78.5 mm^2", "capacity": "5 J/K"}
+RESISTANCE = 0.02 / (78.5e-6 * 46)
+TIME = 5 * RESISTANCE
+POWER = 0.3 * 100 * 0.1
+STEEL = {
+    "young": "207 GPa",
+    "poisson": 0.3,
+    "density": "7850 kg/m^3",
+    "conductivity": "46 W/(m K)",
+    "heat_capacity": "460 J/(kg K)",
+}
+
+
+def case(speed, **effect):
+    wear = {"type": "archard", "k": "1e-16 1/Pa"}
+    return {
+        "grid": {"size": "0.8 mm", "cells": 24},
+        "load": {"normal": 100},
+        "friction": {"coefficient": 0.3},
+        "bodies": {
+            "ball": {
+                "surface": {"type": "sphere", "radius": "5 mm"},
+                "material": STEEL,
+                "wear": wear,
+            },
+            "disk": {"surface": "flat", "material": STEEL},
+        },
+        "contact": "winkler",
+        "kinematics": {
+            "type": "unidirectional",
+            "speed": speed,
+            "track_length": "100 mm",
+            "duration": 40,
+        },
+        "effects": [
+            {"type": "thermal.flash", "ambient": 300, "heat_paths": {"ball": PATH}, **effect}
+        ],
+    }
+
+
+def test_the_bulk_warms_and_cools_as_the_balance_says():
+    stages = [{"until": 25, "speed": 0.1}, {"until": 40, "speed": 0}]
+    given = case(stages, heat_fraction={"ball": 1, "disk": 0})
+    given["output"] = {"save_times": [25]}
+    with Simulation(given).run() as result:
+        bulk = result.bulk_rise_ball.to_numpy()
+        ball = result.body("ball").effects["temperature_rise"]
+    warm = POWER * RESISTANCE * (1 - math.exp(-25 / TIME))
+    assert bulk == pytest.approx([0, warm, warm * math.exp(-15 / TIME)], rel=1e-4)
+    # At rest nothing is above the bulk.
+    assert ball[1].max() > bulk[1] + 5
+    assert ball[2].max() == pytest.approx(bulk[2])
+
+
+def test_shared_heat_makes_both_surfaces_equally_hot_while_one_bulk_warms():
+    with Simulation(case(0.1)).run() as result:
+        ball, disk = (result.body(name).effects["temperature"] for name in ("ball", "disk"))
+        bulk = result.bulk_rise_ball.to_numpy()
+    np.testing.assert_allclose(ball, disk, rtol=1e-12)
+    assert 0 < bulk[-1] < POWER * RESISTANCE
+
+
+def test_a_long_run_is_as_hot_as_without_a_capacity():
+    at_once = {"ball": {**PATH, "capacity": None}}
+    slow = {"ball": {**PATH, "capacity": "0.05 J/K"}}
+    rises = []
+    for paths in (at_once, slow):
+        with Simulation(case(0.1, heat_paths=paths)).run() as result:
+            rises.append(result.body("disk").effects["temperature_rise"][-1].max())
+    assert rises[1] == pytest.approx(rises[0], rel=1e-4)
+
+
+def test_what_warms_in_time_needs_a_path():
+    with pytest.raises(ValidationError, match="a capacity needs a length"):
+        Flash(ambient=300, heat_paths={"ball": {**PATH, "length": 0}})
