@@ -34,7 +34,7 @@ from tribo import (
 )
 from tribo.cli.check import _facts
 from tribo.cli.console import Console
-from tribo.cli.report import print_report
+from tribo.cli.tables import print_report
 from tribo.observers.observer import Observer
 from tribo.plotting.pressure import pressure_map
 from tribo.simulation.predict import predict

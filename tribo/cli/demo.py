@@ -51,7 +51,7 @@ def demo(directory: Path, force: bool) -> None:
       tribo demo -d somewhere
     """
     from tribo.cli.console import Console
-    from tribo.cli.report import print_report
+    from tribo.cli.tables import print_report
     from tribo.config.load import load_case
     from tribo.core.errors import CaseError
     from tribo.core.files import write_whole, writing

@@ -7,7 +7,7 @@ from html import escape
 from io import BytesIO, StringIO
 
 from tribo.cli.console import Console
-from tribo.cli.report import print_report
+from tribo.cli.tables import print_report
 from tribo.plotting.pressure import pressure_sections
 from tribo.result.read import Result
 

@@ -62,11 +62,11 @@ def print_report(result: Result, console: Console | None = None) -> None:
             f"The load changes along the stroke, from {min(shares):g} to {max(shares):g} of the "
             "normal load; the table has its mean over the path, and pressures in the middle."
         )
-    console.print(_bodies(result, lab.bodies))
+    console.print(wear_table(result, lab.bodies))
     if rough := rough_bodies(result):
-        console.print(_roughness(result, rough))
+        console.print(roughness_table(result, rough))
     if lab.inferred:
-        console.print(_inferred(lab.inferred))
+        console.print(inferred_table(lab.inferred))
     console.print(lab.first_contact_words, markup=False)
     saves = result.saves()
     plastic = [save["plastic_area_m2"] / save["contact_area_m2"] for save in (saves[0], saves[-1])]
@@ -146,18 +146,19 @@ def _print_saves(result: Result, console: Console) -> None:
     """Print the table of saves, and what had to be left out of it to fit the width."""
     left_out: list[str] = []
     unbounded = console.options.update(width=WIDE)
-    table = _saves(result, left_out)
+    table = saves_table(result, left_out)
     for name in DISPENSABLE:
         if console.measure(table, options=unbounded).minimum <= console.width:
             break
         left_out.append(name)
-        table = _saves(result, left_out)
+        table = saves_table(result, left_out)
     console.print(table)
     if left_out:
         console.print(f"Left out for want of width: {', '.join(left_out)}.")
 
 
-def _saves(result: Result, left_out: Sequence[str]) -> Table:
+def saves_table(result: Result, left_out: Sequence[str] = ()) -> Table:
+    """Return the contact and the largest depths at each save."""
     table = titled("Contact, along and across the sliding direction; wear depth of each body")
     saves, along = result.saves(), _shares_along(result)
     columns = []
@@ -194,7 +195,8 @@ def _shares_along(result: Result) -> list[float]:
     return [place["share"] for place in load.get("along", ())] if isinstance(load, Mapping) else []
 
 
-def _bodies(result: Result, bodies: Mapping[str, BodyReport]) -> Table:
+def wear_table(result: Result, bodies: Mapping[str, BodyReport]) -> Table:
+    """Return what a lab would measure of each body at the end."""
     last = result.saves()[-1]
     tracks = [f"{n} (track)" if body.scar_along_m is None else n for n, body in bodies.items()]
     before = ", what it began with included" if result.case.get("begin") else ""
@@ -230,7 +232,7 @@ def _worn(body: BodyReport, save: Mapping[str, float], groove: float | None) -> 
     return cells
 
 
-def _roughness(result: Result, bodies: Sequence[str]) -> Table:
+def roughness_table(result: Result, bodies: Sequence[str]) -> Table:
     """Set the roughness of rough bodies in their scars against what it was, and beside them."""
     table = titled("Roughness in nm, form removed", *(column[0] for column in ROUGHNESS))
     for body in bodies:
@@ -242,7 +244,7 @@ def _roughness(result: Result, bodies: Sequence[str]) -> Table:
     return table
 
 
-def _inferred(volumes: Sequence[InferredVolume]) -> Table:
+def inferred_table(volumes: Sequence[InferredVolume]) -> Table:
     """Set what a lab would infer from the scars against what was worn."""
     table = titled("Volume by a lab's formulas, and how far that is off", "mm³", "%")
     for each in volumes:
