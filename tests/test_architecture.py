@@ -30,6 +30,7 @@ RANK = {
     "simulation": 6,
     "plotting": 7,
     "study": 8,
+    "report": 8,
     "testing": 7,
     "verification": 7,
     "scaffold": 7,
@@ -39,7 +40,11 @@ MODELS = {"contact", "wear", "motion", "surfaces", "effects", "observers"}
 
 
 # A result shows itself, and a notebook asks the object.
-SHOWN = {"result/read.py": {"lab", "plotting", "cli"}}
+SHOWN = {
+    "result/read.py": {"lab", "plotting", "cli"},
+    # A page has the tables of the terminal.
+    "report/result.py": {"cli"},
+}
 
 
 def imports(path: Path) -> list[str]:

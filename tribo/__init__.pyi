@@ -72,6 +72,7 @@ from tribo.registry.contributions import HeightFormat as HeightFormat
 from tribo.registry.contributions import LabRow as LabRow
 from tribo.registry.hookspecs import hookimpl as hookimpl
 from tribo.registry.registry import Registry as Registry
+from tribo.report.write import write_report as write_report
 from tribo.result.read import Result as Result
 from tribo.result.read import open as open
 from tribo.simulation.run import Simulation as Simulation

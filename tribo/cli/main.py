@@ -26,6 +26,7 @@ COMMANDS = {
     "scar": "Measure a scar between two height maps.",
     "show": "Print a result as a table or as JSON.",
     "plot": "Draw the pictures of a result.",
+    "report": "Write a result as one HTML file to hand on.",
     "export": "Write profiles and history as CSV.",
     "schema": "Print the JSON Schema of a case.",
     "plugins": "List, show, check and begin plugins.",

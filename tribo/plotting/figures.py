@@ -62,10 +62,7 @@ def save_figures(result: Result, folder: Path, suffix: str = "png") -> list[Path
     OutputError
         If they cannot be written.
     """
-    pictures = _pictures(result)
-    for more in from_plugins_of(result, "tribo_figures"):
-        pictures |= more
-    return write_figures(pictures, folder, suffix)
+    return write_figures(result_pictures(result), folder, suffix)
 
 
 def write_figures(
@@ -88,8 +85,8 @@ def write_figures(
     return paths
 
 
-def _pictures(result: Result) -> dict[str, Callable[[], Figure]]:
-    """Return how to draw each picture, by file name."""
+def result_pictures(result: Result) -> dict[str, Callable[[], Figure]]:
+    """Return how to draw each picture of a result, by file name; see `save_figures`."""
     count = number_of_saves(result)
     pictures: dict[str, Callable[[], Figure]] = {"pressure_map": partial(pressure_map, result)}
     if count > 2:
@@ -121,4 +118,6 @@ def _pictures(result: Result) -> dict[str, Callable[[], Figure]]:
             pictures["real_contact"] = partial(real_contact, result)
         if any(label.endswith(".Sq_m") for label in history):
             pictures["roughness_history"] = partial(roughness_history, result)
+    for more in from_plugins_of(result, "tribo_figures"):
+        pictures |= more
     return pictures

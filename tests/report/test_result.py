@@ -1,0 +1,170 @@
+"""The report of a result: one small page, with the numbers of the lab."""
+
+import base64
+import gzip
+import json
+import re
+import tomllib
+from html.parser import HTMLParser
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from command_line import tribo as command
+from made_results import GRID, SHAPES, made, written
+
+import tribo
+from tribo.report.fields import charts
+from tribo.report.reduced import Blocks, block_means
+from tribo.report.result import result_page
+from tribo.report.sentence import read_verified, sentence
+
+VOID = {"meta", "img", "input", "br", "path"}
+
+
+class Checked(HTMLParser):
+    """What a page is made of; every element that opens has to close."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.ids, self.headings, self.links = [], [], [], []
+        self.feed(text)
+        assert not self.open
+
+    def handle_starttag(self, tag, attributes):
+        its = dict(attributes)
+        if tag not in VOID:
+            self.open.append(tag)
+        if "id" in its:
+            self.ids.append(its["id"])
+        if re.fullmatch("h[1-6]", tag):
+            self.headings.append(int(tag[1]))
+        assert tag != "img" or its["alt"]
+        self.links += [its[key] for key in ("src", "href") if key in its]
+
+    def handle_startendtag(self, tag, attributes):
+        pass
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+
+def unpacked(page):
+    (text,) = re.findall(r'<script id="data" type="text/plain">(.*?)</script>', page, re.S)
+    return json.loads(gzip.decompress(base64.b64decode(text)))
+
+
+@pytest.fixture(scope="module")
+def ran(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("report")
+    written(folder / "my.h5", times=(0.0, 200.0))
+    return folder, command("report", "my.h5", cwd=folder)
+
+
+@pytest.fixture(scope="module")
+def page(ran):
+    folder, done = ran
+    assert done.returncode == 0, done.stderr
+    assert "Wrote my-report.html" in done.stdout
+    return (folder / "my-report.html").read_text(encoding="utf-8")
+
+
+def test_it_is_one_small_file_that_loads_nothing(page):
+    assert len(page.encode()) < 4_000_000
+    checked = Checked(page)
+    assert all(link.startswith("data:") for link in checked.links)
+    assert "default-src 'none'" in page
+
+
+def test_its_html_closes_what_it_opens_and_numbers_its_headings(page):
+    checked = Checked(page)
+    assert len(set(checked.ids)) == len(checked.ids)
+    assert checked.headings[0] == 1
+    assert all(below - above <= 1 for above, below in pairwise(checked.headings))
+    assert '<html lang="en">' in page
+
+
+def test_its_sentence_has_the_numbers_of_the_lab(ran, page):
+    with tribo.open(ran[0] / "my.h5") as result:
+        volume = result.saves()[-1]["bodies"]["ball"]["wear_volume_m3"]
+        mass = result.report().bodies["ball"].mass_kg
+    (answer,) = re.findall('<p class="answer">(.*?)</p>', page, re.S)
+    assert f"The ball lost {1e9 * volume:.3g} mm³ ({1e6 * mass:.3g} mg)" in answer
+    assert "over 20 m of sliding under 100 N" in answer
+
+
+def test_it_quotes_the_uncertainty_that_a_study_found(tmp_path):
+    study = tmp_path / "study.json"
+    with made(times=(0.0, 3600.0)) as result:
+        bodies = result.saves()[-1]["bodies"]
+        rows = [
+            {"name": f"{name}: volume", "unit": "m^3", "uncertainty": 2e-13}
+            | {"value": body["wear_volume_m3"]}
+            for name, body in bodies.items()
+        ]
+        study.write_text(json.dumps({"estimates": rows}))
+        found = sentence(result, result.report(), read_verified(study, result))
+        assert "lost 0.0112 ± 0.0002 mm³" in found
+        rows[0]["value"] *= 1.1
+        study.write_text(json.dumps({"estimates": rows}))
+        with pytest.raises(tribo.CaseError, match="another case: ball of"):
+            read_verified(study, result)
+    study.write_text("[]")
+    with pytest.raises(tribo.CaseError, match=r"--verified: .* is not what 'tribo verify CASE"):
+        read_verified(study, result)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_every_shape_of_contact_has_its_charts(shape):
+    with made(times=(0.0, 200.0), **SHAPES[shape]) as result:
+        data = charts(result)
+        largest = result.saves()[-1]["max_pressure_Pa"]
+    first = data["maps"][0]
+    assert len(data["saves"]) == len(first["values"]) == 2
+    assert len(first["values"][0]) == len(first["x"]) * len(first["y"])
+    assert first["largest"][-1] == pytest.approx(largest / tribo.MPa, rel=1e-3)
+
+
+def test_a_body_that_does_not_wear_has_no_map():
+    with made(worn=(True, False)) as result:
+        assert [each["body"] for each in charts(result)["maps"]] == ["", "ball"]
+        assert [each["name"] for each in charts(result)["surfaces"]] == ["ball"]
+
+
+def test_block_means_keep_the_load():
+    blocks = [Blocks.of(x, 12) for x in (GRID.x, GRID.y)]
+    x, y = GRID.mesh
+    field = 1 + (x / GRID.size[0]) ** 2 + y / GRID.size[1]
+    means = block_means(field, blocks)
+    cells = np.outer(
+        *(np.diff([*range(0, n, b.size), n]) for n, b in zip(GRID.cells, blocks, strict=True))
+    )
+    assert means.shape == cells.shape == (10, 10)
+    assert np.sum(means * cells) == pytest.approx(np.sum(field), rel=1e-13)
+
+
+def test_what_is_made_smaller_says_so():
+    with made(times=tuple(np.linspace(0, 3600, 45)), shape=(4.0, 4.0)) as result:
+        data = charts(result)
+    assert len(data["saves"]) == 40
+    assert data["left_out"] == 5
+    assert "mean of 2 × 1 cells" in data["maps"][0]["note"]
+    assert len(data["maps"][0]["x"]) == 25
+
+
+def test_its_data_are_those_of_the_result_and_its_case_can_be_copied(page):
+    assert unpacked(page)["saves"][-1] == {"time": "200 s", "distance": "20 m"}
+    (case,) = re.findall(r'<pre id="case".*?>(.*?)</pre>', page, re.S)
+    assert tomllib.loads(case)["grid"]["cells"] == [50, 40]
+
+
+def test_without_what_it_needs_it_says_how_to_install_it(monkeypatch):
+    monkeypatch.setitem(__import__("sys").modules, "plotly.offline", None)
+    needed = pytest.raises(tribo.CaseError, match=r"pip install 'tribo\[report\]'")
+    with made(times=(0.0, 200.0)) as result, needed:
+        result_page(result)
+
+
+def test_a_result_without_a_save_has_no_report(tmp_path):
+    with made(times=()) as result, pytest.raises(tribo.CaseError, match="no save"):
+        tribo.write_report(result, tmp_path / "report.html")

@@ -1,0 +1,279 @@
+"use strict";
+
+const at = (id) => document.getElementById(id);
+const unpack = (id) => {
+  const bytes = Uint8Array.from(atob(at(id).textContent.trim()), (c) => c.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return new Response(stream).text();
+};
+
+const LINES = [
+  { color: "#202020", width: 2.5 },
+  { color: "#3b8fd0", width: 2.5, dash: "dash" },
+  { color: "#b35c00", width: 2.5, dash: "dot" },
+  { color: "#00755e", width: 2.5, dash: "dashdot" },
+  { color: "#8a4b9e", width: 2.5, dash: "longdash" },
+  { color: "#6b6b6b", width: 2.5, dash: "longdashdot" },
+];
+const FONT = { family: "system-ui, sans-serif", size: 13, color: "#1b1f24" };
+const CONFIG = { displayModeBar: false, responsive: true, displaylogo: false };
+const AXIS = { showline: true, ticks: "outside", zeroline: false, linecolor: "#4d5660", gridcolor: "#e3e7ea", automargin: true };
+const ALONG = ["Along sliding, x", "Across sliding, y"];
+
+/** Return a place for a chart, with its title and its note; the text stands for the picture. */
+function place(parent, title, note) {
+  const figure = document.createElement("figure");
+  figure.className = "chart";
+  const plot = Object.assign(document.createElement("div"), { className: "plot" });
+  plot.setAttribute("role", "img");
+  const caption = Object.assign(document.createElement("figcaption"), { textContent: note });
+  figure.append(plot, caption);
+  parent.append(figure);
+  plot.dataset.title = title;
+  return plot;
+}
+
+function layout(title, more) {
+  return {
+    title: { text: title, font: { size: 14 }, x: 0, xanchor: "left", pad: { l: 4 } },
+    font: FONT, height: 340, margin: { l: 60, r: 20, t: 64, b: 48 }, dragmode: false,
+    paper_bgcolor: "#fff", plot_bgcolor: "#fff",
+    legend: { orientation: "h", x: 0, xanchor: "left", y: 1.01, yanchor: "bottom" }, ...more,
+  };
+}
+
+/** Return an axis from 0, or a logarithmic one whose marks are whole numbers. */
+function scaled(text, values) {
+  const positive = values.filter((v) => v > 0);
+  const [low, high] = [Math.min(...positive), Math.max(...positive)];
+  if (!positive.length || high <= 10 * low) return axis(text, { rangemode: "tozero" });
+  const marks = [];
+  for (let power = Math.floor(Math.log10(low)); 10 ** power <= high; power += 1) {
+    marks.push(...[1, 2, 5].map((digit) => digit * 10 ** power));
+  }
+  return axis(text, { type: "log", tickvals: marks, ticktext: marks.map((mark) => String(Number(mark.toPrecision(1)))) });
+}
+
+const axis = (text, more) => ({ ...AXIS, title: { text }, ...more });
+
+/** Return flat numbers, x by y, as the rows that Plotly draws; what `hidden` says is left blank. */
+function rows(map, values, hidden = () => false) {
+  const ny = map.y.length;
+  return map.y.map((_, j) => map.x.map((_, i) => {
+    const value = values[i * ny + j];
+    return hidden(value) ? null : value;
+  }));
+}
+
+const extreme = (lists, best, start) =>
+  lists.reduce((a, list) => list.reduce((b, v) => (v === null ? b : best(b, v)), a), start);
+
+function drawMap(plot, map, save, moment, fixed) {
+  const isPressure = map.body === "";
+  const values = map.values[save];
+  // Depths keep their scale, so that one sees them grow; temperatures do not begin at 0.
+  const steady = fixed || map.unit.endsWith("m");
+  const lists = steady ? map.values : [values];
+  const high = extreme(lists, Math.max, -Infinity);
+  const low = isPressure || steady ? Math.min(0, extreme(lists, Math.min, 0)) : extreme(lists, Math.min, Infinity);
+  const [ux, uy] = map.units;
+  const trace = {
+    type: "heatmap", x: map.x, y: map.y, z: rows(map, values, (v) => isPressure && v === 0),
+    zmin: low, zmax: high > low ? high : low + 1, colorscale: "Viridis", reversescale: !isPressure,
+    colorbar: { title: { text: map.unit, side: "right" }, thickness: 14, outlinewidth: 0 },
+    hovertemplate: `x %{x:.3~f} ${ux}, y %{y:.3~f} ${uy}<br>%{z:.4~g} ${map.unit}<extra></extra>`,
+  };
+  const largest = `largest ${map.largest[save]} ${map.unit}`;
+  plot.setAttribute("aria-label", `${map.name}, map seen from above at ${moment}: ${largest}.`);
+  return Plotly.react(plot, [trace], layout(`${map.name}<br><span style="font-size:12px">${largest}</span>`, {
+    plot_bgcolor: isPressure ? "#eceff1" : "#fff",
+    xaxis: axis(`${ALONG[0]} (${ux})`, {
+      showgrid: false, constrain: "domain", constraintoward: "right",
+    }),
+    yaxis: axis(`${ALONG[1]} (${uy})`, {
+      showgrid: false, constrain: "domain", ...(map.alike ? { scaleanchor: "x" } : {}),
+    }),
+    margin: { l: 60, r: 10, t: 58, b: 48 },
+  }), CONFIG);
+}
+
+/** Return curves by name, each with a look that differs in grey too. */
+const curves = (x, named) => Object.entries(named).map(([name, y], i) => ({
+  type: "scatter", mode: x.length > 1 ? "lines" : "markers", x, y, name, line: LINES[i % LINES.length],
+}));
+
+function drawSection(plot, section, kind, save, moment, fixed) {
+  const shown = section[kind];
+  const isDepth = kind === "depth";
+  const all = isDepth ? shown.values : { pressure: shown.values };
+  const named = Object.fromEntries(Object.entries(all).map(([name, values]) => [name, values[save]]));
+  const span = isDepth || fixed ? Object.values(all).flat() : Object.values(named);
+  const high = 1.05 * extreme(span, Math.max, 0) || 1;
+  const low = 1.05 * extreme(span, Math.min, 0);
+  const title = isDepth ? "Wear depth" : "Contact pressure";
+  const where = section.axis === 0 ? "along sliding" : "across sliding";
+  const largest = Object.entries(named)
+    .map(([name, values]) => `${name} up to ${extreme([values], Math.max, 0).toPrecision(3)} ${shown.unit}`).join(", ");
+  plot.setAttribute("aria-label", `${title} ${where} at ${moment}: ${largest}.`);
+  return Plotly.react(plot, curves(section.x, named), layout(`${title}, ${where}`, {
+    xaxis: axis(`${ALONG[section.axis]} (${section.unit})`),
+    yaxis: axis(`${isDepth ? "Depth" : "Pressure"} (${shown.unit})`, { range: isDepth ? [high, low] : [low, high] }),
+    showlegend: isDepth,
+  }), CONFIG);
+}
+
+function drawSurface(plot, data, surface, save, moment, camera) {
+  const map = data.maps[surface.map];
+  const depth = map.values[save];
+  const height = depth.map((d, i) => (d === null ? null : (surface.height ? surface.height[i] : 0) - d));
+  const deepest = extreme(map.values, Math.max, 0);
+  const [ux, uy] = map.units;
+  const span = (list) => list[list.length - 1] - list[0] || 1;
+  const ratio = map.alike ? Math.min(Math.max(span(map.y) / span(map.x), 0.4), 2.5) : 0.6;
+  const trace = {
+    type: "surface", x: map.x, y: map.y, z: rows(map, height), surfacecolor: rows(map, depth),
+    cmin: Math.min(0, extreme(map.values, Math.min, 0)), cmax: deepest || 1, colorscale: "Viridis", reversescale: true,
+    colorbar: { title: { text: `depth, ${map.unit}`, side: "right" }, thickness: 14, outlinewidth: 0 },
+    hovertemplate: `x %{x:.3~f} ${ux}, y %{y:.3~f} ${uy}<br>height %{z:.4~g} ${map.unit}<extra></extra>`,
+  };
+  plot.setAttribute("aria-label",
+    `Worn surface of ${surface.name} in 3-D at ${moment}: worn down by up to ${map.largest[save]} ${map.unit}.`);
+  return Plotly.react(plot, [trace], layout(`Surface of ${surface.name}, heights enlarged`, {
+    height: 480, margin: { l: 0, r: 0, t: 44, b: 0 }, dragmode: "turntable",
+    scene: {
+      camera, aspectmode: "manual", aspectratio: { x: 1.3, y: 1.3 * ratio, z: 0.55 },
+      xaxis: { title: { text: `x (${ux})` } }, yaxis: { title: { text: `y (${uy})` } },
+      zaxis: { title: { text: `height (${map.unit})` } },
+    },
+  }), CONFIG);
+}
+
+function drawHistory(plot, history, panel, against) {
+  const label = `${panel.name} (${panel.unit})`;
+  const { unit } = history[against];
+  const ends = Object.entries(panel.curves).map(([name, y]) => `${name} ${y[y.length - 1]} ${panel.unit}`).join(", ");
+  plot.setAttribute("aria-label", `${panel.name} against ${against}; at the end: ${ends}.`);
+  return Plotly.react(plot, curves(history[against].values, panel.curves), layout(panel.name, {
+    xaxis: axis(`${against === "time" ? "Time" : "Sliding distance"} (${unit})`, { rangemode: "tozero" }),
+    yaxis: panel.log ? scaled(label, Object.values(panel.curves).flat()) : axis(label, { rangemode: "tozero" }),
+    showlegend: true,
+  }), CONFIG);
+}
+
+function hasWebGL() {
+  const canvas = document.createElement("canvas");
+  return Boolean(canvas.getContext("webgl2") || canvas.getContext("webgl"));
+}
+
+/** Let buttons turn the surface: by `turn` 24ths of a circle, and `tilt` of the height. */
+function turned(camera, turn, tilt) {
+  const { x, y, z } = camera.eye;
+  const [radius, angle] = [Math.hypot(x, y, z), Math.atan2(y, x) + (turn * Math.PI) / 12];
+  const up = Math.min(Math.max(Math.asin(z / radius) + (tilt * Math.PI) / 16, -1.5), 1.5);
+  const flat = radius * Math.cos(up);
+  return { ...camera, eye: { x: flat * Math.cos(angle), y: flat * Math.sin(angle), z: radius * Math.sin(up) } };
+}
+
+async function showMoments(data) {
+  const [slider, fixed] = [at("save"), at("fixed")];
+  const maps = data.maps.map((map) => place(at("maps"), map.name, map.note));
+  const sections = data.sections.flatMap((section) => {
+    const kinds = Object.keys(section.depth.values).length ? ["pressure", "depth"] : ["pressure"];
+    return kinds.map((kind) => [place(at("sections"), kind, section.note), section, kind]);
+  });
+  const surfaces = hasWebGL() ? data.surfaces : [];
+  const surfacePlot = surfaces.length ? place(at("surface"), "surface", data.maps[surfaces[0].map].note) : null;
+  if (!data.surfaces.length) at("turning").remove();
+  else if (!surfaces.length) {
+    at("surface").textContent = "This browser draws no 3-D: its WebGL is off. The maps above have the same depths.";
+    document.querySelectorAll("#bodies, #turning .buttons").forEach((part) => part.remove());
+  }
+  let camera = { eye: { x: 1.3, y: -1.5, z: 1.0 }, center: { x: 0, y: 0, z: -0.15 } };
+  surfaces.forEach((surface, i) => {
+    const label = document.createElement("label");
+    const input = Object.assign(document.createElement("input"), { type: "radio", name: "body", value: i, checked: i === 0 });
+    input.addEventListener("change", draw);
+    label.append(input, ` ${surface.name}`);
+    at("bodies").append(label);
+  });
+  slider.max = data.saves.length - 1;
+  slider.value = slider.max;
+  if (data.left_out) at("saves-left-out").textContent = `${data.left_out} further saves are left out to keep this file small.`;
+
+  function draw() {
+    const save = Number(slider.value);
+    const { time, distance } = data.saves[save];
+    const moment = `${time}, ${distance}`;
+    at("said").textContent = moment;
+    slider.setAttribute("aria-valuetext", moment);
+    const drawn = [
+      ...maps.map((plot, i) => drawMap(plot, data.maps[i], save, moment, fixed.checked)),
+      ...sections.map(([plot, section, kind]) => drawSection(plot, section, kind, save, moment, fixed.checked)),
+    ];
+    if (surfacePlot) {
+      const chosen = document.querySelector('input[name="body"]:checked');
+      camera = surfacePlot._fullLayout?.scene?.camera ?? camera;
+      drawn.push(drawSurface(surfacePlot, data, surfaces[Number(chosen.value)], save, moment, camera));
+    }
+    return Promise.all(drawn);
+  }
+
+  const step = (by) => {
+    slider.value = Number(slider.value) + by;
+    draw();
+  };
+  slider.addEventListener("input", draw);
+  fixed.addEventListener("change", draw);
+  at("earlier").addEventListener("click", () => step(-1));
+  at("later").addEventListener("click", () => step(1));
+  document.querySelectorAll("[data-turn]").forEach((button) => button.addEventListener("click", () => {
+    const [turn, tilt] = button.dataset.turn.split(",").map(Number);
+    camera = turned(surfacePlot._fullLayout.scene.camera, turn, tilt);
+    Plotly.relayout(surfacePlot, { "scene.camera": camera });
+  }));
+  await draw();
+}
+
+async function showHistory(history) {
+  if (!history.panels.length) {
+    at("past").remove();
+    return;
+  }
+  const note = history.left_out ? `${history.left_out} further steps are left out of the curves.` : "Every step is shown.";
+  const plots = history.panels.map((panel) => place(at("history"), panel.name, note));
+  const choices = [...document.querySelectorAll('input[name="against"]')];
+  const draw = () => {
+    const against = choices.find((choice) => choice.checked).value;
+    return Promise.all(plots.map((plot, i) => drawHistory(plot, history, history.panels[i], against)));
+  };
+  choices.forEach((choice) => choice.addEventListener("change", draw));
+  await draw();
+}
+
+async function show() {
+  const script = document.createElement("script");
+  script.textContent = await unpack("plotly");
+  document.head.append(script);
+  const data = JSON.parse(await unpack("data"));
+  // Charts take their size from what they are in, so it has to be there first.
+  document.documentElement.classList.add("drawn");
+  try {
+    if (data.saves) await showMoments(data);
+    if (data.history) await showHistory(data.history);
+  } catch (error) {
+    document.documentElement.classList.remove("drawn");
+    throw error;
+  }
+  document.documentElement.dataset.ready = "yes";
+}
+
+at("copy")?.addEventListener("click", async () => {
+  try {
+    await navigator.clipboard.writeText(at("case").textContent);
+    at("copy-said").textContent = "Copied.";
+  } catch {
+    getSelection().selectAllChildren(at("case"));
+    at("copy-said").textContent = "Selected; copy it with Ctrl+C.";
+  }
+});
+show();

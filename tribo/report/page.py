@@ -1,0 +1,91 @@
+"""A report: one HTML file with all that it needs."""
+
+from __future__ import annotations
+
+import gzip
+import json
+from base64 import b64encode
+from collections.abc import Mapping
+from importlib.resources import files
+from io import BytesIO
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from tribo.core.errors import CaseError
+from tribo.core.files import write_whole, writing
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from matplotlib.figure import Figure
+
+LARGEST = 4_000_000
+"""Most bytes of a report: mail programs take such a file."""
+STILL_DPI = 130
+WIDE = 1.7
+"""Width over height from which a picture takes a whole line."""
+
+
+def check_installed() -> None:
+    """Raise CaseError if what the extra ``report`` has is not installed."""
+    try:
+        import jinja2  # noqa: F401
+        import plotly.offline  # noqa: F401
+    except ImportError as error:
+        raise CaseError(
+            f"a report needs {error.name}, which is not installed; install it with: pip install "
+            "'tribo[report]'"
+        ) from error
+
+
+def render(template: str, **values: Any) -> str:
+    """Return a template of this package filled in, with styles and scripts inside."""
+    from jinja2 import Environment, PackageLoader, StrictUndefined
+    from plotly.offline import get_plotlyjs
+
+    environment = Environment(
+        loader=PackageLoader("tribo.report", "files"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    own = files("tribo.report") / "files"
+    return environment.get_template(template).render(
+        style=(own / "report.css").read_text(encoding="utf-8"),
+        script=(own / "report.js").read_text(encoding="utf-8"),
+        plotly=packed(get_plotlyjs()),
+        **values,
+    )
+
+
+def packed(what: str | Mapping[str, Any]) -> str:
+    """Return text, or data as JSON, compressed; `report.js` unpacks it."""
+    text = what if isinstance(what, str) else json.dumps(what, separators=(",", ":"))
+    # No date, so that the same result gives the same file.
+    return b64encode(gzip.compress(text.encode(), mtime=0)).decode()
+
+
+def stills(pictures: Mapping[str, Callable[[], Figure]]) -> list[dict[str, str]]:
+    """Draw pictures for paper: name and data of each, and whether it takes a whole line."""
+    from tribo.plotting.style import house_style
+
+    drawn = []
+    for name, draw in pictures.items():
+        image, figure = BytesIO(), draw()
+        with house_style():
+            figure.savefig(image, format="png", dpi=STILL_DPI)
+        data = b64encode(image.getvalue()).decode()
+        width, height = figure.get_size_inches()
+        wide = "wide" if width > WIDE * height else ""
+        drawn.append({"name": name.replace("_", " "), "data": data, "look": wide})
+    return drawn
+
+
+def write_page(page: str, path: Path) -> None:
+    """Write a report, and see that it is as small as promised."""
+    if len(page.encode()) > LARGEST:
+        raise CaseError(f"{path} would have more than {LARGEST / 1e6:g} MB")
+    with writing(path):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_whole(path, page)

@@ -1,0 +1,155 @@
+"""The report of a result."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from tribo.cli.tables import inferred_table, roughness_table, saves_table, wear_table
+from tribo.config.write import to_toml
+from tribo.lab.report import LabReport, lab_report
+from tribo.lab.running_in import rough_bodies
+from tribo.plotting.figures import result_pictures
+from tribo.plotting.sections import number_of_saves
+from tribo.report.amounts import component_words, load_words, material_words
+from tribo.report.drawing import drawing
+from tribo.report.fields import charts
+from tribo.report.page import check_installed, packed, render, stills
+from tribo.report.sentence import Estimate, read_verified, sentence, trust
+from tribo.report.tables import PageTable, for_page
+from tribo.result.read import Result
+
+LONGEST_CASE = 200_000
+"""Characters of a case that a report holds; one with a measured surface has millions."""
+CITATION = (
+    "tribo {version}, MIT licence. Its model: J. Andersson, A. Almqvist and R. Larsson, "
+    "Simulation of a wear experiment, 29 April 2010."
+)
+
+
+def result_page(result: Result, verified: Path | None = None) -> str:
+    """Return the report of a result as HTML; see `tribo.write_report`."""
+    check_installed()
+    number_of_saves(result)
+    result.check()
+    lab, case = lab_report(result), result.case
+    estimates = [] if verified is None else read_verified(verified, result)
+    swept = next((name for name in result.body_names if result.body(name).swept), None)
+    return render(
+        "result.html.j2",
+        title=Path(result.name).stem,
+        answer=sentence(result, lab, estimates),
+        trust=trust(estimates),
+        tables=list(_tables(result, lab, estimates)),
+        remarks=_remarks(result, lab),
+        notes=result.notices,
+        drawing=drawing(case, swept) if _is_whole(case) else "",
+        facts=_facts(case),
+        data=packed(charts(result)),
+        stills=stills(result_pictures(result)),
+        held=_held(result),
+        provenance=_provenance(result),
+        citation=CITATION.format(version=result.provenance["packages"].get("tribo", "")),
+        case=_case_text(case),
+    )
+
+
+def _tables(result: Result, lab: LabReport, estimates: Sequence[Estimate]) -> list[PageTable]:
+    tables = [for_page(wear_table(result, lab.bodies))]
+    if estimates:
+        rows = [
+            [row["name"], f"{row['value']:.5g} {row['unit']}", _uncertainty(row)]
+            for row in estimates
+        ]
+        head = ["", "value", "±"]
+        tables.append(PageTable("Numerical uncertainty at the end", head, rows, True))
+    tables.append(for_page(saves_table(result)))
+    if rough := rough_bodies(result):
+        tables.append(for_page(roughness_table(result, rough)))
+    if lab.inferred:
+        tables.append(for_page(inferred_table(lab.inferred)))
+    return tables
+
+
+def _uncertainty(row: Estimate) -> str:
+    found, value = row["uncertainty"], row["value"]
+    if found is None:
+        return "diverges"
+    percent = f" ({100 * found / abs(value):.2g} %)" if value else ""
+    return f"{found:.1e}{percent}"
+
+
+def _remarks(result: Result, lab: LabReport) -> list[str]:
+    rows = [f"{row.label}: {row.value:.4g} {row.unit}".rstrip() for row in lab.rows]
+    return [lab.first_contact_words, *rows]
+
+
+def _held(result: Result) -> str:
+    totals, worst = result.totals(), result.worst()
+    took = "" if result.wall_time is None else f" in {result.wall_time:.1f} s"
+    return (
+        f"{totals['steps']} steps and {totals['contact_solves']} contact solves{took}. At worst "
+        f"the load is off by {worst['force_error']:.0e}, the worn volume by "
+        f"{worst['volume_error']:.0e}, the gap under pressure is "
+        f"{worst['complementarity_error']:.0e}, the overlap {worst['penetration_error']:.0e}, all "
+        "relative; at every step the run was held to what these must be."
+    )
+
+
+def _is_whole(case: Mapping[str, Any]) -> bool:
+    return len(case["bodies"]) == 2 and {"load", "kinematics"} <= case.keys()
+
+
+def _facts(case: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """Return the numbers of a case in words, by what they are of."""
+    facts = []
+    for name, body in case["bodies"].items():
+        for part, words in (
+            ("surface", component_words),
+            ("material", material_words),
+            ("wear", component_words),
+        ):
+            if body.get(part):
+                facts.append((f"{name}, {part}", words(body[part])))
+    if "load" in case:
+        facts.append(("normal load", load_words(case["load"])))
+    facts += [
+        (part, component_words(case[part]))
+        for part in ("kinematics", "contact", "stepping")
+        if case.get(part)
+    ]
+    grid = case.get("grid", {})
+    if "size" in grid and "cells" in grid:
+        size = " × ".join(f"{1e3 * edge:.4g}" for edge in grid["size"])
+        cells = " × ".join(map(str, grid["cells"]))
+        facts.append(("window", f"{size} mm, {cells} cells"))
+    facts += [("effect", component_words(effect)) for effect in case.get("effects") or ()]
+    return facts
+
+
+def _provenance(result: Result) -> list[tuple[str, str]]:
+    made = result.provenance
+    packages = ", ".join(f"{name} {version}" for name, version in made["packages"].items())
+    rows = [("made with", f"Python {made['python']}, {packages}")]
+    for again in made.get("resumed_with", ()):
+        later = ", ".join(f"{name} {version}" for name, version in again["packages"].items())
+        rows.append(("gone on with", f"Python {again['python']}, {later}"))
+    if begun := made.get("begun_with"):
+        rows.append(("begun with", f"{begun['result']}, SHA-256 {begun['sha256']}"))
+    for place, origin in made["components"].items():
+        code = f", source code {origin['code'][:10]}" if origin["code"] else ""
+        of = f"{origin['class']} of {origin['distribution']} {origin['version']}".rstrip()
+        facts = "".join(f"; {name}: {text}" for name, text in origin["facts"].items())
+        rows.append((place, f"{origin['type']}, {of}{code}{facts}"))
+    return rows
+
+
+def _case_text(case: Mapping[str, Any]) -> str:
+    text = to_toml(case)
+    if len(text) <= LONGEST_CASE:
+        return text
+    return (
+        f"# This case has {len(text):,} characters, with the heights of a surface in it; the "
+        "result file holds it whole.\n"
+    )

@@ -1,0 +1,97 @@
+"""The answer of a result in a sentence, with its uncertainty where that is known."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from tribo.core.errors import CaseError
+from tribo.lab.report import LabReport
+from tribo.report.amounts import amount
+from tribo.result.read import Result
+
+AGREES = 0.02
+"""Relative difference up to which a value is that of a study of the same case."""
+
+Estimate = Mapping[str, Any]
+"""A row of ``tribo verify CASE --json``: name, unit, value and uncertainty."""
+
+
+def read_verified(path: Path, result: Result) -> Sequence[Estimate]:
+    """Return the estimates of a study that ``tribo verify CASE --json`` printed.
+
+    Raises
+    ------
+    CaseError
+        If it is not such a study, or one of another case than that of `result`.
+    """
+    try:
+        estimates = json.loads(path.read_text(encoding="utf-8"))["estimates"]
+        read = [
+            {key: row[key] for key in ("name", "unit", "value", "uncertainty")} for row in estimates
+        ]
+    except (OSError, ValueError, LookupError, TypeError) as error:
+        raise CaseError(
+            f"{path} is not what 'tribo verify CASE --json' prints: {error}", "--verified"
+        ) from error
+    for name, body in result.saves()[-1]["bodies"].items():
+        volume, found = body["wear_volume_m3"], _of(read, f"{name}: volume")
+        if found is None or not math.isclose(volume, found["value"], rel_tol=AGREES):
+            other = "has none" if found is None else f"gives {found['value']:.4g} m³"
+            raise CaseError(
+                f"{path} is of another case: {name} of {result.name} lost {volume:.4g} m³, the "
+                f"study {other}",
+                "--verified",
+            )
+    return read
+
+
+def sentence(result: Result, lab: LabReport, verified: Sequence[Estimate]) -> str:
+    """Return what each body has lost, over which distance and under which load."""
+    last = result.saves()[-1]
+    losses = []
+    for name, report in lab.bodies.items():
+        volume = last["bodies"][name]["wear_volume_m3"]
+        if volume == 0:
+            losses.append(f"the {name} lost nothing")
+            continue
+        words = f"the {name} lost {1e9 * volume:.3g} mm³"
+        study = _of(verified, f"{name}: volume")
+        if study is not None and study["uncertainty"] is not None:
+            words = f"the {name} lost {1e9 * volume:.3g} ± {1e9 * study['uncertainty']:.1g} mm³"
+        if report.mass_kg is not None:
+            words += f" ({1e6 * report.mass_kg:.3g} mg)"
+        losses.append(words)
+    how = f"over {last['distance_m']:.4g} m of sliding under {_range(result)}"
+    text = f"{' and '.join(losses)} {how}."
+    if result.status != "done":
+        text = f"by {last['time_s']:.4g} s, the last save of a run that is {result.status}, {text}"
+    return text[0].upper() + text[1:]
+
+
+def trust(verified: Sequence[Estimate]) -> str:
+    """Return what the numbers behind ± are, or how to get them."""
+    if verified:
+        return (
+            "± is the numerical uncertainty, of grid and time steps together, found on three grids "
+            "and with three lengths of step. It says nothing of the wear coefficient, nor of what "
+            "the model leaves out."
+        )
+    return (
+        "The numerical uncertainty of these values was not estimated. For it: tribo verify CASE "
+        "--json > study.json, then tribo report RESULT --verified study.json."
+    )
+
+
+def _range(result: Result) -> str:
+    """Return the load, or its range."""
+    loads = [save["load_N"] for save in result.saves()]
+    ends = [amount(load, "N") for load in (min(loads), max(loads))]
+    return " to ".join(dict.fromkeys(ends))
+
+
+def _of(estimates: Sequence[Estimate], name: str) -> Estimate | None:
+    return next((row for row in estimates if row["name"] == name), None)
