@@ -1,0 +1,172 @@
+"""Real browsers without a window, driven by WebDriver BiDi."""
+
+import json
+import re
+import shutil
+import socket
+import subprocess
+import tempfile
+import time
+import urllib.request
+from base64 import b64decode
+from contextlib import ExitStack, contextmanager
+from itertools import count
+
+import websocket
+
+QUIET = (
+    "--headless",
+    "--no-sandbox",
+    "--disable-dev-shm-usage",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    # WebGL without a graphics card.
+    "--enable-unsafe-swiftshader",
+)
+PATIENCE = 60.0
+
+
+class Page:
+    """A tab, with what its console said and what it asked the network for."""
+
+    def __init__(self, connection):
+        self._connection, self._numbers = connection, count(1)
+        self.console, self.requests = [], []
+        self.context = self.ask("browsingContext.getTree")["contexts"][0]["context"]
+        self.ask("session.subscribe", events=["log.entryAdded", "network.beforeRequestSent"])
+
+    def ask(self, method, **parameters):
+        number = next(self._numbers)
+        sent = {"id": number, "method": method, "params": parameters}
+        self._connection.send(json.dumps(sent))
+        while (answer := json.loads(self._connection.recv())).get("id") != number:
+            self._note(answer)
+        assert answer["type"] == "success", answer
+        return answer["result"]
+
+    def _note(self, event):
+        if event.get("method") == "log.entryAdded" and event["params"]["level"] in (
+            "error",
+            "warn",
+        ):
+            self.console.append(event["params"]["text"])
+        elif event.get("method") == "network.beforeRequestSent":
+            self.requests.append(event["params"]["request"]["url"])
+
+    def open(self, url, width=1400, height=900):
+        size = {"width": width, "height": height}
+        self.ask("browsingContext.setViewport", context=self.context, viewport=size)
+        self.ask("browsingContext.navigate", context=self.context, url=url, wait="complete")
+
+    def run(self, script):
+        """Return what a JavaScript expression, or a promise, comes to, by way of JSON."""
+        found = self.ask(
+            "script.evaluate",
+            expression=f"Promise.resolve({script}).then(JSON.stringify)",
+            target={"context": self.context},
+            awaitPromise=True,
+        )
+        assert found["type"] == "success", found["exceptionDetails"]["text"]
+        value = found["result"].get("value")
+        return None if value is None else json.loads(value)
+
+    def wait(self, condition):
+        until = time.monotonic() + PATIENCE
+        while not self.run(f"Boolean({condition})"):
+            assert time.monotonic() < until, f"{condition} never held; console: {self.console}"
+            time.sleep(0.1)
+
+    def press(self, key, times=1):
+        strokes = [{"type": kind, "value": key} for kind in ("keyDown", "keyUp")] * times
+        keys = {"type": "key", "id": "keys", "actions": strokes}
+        self.ask("input.performActions", context=self.context, actions=[keys])
+
+    def screenshot(self, whole=True):
+        origin = "document" if whole else "viewport"
+        shot = self.ask("browsingContext.captureScreenshot", context=self.context, origin=origin)
+        return b64decode(shot["data"])
+
+    def pdf(self):
+        return b64decode(self.ask("browsingContext.print", context=self.context)["data"])
+
+
+def _free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+def _program(*names):
+    return next((path for path in map(shutil.which, names) if path), None)
+
+
+def missing(name):
+    """Return what a browser lacks here; empty if it can be driven."""
+    needed = {
+        "chromium": [("chromium", "chromium-browser", "google-chrome"), ("chromedriver",)],
+        "firefox": [("firefox-esr", "firefox")],
+    }
+    lacking = [names[0] for names in needed[name] if _program(*names) is None]
+    return f"{', '.join(lacking)} not found" if lacking else ""
+
+
+@contextmanager
+def browser(name):
+    """Start a browser with a profile of its own, and yield its page."""
+    port = _free_port()
+    with ExitStack() as stack:
+        profile = stack.enter_context(tempfile.TemporaryDirectory(ignore_cleanup_errors=True))
+        if name == "chromium":
+            command = [_program("chromedriver"), f"--port={port}"]
+        else:
+            command = [_program("firefox-esr", "firefox"), "--headless", "--profile", profile]
+            command += ["--no-remote", f"--remote-debugging-port={port}"]
+        quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+        process = stack.enter_context(subprocess.Popen(command, **quiet))
+        stack.callback(process.terminate)
+        connection = _connected(name, port, profile)
+        stack.callback(connection.close)
+        page = Page.__new__(Page)
+        page._connection, page._numbers = connection, count(1)
+        if name == "firefox":
+            page.console, page.requests = [], []
+            page.ask("session.new", capabilities={})
+        page.__init__(connection)
+        yield page
+        page.ask("browser.close")
+
+
+def _connected(name, port, profile):
+    until = time.monotonic() + PATIENCE
+    while True:
+        try:
+            return _connect(name, port, profile)
+        except (OSError, websocket.WebSocketException):
+            if time.monotonic() > until:
+                raise
+            time.sleep(0.2)
+
+
+def _connect(name, port, profile):
+    if name == "firefox":
+        return websocket.create_connection(
+            f"ws://127.0.0.1:{port}/session", timeout=PATIENCE, suppress_origin=True
+        )
+    binary = _program("chromium", "chromium-browser", "google-chrome")
+    chrome = {"binary": binary, "args": [*QUIET, f"--user-data-dir={profile}"]}
+    wanted = {"capabilities": {"alwaysMatch": {"webSocketUrl": True, "goog:chromeOptions": chrome}}}
+    request = urllib.request.Request(
+        f"http://127.0.0.1:{port}/session",
+        json.dumps(wanted).encode(),
+        {"Content-Type": "application/json"},
+    )
+    with urllib.request.urlopen(request, timeout=PATIENCE) as answer:
+        url = json.load(answer)["value"]["capabilities"]["webSocketUrl"]
+    return websocket.create_connection(url, timeout=PATIENCE, suppress_origin=True)
+
+
+def outside(requests):
+    """Return the requests that left the machine."""
+    return [url for url in requests if not re.match(r"(file|data|blob|about|chrome):", url)]
