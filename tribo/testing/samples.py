@@ -190,8 +190,8 @@ def run(
     The run itself holds in each step that a body loses just what its law says.
     """
     kinematics = kinematics or sliding(3.0)
-    known = {FRICTION_COEFFICIENT.name, PLACE_X.name, PLACE_Y.name}
-    known = known.union(*({f.name for f in (*e.provides, *e.state_fields)} for e in effects))
+    provided = {f.name for e in effects for f in (*e.provides, *e.state_fields)}
+    known = {FRICTION_COEFFICIENT.name, PLACE_X.name, PLACE_Y.name} | provided
     averaged = {n for n, e in kinematics.exposures(GRID, BODIES).items() if e.averaged}
     wearing = {*BODIES} - (averaged if PLACE_X.name in law.requires else set())
     needed = sorted({*law.requires}.union(*(e.requires for e in effects)) - known)
@@ -204,7 +204,7 @@ def run(
         },
         contact=Winkler(),
         kinematics=kinematics,
-        friction=_friction(given),
+        friction=None if FRICTION_COEFFICIENT.name in provided else _friction(given),
         effects=[*([_providing(needed, given)] if needed else []), *effects],
         observers=observers,
         **more,

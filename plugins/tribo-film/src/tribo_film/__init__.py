@@ -1,0 +1,1 @@
+"""A lubricant film that carries part of the load, for tribo."""

@@ -1,0 +1,90 @@
+"""Film thickness, its share of the load and its friction, alone and in runs."""
+
+import runpy
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tribo import Simulation
+
+from tribo_film.hamrock_dowson import central_film
+from tribo_film.mixed import Mixed
+
+STEEL = {"young": "207 GPa", "poisson": 0.3}
+MODULUS = 207e9 / (2 * (1 - 0.09))
+OIL = {"viscosity": 0.1, "pressure_viscosity": 2e-8, "radius": 5e-3}
+K = 1e-16
+HERE = Path(__file__).parent
+
+
+def case(speed=0.1, **film):
+    wear = {"type": "archard", "k": K}
+    ball = {"surface": {"type": "sphere", "radius": "5 mm"}, "material": STEEL, "wear": wear}
+    effects = [Mixed(**{**OIL, "roughness": 1e-7, **film}).model_dump()] if film is not None else []
+    return {
+        "grid": {"size": "0.7 mm", "cells": 24},
+        "load": {"normal": 100},
+        "bodies": {"ball": ball, "disk": {"surface": "flat", "material": STEEL}},
+        "contact": "winkler",
+        "kinematics": {
+            "type": "unidirectional",
+            "speed": speed,
+            "track_length": "100 mm",
+            "distance": 2,
+        },
+        "effects": effects,
+    }
+
+
+def lost(given):
+    with Simulation(given).run() as result:
+        last = result.saves()[-1]
+        return last["bodies"]["ball"]["wear_volume_m3"], last["friction_force_N"]
+
+
+def test_the_film_is_hamrock_and_dowsons():
+    # Steel ball of 5 mm in an oil of 0.1 Pa s, 100 N, 0.5 m/s; each number worked out by hand.
+    u, g, w = 0.1 * 0.5 / (2.2747e11 * 5e-3), 2e-8 * 2.2747e11, 100 / (2.2747e11 * 25e-6)
+    assert (u, g, w) == pytest.approx((4.396e-11, 4549.5, 1.7585e-5), rel=1e-3, abs=0)
+    expected = 5e-3 * 2.69 * 1.1504e-7 * 86.83 * 2.0824 * (1 - 0.61 * 0.4819)
+    found = central_film(5e-3, 100, 0.5, 0.1, 2e-8, MODULUS)
+    assert found == pytest.approx(expected, rel=2e-3, abs=0)
+
+
+def test_it_grows_with_speed_and_falls_with_load_as_it_should():
+    film = central_film(5e-3, 100, 0.5, 0.1, 2e-8, MODULUS)
+    faster = central_film(5e-3, 100, 1.0, 0.1, 2e-8, MODULUS)
+    heavier = central_film(5e-3, 200, 0.5, 0.1, 2e-8, MODULUS)
+    assert faster / film == pytest.approx(2**0.67)
+    assert heavier / film == pytest.approx(2**-0.067)
+
+
+def test_what_the_film_carries_does_not_wear():
+    volume, force = lost(case())
+    ratio = central_film(5e-3, 100, 0.05, 0.1, 2e-8, MODULUS) / 1e-7
+    assert volume == pytest.approx(K * 100 * 2 / (1 + ratio) ** 2, rel=1e-8, abs=0)
+    assert force == pytest.approx(100 * (0.03 + 0.09 / (1 + ratio) ** 2))
+
+
+def test_without_viscosity_it_is_the_dry_case_to_the_bit():
+    dry = case()
+    dry["effects"], dry["friction"] = [], {"coefficient": 0.12}
+    volume, force = lost(dry)
+    assert lost(case(viscosity=0.0)) == (volume, pytest.approx(force, rel=1e-12))
+
+
+def test_over_a_thick_film_nothing_wears():
+    with Simulation(case(roughness=1e-30)).run() as result:
+        assert result.body("ball").effects["load_share"][-1].max() == 1
+        assert result.saves()[-1]["bodies"]["ball"]["wear_volume_m3"] == 0
+
+
+def test_the_stribeck_curve_of_the_readme():
+    curve = runpy.run_path(str(HERE.parent / "examples" / "stribeck.py"))["curve"]()
+    friction = np.array([row[2] for row in curve])
+    assert np.all(np.diff(friction) < 0)
+    assert friction[0] == pytest.approx(0.12, rel=0.02)
+    assert friction[-1] == pytest.approx(0.03, rel=0.1)
+    shown = (HERE.parent / "README.md").read_text()
+    for speed, ratio, coefficient, part in curve:
+        assert f"{speed:10.3g}{ratio:10.3g}{coefficient:12.3f}{part:12.3f}" in shown
