@@ -69,6 +69,7 @@ def test_the_depth_is_known_as_well_as_it_says():
     found = measured_scar(before, after)
     assert (found.along, found.across) == pytest.approx((2 * WIDE, 2 * WIDE), rel=0.02, abs=0)
     assert found.depth == pytest.approx(1e-6, rel=0.02, abs=0)
+    lost = lost[found.part]
     known = np.isfinite(found.depths)
     assert 0.8 < np.mean(known) < 0.95
     off = (found.depths - lost)[known] / found.registration.uncertainty[known]
@@ -109,10 +110,10 @@ def test_a_ball_worn_flat_has_lost_what_the_formulas_say():
     assert flat.volume_m3 == pytest.approx(np.sum(lost) * PITCH**2, rel=0.1, abs=0)
 
 
-def track(radius=50 * RADIUS):
-    before, after, _ = pair(depth=0)
+def track(radius=50 * RADIUS, wide=WIDE):
+    before, after, _ = pair(depth=0, shift=(15.3, 0))
     y = after.grid.mesh[1]
-    lost = np.broadcast_to(np.maximum((WIDE**2 - y**2) / (2 * radius), 0), after.heights.shape)
+    lost = np.broadcast_to(np.maximum((wide**2 - y**2) / (2 * radius), 0), after.heights.shape)
     return before, Heights(after.heights - 1e3 * lost, after.pitch), 1e3 * lost
 
 
@@ -120,6 +121,8 @@ def test_a_track_has_a_section_and_the_volume_of_its_length():
     before, after, lost = track()
     found = measured_scar(before, after, radius=50 * RADIUS / 1e3, track_length=2e-3)
     section = np.sum(lost[0]) * PITCH
+    # What lies beyond the map before is left out.
+    assert found.part[0].stop == pytest.approx(96 - 15, abs=2)
     assert np.isinf(found.along)
     assert found.across == pytest.approx(2 * WIDE, rel=0.02, abs=0)
     assert found.section == pytest.approx(section, rel=0.01, abs=0)
@@ -132,7 +135,7 @@ def test_a_track_has_a_section_and_the_volume_of_its_length():
 def test_what_is_piled_up_beside_a_scar_is_told_apart():
     before, after, lost = pair()
     x, y = after.grid.mesh
-    ridge = np.where(np.abs(np.hypot(x, y) - 34 * PITCH) < 4 * PITCH, 2e-7, 0.0)
+    ridge = np.where(np.abs(np.hypot(x, y) - 34 * PITCH) < 2 * PITCH, 4e-7, 0.0)
     found = measured_scar(before, Heights(after.heights + ridge, after.pitch))
     assert found.piled_up == pytest.approx(np.sum(ridge) * PITCH**2, rel=0.1, abs=0)
     assert found.volume == pytest.approx(np.sum(lost) * PITCH**2, rel=0.03, abs=0)
@@ -155,6 +158,8 @@ def test_maps_that_do_not_fit_are_refused():
         Heights(np.zeros((4, 32)), (PITCH, PITCH))
     with pytest.raises(CaseError, match=r"nothing is worn .* nm deep, 4 times the noise"):
         measured_scar(*pair(depth=0)[:2])
+    with pytest.raises(CaseError, match=r"what differs covers|if there is a scar it fills the map"):
+        measured_scar(*track(wide=29 * PITCH)[:2])
     with pytest.raises(CaseError, match=r"radius: a scar .* mm wide is none of a ball of 0\.01 mm"):
         measured_scar(before, after, radius=1e-5)
     with pytest.raises(CaseError, match="form: form is 1"):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -21,6 +21,8 @@ from tribo.surfaces.surface import Surface
 
 DEEP = 4.0
 """Standard deviations of noise from which on a depth is a scar."""
+MOST = 0.65
+"""Part of the map that a scar may cover, with the pixels beside it."""
 SPOT = 0.1
 """Part of the largest scar's volume below which what is worn is left out as a spot."""
 LEVELS = 0.2, 0.4
@@ -36,9 +38,11 @@ class MeasuredScar:
     Parameters
     ----------
     registration : Registration
-        How the maps lie on each other, with the depth map.
+        How the maps lie on each other, with the depth map, where both reach.
+    part : tuple of slice
+        Which pixels of the map after those are, along x and y.
     after : Heights
-        The map after the test.
+        The map after the test, where both reach.
     scar : ndarray of bool, shape (nx, ny)
         The pixels of the scar.
     volume, volume_uncertainty : float
@@ -57,6 +61,7 @@ class MeasuredScar:
     """
 
     registration: Registration
+    part: tuple[slice, slice]
     after: Heights
     scar: Mask
     volume: float
@@ -149,6 +154,14 @@ def measured_scar(
         raise CaseError(f"form is 1 (a tilt) or 2 (a curvature as well), not {form}", "form")
     first = of_shape(before, after) if isinstance(before, Surface) else before
     found = register(first, after, form)
+    part = _in_common(found.depth)
+    found, after = _cut(found, part), Heights(after.heights[part], after.pitch)
+    covered = float(np.mean(found.worn))
+    if covered > MOST:
+        raise CaseError(
+            f"what differs covers {100 * covered:.0f} % of the map, too much to lay the maps on "
+            "each other by the rest; measure a larger area, half of it unworn"
+        )
     dx, dy = after.pitch
     smooth = smoothed(found.depth)
     sides = np.isfinite(found.depth) & ~found.worn
@@ -174,6 +187,7 @@ def measured_scar(
     of_fit = found.uncertainty[top] ** 2 - found.noise**2 if known[top] else 0.0
     whole = MeasuredScar(
         registration=found,
+        part=part,
         after=after,
         scar=scar,
         volume=volume,
@@ -189,7 +203,28 @@ def measured_scar(
     if radius is None:
         return whole
     inferred = tuple(_inferred(whole, smooth, core, radius, track_length))
-    return MeasuredScar(**{**vars(whole), "inferred": inferred})
+    return replace(whole, inferred=inferred)
+
+
+def _in_common(depth: Array) -> tuple[slice, slice]:
+    """Return the lines along x and y of which half is known, from the first to the last."""
+    known = np.isfinite(depth)
+    ends = []
+    for axis in (0, 1):
+        part = np.mean(known, axis=1 - axis)
+        lines = np.flatnonzero(part >= 0.5 * np.max(part))
+        ends.append(slice(int(lines[0]), int(lines[-1]) + 1))
+    return ends[0], ends[1]
+
+
+def _cut(found: Registration, part: tuple[slice, slice]) -> Registration:
+    return replace(
+        found,
+        depth=found.depth[part],
+        uncertainty=found.uncertainty[part],
+        worn=found.worn[part],
+        slopes=found.slopes[:, *part],
+    )
 
 
 def _interpolated(depth: Array, smooth: Array, scar: Mask) -> Array:

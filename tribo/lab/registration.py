@@ -34,6 +34,8 @@ BLOCK = 8
 BLURS = 4.0, 2.0, 1.0
 """Pixels over which maps are blurred, one after the other, to lay them on each other."""
 PASSES = 30
+START = 0.3
+"""Part of the depths below those of the form that a fit starts with: scars are deep, not high."""
 
 
 @dataclass(frozen=True)
@@ -171,8 +173,9 @@ class _Fit:
             left, columns = depth[used], slopes[:, used]
             scale = _spread(left)
             if first:
-                # Nearly the sum of magnitudes, which a scar draws off less.
+                # Nearly a quantile below the median, which a scar draws off least.
                 weights = 1 / np.maximum(np.abs(left), 1e-3 * scale + 1e-30)
+                weights *= np.where(left > 0, START, 1 - START)
             else:
                 weights = np.maximum(1 - (left / (TUKEY * scale + 1e-30)) ** 2, 0) ** 2
             weights /= np.max(weights)
@@ -205,7 +208,10 @@ class _Fit:
 
     def _find_scar(self, depth: Array) -> None:
         smooth = smoothed(depth)
-        worn = np.abs(smooth) > DEEP * _spread(smooth[np.isfinite(depth)])
+        # The side without the scar tells the noise.
+        raised = smooth[np.isfinite(depth) & (smooth <= 0)]
+        noise = 1.4826 * float(np.median(-raised)) if raised.size else 0.0
+        worn = np.abs(smooth) > DEEP * noise
         # A relief that does not lie on its like yet has spots, and a scar is more than a spot.
         worn = ndimage.binary_opening(worn, iterations=3)
         if np.mean(worn) < 0.8:
