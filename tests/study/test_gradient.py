@@ -205,7 +205,8 @@ def zero(method):
 
 MUTANTS = [
     ("average", parameters.Chain, "by_load", zero),
-    ("average", parameters.Chain, "by_wear", zero),
+    ("average", parameters.Chain, "by_law", zero),
+    ("average", parameters.Chain, "by_motion", zero),
     ("average", parameters.Chain, "by_rest", without("gap")),
     ("average", parameters.Chain, "by_rest", without("stiffness")),
     ("average", linear.Carrier, "gathered", zero),

@@ -113,7 +113,7 @@ def _rates_at(
     wear: dict[str, WearRate] = {}
     between: dict[str, Array] = {}
     speeds = place.speeds or [(moment.speed, 1.0)]
-    weighed = speeds if place.reach is None else _by_row(speeds, place.reach)
+    weighed = speeds if place.reach is None else by_row(speeds, place.reach)
     for speed, share in weighed:
         at_speed = _rates_of(model, position, contact, memory, replace(moment, speed=speed))
         for name, rate in at_speed.wear.items():
@@ -124,7 +124,7 @@ def _rates_at(
     return Rates(wear, between)
 
 
-def _by_row(speeds: Speeds, reach: Array) -> list[tuple[float, Array]]:
+def by_row(speeds: Speeds, reach: Array) -> list[tuple[float, Array]]:
     """Return speeds, each with what the rate there counts for in each row, shape (ny,).
 
     A row of which the points slide further is faster by as much; in between speeds rates are taken

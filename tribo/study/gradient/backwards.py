@@ -3,26 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from tribo.contact.projection import over
 from tribo.core.arrays import Array
-from tribo.core.contact import ContactSolution, Residuals
 from tribo.core.errors import CaseError
 from tribo.core.fields import FRICTION_COEFFICIENT, PLACE_X, PLACE_Y
 from tribo.simulation.model import Model
 from tribo.stepping.implicit import Implicit
-from tribo.stepping.rates import CycleRates, Moment, wear_rates
-from tribo.stepping.step import worn_depths
-from tribo.study.gradient.linear import Carrier, StepSystem
+from tribo.study.gradient.linear import StepSystem
 from tribo.study.gradient.objective import Seeds
-from tribo.study.gradient.parameters import NOTHING, Chain
-from tribo.study.gradient.tape import Enveloped, Gave, Pressed, Saved, Slid, Tape
+from tribo.study.gradient.parameters import Chain
+from tribo.study.gradient.tape import Enveloped, Gave, Pressed, Saved, Tape
+from tribo.study.gradient.touched import Touched, carriers
 
 NUDGE = 3e-5
 """Part of the pressure by which it is varied to find the derivative of a law, up and down."""
+AT_ONCE = 1 << 18
+"""Cells for which a law with another number is asked at once."""
 KNOWN = {FRICTION_COEFFICIENT.name, PLACE_X.name, PLACE_Y.name}
 
 
@@ -36,8 +36,15 @@ def check_covered(model: Model) -> None:
             "motion's own end",
             "stop.depth",
         )
+    if model.case.effects:
+        raise CaseError(
+            "gradients do not go through effects; leave out those that no law follows, and no load",
+            "effects",
+        )
     for name, law in model.laws.items():
         place = f"bodies.{name}.wear"
+        if getattr(model.bodies[name], "layers", ()):
+            raise CaseError("gradients do not go through layers", f"bodies.{name}.layers")
         if law.state_fields:
             raise CaseError(
                 f"{law.component.type!r} remembers ({law.state_fields[0].name}); gradients go "
@@ -107,12 +114,10 @@ class _Back:
 
     def __init__(self, model: Model, chains: Sequence[Chain]) -> None:
         self.model = model
-        # Fields of effects are not asked for by any law.
-        self.rating = replace(model, effects=())
         self.chains = chains
         cells, positions = model.grid.cells, len(model.cycle)
         self.shares = np.array([position.share for position in model.cycle])
-        self.carriers = {name: _carrier(model, name) for name in model.bodies}
+        self.carriers = carriers(model)
         own = {name: (carrier.rows, cells[1]) for name, carrier in self.carriers.items()}
         self.wear = {name: np.zeros(shape) for name, shape in own.items()}
         self.height = {name: np.zeros(shape) for name, shape in own.items()}
@@ -128,6 +133,8 @@ class _Back:
         self.stiffness = self.cap = 0.0
         self.sums = np.zeros(len(chains))
         self.start = np.zeros((positions, *cells))
+        self.waiting: dict[float, list[tuple[Touched, dict[str, Array]]]] = {}
+        self.count = 0
 
     def look(self, seeds: Seeds) -> None:
         """Add the derivatives of the objective in a saved state."""
@@ -152,8 +159,7 @@ class _Back:
         self.pressure, self.gave = None, ()
         if record.slid is None and pressed is None and not yielded:
             return
-        model, cells = self.model, self.model.grid.cells
-        window = np.zeros((len(self.shares), *cells))
+        model, window = self.model, np.zeros_like(self.gap)
         window[(slice(None), *record.region)] = record.pressure
         found = model.contact.operator(model.system, np.any(window > 0, axis=0))
         assert found is not None
@@ -165,16 +171,20 @@ class _Back:
             full = pressure >= model.system.cap * (1 - 1e-12)
         free = (pressure > 0) & ~full
 
-        bodies, moment = [], None
+        cells = _touched(window)
+        rates: dict[str, Array] = {}
+        slopes: dict[str, Array] = {}
+        increment = 0.0
         if record.slid is not None:
-            moment, increment = _moment(record.slid)
-            rates, slopes = self._rates(window, moment)
-            bodies = [
-                (self.carriers[name], increment * slope[here]) for name, slope in slopes.items()
-            ]
-        given = np.zeros_like(pressure)
-        for (carrier, slope), name in zip(bodies, model.laws, strict=False):
-            given += slope * carrier.seen(self.wear[name], box)
+            increment = record.slid.end_distance - record.slid.distance
+            speed = increment / (record.slid.end_time - record.slid.time)
+            rates, slopes = self._rates(cells, speed)
+        given, bodies = np.zeros_like(pressure), []
+        for name, slope in slopes.items():
+            steep = np.zeros_like(window)
+            steep[window > 0] = increment * slope
+            bodies.append((self.carriers[name], steep[here]))
+            given += steep[here] * self.carriers[name].seen(self.wear[name], box)
         weights = np.where(self.shares > 0, self.shares, 1.0)
         if pressed is not None:
             given += pressed[here] / over(weights)
@@ -201,27 +211,43 @@ class _Back:
         self.stiffness += float(np.sum(y * operator.apply(pressure)))
         self.cap += float(np.sum(over(self.shares) * (left - over(mean)) * full))
         by_load = self.shares * mean / model.grid.cell_area
-        contacts = _contacts(window)
         for at, chain in enumerate(self.chains):
             self.sums[at] += chain.by_load(record, by_load)
-            if record.slid is not None:
-                self.sums[at] += chain.by_wear(record.slid, contacts, self.wear)
-        if moment is not None:
-            for name, worn in worn_depths(model, rates, increment).items():
-                self.factor[name] += self.wear[name] * worn
+            if record.slid is not None and chain.moves:
+                self.sums[at] += chain.by_motion(record.slid, cells, self.wear)
+        by_rate = {}
+        for name, rate in rates.items():
+            carrier = self.carriers[name]
+            seen = cells.seen(carrier, self.wear[name])
+            by_rate[name] = increment * self.shares[cells.position] * seen
+            self.factor[name] += cells.summed(carrier, by_rate[name] * rate)
+        if record.slid is not None:
+            self.waiting.setdefault(float(f"{speed:.9g}"), []).append((cells, by_rate))
+            self.count += len(cells.pressure)
+            if self.count > AT_ONCE:
+                self.ask_laws()
 
-    def _rates(self, window: Array, moment: Moment) -> tuple[CycleRates, dict[str, Array]]:
-        """Return the rates under pressures, and their derivatives in them, by body."""
-        rates = wear_rates(self.rating, _contacts(window), NOTHING, moment)
-        pair = [
-            wear_rates(self.rating, _contacts(window * (1 + nudge)), NOTHING, moment)
-            for nudge in (NUDGE, -NUDGE)
-        ]
-        change = np.where(window > 0, 2 * NUDGE * window, 1.0)
-        slopes = {}
+    def ask_laws(self) -> None:
+        """Ask laws with other numbers for all the cells that wait for it, speed by speed."""
+        for speed, parts in self.waiting.items():
+            cells = Touched.joined([part for part, _ in parts])
+            by_rate = {
+                name: np.concatenate([of[name] for _, of in parts]) for name in self.model.laws
+            }
+            for at, chain in enumerate(self.chains):
+                if not chain.moves:
+                    self.sums[at] += chain.by_law(cells, speed, by_rate)
+        self.waiting, self.count = {}, 0
+
+    def _rates(self, cells: Touched, speed: float) -> tuple[dict[str, Array], dict[str, Array]]:
+        """Return the rate of each body in the cells, and its derivative in pressure."""
+        rates, slopes = {}, {}
         for name in self.model.laws:
-            up, down = (np.stack([of[name].depth_rate for of in each]) for each in pair)
-            slopes[name] = (up - down) / change
+            rates[name], higher, lower = (
+                cells.rate(self.model, name, self.carriers[name], speed, by * cells.pressure)
+                for by in (1.0, 1 + NUDGE, 1 - NUDGE)
+            )
+            slopes[name] = (higher - lower) / (2 * NUDGE * cells.pressure)
         return rates, slopes
 
     def _gave(self, record: Pressed, places: Sequence[int]) -> Array:
@@ -242,6 +268,7 @@ class _Back:
 
     def outcome(self) -> Sensitivities:
         """Return all derivatives."""
+        self.ask_laws()
         sums = [
             float(total) + chain.by_rest(self.gap, self.stiffness, self.cap)
             for total, chain in zip(self.sums, self.chains, strict=True)
@@ -249,37 +276,6 @@ class _Back:
         return Sensitivities(sums, self.factor, self.height, self.wear)
 
 
-def _carrier(model: Model, name: str) -> Carrier:
-    """Return how a body's own surface meets the window, held to what the exposure does."""
-    exposure, (nx, ny) = model.exposures[name], model.grid.cells
-    starts = exposure.starts if exposure.starts is not None else [0] * len(model.cycle)
-    trial = np.random.default_rng(0).random((nx, ny))
-    answer = exposure.average(trial)
-    weights = None
-    expected = trial
-    if exposure.averaged:
-        weights = np.zeros((nx, ny))
-        for row in range(nx):
-            probe = np.zeros((nx, ny))
-            probe[row] = 1.0
-            weights[row] = exposure.average(probe)[0] if exposure.rows == 1 else np.nan
-        expected = np.sum(weights * trial, axis=0, keepdims=True)
-    if answer.shape != expected.shape or not np.allclose(answer, expected, rtol=1e-12, atol=0):
-        raise CaseError(
-            f"the average of {model.case.kinematics.type!r} over the track of {name} is not a sum "
-            "over its rows, for which gradients are known",
-            "kinematics.type",
-        )
-    return Carrier(exposure.rows, starts, weights)
-
-
-def _moment(slid: Slid) -> tuple[Moment, float]:
-    increment = slid.end_distance - slid.distance
-    speed = increment / (slid.end_time - slid.time)
-    return Moment(slid.end_time, slid.end_distance, speed), increment
-
-
-def _contacts(pressures: Array) -> list[ContactSolution]:
-    """Return contacts that have nothing but these pressures, by position."""
-    exact, nothing = Residuals(0.0, 0.0, 0.0), np.zeros(pressures.shape[1:])
-    return [ContactSolution(p, 0.0, nothing, 0, exact) for p in pressures]
+def _touched(window: Array) -> Touched:
+    position, x, y = np.nonzero(window)
+    return Touched(position, x, y, window[position, x, y])

@@ -30,6 +30,8 @@ class Carrier:
     ----------
     rows : int
         Cells along x on the body's own surface.
+    cells : tuple of int
+        Cells of the window.
     starts : sequence of int
         The row of it at which the window begins, at each position.
     weights : ndarray, shape (nx, ny), or None
@@ -37,6 +39,7 @@ class Carrier:
     """
 
     rows: int
+    cells: tuple[int, int]
     starts: Sequence[int]
     weights: Array | None
 

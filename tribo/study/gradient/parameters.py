@@ -12,23 +12,19 @@ from pydantic import BaseModel, ValidationError
 from tribo.case import Case
 from tribo.config.overrides import leaves, path_keys
 from tribo.core.arrays import Array
-from tribo.core.contact import ContactSolution
 from tribo.core.errors import CaseError, TriboError
 from tribo.core.words import did_you_mean, suggestion
 from tribo.simulation.assembly import assemble
 from tribo.simulation.model import Model
-from tribo.stepping.memory import Memory
-from tribo.stepping.rates import Moment, wear_rates
-from tribo.stepping.step import worn_depths
+from tribo.study.gradient.linear import Carrier
 from tribo.study.gradient.local import localised
 from tribo.study.gradient.tape import Pressed, Slid
+from tribo.study.gradient.touched import Touched, carriers
 
 NUDGE = 3e-5
 """Part of a number by which it is varied: what is compared is a height, a rate, never a solve."""
 FINE = 1e-7
 """The same for numbers of the motion, which may be at any phase of many cycles."""
-NOTHING = Memory({}, {})
-"""What laws without a state remember."""
 ANY = "*"
 """The key that stands for each body, as in ``bodies.*.material.hardness``."""
 NOT_PHYSICS = ("grid", "stepping", "output", "stop", "begin", "effects", "observers", "requires")
@@ -43,6 +39,8 @@ class Variant:
     weight: float
     stops: Array
     distances: Array
+    carriers: Mapping[str, Carrier]
+    moves: bool
 
 
 @dataclass(frozen=True)
@@ -83,24 +81,38 @@ class Chain:
             total += each.weight * float(np.sum(by_load * np.array(loads(*times))))
         return total
 
-    def by_wear(
-        self, slid: Slid, contacts: Sequence[ContactSolution], wear: Mapping[str, Array]
-    ) -> float:
+    @property
+    def moves(self) -> bool:
+        """Whether it changes how bodies slide."""
+        return any(each.moves for each in self.variants)
+
+    def by_law(self, cells: Touched, speed: float, by_rate: Mapping[str, Array]) -> float:
+        """Return what comes through the laws, given the derivative in the rate of each cell."""
+        total = 0.0
+        for each in self.variants:
+            for name in each.model.laws:
+                carrier = each.carriers[name]
+                rate = cells.rate(each.model, name, carrier, speed, cells.pressure)
+                total += each.weight * float(np.sum(by_rate[name] * rate))
+        return total
+
+    def by_motion(self, slid: Slid, cells: Touched, wear: Mapping[str, Array]) -> float:
         """Return what comes through the depths of a step, given the derivative in each."""
         total = 0.0
         for each in self.variants:
-            model = each.model
-            if not model.laws:
-                continue
             begun, ended = (self._then(each, time) for time in (slid.time, slid.end_time))
             begin, end = (
                 float(np.interp(distance, self.distances, each.distances))
                 for distance in (slid.distance, slid.end_distance)
             )
-            moment = Moment(ended, end, (end - begin) / (ended - begun))
-            rates = wear_rates(model, contacts, NOTHING, moment)
-            for name, worn in worn_depths(model, rates, end - begin).items():
-                total += each.weight * float(np.sum(wear[name] * worn))
+            increment, model = end - begin, each.model
+            shares = np.array([position.share for position in model.cycle])[cells.position]
+            for name, carrier in each.carriers.items():
+                if name in model.laws:
+                    speed = increment / (ended - begun)
+                    rate = cells.rate(model, name, carrier, speed, cells.pressure)
+                    worn = np.sum(shares * cells.seen(carrier, wear[name]) * rate)
+                    total += each.weight * increment * float(worn)
         return total
 
     def by_rest(self, gap: Array, stiffness: float, cap: float) -> float:
@@ -188,12 +200,13 @@ def chain(
         raise CaseError("is 0, of which no part can be taken as a difference", path)
     step = value * (FINE if places[0][0] == "kinematics" else NUDGE)
     errors: list[str] = []
+    ways = carriers(base)
     central, upper = [(1, 0.5), (-1, -0.5)], [(0, -1.5), (1, 2.0), (2, -0.5)]
     lower = [(-by, -weight) for by, weight in upper]
     for scheme in (central, upper, lower):
         try:
             variants = [
-                _variant(base, places, value + by * step, weight / step, factors)
+                _variant(base, places, value + by * step, weight / step, factors, ways)
                 for by, weight in scheme
             ]
         except (TriboError, ValidationError) as error:
@@ -212,21 +225,22 @@ def _variant(
     number: float,
     weight: float,
     factors: Mapping[str, Array],
+    unmoved: Mapping[str, Carrier],
 ) -> Variant:
     case = base.case
     for place in places:
         case = changed(case, place, number)
-    model = localised(replace(assemble(case), effects=()), factors)
+    model = localised(assemble(case), factors)
     _check_alike(base, model)
     stops = _stops(model)
     if len(stops) != len(_stops(base)):
         raise CaseError("it changes how many stops the run makes")
-    same = (
+    moves = not (
         case.kinematics == base.case.kinematics
         and case.friction == base.case.friction
         and np.array_equal(stops, _stops(base))
     )
-    if same:
+    if not moves:
         # Only what it changes need be asked.
         laws = {
             name: law
@@ -235,7 +249,8 @@ def _variant(
             != (base.case.bodies[name].wear, base.case.bodies[name].material)
         }
         model = replace(model, laws=laws)
-    return Variant(model, weight, stops, _distances(model, stops))
+    ways = carriers(model) if moves else unmoved
+    return Variant(model, weight, stops, _distances(model, stops), ways, moves)
 
 
 def changed(value: Any, place: Sequence[Any], number: float) -> Any:

@@ -1,0 +1,88 @@
+"""What a gradient costs: the time of the run with all derivatives over that of the run alone.
+
+    python benchmarks/gradient_cost.py [cells]
+
+Each case is run in turn with and without, three times, and the best of each is taken. Derivatives
+are those in all numbers of the case and in the wear rate and the height at each cell.
+"""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from time import process_time
+
+from tribo import Case, Deepest, TriboWarning, gradient
+
+TIMES = 3
+
+
+def case(cells: int, **changes: object) -> Case:
+    """Return the paper's test for 200 s, with changes."""
+    steel = {"young": "207 GPa", "poisson": 0.3}
+    wear = {"type": "archard", "k": "3.11e-16 1/Pa"}
+    parts = {
+        "grid": {"size": "0.8 mm", "cells": cells},
+        "load": "100 N",
+        "bodies": {
+            "ball": {
+                "surface": {"type": "sphere", "radius": "5 mm"},
+                "material": steel,
+                "wear": wear,
+            },
+            "disk": {"surface": "flat", "material": steel, "wear": wear},
+        },
+        "kinematics": {
+            "type": "reciprocating",
+            "stroke": "2 mm",
+            "frequency": 25,
+            "duration": 200,
+            "positions": "average",
+        },
+        **changes,
+    }
+    return Case.model_validate(parts)
+
+
+def cases(cells: int) -> dict[str, Case]:
+    """Return the cases by name."""
+    base = case(cells)
+    bodies = {
+        name: body.model_copy(
+            update={"material": body.material.model_copy(update={"hardness": hardness})}
+        )
+        for (name, body), hardness in zip(base.bodies.items(), (2.1e9, 2e9), strict=True)
+    }
+    motion = {"type": "reciprocating", "stroke": "2 mm", "frequency": 25, "duration": 200}
+    power = {"type": "power", "k": 3.11e-16, "p_exponent": 1.5, "reference_pressure": "1 GPa"}
+    nonlinear = {n: {**dict(b), "wear": power} for n, b in base.bodies.items()}
+    return {
+        "half-space, average": base,
+        "springs, average": case(cells, contact={"type": "winkler"}),
+        "half-space, yielding": case(cells, bodies=bodies),
+        "half-space, not linear in pressure": case(cells, bodies=nonlinear),
+        "half-space, 33 positions": case(cells, kinematics={**motion, "positions": 33}),
+    }
+
+
+def main(cells: int) -> None:
+    """Print steps, times and ratio of each case."""
+    warnings.simplefilter("ignore", TriboWarning)
+    for name, each in cases(cells).items():
+        alone, both, steps = [], [], 0
+        for _ in range(TIMES):
+            started = process_time()
+            steps = len(each.run().history_time) - 1
+            alone.append(process_time() - started)
+            started = process_time()
+            found = gradient(each, Deepest("disk"))
+            both.append(process_time() - started)
+        inputs = len(found.parameters) + sum(m.size for m in found.wear_rate.values())
+        print(
+            f"{name:36} {cells}² {steps:4} steps, {inputs:6} inputs: "
+            f"{min(alone):6.2f} s, with gradient {min(both):6.2f} s: {min(both) / min(alone):.2f}"
+        )
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else 64)
