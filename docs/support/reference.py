@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Iterator
+import sys
+from collections.abc import Iterator, Mapping
 from importlib import import_module
 from pathlib import Path
 from types import NoneType, UnionType
@@ -32,12 +33,15 @@ from tribo.result.columns import BODY_COLUMNS, COLUMNS, ROUGHNESS_COLUMNS
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
 
+PLUGINS = Path(__file__).parents[2] / "plugins"
+
 
 def write(folder: Path) -> None:
     """Write every generated page to `folder`."""
     folder.mkdir(exist_ok=True)
     pages = {
         "case": "\n".join(case_page(Registry.with_plugins())),
+        "plugin_keys": "\n".join(plugin_keys()),
         "units": "\n".join(units_table()),
         "commands": "\n".join(commands_page()),
         "exit_codes": "\n".join(exit_codes()),
@@ -85,6 +89,31 @@ def case_page(registry: Registry) -> Iterator[str]:
             model = _model(field.annotation)
             yield f"{_summary(model)}\n"
             yield from _table(model)
+
+
+def plugin_keys() -> Iterator[str]:
+    """Yield the components of the packages in `plugins`, with their keys."""
+    built_in = set(Registry.with_plugins().components)
+    for folder in sorted(PLUGINS.iterdir()):
+        package = folder.name.replace("-", "_")
+        source = str(folder / "src")
+        if not Path(source, package, "plugin.py").is_file():
+            continue
+        yield f"## {folder.name}\n"
+        sys.path.insert(0, source)
+        try:
+            registry = Registry.with_plugins(import_module(f"{package}.plugin"))
+        except ImportError as error:
+            yield f"It was not installed with what it needs where this page was built: {error}.\n"
+            continue
+        finally:
+            sys.path.remove(source)
+        for name in sorted(set(registry.components) - built_in):
+            cls = registry.components[name]
+            yield f'### `type = "{cls.type}"`\n'
+            kind = cls.kind().replace("_", " ")
+            yield f"{'An' if kind[0] in 'aeo' else 'A'} {kind}. {_prose(cls)}\n"
+            yield from _table(cls)
 
 
 def units_table() -> Iterator[str]:
@@ -241,6 +270,8 @@ def _kind(annotation: Any, metadata: tuple[Any, ...]) -> str:
         return " or ".join(kinds)
     if origin is Literal:
         return " or ".join(f'`"{value}"`' for value in get_args(annotation))
+    if inspect.isclass(origin) and issubclass(origin, Mapping):
+        return f"table: by name, each {_kind(get_args(annotation)[1], ())}"
     if origin is tuple:
         parts = get_args(annotation)
         one = _kind(parts[0], ())

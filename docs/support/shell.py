@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shlex
 import subprocess
 import sys
@@ -27,7 +28,8 @@ def sh(command: str, code: int = 0, lines: int | None = None) -> None:
         text=True,
         check=False,
     )
-    output = done.stdout.splitlines()
+    # Progress, which depends on how fast the machine is.
+    output = re.sub(r"(?m)^[\d.e+]+ s of [\d.e+]+ s, step \d+\n?", "", done.stdout).splitlines()
     if done.returncode != code:
         raise RuntimeError(f"{command} exited with {done.returncode}:\n{done.stdout}")
     if lines is not None and len(output) > lines:

@@ -131,7 +131,8 @@ def pressure_sections(result: Result) -> Figure:
             whole_panels = panels[:1] if faded else panels
             lines = [_mark_hardness(axes, cap / size(unit)) for axes in whole_panels]
             marks.append(lines[0])
-        style.legend_below(figure, curves, _COLUMNS, marks)
+        # A mark's name is longer than that of a save.
+        style.legend_below(figure, curves, 4 if marks else _COLUMNS, marks)
     return figure
 
 
