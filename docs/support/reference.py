@@ -190,6 +190,10 @@ def plugin_page() -> Iterator[str]:
         if name == "Array":
             yield "``Array`` stands for ``numpy.ndarray`` of 64-bit floats.\n"
             continue
+        if isinstance(thing, tribo.Field):
+            unit = "" if thing.unit == "1" else f", in {thing.unit}"
+            yield f"``{name}`` is the field ``{thing.name}``{unit}. {thing.description}\n"
+            continue
         if inspect.isclass(thing):
             directive = "autoclass"
             options = ["   :members:", "   :exclude-members: shape, spacing"]
