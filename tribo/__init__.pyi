@@ -4,6 +4,7 @@ from tribo.case import Begin as Begin
 from tribo.case import Body as Body
 from tribo.case import Case as Case
 from tribo.case import Friction as Friction
+from tribo.case import Layer as Layer
 from tribo.case import Output as Output
 from tribo.case import Stop as Stop
 from tribo.component import Component as Component

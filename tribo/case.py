@@ -29,6 +29,26 @@ if TYPE_CHECKING:
     from tribo.result.read import Result
 
 
+class Layer(Table):
+    """A layer of a body, with what differs from the body below it."""
+
+    thickness: Annotated[float, Quantity("m", above=0, usual=(1e-9, 1e-2))]
+    """How much of it has to be worn away."""
+    wear: WearLaw | None = None
+    """How it wears; as the body below if left out."""
+    young: Annotated[float, Quantity("Pa", above=0, usual=(1e4, 2e12))] | None = None
+    """Young's modulus; that of the body if left out."""
+    poisson: Annotated[float, Quantity("1", above=-1, below=0.5)] | None = None
+    """Poisson's ratio; that of the body if left out."""
+    hardness: Annotated[float, Quantity("Pa", above=0, usual=(1e4, 2e11))] | None = None
+    """Hardness, for laws that use it; that of the body if left out."""
+
+    def material(self, below: Material) -> Material:
+        """Return its material on a body of `below`."""
+        named = {name: getattr(self, name) for name in ("young", "poisson", "hardness")}
+        return below.model_copy(update={k: v for k, v in named.items() if v is not None})
+
+
 class Body(Table):
     """One of the two bodies."""
 
@@ -38,6 +58,29 @@ class Body(Table):
     """What it is made of."""
     wear: WearLaw | None = None
     """How it wears; it does not if left out."""
+    layers: tuple[Layer, ...] = ()
+    """Layers on it, from the top: `material` and `wear` are those of what lies below them."""
+
+    @model_validator(mode="after")
+    def _wears_in_layers(self) -> Self:
+        if self.layers and self.wear is None:
+            raise ValueError(
+                "layers are worn through: give wear for what lies below them, as "
+                "{ type = 'archard', k = 0 } if that does not wear"
+            )
+        for law in self.laws() if self.layers else ():
+            if law.state_fields:
+                raise ValueError(
+                    f"{law.type!r} keeps a state of its own, which a body with layers cannot; give "
+                    "its layers and the body laws without one"
+                )
+        return self
+
+    def laws(self) -> tuple[WearLaw, ...]:
+        """Return its wear laws, those of its layers first; none if it does not wear."""
+        if self.wear is None:
+            return ()
+        return (*(layer.wear or self.wear for layer in self.layers), self.wear)
 
 
 class Friction(Table):
@@ -192,6 +235,9 @@ class Case(Table):
             yield f"bodies.{name}.surface", body.surface
             if body.wear is not None:
                 yield f"bodies.{name}.wear", body.wear
+            for i, layer in enumerate(body.layers):
+                if layer.wear is not None:
+                    yield f"bodies.{name}.layers[{i}].wear", layer.wear
         yield "contact", self.contact
         yield "kinematics", self.kinematics
         for i, effect in enumerate(self.effects):

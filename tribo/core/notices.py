@@ -15,6 +15,7 @@ Kind = Literal[
     "lap",
     "period",
     "resolution",
+    "layer",
     "stop",
     "failed",
 ]

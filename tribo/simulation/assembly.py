@@ -13,6 +13,7 @@ from tribo.case import Body, Case
 from tribo.config.requirements import check_requirements
 from tribo.contact.solver import ContactSolver
 from tribo.core.arrays import Array, readonly, rows_from
+from tribo.core.coating import Coating
 from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError, located
 from tribo.core.fields import PLACE_X
@@ -28,6 +29,7 @@ from tribo.simulation.guards import (
     GuardedSolver,
     GuardedSurface,
 )
+from tribo.simulation.layers import LayeredLaw
 from tribo.simulation.memory import check_memory, memory_needed
 from tribo.simulation.model import Model
 
@@ -65,8 +67,9 @@ def assemble(case: Case) -> Model:
                 _check_ring(surfaces[name], exposures[name], case.kinematics.lap, grid)
         if body.wear is not None:
             with located(f"bodies.{name}.wear"):
-                laws[name] = GuardedLaw(body.wear, name, body.material)
-                laws[name].ask(body.wear.check_cells, grid.spacing)
+                laws[name] = _law(body, name)
+                for law in body.laws():
+                    laws[name].ask(law.check_cells, grid.spacing)
                 _check_places(laws[name], exposures[name])
     if case.load.along and case.contact.periodic:
         raise CaseError(
@@ -83,6 +86,7 @@ def assemble(case: Case) -> Model:
         cap=cap,
         curvature=_curvature(surfaces),
         materials={name: body.material for name, body in bodies.items()},
+        coatings=_coatings(bodies, case.contact),
     )
     with located("contact"):
         solver.ask(case.contact.check, replace(system, load=loads.largest))
@@ -132,6 +136,13 @@ def _plastic(
     bodies: Mapping[str, Body], contact: ContactSolver
 ) -> tuple[float | None, dict[str, float]]:
     """Return the largest pressure that is borne, in Pa, and each body's part of what yields."""
+    for name, body in bodies.items():
+        if contact.plasticity and any(layer.hardness is not None for layer in body.layers):
+            raise CaseError(
+                "the limit of the pressure is the hardness of the body throughout; set "
+                "contact.plasticity = false where its layers have one of their own",
+                f"bodies.{name}.layers",
+            )
     hardness = {
         name: body.material.hardness
         for name, body in bodies.items()
@@ -148,6 +159,47 @@ def _plastic(
     cap = min(hardness.values())
     soft = [name for name, value in hardness.items() if value == cap]
     return cap, {name: (1 / len(soft) if name in soft else 0.0) for name in bodies}
+
+
+def _law(body: Body, name: str) -> GuardedLaw:
+    """Return the law of a body that wears, or those of its layers."""
+    materials = [*(layer.material(body.material) for layer in body.layers), body.material]
+    laws = [
+        GuardedLaw(law, name, material)
+        for law, material in zip(body.laws(), materials, strict=True)
+    ]
+    return LayeredLaw(laws, [layer.thickness for layer in body.layers]) if body.layers else laws[0]
+
+
+def _coatings(bodies: Mapping[str, Body], contact: ContactSolver) -> dict[str, Coating]:
+    """Return the elastic layer on each body that has one, by name."""
+    coatings = {}
+    for name, body in bodies.items():
+        base = body.material
+        elastic = [
+            (layer.young or base.young, base.poisson if layer.poisson is None else layer.poisson)
+            for layer in body.layers
+        ]
+        while elastic and elastic[-1] == (base.young, base.poisson):
+            elastic.pop()
+        if not elastic:
+            continue
+        place = f"bodies.{name}.layers"
+        if len(set(elastic)) > 1:
+            raise CaseError(
+                "layers may differ from the body in young and poisson, but not from one another: "
+                "one elastic layer on each body; give them the same",
+                place,
+            )
+        if not contact.takes_coatings:
+            raise CaseError(
+                f"contact.type = {contact.type!r} takes no elastic layers; leave young and poisson "
+                "out, or take 'dcfft' or 'periodic'",
+                place,
+            )
+        thickness = sum(layer.thickness for layer in body.layers[: len(elastic)])
+        coatings[name] = Coating(thickness, body.layers[0].material(base), base)
+    return coatings
 
 
 def _own_grid(grid: Grid, exposure: GuardedExposure) -> Grid:

@@ -36,6 +36,12 @@ def coarsened(case: Case, cells: int, margin: float, half_width_x: float = 0.0) 
             update={
                 "surface": body.surface.smoothed(),
                 "wear": None if body.wear is None else body.wear.smoothed(),
+                "layers": tuple(
+                    layer.model_copy(update={"wear": layer.wear.smoothed()})
+                    if layer.wear
+                    else layer
+                    for layer in body.layers
+                ),
             }
         )
         for name, body in case.bodies.items()

@@ -45,10 +45,10 @@ def in_order(case: Case) -> tuple[Effect, ...]:
                 raise _twice(field, ready)
             known.add(field.name)
     for name, body in case.bodies.items():
-        if body.wear is not None and not set(body.wear.requires) <= known:
-            missing = sorted(set(body.wear.requires) - known)
-            text = _missing(f"wear law {body.wear.type!r}", missing, [])
-            raise MissingFieldError(text, f"bodies.{name}.wear", missing)
+        for law in body.laws():
+            if missing := sorted(set(law.requires) - known):
+                text = _missing(f"wear law {law.type!r}", missing, [])
+                raise MissingFieldError(text, f"bodies.{name}.wear", missing)
     return tuple(ordered)
 
 

@@ -95,6 +95,9 @@ class GuardedLaw(Guard[WearLaw]):
         If its state is not as it declares it.
     """
 
+    bottoms: tuple[float, ...] = ()
+    """Depths at which layers end, in m, where a body has any (`tribo.simulation.layers`)."""
+
     def __init__(self, law: WearLaw, body: str, material: Material) -> None:
         super().__init__(law, body)
         self.material = material

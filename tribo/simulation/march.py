@@ -119,19 +119,24 @@ def _up_to_depth(model: Model, state: State, after: State, limit: float) -> Stat
     state = start_sliding(model, state)
     low, high = 0.0, after.distance - state.distance
     depth_low, depth_high = _depth(model, state), _depth(model, after)
+    slow = False
     for _ in range(MOST_CUTS):
         if depth_high - limit <= DEPTH_ACCURACY * limit:
             break
         # Aim just above the limit, so that the end approaches it from the side that stops.
         part = (limit * (1 + 0.5 * DEPTH_ACCURACY) - depth_low) / (depth_high - depth_low)
-        trial = low + part * (high - low)
+        # Where the rate jumps, as between layers, a line may lead nowhere; halves do not.
+        width = high - low
+        trial = low + (0.5 if slow else part) * width
         time = model.motion.time_at(state.distance + trial)
         cut = model.stepping.step(model, state, trial, time)
         depth = _depth(model, cut)
         if depth >= limit:
-            high, depth_high, after = trial, depth, replace(cut, notices=after.notices)
+            kept = [n for n in after.notices if (n.distance or 0.0) <= cut.distance]
+            high, depth_high, after = trial, depth, replace(cut, notices=tuple(kept))
         else:
             low, depth_low = trial, depth
+        slow = high - low > 0.5 * width
     return after
 
 

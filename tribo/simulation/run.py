@@ -317,7 +317,7 @@ def _model(
 def _announce(before: Sequence[Notice], after: Sequence[Notice]) -> None:
     for notice in after:
         # What the case itself asks for is no warning; the result tells it.
-        if notice not in before and notice.kind not in ("begin", "stop"):
+        if notice not in before and notice.kind not in ("begin", "layer", "stop"):
             warnings.warn(str(notice), TriboWarning, stacklevel=4)
 
 

@@ -15,6 +15,7 @@ from tribo.core.fields import Field, WearRate
 from tribo.core.state import State
 from tribo.stepping.contacts import in_stripes
 from tribo.stepping.extrapolation import Limits, Values, integrated
+from tribo.stepping.layers import in_layers
 from tribo.stepping.memory import Memory, laid, remembered
 from tribo.stepping.rates import CycleRates, Moment, rates_at_each, resting_rates, wear_rates
 
@@ -52,8 +53,10 @@ def course(
 ) -> Course:
     """Return what an increment (m) comes to, from what is remembered before it.
 
-    It is divided into `parts`, or finer. Without anything to remember, rates stay as they are.
+    It is divided into `parts`, or finer. Without anything to remember, rates stay as they are, but
+    where a body wears through a layer.
     """
+    before = in_layers(model, before, contacts, increment, moment)
     if not before.values:
         return Course(wear_rates(model, contacts, before, moment), before)
     of_model = partial(_rates, model, before, contacts, moment)

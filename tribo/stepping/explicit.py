@@ -17,6 +17,7 @@ from tribo.core.units import Quantity
 from tribo.stepping.contacts import in_stripes, solve_cycle, solved
 from tribo.stepping.evolution import Course, course
 from tribo.stepping.invariants import wear_balance
+from tribo.stepping.layers import worn_through
 from tribo.stepping.linear_wear import wear_compliance
 from tribo.stepping.memory import remembered
 from tribo.stepping.quadrature import with_missed
@@ -102,7 +103,7 @@ class Explicit(Scheme):
         """Return the state after one forward Euler step; see `Scheme.step`."""
         moment = moment_after(state, increment, time)
         slid = Course(rated(model, state, moment).rates, remembered(state))
-        if slid.memory.values:
+        if slid.memory.values or any(law.bottoms for law in model.laws.values()):
             slid = course(model, slid.memory, state.contacts, increment, moment)
         rates, worn = slid.rates, worn_depths(model, slid.rates, increment)
         bodies = with_missed(model, worn_bodies(state, worn, slid.memory), rates, increment)
@@ -113,6 +114,7 @@ class Explicit(Scheme):
             state,
             rates=(),
             between=slid.memory.between,
+            notices=(*state.notices, *worn_through(model, state, bodies, slid.memory, increment)),
             invariants=wear_balance(model, worn, rates, increment, state),
         )
         iterations = sum(contact.iterations for contact in contacts)

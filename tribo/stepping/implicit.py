@@ -19,6 +19,7 @@ from tribo.core.units import Quantity
 from tribo.stepping.contacts import solve_cycle, solved
 from tribo.stepping.evolution import Course, course, sloped
 from tribo.stepping.invariants import wear_balance
+from tribo.stepping.layers import worn_through
 from tribo.stepping.linear_wear import linear_wear
 from tribo.stepping.memory import remembered
 from tribo.stepping.quadrature import with_missed
@@ -251,9 +252,10 @@ class Implicit(Scheme):
         # Set first: settling a groove leaves the pressure that these rates belong to.
         kept = replace(
             state,
-            # What is remembered changes them along a step.
-            rates=() if memory.values else rates,
+            # What is remembered changes them along a step, and so do layers.
+            rates=() if memory.values or memory.shares else rates,
             between=memory.between,
+            notices=(*state.notices, *worn_through(model, state, bodies, memory, increment)),
             invariants=wear_balance(model, guess.worn, rates, increment, state),
         )
         after = accepted(model, kept, bodies, contacts, loads, moment, solves, iterations)
@@ -296,7 +298,8 @@ class Implicit(Scheme):
             )
             depth_error = max(depth_error, 0.5 * late / (load * scale))
             own = 0.5 * (worn + forward)
-            if np.any(own > 0):
+            # What lags where points pass from layer to layer is mended too.
+            if np.any(own > 0) and not model.laws[name].bottoms:
                 share = min(1.0, float(np.max(own)) / (LATE * scale))
                 missed = 0.5 * abs(float(np.sum(worn)) - float(np.sum(forward)))
                 volume_error = max(volume_error, share * missed / float(np.sum(own)))

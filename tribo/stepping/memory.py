@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from dataclasses import field as in_dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,11 +20,15 @@ if TYPE_CHECKING:
 class Memory:
     """State fields, by name: those of each body's law, by body, and those of the effects.
 
-    All lie where they belong: on the body's own surface, or in the contact frame.
+    All lie where they belong: on the body's own surface, or in the contact frame. `worn` has the
+    depth that each body has lost, and `shares` for how much of an increment each layer of a body
+    is what wears (`tribo.stepping.layers`).
     """
 
     laws: Mapping[str, Mapping[str, Array]]
     between: Mapping[str, Array]
+    worn: Mapping[str, Array] = in_dataclass(default_factory=dict)
+    shares: Mapping[str, Mapping[str, Array]] = in_dataclass(default_factory=dict)
 
     @property
     def values(self) -> list[Array]:
@@ -34,12 +39,13 @@ class Memory:
     def with_values(self, values: Iterator[Array]) -> Memory:
         """Return the same with other arrays, in the order of `values`."""
         laws = {name: {key: next(values) for key in of} for name, of in self.laws.items()}
-        return Memory(laws, {key: next(values) for key in self.between})
+        return replace(self, laws=laws, between={key: next(values) for key in self.between})
 
 
 def remembered(state: State) -> Memory:
     """Return what laws and effects remember at `state`."""
-    return Memory({name: body.law for name, body in state.bodies.items()}, state.between)
+    laws = {name: body.law for name, body in state.bodies.items()}
+    return Memory(laws, state.between, {name: body.wear for name, body in state.bodies.items()})
 
 
 def first_memory(model: Model) -> dict[str, Array]:
@@ -55,14 +61,32 @@ def first_memory(model: Model) -> dict[str, Array]:
 
 def under(model: Model, memory: Memory, position: int) -> Memory:
     """Return what is remembered where the window is, at a position of the cycle."""
-    laws = {
-        name: {key: model.under(name, values, position) for key, values in of.items()}
-        for name, of in memory.laws.items()
-    }
+    laws, shares = (
+        {
+            name: {key: model.under(name, values, position) for key, values in of.items()}
+            for name, of in each.items()
+        }
+        for each in (memory.laws, memory.shares)
+    )
+    worn = {name: model.under(name, depth, position) for name, depth in memory.worn.items()}
     between = dict(memory.between)
     for key, carrier in _carried(model):
         between[key] = model.under(carrier, between[key], position)
-    return Memory(laws, between)
+    return Memory(laws, between, worn, shares)
+
+
+def state_of(model: Model, memory: Memory, name: str) -> dict[str, Array]:
+    """Return what the law of a body is told of its state where the window is, at a position.
+
+    Of a body in layers without shares of an increment that is the layer at the surface.
+    """
+    shares = memory.shares.get(name, {})
+    if not shares and model.laws[name].bottoms:
+        here = np.searchsorted(model.laws[name].bottoms, memory.worn[name], side="right")
+        for layer in range(1 + len(model.laws[name].bottoms)):
+            at_surface = np.asarray(here == layer, dtype=float)
+            shares = {**shares, f"rate {layer}": at_surface, f"slope {layer}": at_surface}
+    return {**memory.laws.get(name, {}), **shares}
 
 
 def laid(model: Model, key: str, rate: Array, position: int) -> Array:

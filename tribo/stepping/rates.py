@@ -22,7 +22,7 @@ from tribo.core.fields import (
 )
 from tribo.core.state import State
 from tribo.motion.cycle import Speeds
-from tribo.stepping.memory import Memory, fields_of, in_window, laid, remembered, under
+from tribo.stepping.memory import Memory, fields_of, in_window, laid, remembered, state_of, under
 
 if TYPE_CHECKING:
     from tribo.simulation.guards import GuardedEffect
@@ -172,7 +172,7 @@ def _rates_of(
                 fields={field: fields[field][name][part] for field in law.requires},
                 state={
                     field: np.broadcast_to(values, pressure.shape)[part]
-                    for field, values in memory.laws.get(name, {}).items()
+                    for field, values in state_of(model, memory, name).items()
                 },
             )
         )

@@ -56,6 +56,10 @@ class ModifiedLaw(WearLaw):
         """Ask the other law; see `WearLaw.check_cells`."""
         self.law.check_cells(spacing)
 
+    def smoothed(self) -> WearLaw:
+        """Return the law on what the other is without what varies from place to place."""
+        return self.model_copy(update={"law": self.law.smoothed()})
+
     def initial_state(self) -> dict[str, float]:
         """Return what the other law's state begins with, and zero for its own."""
         return {**self.law.initial_state(), **{field.name: 0.0 for field in self.own_state}}

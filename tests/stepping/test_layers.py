@@ -1,0 +1,220 @@
+"""Layers of a body: worn through at the distance that follows from their rates."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from tribo import Archard, Body, CaseError, Layer, Observer, Result, Simulation
+from tribo.core.errors import Interrupted
+from tribo.stepping.layers import over_increment
+
+K, PRESSURE, COATING = 1e-15, 10e6, 2e-6
+STEEL = {"young": "207 GPa", "poisson": 0.3}
+SLOW, FAST = ({"type": "archard", "k": k} for k in (K, 10 * K))
+# 20 m at the rate of the coating, on the body that stays in contact.
+THROUGH = COATING / (K * PRESSURE)
+SHARE = 0.1
+"""Of the track, what is under the pin."""
+
+
+def coated(**more):
+    layer = {"thickness": COATING, "wear": SLOW, **more}
+    return {"surface": "flat", "material": STEEL, "wear": FAST, "layers": [layer]}
+
+
+def flat(pin=None, disk=None, distance="300 m", **more):
+    """A square pin on a disk: the pressure is even, and stays so."""
+    plain = {"surface": "flat", "material": STEEL}
+    return {
+        "grid": {"size": "2 mm", "cells": 8, "ends_at_window": True},
+        "load": "40 N",
+        "bodies": {"pin": pin or plain, "disk": disk or plain},
+        "contact": {"type": "winkler", "modulus": 1e13, "plasticity": False},
+        "kinematics": {
+            "type": "unidirectional",
+            "speed": "0.1 m/s",
+            "track_length": "20 mm",
+            "distance": distance,
+        },
+        **more,
+    }
+
+
+def ended(case, **options):
+    with Simulation(case).run(**options) as result:
+        return result.saves()[-1], result.notices, result.totals()
+
+
+EXPLICIT = {"type": "explicit", "time_step": "170 s"}
+
+
+@pytest.mark.parametrize("stepping", [{"type": "implicit"}, EXPLICIT])
+@pytest.mark.parametrize(("name", "share"), [("pin", 1.0), ("disk", SHARE)])
+def test_an_even_pressure_wears_through_at_the_exact_distance(stepping, name, share):
+    distance = 1.5 * THROUGH / share
+    last, notices, _ = ended(flat(**{name: coated()}, distance=distance, stepping=stepping))
+    exact = COATING + 10 * K * PRESSURE * share * (distance - THROUGH / share)
+    assert last["bodies"][name]["max_wear_depth_m"] == pytest.approx(exact, rel=1e-9, abs=0)
+    (told,) = notices
+    assert told.startswith(f"layer: at {10 * THROUGH / share:g} s ({THROUGH / share:g} m) layer 1 ")
+    assert f"layer 1 of {name}, down to 2 µm, is worn through" in told
+
+
+def test_layers_in_one_step_each_wear_at_their_own_rate():
+    three = coated()
+    three["layers"] = [
+        {"thickness": "1 um", "wear": SLOW},
+        {"thickness": "2 um", "wear": FAST},
+        {"thickness": "0.5 um", "wear": {"type": "archard", "k": 0.5 * K}},
+    ]
+    at = np.cumsum([1e-6 / K, 2e-6 / (10 * K), 0.5e-6 / (0.5 * K)]) / PRESSURE
+    distance = 1.2 * at[-1]
+    long = {"depth_tolerance": 0.1, "pressure_tolerance": 1.0, "settle": 1.0}
+    last, notices, totals = ended(flat(pin=three, distance=distance, stepping=long))
+    exact = 3.5e-6 + 10 * K * PRESSURE * (distance - at[-1])
+    assert last["bodies"]["pin"]["max_wear_depth_m"] == pytest.approx(exact, rel=1e-9, abs=0)
+    assert [notice.split("after ")[1] for notice in notices] == [
+        f"{each:.6g} m, {10 * each:.6g} s" for each in at
+    ]
+    assert totals["steps"] < 20
+
+
+def test_shares_of_an_increment_and_of_its_slopes():
+    worn = np.array([[0.0, 0.5, 1.0, 3.0]])
+    rates = [np.full((1, 4), rate) for rate in (1.0, 4.0)]
+    shares = over_increment((1.0,), worn, rates, 2.0)
+    np.testing.assert_allclose(shares["rate 0"], [[0.5, 0.25, 0, 0]])
+    np.testing.assert_allclose(shares["rate 1"], [[0.5, 0.75, 1, 1]])
+    # The depth is 1 + 4 (2 − 1/r₀) from 0: its derivative in r₀ is 4 = 2 · 0.5 · 4.
+    np.testing.assert_allclose(shares["slope 0"], [[2, 1, 0, 0]])
+    np.testing.assert_allclose(shares["slope 1"], [[0.5, 0.75, 1, 1]])
+
+
+def test_what_does_not_wear_ends_the_wear():
+    stopped = coated()
+    stopped["wear"] = {"type": "archard", "k": 0.0}
+    last, notices, _ = ended(flat(pin=stopped, distance=3 * THROUGH))
+    assert last["bodies"]["pin"]["max_wear_depth_m"] == pytest.approx(COATING, rel=1e-12, abs=0)
+    assert len(notices) == 1
+
+
+def test_a_layer_of_the_law_below_is_none():
+    same = coated()
+    same["layers"] = [{"thickness": COATING}]
+    alone = {**same, "layers": []}
+    depths = [ended(flat(pin=each, distance="50 m"))[0]["bodies"]["pin"] for each in (same, alone)]
+    assert depths[0]["max_wear_depth_m"] == pytest.approx(
+        depths[1]["max_wear_depth_m"], rel=1e-12, abs=0
+    )
+
+
+def test_the_hardness_of_a_layer_is_that_of_its_law():
+    hard = coated(hardness="10 GPa")
+    hard["material"] = {**STEEL, "hardness": "1 GPa"}
+    hard["layers"][0]["wear"] = None
+    hard["wear"] = {"type": "archard", "K": 10 * K * 1e9}
+    last, _, _ = ended(flat(pin=hard, distance=2 * THROUGH))
+    exact = COATING + 10 * K * PRESSURE * THROUGH
+    assert last["bodies"]["pin"]["max_wear_depth_m"] == pytest.approx(exact, rel=1e-9, abs=0)
+
+
+def ball(cells, distance="6 m"):
+    sphere = {**coated(), "surface": {"type": "sphere", "radius": "5 mm"}}
+    case = flat(pin=sphere)
+    return {
+        **case,
+        "grid": {"size": "0.7 mm", "cells": cells},
+        "kinematics": {**case["kinematics"], "distance": distance},
+        "load": "20 N",
+        "contact": {"type": "dcfft", "plasticity": False},
+    }
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:resolution:tribo.TriboWarning")
+def test_a_ball_wears_through_at_a_distance_that_converges_with_the_grid():
+    found = []
+    for cells in (24, 48):
+        _, notices, _ = ended(ball(cells))
+        (told,) = (notice for notice in notices if notice.startswith("layer"))
+        found.append(float(told.split("after ")[1].split()[0]))
+    # 3.64 m by extrapolation from 32, 48 and 64 cells.
+    assert found[1] == pytest.approx(3.64, rel=0.02)
+    assert abs(found[1] - 3.64) < abs(found[0] - 3.64)
+
+
+def test_the_elasticity_of_a_layer_reaches_the_contact():
+    case = ball(40, "1 mm")
+    peaks = []
+    for young in ("207 GPa", "1000 GPa"):
+        layer = {"thickness": "50 um", "young": young}
+        case["bodies"]["pin"]["layers"] = [layer]
+        with Simulation(case).run() as result:
+            peaks.append(result.saves()[0]["max_pressure_Pa"])
+    assert 1.1 * peaks[0] < peaks[1] < 2 * peaks[0]
+
+
+class Stop(Observer):
+    type = "test.stop"
+
+    def on_step(self, snapshot):
+        if snapshot.state.steps == 9:
+            raise KeyboardInterrupt
+
+
+def test_a_run_resumed_has_the_same_bits(tmp_path):
+    case = flat(pin=coated(), distance="250 m", output={"save_times": ["1500 s"]})
+    with Simulation(case).run(tmp_path / "whole.h5") as whole:
+        depth, notices = whole.body("pin").wear_depth, whole.notices
+    path = tmp_path / "stopped.h5"
+    with pytest.raises(Interrupted):
+        Simulation(case).run(path, observers=[Stop()])
+    with Simulation(case).resume(path) as resumed:
+        np.testing.assert_array_equal(resumed.body("pin").wear_depth, depth)
+        assert resumed.notices == notices
+    with Result.open(path) as kept:
+        assert kept.provenance["components"]["bodies.pin.layers[0].wear"]["type"] == "archard"
+
+
+def test_a_run_that_ends_at_a_depth_tells_only_of_layers_passed_by_then():
+    _, notices, _ = ended(flat(pin=coated(), stop={"depth": "1.9 um"}))
+    assert [notice.split(":")[0] for notice in notices] == ["stop"]
+
+
+@pytest.mark.parametrize(
+    ("body", "words"),
+    [
+        ({**coated(), "wear": None}, "pin: layers are worn through: give wear for what lies below"),
+        (
+            {**coated(), "wear": {"type": "running_in", "factor": 2, "over": 1e9, "law": FAST}},
+            "pin: 'running_in' keeps a state of its own, which a body with layers cannot",
+        ),
+        (coated(young="400 GPa", thickness=-1), r"pin\.layers\[0\]\.thickness: "),
+        (
+            {**coated(), "layers": [{"thickness": 1e-6, "young": young} for young in (1e11, 2e11)]},
+            r"pin\.layers: layers may differ from the body in young and poisson, but not",
+        ),
+    ],
+)
+def test_layers_that_cannot_be_are_refused(body, words):
+    with pytest.raises(CaseError, match=rf"^bodies\.{words}"):
+        Simulation(flat(pin=body))
+
+
+def test_hardness_below_a_limited_pressure_is_refused():
+    case = flat(pin=coated(hardness="10 GPa"), contact={"type": "winkler", "modulus": 1e15})
+    with pytest.raises(CaseError, match=r"^bodies\.pin\.layers: the limit of the pressure is the"):
+        Simulation(case)
+
+
+def test_layers_are_written_in_python():
+    body = Body(
+        surface="flat",
+        material=STEEL,
+        wear=Archard(k=10 * K),
+        layers=[Layer(thickness="2 um", wear=Archard(k=K), hardness="20 GPa")],
+    )
+    (layer,) = body.layers
+    assert layer.material(body.material).hardness == 20e9
+    assert layer.material(body.material).young == 207e9
