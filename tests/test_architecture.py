@@ -44,6 +44,7 @@ SHOWN = {
     "result/read.py": {"lab", "plotting", "cli"},
     # A page has the tables of the terminal.
     "report/result.py": {"cli"},
+    "report/comparison.py": {"cli"},
 }
 
 

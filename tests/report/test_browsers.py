@@ -49,7 +49,7 @@ def test_the_slider_moves_maps_and_sections_by_the_keyboard(page):
 def test_history_goes_against_time_too(page):
     title = "document.querySelector('#history .plot').layout.xaxis.title.text"
     assert page.run(title) == "Sliding distance (m)"
-    page.run("document.querySelector('input[value=time]').click()")
+    page.run("document.querySelector('#against label:last-child input').click()")
     page.wait(f"{title} === 'Time (s)'")
 
 

@@ -5,48 +5,19 @@ import gzip
 import json
 import re
 import tomllib
-from html.parser import HTMLParser
 from itertools import pairwise
 
 import numpy as np
 import pytest
 from command_line import tribo as command
 from made_results import GRID, SHAPES, made, written
+from pages import Checked
 
 import tribo
 from tribo.report.fields import charts
 from tribo.report.reduced import Blocks, block_means
 from tribo.report.result import result_page
 from tribo.report.sentence import read_verified, sentence
-
-VOID = {"meta", "img", "input", "br", "path"}
-
-
-class Checked(HTMLParser):
-    """What a page is made of; every element that opens has to close."""
-
-    def __init__(self, text):
-        super().__init__()
-        self.open, self.ids, self.headings, self.links = [], [], [], []
-        self.feed(text)
-        assert not self.open
-
-    def handle_starttag(self, tag, attributes):
-        its = dict(attributes)
-        if tag not in VOID:
-            self.open.append(tag)
-        if "id" in its:
-            self.ids.append(its["id"])
-        if re.fullmatch("h[1-6]", tag):
-            self.headings.append(int(tag[1]))
-        assert tag != "img" or its["alt"]
-        self.links += [its[key] for key in ("src", "href") if key in its]
-
-    def handle_startendtag(self, tag, attributes):
-        pass
-
-    def handle_endtag(self, tag):
-        assert self.open.pop() == tag
 
 
 def unpacked(page):
@@ -86,11 +57,13 @@ def test_its_html_closes_what_it_opens_and_numbers_its_headings(page):
 
 def test_its_sentence_has_the_numbers_of_the_lab(ran, page):
     with tribo.open(ran[0] / "my.h5") as result:
-        volume = result.saves()[-1]["bodies"]["ball"]["wear_volume_m3"]
+        ball = result.saves()[-1]["bodies"]["ball"]
+        volume, depth = ball["wear_volume_m3"], ball["max_wear_depth_m"]
         mass = result.report().bodies["ball"].mass_kg
     (answer,) = re.findall('<p class="answer">(.*?)</p>', page, re.S)
-    assert f"The ball lost {1e9 * volume:.3g} mm³ ({1e6 * mass:.3g} mg)" in answer
-    assert "over 20 m of sliding under 100 N" in answer
+    assert f"the ball lost {1e9 * volume:.3g} mm³ ({1e6 * mass:.3g} mg)" in answer
+    assert f"worn {1e6 * depth:.3g} µm deep" in answer
+    assert "Over 20 m of sliding under 100 N the ball" in answer
 
 
 def test_it_quotes_the_uncertainty_that_a_study_found(tmp_path):
@@ -98,13 +71,18 @@ def test_it_quotes_the_uncertainty_that_a_study_found(tmp_path):
     with made(times=(0.0, 3600.0)) as result:
         bodies = result.saves()[-1]["bodies"]
         rows = [
-            {"name": f"{name}: volume", "unit": "m^3", "uncertainty": 2e-13}
-            | {"value": body["wear_volume_m3"]}
+            {"name": f"{name}: {what}", "unit": unit, "uncertainty": 0.02 * body[key]}
+            | {"value": body[key]}
             for name, body in bodies.items()
+            for what, unit, key in (
+                ("volume", "m^3", "wear_volume_m3"),
+                ("largest depth", "m", "max_wear_depth_m"),
+            )
         ]
         study.write_text(json.dumps({"estimates": rows}))
         found = sentence(result, result.report(), read_verified(study, result))
-        assert "lost 0.0112 ± 0.0002 mm³" in found
+        assert "the ball lost 0.0112 ± 0.0002 mm³ (0.0879 mg) and is worn" in found
+        assert re.search(r"worn \d+ ± 0\.\d µm deep", found)
         rows[0]["value"] *= 1.1
         study.write_text(json.dumps({"estimates": rows}))
         with pytest.raises(tribo.CaseError, match="another case: ball of"):

@@ -6,29 +6,31 @@ from pathlib import Path
 
 import click
 
-from tribo.cli.options import PATH, RESULT
+from tribo.cli.options import PATH
 
 
 @click.command()
-@RESULT
-@click.option("-o", "--output", "page", type=PATH, help="The file; OUTPUT-report.html.")
+@click.argument("what", nargs=-1, required=True, type=PATH)
+@click.option("-o", "--output", type=PATH, help="The file; WHAT-report.html.")
 @click.option(
     "--verified", type=PATH, help="What 'tribo verify CASE --json' printed, for uncertainties."
 )
-def report(output: Path, page: Path | None, verified: Path | None) -> None:
-    """Write a report of the result OUTPUT to hand on: one HTML file that opens offline.
+def report(what: tuple[Path, ...], output: Path | None, verified: Path | None) -> None:
+    """Write a report of WHAT to hand on: one HTML file that opens offline in any browser.
 
-    It has the answer in a sentence, the tables, the case, maps and sections at every
-    saved time, the worn surface in 3-D, the history, and what made it. It needs the extra
-    'report': pip install "tribo[report]".
+    WHAT is a result; several results, or the folder of 'tribo compare', are set side by
+    side. The report has the answer in a sentence, tables, the case, maps and sections at
+    every saved time, the worn surface in 3-D, the history, and what made it. It needs the
+    extra 'report': pip install "tribo[report]".
 
     \b
     Example:
       tribo report my.h5
       tribo report my.h5 -o report.html --verified study.json
+      tribo report a.h5 b.h5
     """
     from tribo.report.write import write_report
 
-    path = page or output.with_name(f"{output.stem}-report.html")
-    write_report(output, path, verified=verified)
+    path = output or what[0].with_name("-".join([*(each.stem for each in what), "report.html"]))
+    write_report(what[0] if len(what) == 1 else what, path, verified=verified)
     click.echo(f"Wrote {path} ({path.stat().st_size / 1e6:.1f} MB), for any browser, offline")

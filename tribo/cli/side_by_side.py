@@ -53,14 +53,27 @@ def print_comparison(
     cell = min(max(_CELL_WIDTH, longest + _GAP), room // 2)
     columns = max(2, room // cell)
     for start in range(0, len(labels), columns):
-        console.print(_table(comparison, labels[start : start + columns], times, cell))
+        shown = labels[start : start + columns]
+        console.print(comparison_table(comparison, shown, times, cell))
     for note in comparison.notes:
         console.print(f"[yellow]Note:[/] {escape(note)}")
 
 
-def _table(
-    comparison: Comparison, labels: Sequence[str], times: Sequence[float], cell: int
+def how_compared(comparison: Comparison) -> str:
+    """Say what the percentages of the table are."""
+    return (
+        f"Percentages are relative to {comparison.reference}; those of fields and sections "
+        "are the L2 norm and the largest difference, of a pressure often that of a cell at the rim."
+    )
+
+
+def comparison_table(
+    comparison: Comparison,
+    labels: Sequence[str],
+    times: Sequence[float],
+    cell: int = _CELL_WIDTH,
 ) -> Table:
+    """Return a column for each of some results, with what differs at `times`."""
     table = Table(box=box.SIMPLE_HEAD)
     table.add_column("", no_wrap=True)
     for label in labels:

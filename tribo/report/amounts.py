@@ -19,6 +19,7 @@ _UNITS = {
     "Pa": ("GPa", "MPa", "kPa", "Pa"),
     "s": ("h", "min", "s", "ms"),
     "N": ("kN", "N", "mN"),
+    "m^3": ("mm^3",),
 }
 _LONG = 6
 """Most items of a list that are written out."""
@@ -32,7 +33,7 @@ def amount(value: float, unit: str) -> str:
     fitting = next((u for u in known if abs(value) >= float(scale(u)[0])), known[-1])
     factor = float(scale(fitting)[0]) if unit in _UNITS else 1.0
     if value == 0:
-        fitting, factor = unit, 1.0
+        return "0"
     return f"{value / factor:.4g} {fitting}".replace("^2", "²").replace("^3", "³")
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from tribo.report.amounts import amount, load_words
 
-WIDTH, HEIGHT = 520, 300
+WIDTH, HEIGHT = 520, 320
 MIDDLE, CONTACT = 260, 160
 """Where the bodies touch, from the left and from the top."""
 CURVED = ("sphere", "paraboloid")
@@ -30,10 +30,13 @@ def drawing(case: Mapping[str, Any], swept: str | None) -> str:
         # The load from above, the motion of what lies below.
         _arrow(MIDDLE, 16, MIDDLE, 76, both=False),
         _text(MIDDLE + 12, 40, load, "start"),
-        _arrow(MIDDLE - 90, HEIGHT - 40, MIDDLE + 90, HEIGHT - 40, both=motion[1]),
-        _text(MIDDLE, HEIGHT - 14, motion[0]),
+        _arrow(MIDDLE - 90, HEIGHT - 60, MIDDLE + 90, HEIGHT - 60, both=motion[1]),
+        *(_text(MIDDLE, HEIGHT - 34 + 22 * i, line) for i, line in enumerate(motion[0])),
     ]
-    words = f"Drawing of the case, not to scale: {upper} on {lower}, pressed by {load}; {motion[0]}"
+    words = (
+        f"Drawing of the case, not to scale: {upper} on {lower}, pressed by {load}; "
+        f"{', '.join(motion[0])}"
+    )
     return (
         f'<svg class="case" viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="{escape(words)}">'
         '<defs><marker id="head" viewBox="0 0 8 8" refX="7" refY="4" markerWidth="7" '
@@ -72,8 +75,8 @@ def _body(shape: tuple[str, bool], *, up: bool) -> Iterator[str]:
     yield "</g>"
 
 
-def _motion(kinematics: Mapping[str, Any]) -> tuple[str, bool]:
-    """Return the motion in words, and whether it goes there and back."""
+def _motion(kinematics: Mapping[str, Any]) -> tuple[list[str], bool]:
+    """Return the motion in two lines of words, and whether it goes there and back."""
     units = {
         "stroke": "m",
         "frequency": "Hz",
@@ -89,7 +92,9 @@ def _motion(kinematics: Mapping[str, Any]) -> tuple[str, bool]:
         for key, unit in units.items()
         if isinstance(value := kinematics.get(key), int | float)
     ]
-    return ", ".join([name, *words]), name in ("reciprocating", "measured")
+    half = (len(words) + 1) // 2
+    told = [", ".join([name, *words[:half]]), ", ".join(words[half:])]
+    return told, name in ("reciprocating", "measured")
 
 
 def _arrow(x1: float, y1: float, x2: float, y2: float, *, both: bool) -> str:

@@ -2,30 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from tribo.core.arrays import Array, Mask
-from tribo.plotting.sections import limits, number_of_saves, scar_mask
-from tribo.plotting.units import fitting, height_unit, size, time_labels, time_unit
+from tribo.core.arrays import Array
+from tribo.plotting.sections import limits, number_of_saves
+from tribo.plotting.units import fitting, height_unit, size
+from tribo.report.curves import history, moments, sections, thinned, touched
 from tribo.report.reduced import Blocks, block_means, block_words, plain
 from tribo.result.body import BodyResult
-from tribo.result.export import profile
 from tribo.result.layout import TRACK, TRACK_PLASTIC
 from tribo.result.read import Result
 
 NUMBERS = 250_000
 """Numbers in all maps together, which keeps the file below 4 MB."""
-MOST_SAVES = 40
 MOST_CELLS, FEWEST_CELLS = 128, 24
 """Of a map along an axis."""
-LONGEST = 400
-"""Points of a section, and of a history."""
 ALIKE = 2.5
 """Length over width up to which a map is true to scale."""
+STRETCHED = " Along and across are drawn to different scales."
 
 
 @dataclass(frozen=True)
@@ -37,12 +35,21 @@ class Part:
     blocks: tuple[Blocks, Blocks]
 
     @property
+    def lengths(self) -> tuple[float, float]:
+        """Along x and y, in m."""
+        x, y = (float(np.ptp(each.position)) for each in self.blocks)
+        return x, y
+
+    @property
+    def is_true(self) -> bool:
+        """Whether a map of it is true to scale."""
+        return max(self.lengths) <= ALIKE * min(self.lengths)
+
+    @property
     def units(self) -> tuple[str, str]:
         """Along x and y: one, if a map is true to scale."""
-        ends = [float(np.max(np.abs(each.position), initial=0.0)) for each in self.blocks]
-        if max(ends) <= ALIKE * min(ends):
-            ends = [max(ends)] * 2
-        return fitting("m", ends[0]), fitting("m", ends[1])
+        x, y = [max(self.lengths)] * 2 if self.is_true else self.lengths
+        return fitting("m", 0.5 * x), fitting("m", 0.5 * y)
 
     def of(self, field: Array) -> Array:
         """Return the part of a field, shape (nx, ny)."""
@@ -58,7 +65,7 @@ class Part:
             plain(each.centres / size(unit))
             for each, unit in zip(self.blocks, self.units, strict=True)
         )
-        return {"x": x, "y": y, "units": self.units, "alike": self.units[0] == self.units[1]}
+        return {"x": x, "y": y, "units": self.units, "alike": self.is_true}
 
 
 def charts(result: Result) -> dict[str, Any]:
@@ -69,13 +76,14 @@ def charts(result: Result) -> dict[str, Any]:
     CaseError
         If it holds no save yet.
     """
-    saves = _saves(number_of_saves(result))
+    saves = thinned(number_of_saves(result))
+    times = [float(result.times[i]) for i in saves]
     bodies = [result.body(name) for name in result.body_names]
     pressures = [result.field("pressure", i) for i in saves]
     worn = [body for body in bodies if np.any(_depth(body)[saves] != 0)]
     count = 1 + len(worn) + sum(len(body.effects) for body in bodies)
     most = int(np.clip(np.sqrt(NUMBERS / (count * len(saves))), FEWEST_CELLS, MOST_CELLS))
-    window = _window(result, pressures, worn, most)
+    window = _window(result, saves, most)
     maps = [_map("Contact pressure", "Pa", "", pressures, window)]
     surfaces = []
     for body in worn:
@@ -92,24 +100,25 @@ def charts(result: Result) -> dict[str, Any]:
             name = f"{field.name}, {body.name}"
             maps.append(_map(name, field.unit, body.name, values, window))
     return {
-        "saves": _labels(result, saves),
+        "saves": moments(result, saves),
         "left_out": len(result.times) - len(saves),
         "maps": maps,
         "surfaces": surfaces,
-        "sections": [_section(axis, window, pressures, worn, saves) for axis in (0, 1)],
-        "history": history(result),
+        "sections": sections({"": result}, times),
+        "history": history({"": result}),
     }
 
 
-def _saves(count: int) -> list[int]:
-    if count <= MOST_SAVES:
-        return list(range(count))
-    return [int(i) for i in np.linspace(0, count - 1, MOST_SAVES).round()]
-
-
-def _labels(result: Result, saves: Sequence[int]) -> list[dict[str, str]]:
-    times, rows = time_labels(result.times), result.saves()
-    return [{"time": times[i], "distance": f"{rows[i]['distance_m']:.4g} m"} for i in saves]
+def pressure_maps(results: Mapping[str, Result], times: Sequence[float]) -> list[dict[str, Any]]:
+    """Return a map of the pressure of each result, by label, at times that all have saved, in s."""
+    most = int(np.sqrt(NUMBERS / (len(results) * len(times))))
+    maps = []
+    for label, result in results.items():
+        saves = [result.save_at(time) for time in times]
+        window = _window(result, saves, min(max(most, FEWEST_CELLS), MOST_CELLS))
+        pressures = [result.field("pressure", i) for i in saves]
+        maps.append(_map(f"Contact pressure, {label}", "Pa", "", pressures, window))
+    return maps
 
 
 def _depth(body: BodyResult) -> Array:
@@ -131,15 +140,9 @@ def _track(result: Result, body: BodyResult, saves: Sequence[int]) -> list[Array
     return None if np.all(np.isnan(depths)) else depths
 
 
-def _window(
-    result: Result, pressures: Sequence[Array], worn: Sequence[BodyResult], most: int
-) -> Part:
+def _window(result: Result, saves: Sequence[int], most: int) -> Part:
     """Return the part of the window in which there is contact or wear."""
-    grid = result.grid
-    marked: Mask = np.any([pressure > 0 for pressure in pressures], axis=0)
-    for body in worn:
-        if not body.swept:
-            marked = marked | np.any([scar_mask(depth) for depth in _depth(body)], axis=0)
+    grid, marked = result.grid, touched(result, saves)
     shown, blocks = [], []
     for axis, position in enumerate((grid.x, grid.y)):
         low, high = limits(marked, grid, axis)
@@ -173,7 +176,7 @@ def _map(name: str, unit: str, body: str, fields: Sequence[Array], part: Part) -
         **part.axes(),
         "values": [plain(part.means(field) / factor) for field in fields],
         "largest": plain(np.array(largest) / factor),
-        "note": block_words(part.blocks),
+        "note": block_words(part.blocks) + ("" if part.is_true else STRETCHED),
     }
 
 
@@ -181,88 +184,3 @@ def _surface(name: str, map_: int, height: Array | None, unit: str) -> dict[str,
     """Return what is drawn in 3-D: heights less the depths of a map; from 0 along a track."""
     heights = None if height is None else plain((height - np.max(height)) / size(unit))
     return {"name": name, "map": map_, "height": heights}
-
-
-def _section(
-    axis: int,
-    part: Part,
-    pressures: Sequence[Array],
-    worn: Sequence[BodyResult],
-    saves: Sequence[int],
-) -> dict[str, Any]:
-    """Return pressures and depths along an axis through the window's centre at each save."""
-    shown = (part.x, part.y)[axis]
-    blocks, unit = Blocks.of(part.blocks[axis].position, LONGEST), part.units[axis]
-
-    def along(fields: Sequence[Array], to: str) -> list[list[float | None]]:
-        lines = [profile(field, axis)[shown] for field in fields]
-        return [plain(blocks.mean(line, 0) / size(to)) for line in lines]
-
-    depths = {body.name: [_depth(body)[i] for i in saves] for body in worn}
-    deepest = max((float(np.max(np.abs(d))) for d in depths.values()), default=0.0)
-    to = height_unit(deepest)
-    pressure_unit = fitting("Pa", float(np.max(pressures)))
-    return {
-        "axis": axis,
-        "unit": unit,
-        "x": plain(blocks.centres / size(unit)),
-        "pressure": {"unit": pressure_unit, "values": along(pressures, pressure_unit)},
-        "depth": {"unit": to, "values": {name: along(d, to) for name, d in depths.items()}},
-        "note": block_words([blocks]),
-    }
-
-
-def history(result: Result) -> dict[str, Any]:
-    """Return what changes over the steps: a list of panels, each with its curves."""
-    table = result.table("history")
-    steps = len(table["time_s"])
-    kept = np.unique(np.linspace(0, steps - 1, min(steps, LONGEST)).round().astype(int))
-    unit = time_unit(result.times)
-    return {
-        "time": {"unit": unit, "values": plain(table["time_s"][kept] / size(unit))},
-        "distance": {"unit": "m", "values": plain(table["distance_m"][kept])},
-        "left_out": steps - len(kept),
-        "panels": [
-            {
-                "name": name,
-                "unit": shown,
-                "log": shown.endswith("Pa"),
-                "curves": {
-                    label: plain(values[kept] / size(shown)) for label, values in curves.items()
-                },
-            }
-            for name, shown, curves in _panels(result, table)
-        ],
-    }
-
-
-def _panels(result: Result, table: dict[str, Array]) -> Iterator[tuple[str, str, dict[str, Array]]]:
-    """Yield what there is to show over the steps: its name, unit and curves."""
-
-    def of_bodies(column: str) -> dict[str, Array]:
-        found = {name: table.get(f"bodies.{name}.{column}") for name in result.body_names}
-        return {
-            name: values for name, values in found.items() if values is not None and np.any(values)
-        }
-
-    def largest(curves: dict[str, Array]) -> float:
-        return max((float(np.nanmax(np.abs(values))) for values in curves.values()), default=0.0)
-
-    if len(table["time_s"]) < 2:
-        return
-    if volumes := of_bodies("wear_volume_m3"):
-        yield "Volume worn", "mm³", volumes
-    if depths := of_bodies("max_wear_depth_m"):
-        yield "Largest wear depth", height_unit(largest(depths)), depths
-    pressures = {name: table[f"{name}_pressure_Pa"] for name in ("max", "centre")}
-    pressures = {"largest": pressures["max"], "centre": pressures["centre"]}
-    yield "Contact pressure", fitting("Pa", largest(pressures)), pressures
-    widths = {
-        "along sliding": table["contact_half_width_x_m"],
-        "across sliding": table["contact_half_width_y_m"],
-    }
-    yield "Contact half-width", fitting("m", largest(widths)), widths
-    if np.ptp(table["load_N"]) > 0:
-        yield "Normal load", "N", {"load": table["load_N"]}
-    if rough := of_bodies("Sq_m"):
-        yield "Roughness Sq in the contact", height_unit(largest(rough)), rough

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 LARGEST = 4_000_000
 """Most bytes of a report: mail programs take such a file."""
 STILL_DPI = 130
-WIDE = 1.7
-"""Width over height from which a picture takes a whole line."""
+WIDE = 4.0
+"""Width from which a picture takes a whole line, in inches."""
 
 
 def check_installed() -> None:
@@ -76,8 +76,7 @@ def stills(pictures: Mapping[str, Callable[[], Figure]]) -> list[dict[str, str]]
         with house_style():
             figure.savefig(image, format="png", dpi=STILL_DPI)
         data = b64encode(image.getvalue()).decode()
-        width, height = figure.get_size_inches()
-        wide = "wide" if width > WIDE * height else ""
+        wide = "wide" if figure.get_figwidth() > WIDE else ""
         drawn.append({"name": name.replace("_", " "), "data": data, "look": wide})
     return drawn
 

@@ -12,7 +12,7 @@ from tribo.lab.report import LabReport, lab_report
 from tribo.lab.running_in import rough_bodies
 from tribo.plotting.figures import result_pictures
 from tribo.plotting.sections import number_of_saves
-from tribo.report.amounts import component_words, load_words, material_words
+from tribo.report.amounts import amount, component_words, load_words, material_words
 from tribo.report.drawing import drawing
 from tribo.report.fields import charts
 from tribo.report.page import check_installed, packed, render, stills
@@ -50,17 +50,21 @@ def result_page(result: Result, verified: Path | None = None) -> str:
         stills=stills(result_pictures(result)),
         held=_held(result),
         provenance=_provenance(result),
-        citation=CITATION.format(version=result.provenance["packages"].get("tribo", "")),
+        citation=cited(result),
         case=_case_text(case),
     )
+
+
+def cited(result: Result) -> str:
+    """Return how to cite what made a result."""
+    return CITATION.format(version=result.provenance["packages"].get("tribo", ""))
 
 
 def _tables(result: Result, lab: LabReport, estimates: Sequence[Estimate]) -> list[PageTable]:
     tables = [for_page(wear_table(result, lab.bodies))]
     if estimates:
         rows = [
-            [row["name"], f"{row['value']:.5g} {row['unit']}", _uncertainty(row)]
-            for row in estimates
+            [row["name"], amount(row["value"], row["unit"]), _uncertainty(row)] for row in estimates
         ]
         head = ["", "value", "±"]
         tables.append(PageTable("Numerical uncertainty at the end", head, rows, True))
@@ -77,7 +81,7 @@ def _uncertainty(row: Estimate) -> str:
     if found is None:
         return "diverges"
     percent = f" ({100 * found / abs(value):.2g} %)" if value else ""
-    return f"{found:.1e}{percent}"
+    return f"{amount(found, row['unit'])}{percent}"
 
 
 def _remarks(result: Result, lab: LabReport) -> list[str]:

@@ -16,6 +16,15 @@ from tribo.result.read import Result
 AGREES = 0.02
 """Relative difference up to which a value is that of a study of the same case."""
 
+EXACT = 1e-6
+"""Relative uncertainty up to which none is quoted: Archard's law fixes the volume."""
+LEAST = 1e-4
+"""Part of a unit from which a value is given in it, as a lab does."""
+VOLUMES = {"mm³": 1e-9, "µm³": 1e-18}
+MASSES = {"mg": 1e-6, "ng": 1e-12}
+DEPTHS = {"µm": 1e-6, "nm": 1e-9}
+"""Sizes of the units in SI, largest first."""
+
 Estimate = Mapping[str, Any]
 """A row of ``tribo verify CASE --json``: name, unit, value and uncertainty."""
 
@@ -50,26 +59,37 @@ def read_verified(path: Path, result: Result) -> Sequence[Estimate]:
 
 
 def sentence(result: Result, lab: LabReport, verified: Sequence[Estimate]) -> str:
-    """Return what each body has lost, over which distance and under which load."""
+    """Return what each body has lost, how deep, over which distance and under which load."""
     last = result.saves()[-1]
     losses = []
     for name, report in lab.bodies.items():
-        volume = last["bodies"][name]["wear_volume_m3"]
+        volume, depth = (
+            last["bodies"][name][key] for key in ("wear_volume_m3", "max_wear_depth_m")
+        )
         if volume == 0:
             losses.append(f"the {name} lost nothing")
             continue
-        words = f"the {name} lost {1e9 * volume:.3g} mm³"
-        study = _of(verified, f"{name}: volume")
-        if study is not None and study["uncertainty"] is not None:
-            words = f"the {name} lost {1e9 * volume:.3g} ± {1e9 * study['uncertainty']:.1g} mm³"
+        words = f"the {name} lost {quoted(volume, VOLUMES, _of(verified, f'{name}: volume'))}"
         if report.mass_kg is not None:
-            words += f" ({1e6 * report.mass_kg:.3g} mg)"
-        losses.append(words)
-    how = f"over {last['distance_m']:.4g} m of sliding under {_range(result)}"
-    text = f"{' and '.join(losses)} {how}."
+            words += f" ({quoted(report.mass_kg, MASSES)})"
+        deepest = quoted(depth, DEPTHS, _of(verified, f"{name}: largest depth"))
+        losses.append(f"{words} and is worn {deepest} deep")
+    text = f"Over {last['distance_m']:.4g} m of sliding under {_range(result)} {', '.join(losses)}."
     if result.status != "done":
-        text = f"by {last['time_s']:.4g} s, the last save of a run that is {result.status}, {text}"
-    return text[0].upper() + text[1:]
+        text += f" The run is {result.status}; this is its save at {last['time_s']:.4g} s."
+    return text
+
+
+def quoted(value: float, units: Mapping[str, float], study: Estimate | None = None) -> str:
+    """Return a value with three digits, and its uncertainty where it has one."""
+    unit = next((each for each, least in units.items() if value >= least * LEAST), [*units][-1])
+    number = value / units[unit]
+    # Three digits without a power of ten.
+    words = f"{number:.3g}" if number < 1e3 else f"{float(f'{number:.3g}'):,.0f}"
+    uncertain = None if study is None else study["uncertainty"]
+    if uncertain and uncertain > EXACT * value:
+        words += f" ± {uncertain / units[unit]:.1g}"
+    return f"{words} {unit}"
 
 
 def trust(verified: Sequence[Estimate]) -> str:

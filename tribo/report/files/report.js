@@ -17,7 +17,7 @@ const LINES = [
 ];
 const FONT = { family: "system-ui, sans-serif", size: 13, color: "#1b1f24" };
 const CONFIG = { displayModeBar: false, responsive: true, displaylogo: false };
-const AXIS = { showline: true, ticks: "outside", zeroline: false, linecolor: "#4d5660", gridcolor: "#e3e7ea", automargin: true };
+const AXIS = { showline: true, ticks: "outside", zeroline: false, linecolor: "#4d5660", gridcolor: "#e3e7ea", automargin: true, exponentformat: "power" };
 const ALONG = ["Along sliding, x", "Across sliding, y"];
 
 /** Return a place for a chart, with its title and its note; the text stands for the picture. */
@@ -52,6 +52,17 @@ function scaled(text, values) {
     marks.push(...[1, 2, 5].map((digit) => digit * 10 ** power));
   }
   return axis(text, { type: "log", tickvals: marks, ticktext: marks.map((mark) => String(Number(mark.toPrecision(1)))) });
+}
+
+/** Return where a legend goes: above the curves if it is short, else below, with room for it. */
+function legend(curves) {
+  const length = curves.reduce((sum, { name }) => sum + name.length + 6, 0);
+  if (length < 48) return { showlegend: true };
+  const room = 22 * Math.ceil(length / 48);
+  return {
+    showlegend: true, height: 340 + room, margin: { l: 60, r: 20, t: 44, b: 58 + room },
+    legend: { orientation: "h", x: 0, xanchor: "left", yref: "container", y: 0, yanchor: "bottom" },
+  };
 }
 
 const axis = (text, more) => ({ ...AXIS, title: { text }, ...more });
@@ -97,28 +108,24 @@ function drawMap(plot, map, save, moment, fixed) {
   }), CONFIG);
 }
 
-/** Return curves by name, each with a look that differs in grey too. */
-const curves = (x, named) => Object.entries(named).map(([name, y], i) => ({
-  type: "scatter", mode: x.length > 1 ? "lines" : "markers", x, y, name, line: LINES[i % LINES.length],
+/** Return curves, each with a look that differs in grey too. */
+const lines = (curves) => curves.map(({ name, x, y }, i) => ({
+  type: "scatter", mode: x.length > 30 ? "lines" : "lines+markers", x, y, name, line: LINES[i % LINES.length],
 }));
 
-function drawSection(plot, section, kind, save, moment, fixed) {
-  const shown = section[kind];
-  const isDepth = kind === "depth";
-  const all = isDepth ? shown.values : { pressure: shown.values };
-  const named = Object.fromEntries(Object.entries(all).map(([name, values]) => [name, values[save]]));
-  const span = isDepth || fixed ? Object.values(all).flat() : Object.values(named);
+function drawSection(plot, section, save, moment, fixed) {
+  const curves = Object.entries(section.curves).map(([name, { x, values }]) => ({ name, x, y: values[save] }));
+  const all = Object.values(section.curves).flatMap(({ values }) => values);
+  const span = section.down || fixed ? all : curves.map(({ y }) => y);
   const high = 1.05 * extreme(span, Math.max, 0) || 1;
   const low = 1.05 * extreme(span, Math.min, 0);
-  const title = isDepth ? "Wear depth" : "Contact pressure";
-  const where = section.axis === 0 ? "along sliding" : "across sliding";
-  const largest = Object.entries(named)
-    .map(([name, values]) => `${name} up to ${extreme([values], Math.max, 0).toPrecision(3)} ${shown.unit}`).join(", ");
-  plot.setAttribute("aria-label", `${title} ${where} at ${moment}: ${largest}.`);
-  return Plotly.react(plot, curves(section.x, named), layout(`${title}, ${where}`, {
-    xaxis: axis(`${ALONG[section.axis]} (${section.unit})`),
-    yaxis: axis(`${isDepth ? "Depth" : "Pressure"} (${shown.unit})`, { range: isDepth ? [high, low] : [low, high] }),
-    showlegend: isDepth,
+  const title = `${section.name}, ${section.axis === 0 ? "along" : "across"} sliding`;
+  const largest = curves.map(({ name, y }) => `${name} up to ${extreme([y], Math.max, 0).toPrecision(3)} ${section.unit}`);
+  plot.setAttribute("aria-label", `${title}, at ${moment}: ${largest.join(", ")}.`);
+  return Plotly.react(plot, lines(curves), layout(title, {
+    xaxis: axis(`${ALONG[section.axis]} (${section.along})`),
+    yaxis: axis(`${section.down ? "Depth" : "Pressure"} (${section.unit})`, { range: section.down ? [high, low] : [low, high] }),
+    ...(curves.length > 1 || section.down ? legend(curves) : { showlegend: false }),
   }), CONFIG);
 }
 
@@ -148,15 +155,13 @@ function drawSurface(plot, data, surface, save, moment, camera) {
   }), CONFIG);
 }
 
-function drawHistory(plot, history, panel, against) {
-  const label = `${panel.name} (${panel.unit})`;
-  const { unit } = history[against];
-  const ends = Object.entries(panel.curves).map(([name, y]) => `${name} ${y[y.length - 1]} ${panel.unit}`).join(", ");
-  plot.setAttribute("aria-label", `${panel.name} against ${against}; at the end: ${ends}.`);
-  return Plotly.react(plot, curves(history[against].values, panel.curves), layout(panel.name, {
-    xaxis: axis(`${against === "time" ? "Time" : "Sliding distance"} (${unit})`, { rangemode: "tozero" }),
-    yaxis: panel.log ? scaled(label, Object.values(panel.curves).flat()) : axis(label, { rangemode: "tozero" }),
-    showlegend: true,
+function drawHistory(plot, panel, label) {
+  const ends = panel.curves.map(({ name, y }) => `${name} ${y[y.length - 1]} ${panel.unit}`);
+  plot.setAttribute("aria-label", `${panel.name} against ${label}; at the end: ${ends.join(", ")}.`);
+  return Plotly.react(plot, lines(panel.curves), layout(panel.name, {
+    xaxis: axis(label, { rangemode: "tozero" }),
+    yaxis: panel.log ? scaled(panel.unit, panel.curves.flatMap(({ y }) => y)) : axis(panel.unit, { rangemode: "tozero" }),
+    ...legend(panel.curves),
   }), CONFIG);
 }
 
@@ -177,24 +182,19 @@ function turned(camera, turn, tilt) {
 async function showMoments(data) {
   const [slider, fixed] = [at("save"), at("fixed")];
   const maps = data.maps.map((map) => place(at("maps"), map.name, map.note));
-  const sections = data.sections.flatMap((section) => {
-    const kinds = Object.keys(section.depth.values).length ? ["pressure", "depth"] : ["pressure"];
-    return kinds.map((kind) => [place(at("sections"), kind, section.note), section, kind]);
-  });
+  const sections = data.sections.map((section) => place(at("sections"), section.name, section.note));
   const surfaces = hasWebGL() ? data.surfaces : [];
   const surfacePlot = surfaces.length ? place(at("surface"), "surface", data.maps[surfaces[0].map].note) : null;
-  if (!data.surfaces.length) at("turning").remove();
+  if (!data.surfaces.length) at("turning")?.remove();
   else if (!surfaces.length) {
     at("surface").textContent = "This browser draws no 3-D: its WebGL is off. The maps above have the same depths.";
     document.querySelectorAll("#bodies, #turning .buttons").forEach((part) => part.remove());
   }
   let camera = { eye: { x: 1.3, y: -1.5, z: 1.0 }, center: { x: 0, y: 0, z: -0.15 } };
-  surfaces.forEach((surface, i) => {
-    const label = document.createElement("label");
-    const input = Object.assign(document.createElement("input"), { type: "radio", name: "body", value: i, checked: i === 0 });
-    input.addEventListener("change", draw);
-    label.append(input, ` ${surface.name}`);
-    at("bodies").append(label);
+  let shown = 0;
+  choices(at("bodies") ?? document.createElement("p"), "body", surfaces.map(({ name }) => name), (i) => {
+    shown = i;
+    draw();
   });
   slider.max = data.saves.length - 1;
   slider.value = slider.max;
@@ -208,12 +208,11 @@ async function showMoments(data) {
     slider.setAttribute("aria-valuetext", moment);
     const drawn = [
       ...maps.map((plot, i) => drawMap(plot, data.maps[i], save, moment, fixed.checked)),
-      ...sections.map(([plot, section, kind]) => drawSection(plot, section, kind, save, moment, fixed.checked)),
+      ...sections.map((plot, i) => drawSection(plot, data.sections[i], save, moment, fixed.checked)),
     ];
     if (surfacePlot) {
-      const chosen = document.querySelector('input[name="body"]:checked');
       camera = surfacePlot._fullLayout?.scene?.camera ?? camera;
-      drawn.push(drawSurface(surfacePlot, data, surfaces[Number(chosen.value)], save, moment, camera));
+      drawn.push(drawSurface(surfacePlot, data, surfaces[shown], save, moment, camera));
     }
     return Promise.all(drawn);
   }
@@ -234,20 +233,30 @@ async function showMoments(data) {
   await draw();
 }
 
+/** Return a group of radio buttons in `parent`, the first chosen; `changed` gets the index. */
+function choices(parent, name, words, changed) {
+  words.forEach((text, i) => {
+    const label = document.createElement("label");
+    const input = Object.assign(document.createElement("input"), { type: "radio", name, value: i, checked: i === 0 });
+    input.addEventListener("change", () => changed(i));
+    label.append(input, ` ${text}`);
+    parent.append(label);
+  });
+}
+
 async function showHistory(history) {
-  if (!history.panels.length) {
+  const panels = history.axes[0].panels;
+  if (!panels.length) {
     at("past").remove();
     return;
   }
-  const note = history.left_out ? `${history.left_out} further steps are left out of the curves.` : "Every step is shown.";
-  const plots = history.panels.map((panel) => place(at("history"), panel.name, note));
-  const choices = [...document.querySelectorAll('input[name="against"]')];
-  const draw = () => {
-    const against = choices.find((choice) => choice.checked).value;
-    return Promise.all(plots.map((plot, i) => drawHistory(plot, history, history.panels[i], against)));
+  const plots = panels.map((panel) => place(at("history"), panel.name, history.note));
+  const draw = (chosen) => {
+    const { label, panels: drawn } = history.axes[chosen];
+    return Promise.all(plots.map((plot, i) => drawHistory(plot, drawn[i], label)));
   };
-  choices.forEach((choice) => choice.addEventListener("change", draw));
-  await draw();
+  choices(at("against"), "against", history.axes.map(({ name }) => `against ${name}`), draw);
+  await draw(0);
 }
 
 async function show() {

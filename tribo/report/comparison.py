@@ -1,0 +1,99 @@
+"""The report of a comparison."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Any
+
+from tribo.cli.side_by_side import comparison_table, how_compared
+from tribo.config.write import to_toml
+from tribo.plotting.overlays import comparison_picture
+from tribo.plotting.units import time_labels
+from tribo.report.curves import history, moments, sections, thinned
+from tribo.report.fields import pressure_maps
+from tribo.report.page import check_installed, packed, render, stills
+from tribo.report.result import cited
+from tribo.report.sentence import DEPTHS, VOLUMES, quoted
+from tribo.report.tables import for_page
+from tribo.study.comparison import Comparison
+
+
+def comparison_page(comparison: Comparison) -> str:
+    """Return the report of results side by side as HTML; see `tribo.write_report`."""
+    check_installed()
+    results, first = comparison.results, comparison.results[comparison.reference]
+    times = [comparison.times[i] for i in thinned(len(comparison.times))]
+    ends = comparison.chosen_times()
+    saves = [first.save_at(time) for time in times]
+    data = {
+        "saves": moments(first, saves),
+        "left_out": len(comparison.times) - len(times),
+        "maps": pressure_maps(results, times),
+        "surfaces": [],
+        "sections": sections(results, times),
+        "history": history(results),
+    }
+    table = for_page(comparison_table(comparison, list(results), ends))
+    return render(
+        "study.html.j2",
+        kind="Comparison",
+        title=" and ".join(results) if len(results) == 2 else f"{len(results)} results",
+        answers=_answers(comparison),
+        tables_title="Side by side",
+        tables=[table],
+        remarks=[how_compared(comparison)],
+        notes=comparison.notes,
+        has_moments=True,
+        curves_title="History",
+        stills=stills(
+            {
+                f"comparison at {time:g} s": partial(comparison_picture, results, time)
+                for time in ends
+            }
+        ),
+        always=False,
+        provenance=_provenance(comparison),
+        citation=cited(first),
+        case=to_toml(first.case),
+        whose=f" of {comparison.reference}",
+        data=packed(data),
+    )
+
+
+def _answers(comparison: Comparison) -> list[str]:
+    """Return what the bodies have lost in the first result, and how far the others are off."""
+    first, last = comparison.reference, comparison.times[-1]
+    saves = {label: comparison.save(label, last) for label in comparison.results}
+    time = time_labels(comparison.results[first].times)[comparison.results[first].save_at(last)]
+    answers = []
+    for body in comparison.bodies:
+        worn = {label: save["bodies"][body] for label, save in saves.items()}
+        if not worn[first]["wear_volume_m3"]:
+            continue
+        lost, deep = (
+            f"{quoted(worn[first][key], units)} ({_others(worn, key, first)})"
+            for key, units in (("wear_volume_m3", VOLUMES), ("max_wear_depth_m", DEPTHS))
+        )
+        answers.append(
+            f"After {time} the {body} has lost {lost} in {first} and is worn {deep} deep."
+        )
+    return answers
+
+
+def _others(worn: dict[str, dict[str, float]], key: str, first: str) -> str:
+    """Return how far the others are off the first, in percent."""
+    parts = {label: 100 * (body[key] / worn[first][key] - 1) for label, body in worn.items()}
+    del parts[first]
+    # Adding zero takes the sign off what rounds to it.
+    return ", ".join(f"{label}: {round(part, 1) + 0.0:+.1f} %" for label, part in parts.items())
+
+
+def _provenance(comparison: Comparison) -> list[tuple[str, str]]:
+    rows: list[tuple[str, str]] = []
+    for label, result in comparison.results.items():
+        settings: dict[str, Any] = dict(comparison.settings.get(label, {}))
+        words = [result.name, *(f"{path} = {value}" for path, value in settings.items())]
+        packages = result.provenance["packages"].items()
+        words += [f"{name} {version}" for name, version in packages if name == "tribo"]
+        rows.append((label, ", ".join(words)))
+    return rows

@@ -1,0 +1,195 @@
+"""Sections and histories of one result, or of several over each other, as plain data."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from tribo.core.arrays import Array, Mask
+from tribo.plotting.sections import limits, removed, scar_mask
+from tribo.plotting.units import fitting, height_unit, size, time_labels, time_unit
+from tribo.report.reduced import Blocks, block_words, plain
+from tribo.result.export import profile
+from tribo.result.read import Result
+
+MOST_SAVES = 40
+LONGEST = 400
+"""Points of a section, and of a history."""
+
+Results = Mapping[str, Result]
+"""By label; that of a single one is empty."""
+Curves = Mapping[str, tuple[Result, list[Array]]]
+"""Fields of a result, one for each time, by what their curve is called."""
+
+
+def thinned(count: int, most: int = MOST_SAVES) -> list[int]:
+    """Return the indices of at most so many of `count`, spread evenly, both ends included."""
+    return [int(i) for i in np.unique(np.linspace(0, count - 1, min(count, most)).round())]
+
+
+def moments(result: Result, saves: Sequence[int]) -> list[dict[str, str]]:
+    """Return the time and the path of saves in words."""
+    times, paths = time_labels(result.times), result.distances
+    return [{"time": times[i], "distance": f"{paths[i]:.4g} m"} for i in saves]
+
+
+def touched(result: Result, saves: Sequence[int]) -> Mask:
+    """Return the cells that were in contact at one of some saves, or wear on a body that stays."""
+    marked: Mask = np.any([result.field("pressure", i) > 0 for i in saves], axis=0)
+    for name in result.body_names:
+        if not result.body(name).swept:
+            depths = removed(result, name)
+            marked = marked | np.any([scar_mask(depths[i]) for i in saves], axis=0)
+    return marked
+
+
+def sections(results: Results, times: Sequence[float]) -> list[dict[str, Any]]:
+    """Return sections through the centre, along and across: a chart each, with its curves.
+
+    Parameters
+    ----------
+    results : Mapping
+        One result, or several whose bodies go by the same names.
+    times : sequence of float
+        Of saves that all have, in s.
+    """
+    first = next(iter(results.values()))
+    saves = {label: [each.save_at(t) for t in times] for label, each in results.items()}
+    depths = {
+        (label, name): [removed(result, name)[i] for i in saves[label]]
+        for label, result in results.items()
+        for name in first.body_names
+    }
+    worn = dict.fromkeys(name for (_, name), fields in depths.items() if np.any(fields))
+    shown: dict[str, tuple[str, Curves]] = {
+        "Contact pressure": (
+            "Pa",
+            {
+                label or "pressure": (result, [result.field("pressure", i) for i in saves[label]])
+                for label, result in results.items()
+            },
+        )
+    }
+    if worn and len(results) == 1:
+        curves = {name: (first, depths["", name]) for name in worn}
+        shown["Wear depth"] = "m", curves
+    elif worn:
+        for name in worn:
+            curves = {label: (result, depths[label, name]) for label, result in results.items()}
+            shown[f"Wear depth of {name}"] = "m", curves
+    marked = {label: touched(result, saves[label]) for label, result in results.items()}
+    ends = [
+        [limits(marked[label], result.grid, axis) for label, result in results.items()]
+        for axis in (0, 1)
+    ]
+    return [
+        _section(name, axis, (min(low), max(high)), si, curves)
+        for axis in (0, 1)
+        for low, high in (zip(*ends[axis], strict=True),)
+        for name, (si, curves) in shown.items()
+    ]
+
+
+def _section(
+    name: str,
+    axis: int,
+    window: tuple[float, float],
+    si: str,
+    curves: Curves,
+) -> dict[str, Any]:
+    """Return the curves of fields, one for each time, along an axis through the centre."""
+    along, largest, lines, sizes = fitting("m", max(map(abs, window))), 0.0, {}, []
+    for label, (result, fields) in curves.items():
+        x = (result.grid.x, result.grid.y)[axis]
+        inside = np.flatnonzero((window[0] <= x) & (x <= window[1]))
+        blocks = Blocks.of(x[inside], LONGEST)
+        sizes.append(blocks)
+        values = [blocks.mean(profile(field, axis)[inside], 0) for field in fields]
+        largest = max([largest, *(float(np.max(np.abs(value))) for value in values)])
+        lines[label] = blocks.centres, values
+    unit = height_unit(largest) if si == "m" else fitting(si, largest)
+    return {
+        "name": name,
+        "axis": axis,
+        "unit": unit,
+        "along": along,
+        "down": si == "m",
+        "curves": {
+            label: {"x": plain(x / size(along)), "values": [plain(v / size(unit)) for v in values]}
+            for label, (x, values) in lines.items()
+        },
+        "note": block_words(sizes[:1]),
+    }
+
+
+def history(results: Results) -> dict[str, Any]:
+    """Return what changes over the steps: panels of curves against the distance, and the time."""
+    tables = {label: result.table("history") for label, result in results.items()}
+    kept = {label: thinned(len(table["time_s"]), LONGEST) for label, table in tables.items()}
+    unit = time_unit(max((result.times for result in results.values()), key=lambda t: t[-1]))
+    axes = []
+    for words, shown, column in (
+        ("Sliding distance", "m", "distance_m"),
+        ("Time", unit, "time_s"),
+    ):
+        x = {label: plain(tables[label][column][kept[label]] / size(shown)) for label in tables}
+        panels = [
+            {"name": name, "unit": fit, "log": log, "curves": list(_drawn(curves, x, kept, fit))}
+            for name, fit, log, curves in _panels(tables, next(iter(results.values())).body_names)
+        ]
+        axes.append({"name": words.lower(), "label": f"{words} ({shown})", "panels": panels})
+    left_out = sum(len(table["time_s"]) - len(kept[label]) for label, table in tables.items())
+    note = (
+        f"{left_out} further steps are left out of the curves."
+        if left_out
+        else "Every step is shown."
+    )
+    return {"axes": axes, "note": note}
+
+
+def _drawn(
+    curves: Mapping[tuple[str, str], Array],
+    x: Mapping[str, list[float | None]],
+    kept: Mapping[str, list[int]],
+    unit: str,
+) -> Iterator[dict[str, Any]]:
+    for (label, called), values in curves.items():
+        name = ", ".join(part for part in (label, called) if part)
+        yield {"name": name, "x": x[label], "y": plain(values[kept[label]] / size(unit))}
+
+
+def _panels(
+    tables: Mapping[str, Mapping[str, Array]], bodies: Sequence[str]
+) -> Iterator[tuple[str, str, bool, dict[tuple[str, str], Array]]]:
+    """Yield what there is to show: name, unit, whether logarithmic, and curves by result."""
+    for name, si, columns in _columns(bodies):
+        curves = {
+            (label, called): table[column]
+            for label, table in tables.items()
+            for called, column in columns.items()
+            if column in table and len(table["time_s"]) > 1 and np.any(table[column])
+        }
+        if not curves or (si == "N" and all(np.ptp(values) == 0 for values in curves.values())):
+            continue
+        largest = max(float(np.nanmax(np.abs(values))) for values in curves.values())
+        unit = fitting(si, largest) if si in ("Pa", "m") else si
+        if si == "m" and "half-width" not in name:
+            unit = height_unit(largest)
+        yield name, unit, si == "Pa", curves
+
+
+def _columns(bodies: Sequence[str]) -> Iterator[tuple[str, str, dict[str, str]]]:
+    """Yield what there may be to show: its name, unit, and columns by what a curve is called."""
+    for name, si, column in (
+        ("Volume worn", "mm³", "wear_volume_m3"),
+        ("Largest wear depth", "m", "max_wear_depth_m"),
+        ("Roughness Sq in the contact", "m", "Sq_m"),
+    ):
+        yield name, si, {body: f"bodies.{body}.{column}" for body in bodies}
+    pressures = {"largest": "max_pressure_Pa", "centre": "centre_pressure_Pa"}
+    yield "Contact pressure", "Pa", pressures
+    widths = {"along": "contact_half_width_x_m", "across": "contact_half_width_y_m"}
+    yield "Contact half-width", "m", widths
+    yield "Normal load", "N", {"load": "load_N"}
