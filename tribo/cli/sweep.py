@@ -44,7 +44,8 @@ def sweep(
     """Run the cases of STUDY, a TOML file that says what varies, in parallel.
 
     Every case is validated before any is run. Afterwards the folder holds
-    runs.csv (a row a run), saves.csv (a row a save) and the folder results. A
+    runs.csv (a row a run), saves.csv (a row a save), the folder results and,
+    where curves say it, a picture of the depth of each worn body. A
     failing run is recorded and the others go on. A sweep that was stopped, or
     whose study has grown, goes on with the same command.
 
@@ -63,8 +64,13 @@ def sweep(
     if as_json:
         echo_json(swept.as_json())
     else:
+        from tribo.cli.swept import draw_runs, print_runs
+
+        print_runs(swept.table)
         click.echo(f"{total - failed} of {total} runs are done.")
         click.echo(f"Wrote {swept.folder / 'runs.csv'} and {swept.folder / 'saves.csv'}")
+        for path in draw_runs(swept.table, swept.folder):
+            click.echo(f"Wrote {path}")
     if failed:
         lines = [f"{failed} of {total} runs failed; --retry runs them again:"]
         for message, (first, *others) in list(reasons.items())[:NAMED]:

@@ -95,7 +95,9 @@ def sweep_curves(runs: pd.DataFrame, x: str, y: str, by: Sequence[str] = ()) -> 
                 f"{value:.4g}" if isinstance(value, float) else str(value) for value in values
             )
             across, up = (rows[name].to_numpy(float) for name in (x, y))
-            curves += _draw(axes, across, up, x, y, every, label=label, marker="o", **look)
+            curves += _draw(
+                axes, across, up, x, y, every, label=label, marker="o", markersize=4.0, **look
+            )
         if by:
             legend_below(figure, curves)
     return figure

@@ -1,0 +1,49 @@
+"""What a sweep ends with: a table of its runs, and curves where they say something."""
+
+import io
+
+import pandas as pd
+import pytest
+
+from tribo.cli.console import Console
+from tribo.cli.swept import ROWS, draw_runs, print_runs
+
+
+def table(loads, contacts):
+    rows = [(load, contact) for contact in contacts for load in loads]
+    return pd.DataFrame(
+        {
+            "run": range(1, len(rows) + 1),
+            "status": "done",
+            "load.normal_N": [load for load, _ in rows],
+            "contact.type": [contact for _, contact in rows],
+            "time_s": 60.0,
+            "max_pressure_Pa": [1e7 * load for load, _ in rows],
+            "bodies.ball.max_wear_depth_m": [1e-7 * load for load, _ in rows],
+            "bodies.disk.max_wear_depth_m": 0.0,
+        }
+    )
+
+
+@pytest.mark.parametrize("width", [60, 80])
+def test_the_table_has_what_varied_and_what_came_out(width):
+    console = Console(file=io.StringIO(), width=width, highlight=False)
+    print_runs(table([20.0, 40.0], ["dcfft", "winkler"]), console)
+    lines = console.file.getvalue().strip().splitlines()
+    assert max(map(len, lines)) <= width
+    assert lines[-1].split() == ["4", "40", "winkler", "400", "4", "0"]
+
+
+def test_a_long_table_ends_with_how_many_more_there_are():
+    console = Console(file=io.StringIO(), width=80)
+    print_runs(table([float(load) for load in range(1, ROWS + 4)], ["dcfft"]), console)
+    assert "and 3 more, in runs.csv" in console.file.getvalue()
+
+
+def test_curves_are_drawn_of_worn_bodies_where_few_values_part_them(tmp_path):
+    drawn = draw_runs(table([20.0, 40.0], ["dcfft", "winkler"]), tmp_path)
+    assert [path.name for path in drawn] == ["ball_depth.png"]
+    sampled = table([float(load) for load in range(20, 28)], ["dcfft"])
+    sampled.insert(3, "bodies.ball.wear.k_1_Pa", [1e-16 * (i + 1) for i in range(8)])
+    assert draw_runs(sampled, tmp_path) == []
+    assert draw_runs(sampled.assign(status="failed"), tmp_path) == []

@@ -1,0 +1,92 @@
+"""What a sweep ends with: a table of its runs and, where curves say it, a picture."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+
+import pandas as pd
+from rich.markup import escape
+
+from tribo.cli.console import Console, titled
+
+ROWS = 20
+"""Most runs in the table."""
+CURVES = 8
+"""Most curves in a picture."""
+MEASURED = (
+    ("max_pressure_Pa", "p max\nMPa", 1e-6, ".3g"),
+    (".max_wear_depth_m", "{}\nµm", 1e6, ".3g"),
+    (".wear_volume_m3", "{}\nmm³", 1e9, ".3g"),
+)
+"""End of a column's name, header, factor to its unit, and format."""
+
+
+def print_runs(runs: pd.DataFrame, console: Console | None = None) -> None:
+    """Print what varied and what came out of each run that is done."""
+    console = console or Console()
+    done = runs[runs["status"] == "done"]
+    if done.empty:
+        return
+    table = titled("Runs: what varied; largest pressure, depth and volume of each body at the end")
+    columns = [list(map(str, done["run"][:ROWS]))]
+    table.add_column("run", justify="right")
+    for name in varied(runs):
+        cells = [_shown(value) for value in done[name][:ROWS]]
+        # A long name is broken before a value is.
+        widest = max(map(len, cells))
+        table.add_column(escape(name), justify="right", overflow="fold", min_width=widest)
+        columns.append(cells)
+    for end, header, factor, digits in MEASURED:
+        for name in [column for column in done if _measures(str(column), end)]:
+            body = str(name).removeprefix("bodies.").removesuffix(end)
+            table.add_column(escape(header.format(body)), justify="right", no_wrap=True)
+            columns.append([f"{factor * value:{digits}}" for value in done[name][:ROWS]])
+    for row in zip(*columns, strict=True):
+        table.add_row(*row)
+    console.print(table)
+    if len(done) > ROWS:
+        console.print(f"and {len(done) - ROWS} more, in runs.csv")
+
+
+def draw_runs(runs: pd.DataFrame, folder: Path) -> list[Path]:
+    """Draw the largest depth of each worn body over what varies most, and return the files.
+
+    Nothing is drawn where no number varies, or so many that a curve would have one run.
+    """
+    from tribo.plotting.curves import sweep_curves
+    from tribo.plotting.figures import write_figures
+
+    done = runs[runs["status"] == "done"]
+    names = varied(runs)
+    numbers = [name for name in names if pd.api.types.is_numeric_dtype(done[name])]
+    if done.empty or not numbers:
+        return []
+    x = max(numbers, key=lambda name: done[name].nunique())
+    by = [name for name in names if name != x and done[name].nunique() > 1]
+    curves = done.groupby(by).ngroups if by else 1
+    if done[x].nunique() < 2 or curves > CURVES or len(done) < 2 * curves:
+        return []
+    depths = [str(name) for name in done if str(name).endswith(".max_wear_depth_m")]
+    pictures = {
+        f"{depth.split('.')[1]}_depth": partial(sweep_curves, done, x, depth, by)
+        for depth in depths
+        if (done[depth] > 0).any()
+    }
+    return write_figures(pictures, folder)
+
+
+def varied(runs: pd.DataFrame) -> Sequence[str]:
+    """Return the columns of what varies, which stand before the measures."""
+    columns = list(map(str, runs))
+    return columns[2 : columns.index("time_s")] if "time_s" in columns else []
+
+
+def _measures(column: str, end: str) -> bool:
+    """Whether a column is the run's own measure, or that of a body, of this name."""
+    return column == end or (end.startswith(".") and column.endswith(end))
+
+
+def _shown(value: object) -> str:
+    return f"{value:.4g}" if isinstance(value, float) else escape(str(value))
