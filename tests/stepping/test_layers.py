@@ -173,6 +173,13 @@ def test_a_run_resumed_has_the_same_bits(tmp_path):
     with Simulation(case).resume(path) as resumed:
         np.testing.assert_array_equal(resumed.body("pin").wear_depth, depth)
         assert resumed.notices == notices
+        (passed,) = resumed.report().as_json()["worn_through"]
+    assert passed == {
+        "body": "pin",
+        "layer": 1,
+        "distance_m": pytest.approx(THROUGH, rel=1e-9),
+        "time_s": pytest.approx(10 * THROUGH, rel=1e-9),
+    }
     with Result.open(path) as kept:
         assert kept.provenance["components"]["bodies.pin.layers[0].wear"]["type"] == "archard"
 

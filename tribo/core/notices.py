@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -35,12 +36,16 @@ class Notice:
     time, distance : float or None
         From when on it holds, in s, and the sliding distance by then, in m; None
         for what holds of the whole run.
+    body, layer : str and int, or None
+        The body and its layer, counted from 1, that a notice of the kind ``"layer"`` is about.
     """
 
     kind: Kind
     text: str
     time: float | None = None
     distance: float | None = None
+    body: str | None = None
+    layer: int | None = None
 
     def __str__(self) -> str:
         """Return the sentence that results keep."""
@@ -48,3 +53,17 @@ class Notice:
             return f"{self.kind}: {self.text}"
         time, distance = (f"{float(f'{value:.4g}'):g}" for value in (self.time, self.distance))
         return f"{self.kind}: at {time} s ({distance} m) {self.text}"
+
+
+def worn_through(notices: Iterable[Notice]) -> list[dict[str, str | int | float | None]]:
+    """Return which layers of which bodies were worn through, and when, as plain data."""
+    return [
+        {
+            "body": notice.body,
+            "layer": notice.layer,
+            "distance_m": notice.distance,
+            "time_s": notice.time,
+        }
+        for notice in notices
+        if notice.kind == "layer"
+    ]

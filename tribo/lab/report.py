@@ -55,7 +55,7 @@ class LabReport:
 
     `first_contact_words` set it against Hertz and the onset of yield. `inferred`
     are the volumes by a lab's formulas, beside those worn; ``rows`` what the
-    plugins of its models add.
+    plugins of its models add. `worn_through` says which layers were, and when.
     """
 
     bodies: Mapping[str, BodyReport]
@@ -63,6 +63,7 @@ class LabReport:
     first_contact: FirstContact
     first_contact_words: str
     rows: tuple[LabRow, ...] = ()
+    worn_through: tuple[Mapping[str, Any], ...] = ()
 
     def as_json(self) -> dict[str, Any]:
         """Return the report as plain data."""
@@ -71,6 +72,7 @@ class LabReport:
             "inferred_volumes": [each._asdict() for each in self.inferred],
             "first_contact": self.first_contact._asdict(),
             "plugins": [row._asdict() for row in self.rows],
+            "worn_through": list(self.worn_through),
         }
 
 
@@ -83,6 +85,7 @@ def lab_report(result: Result) -> LabReport:
         first_contact=first,
         first_contact_words=words,
         rows=tuple(row for rows in from_plugins_of(result, "tribo_lab_rows") for row in rows),
+        worn_through=tuple(result.worn_through),
     )
 
 

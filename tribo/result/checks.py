@@ -45,7 +45,13 @@ _PLUGIN = dict.fromkeys(("distribution", "version", "status", "reason"), str)
 _MADE = {"python": str, "packages": dict, "components": {...: _ORIGIN}, "plugins": [_PLUGIN]}
 _NOTHING = {"result": "", "sha256": ""}
 # A type, the needed keys of a table, what each entry (...) of a table is, or each item of a list.
-_JSON: dict[str, object] = {"case": {"bodies": {...: dict}}, "provenance": _MADE, "notices": [str]}
+_PASSED = {"body": str, "layer": int, "distance_m": float, "time_s": float}
+_JSON: dict[str, object] = {
+    "case": {"bodies": {...: dict}},
+    "provenance": _MADE,
+    "notices": [str],
+    "worn_through": [_PASSED],
+}
 _GROWING = {"x", "y", "track_x", "time", "history_time"}
 _NEVER_NEGATIVE = {
     *("time", "distance", "pressure", "max_pressure", "centre_pressure", "contact_area"),
@@ -84,9 +90,11 @@ def read_attributes(attributes: Mapping[str, Any]) -> dict[str, Any]:
         If one is missing or wrong.
     """
     read = dict(attributes)
+    # Older files lack it.
+    read.setdefault("worn_through", "[]")
     for name, pattern in _JSON.items():
         try:
-            read[name] = json.loads(attributes[name])
+            read[name] = json.loads(read[name])
         except (LookupError, TypeError, ValueError, RecursionError):
             read[name] = None
         if not _fits(read[name], pattern):

@@ -11,6 +11,7 @@ import h5py
 import numpy as np
 
 from tribo.core.errors import CaseError
+from tribo.core.notices import worn_through
 from tribo.result.checkpoint import RunFolder
 from tribo.result.checks import interpreting
 from tribo.result.hdf5 import filled_image
@@ -87,5 +88,11 @@ def _saved_so_far(path: Path, folder: RunFolder) -> BytesIO:
         notices.append(f"checkpoint: {damage}; this is what the checkpoint before it holds")
     parts = folder.parts(kept.parts)
     return filled_image(
-        empty, parts, kept.saves, kept.rows, status=status, notices=json.dumps(notices)
+        empty,
+        parts,
+        kept.saves,
+        kept.rows,
+        status=status,
+        notices=json.dumps(notices),
+        worn_through=json.dumps(worn_through(kept.state.notices)),
     )

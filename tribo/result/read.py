@@ -167,6 +167,11 @@ class Result:
         return tuple(self._header["notices"])
 
     @property
+    def worn_through(self) -> list[dict[str, Any]]:
+        """Layers that the deepest point of a body passed: body, layer, distance and time."""
+        return [dict(each) for each in self._header["worn_through"]]
+
+    @property
     def system(self) -> ContactSystem:
         """Window, load, contact modulus, pressure cap and initial curvature."""
         header = self._header

@@ -11,7 +11,7 @@ from typing import Any
 
 from tribo.core.errors import CaseError
 from tribo.core.measures import Measures
-from tribo.core.notices import Notice
+from tribo.core.notices import Notice, worn_through
 from tribo.core.state import RunInfo, Snapshot, State
 from tribo.result.checkpoint import Checkpoint, RunFolder, fingerprint
 from tribo.result.hdf5 import empty_image, filled_image
@@ -112,6 +112,7 @@ class ResultWriter:
             status=status,
             wall_time_s=wall_time,
             notices=json.dumps([str(notice) for notice in notices]),
+            worn_through=json.dumps(worn_through(notices)),
         )
         if self._folder is None:
             self._image = image

@@ -134,4 +134,6 @@ def worn_through(
                 f"its deepest point after {distance:.6g} m, {time:.6g} s",
                 time,
                 distance,
+                name,
+                layer + 1,
             )
