@@ -67,7 +67,7 @@ def kept_runs():
         return kept[key]
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("tribo.study.calibration.calibrate.make_run", remembered)
+        patch.setattr("tribo.study.calibration.posed.make_run", remembered)
         yield
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -11,17 +10,15 @@ import numpy as np
 import pandas as pd
 
 from tribo.case import Case
-from tribo.config.load import case_tables, validate_case
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, NumericalError
 from tribo.registry.registry import Registry
-from tribo.study.calibration.bench import Run, benches, make_run
 from tribo.study.calibration.fit import fit
-from tribo.study.calibration.linearised import Problem
-from tribo.study.calibration.measured import Measurements, read_measurements
+from tribo.study.calibration.measured import Measurements
 from tribo.study.calibration.outcome import Calibration, outcome
-from tribo.study.calibration.parameters import Parameter, check_set, find_parameters
-from tribo.study.calibration.quantities import PROFILES, in_si
+from tribo.study.calibration.parameters import Parameter
+from tribo.study.calibration.posed import Posed
+from tribo.study.calibration.quantities import in_si
 
 NOTABLE, TOO_FAR = 5.0, 300.0
 """Factors between measured and computed: mentioned if a run fails, refused.
@@ -73,89 +70,46 @@ def calibrate(
     """
     if not 0 < level < 1:
         raise CaseError(f"the level, {level:g}, must lie between 0 and 1, as 0.95 does")
-    tables, asked = case_tables(case), read_measurements(measured)
-    base = validate_case(tables, registry=registry)
-    data = asked.table()
-    tested = benches(tables, asked.tests, data, registry)
-    parameters = find_parameters(base, asked.fit, data["body"].unique())
-    for place, test in asked.tests.items():
-        check_set(parameters, test.set, f"{place}set")
-    if len(data) < len(parameters):
+    posed = Posed.of(case, measured, registry)
+    unknown = posed.data[posed.data["measured"].isna()]
+    for each in unknown.itertuples():
+        more = ", or before and after" if each.quantity == "mass" else ""
+        raise CaseError(f"give value{more}", each.place)
+    if len(posed.data) < len(posed.parameters):
+        count = len(posed.data)
         raise CaseError(
-            f"{len(parameters)} parameters cannot be fitted to {len(data)} measured "
-            f"value{'' if len(data) == 1 else 's'}: measure more, or leave parameters out of fit"
+            f"{len(posed.parameters)} parameters cannot be fitted to {count} measured "
+            f"value{'' if count == 1 else 's'}: measure more, or leave parameters out of fit"
         )
-    data["edge"] = 0.0
-    for bench in tested:
-        data.loc[bench.rows, "edge"] = [
-            bench.edge(name) for name in data.loc[bench.rows, "quantity"]
-        ]
-    first_predicted = len(data)
-    predicted = [(bench.name, each) for bench in tested for each in bench.predicted]
-    places = iter(range(first_predicted, first_predicted + len(predicted)))
-    rows = [[*bench.rows, *(next(places) for _ in bench.predicted)] for bench in tested]
-    runs: dict[bytes, Run] = {}
-
-    def run(values: Array) -> Run:
-        key = values.tobytes()
-        if key not in runs:
-            responses, read_off = np.empty((2, len(data) + len(predicted)))
-            notices: dict[str, None] = {}
-            for i, bench in enumerate(tested):
-                name = f"run {len(tested) * len(runs) + i + 1}"
-                made = make_run(bench.tables, parameters, values, bench.wanted, registry, name)
-                responses[rows[i]], read_off[rows[i]] = made.responses, made.read_off
-                notices |= dict.fromkeys(made.notices)
-            _check_positive(data, responses)
-            runs[key] = Run(responses, read_off, tuple(notices))
-        return runs[key]
-
-    # Rounded as in the fit, which works with logarithms.
-    start = np.exp(np.log([p.start for p in parameters]))
-    first = run(start)
-    far = far_off(data, first.responses, parameters)
-    repeated = data[~data["below"]].groupby(
-        ["bench", "body", "quantity", "time_s", "position_m"], dropna=False
-    )["specimen"]
-    repeatability = 0.0 if repeated.nunique().max() == 1 else None
-    quantities = [*data["quantity"], *(each.quantity for _, each in predicted)]
-    problem = Problem(
-        names=tuple(p.path for p in parameters),
-        observed=data["measured"].to_numpy(),
-        sigma=np.hypot(data["sigma"], first.read_off[: len(data)]).to_numpy(),
-        below=data["below"].to_numpy(),
-        specimen=data["specimen"].to_numpy(),
-        repeatability=repeatability if asked.repeatability is None else asked.repeatability,
-        logged=np.array([name not in PROFILES for name in quantities]),
-        lower=np.array([math.log(p.lower) if p.lower > 0 else -math.inf for p in parameters]),
-        upper=np.array([math.log(p.upper) for p in parameters]),
-    )
+    first = posed.run(posed.start)
+    far = far_off(posed.data, first.responses, posed.parameters)
+    problem = posed.problem(first.read_off)
 
     def responses(values: Array) -> Array:
-        found = run(values).responses
+        found = posed.run(values).responses
         if on_run is not None:
             misfit = problem.residuals(found, 1 / problem.sigma)
-            on_run(len(tested) * len(runs), float(np.sum(misfit**2)))
+            on_run(posed.made, float(np.sum(misfit**2)))
         # A prediction of 0 is left out.
         return np.where(problem.logged & (found <= 0), 1.0, found)
 
     try:
-        fitted = fit(responses, problem, start)
+        fitted = fit(responses, problem, posed.start)
     except (CaseError, NumericalError) as error:
         if not far:
             raise
         raise type(error)(f"{error}; or is a measured value off? {'; '.join(far)}") from error
-    last = runs[np.exp(fitted.point).tobytes()]
-    positive = np.all([made.responses > 0 for made in runs.values()], axis=0)
+    last = posed.run(np.exp(fitted.point))
+    positive = np.all([made.responses > 0 for made in posed.runs.values()], axis=0)
     return outcome(
         fitted,
-        parameters,
-        data,
-        {i: each for i, each in enumerate(predicted, len(data)) if positive[i]},
-        cases={bench.name: bench.case for bench in tested},
+        posed.parameters,
+        posed.data,
+        {i: each for i, each in enumerate(posed.predicted, len(posed.data)) if positive[i]},
+        cases={bench.name: bench.case for bench in posed.tested},
         read_off=last.read_off,
         level=level,
-        runs=len(tested) * len(runs),
+        runs=posed.made,
         notices=last.notices,
     )
 
@@ -190,13 +144,3 @@ def far_off(data: pd.DataFrame, computed: Array, parameters: Sequence[Parameter]
     if refused:
         raise CaseError("\n".join(refused))
     return found
-
-
-def _check_positive(data: pd.DataFrame, computed: Array) -> None:
-    nothing = data[data["position_m"].isna() & (computed[: len(data)] <= 0)]
-    for each in nothing.itertuples():
-        raise CaseError(
-            f"the {each.quantity} of {each.body!r} comes out as 0 in the case; begin with more "
-            "wear: give start in fit",
-            each.place,
-        )

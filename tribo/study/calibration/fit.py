@@ -63,8 +63,8 @@ def fit(model: Callable[[Array], Array], problem: Problem, start: Array) -> Line
         If the estimate does not settle.
     """
     known = np.log(start)
-    here = _differenced(model, problem, known, model(np.exp(known)))
-    _check_effect(here)
+    here = differenced(model, problem, known, model(np.exp(known)))
+    check_effect(here)
     least, in_vain = np.inf, 0
     for rounds in range(1, MOST_ROUNDS + 1):  # noqa: B007
         here, point = here.best()
@@ -75,7 +75,7 @@ def fit(model: Callable[[Array], Array], problem: Problem, start: Array) -> Line
             residuals = problem.residuals(responses, here.weights)
             here = replace(here, point=point, responses=responses)
             if np.max(np.abs(residuals - foretold)) > FORETOLD * shift:
-                known, here = point, _differenced(model, problem, point, responses)
+                known, here = point, differenced(model, problem, point, responses)
             misfit = float(np.sum(residuals**2))
             in_vain = 0 if misfit < (1 - SETTLED) * least else in_vain + 1
             least = min(least, misfit)
@@ -85,7 +85,7 @@ def fit(model: Callable[[Array], Array], problem: Problem, start: Array) -> Line
                 return here.best()[0]
         elif np.max(np.abs(here.point - known)) > FAR:
             known = here.point
-            here = _differenced(model, problem, known, here.responses)
+            here = differenced(model, problem, known, here.responses)
         else:
             return here
     raise NumericalError(
@@ -176,9 +176,10 @@ def interval(here: Linearised, direction: Array, level: float) -> tuple[float, f
     return end(-1.0), end(1.0)
 
 
-def _differenced(
+def differenced(
     model: Callable[[Array], Array], problem: Problem, point: Array, responses: Array
 ) -> Linearised:
+    """Return the model linearised about a run, by a run more for each parameter."""
     columns = []
     for i in range(len(point)):
         below, above = point[i] - problem.lower[i], problem.upper[i] - point[i]
@@ -192,7 +193,8 @@ def _differenced(
     return Linearised(problem, point, responses, slopes, weights=1 / problem.sigma)
 
 
-def _check_effect(here: Linearised) -> None:
+def check_effect(here: Linearised) -> None:
+    """Check that each parameter changes some of the data; CaseError if one does not."""
     sigma = here.problem.sigma[:, None]
     effects = np.max(np.abs(here.effects(here.point) / sigma), axis=0)
     for name, effect in zip(here.problem.names, effects, strict=True):

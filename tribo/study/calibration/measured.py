@@ -50,6 +50,8 @@ class Measured(Table):
     value: float | tuple[float, ...] | None = None
     """The value, with its unit; for a profile a list of depths, for tests alike one of values.
 
+    Of a test that is planned it is left out.
+
     A loss that was not seen is less than the smallest that would have been: ``"< 0.1 mg"``.
     """
     before: Annotated[float, Quantity("kg", above=0)] | None = None
@@ -99,10 +101,11 @@ class Measured(Table):
     def _fits_together(self) -> Self:
         depths = self.value if isinstance(self.value, tuple) else ()
         if self.quantity in PROFILES:
-            if not depths or len(depths) != len(self.position or ()):
+            at = self.position or ()
+            if not at or len(depths) not in (len(at), 0 if self.value is None else len(at)):
                 raise ValueError(
                     f"{self.quantity} needs value and position, two lists of the same length, not "
-                    f"{len(depths)} and {len(self.position or ())} long"
+                    f"{len(depths)} and {len(at)} long"
                 )
         elif self.position is not None:
             raise ValueError(
@@ -111,8 +114,8 @@ class Measured(Table):
         elif self.value == ():
             raise ValueError("the list of values is empty; give one for each test")
         is_mass = self.quantity == "mass"
-        missing = [reading is None for reading in (self.before, self.after)]
-        if not (all(missing) if self.value is not None else is_mass and not any(missing)):
+        readings = sum(reading is not None for reading in (self.before, self.after))
+        if readings and (readings == 1 or not is_mass or self.value is not None):
             raise ValueError("give value" + (", or before and after" if is_mass else ""))
         if self.before is not None and self.after is not None and self.before <= self.after:
             raise ValueError(
@@ -124,6 +127,8 @@ class Measured(Table):
                 "say how well it was measured: uncertainty (a standard deviation), resolution, "
                 "or both"
             )
+        if np.any(np.isnan(self.values)):
+            return self
         largest = float(np.max(np.abs(self.values)))
         if self.sigma < FINEST * largest:
             raise ValueError(
@@ -142,15 +147,17 @@ class Measured(Table):
 
     @property
     def values(self) -> Array:
-        """What was measured, shape (n,): a profile's depths, else a value a test."""
+        """What was measured, shape (n,): a profile's depths or a value a test; NaN for none."""
         if self.before is not None and self.after is not None:
             return np.array([self.before - self.after])
+        if self.value is None:
+            return np.full(len(self.position or (None,)), np.nan)
         return np.atleast_1d(np.array(self.value, dtype=float))
 
     @property
     def below(self) -> Mask:
         """Which of the values are limits that the true reading is below, shape (n,)."""
-        given = self.value if isinstance(self.value, tuple) else (self.value,)
+        given = self.value if isinstance(self.value, tuple) else [self.value] * len(self.values)
         return np.array([isinstance(each, Below) for each in given])
 
     @property

@@ -1,0 +1,223 @@
+"""How many tests tell the parameters of a case as well as wanted."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from scipy.special import ndtri, stdtrit
+
+from tribo.case import Case
+from tribo.core.arrays import Array
+from tribo.core.errors import CaseError
+from tribo.registry.registry import Registry
+from tribo.study.calibration.fit import check_effect, differenced
+from tribo.study.calibration.measured import Measurements, read_measurements
+from tribo.study.calibration.posed import Posed
+
+MOST = 1000
+"""Tests that are thought of."""
+_RIDGE, _POWER = 1e-12, 4
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """The fewest tests of each kind that give intervals as short as wanted.
+
+    Parameters
+    ----------
+    level : float
+        Probability of the intervals.
+    within : float
+        Half of an interval that was wanted, relative to the value.
+    runs : int
+        Simulations that it took.
+    tests : DataFrame
+        A row a kind: `test`, its name, and `count`.
+    parameters : DataFrame
+        A row a parameter: `path`; `half_width` expected of its interval,
+        relative to the value; `freedom`, the degrees of freedom with which its
+        variance will be known, infinite without scatter from test to test.
+    """
+
+    level: float
+    within: float
+    runs: int
+    tests: pd.DataFrame
+    parameters: pd.DataFrame
+
+    def as_json(self) -> dict[str, Any]:
+        """Return it as plain data; what is infinite is NaN."""
+        return {
+            "level": self.level,
+            "within": self.within,
+            "runs": self.runs,
+            "tests": self.tests.to_dict("records"),
+            "parameters": self.parameters.to_dict("records"),
+        }
+
+
+def plan_tests(
+    case: Case | Mapping[str, Any] | str | Path,
+    measured: Measurements | Mapping[str, Any] | str | Path,
+    within: float,
+    *,
+    level: float = 0.95,
+    registry: Registry | None = None,
+    on_run: Callable[[int], None] | None = None,
+) -> Plan:
+    """Return the fewest tests that determine each parameter of a case as well as wanted.
+
+    By the Fisher information of the case's own values: each kind of test adds
+    its own, G ᵀ V⁻¹ G, with V from the uncertainties and the repeatability. Tests
+    are added, and exchanged between kinds, as shortens the longest interval
+    most. The intervals are those that `calibrate` gives on average when it
+    estimates the repeatability from the tests.
+
+    Parameters
+    ----------
+    case : Case, Mapping, str or Path
+        A case with likely parameters, its tables, or its TOML file.
+    measured : Measurements, Mapping, str or Path
+        What is to be measured, as for `calibrate`; values may be left out. The
+        entries of `test` are the kinds to choose from. Must state the
+        repeatability.
+    within : float
+        Half of the interval that is wanted, relative to the value, as 0.1.
+    level : float, optional
+        Probability with which each interval is to cover the truth.
+    registry : Registry, optional
+        Where to look components up; the installed plugins if left out.
+    on_run : callable, optional
+        Called after each round of runs with the number of runs.
+
+    Raises
+    ------
+    CaseError
+        If the case or the tests are wrong, the repeatability is missing, or
+        1000 tests are not enough.
+    NumericalError
+        If a run fails.
+
+    References
+    ----------
+    Fedorov, V. V. (1972), Theory of Optimal Experiments, Academic Press.
+    """
+    if not 0 < level < 1 or not 0 < within < 1:
+        raise CaseError(
+            f"the level, {level:g}, and the half of the interval, {within:g}, must lie between 0 "
+            "and 1, as 0.95 and 0.1 do"
+        )
+    asked = read_measurements(measured)
+    if asked.repeatability is None:
+        raise CaseError(
+            "say how far tests alike scatter, as repeatability = 0.2 for 20 %; 0 if only the "
+            "instruments count",
+            "repeatability",
+        )
+    posed = Posed.of(case, asked, registry)
+
+    def responses(values: Array) -> Array:
+        found = posed.run(values).responses
+        if on_run is not None:
+            on_run(posed.made)
+        return np.where(found > 0, found, 1.0)
+
+    computed = responses(posed.start)
+    problem = posed.problem(posed.run(posed.start).read_off)
+    point = np.log(posed.start)
+    here = differenced(responses, problem, point, computed).weighed(point, asked.repeatability)
+    check_effect(here)
+    sensitivity = here.sensitivity()
+    kinds = []
+    for bench in posed.tested:
+        own = posed.data.loc[bench.rows, "specimen"]
+        rows = own.index[own == own.min()]
+        kinds.append(sensitivity[rows].T @ sensitivity[rows])
+    search = Search(np.array(kinds), within, level, asked.repeatability > 0)
+    counts = search.fewest()
+    halves, freedom = search.expected(counts)
+    return Plan(
+        level=level,
+        within=within,
+        runs=posed.made,
+        tests=pd.DataFrame({"test": [bench.name for bench in posed.tested], "count": counts}),
+        parameters=pd.DataFrame(
+            {"path": list(problem.names), "half_width": halves, "freedom": freedom}
+        ),
+    )
+
+
+@dataclass(frozen=True)
+class Search:
+    """Information of a test of each kind, shape (kinds, p, p), and what is wanted."""
+
+    kinds: Array
+    within: float
+    level: float
+    scatters: bool
+
+    def expected(self, counts: Array) -> tuple[Array, Array]:
+        """Return half of each interval, and the degrees of freedom, of so many tests a kind.
+
+        As `Linearised.freedom`, where tests of a kind scatter by J Jᵀ with J their
+        weighted slopes, so that powers of the information are all it takes.
+        """
+        once, twice, thrice = (
+            np.sum(counts[:, None, None] * np.linalg.matrix_power(self.kinds, power), axis=0)
+            for power in (1, 2, 3)
+        )
+        covariance = np.linalg.inv(once + _RIDGE * np.trace(once) * np.eye(len(once)))
+        variances = np.diag(covariance)
+        freedom = np.full(len(once), np.inf)
+        if self.scatters:
+            scattered = twice @ covariance
+            known = np.trace(twice) - 2 * np.trace(thrice @ covariance)
+            known += np.sum(scattered * scattered.T)
+            slopes = np.diag(covariance @ scattered)
+            np.divide(variances**2 * max(known, 0.0), slopes**2, out=freedom, where=slopes > 0)
+        part = 0.5 + 0.5 * self.level
+        few = freedom < 0.5
+        quantiles = np.where(
+            np.isinf(freedom), ndtri(part), stdtrit(np.clip(freedom, 0.5, 1e9), part)
+        )
+        return np.where(few, np.inf, quantiles * np.sqrt(variances)), freedom
+
+    def fewest(self) -> Array:
+        """Return how many tests of each kind are enough.
+
+        Raises
+        ------
+        CaseError
+            If none are.
+        """
+        counts = np.zeros(len(self.kinds), dtype=int)
+        for _ in range(MOST):
+            counts = min((counts + one for one in np.eye(len(counts), dtype=int)), key=self._size)
+            while (better := min(self._exchanged(counts), key=self._size)) is not counts:
+                counts = better
+            longest = np.max(self.expected(counts)[0])
+            if longest <= self.within:
+                return counts
+        raise CaseError(
+            f"{MOST} tests are not enough for ±{100 * self.within:g} %, but give "
+            f"±{100 * longest:.2g} %: ask for less, measure something that depends "
+            "more on what is fitted, or leave a parameter out of fit"
+        )
+
+    def _size(self, counts: Array) -> tuple[float, float]:
+        """Return how long the intervals are, the long ones most, and if the scatter were known."""
+        searches = self, replace(self, scatters=False)
+        # The longest alone would not fall by an exchange that shortens all others.
+        halves, known = (np.sum(each.expected(counts)[0] ** _POWER) for each in searches)
+        return float(halves), float(known)
+
+    def _exchanged(self, counts: Array) -> list[Array]:
+        """Return counts, first as they are, then with one test of another kind instead."""
+        ones = np.eye(len(counts), dtype=int)
+        changed = (counts - ones[i] + add for i in np.flatnonzero(counts) for add in ones)
+        return [counts, *changed]
