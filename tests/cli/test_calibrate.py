@@ -53,7 +53,21 @@ def test_wide_tables_break_no_value_at_80_columns(capsys):
     table = pd.DataFrame([estimate])
     none = pd.DataFrame()
     found = Calibration(
-        0.95, 5, table, none, none, 0.1, 1, 0.0, False, {}, np.eye(1), np.ones(1), ()
+        0.95,
+        5,
+        table,
+        none,
+        none,
+        0.1,
+        1,
+        0.0,
+        False,
+        {},
+        np.eye(1),
+        np.ones(1),
+        0.0,
+        np.zeros(1),
+        (),
     )
     Console(width=80).print(_estimates(found))
     text = capsys.readouterr().out
@@ -66,7 +80,14 @@ def test_json_is_finite_and_in_si_units():
     data = json.loads(tribo(*WEIGHED, "--json", cwd=EXAMPLES).stdout, parse_constant=pytest.fail)
     keys = "level runs parameters data predictions chi_square degrees_of_freedom p_value "
     keys += "repeatability repeatability_estimated"
-    assert list(data) == [*keys.split(), "correlation", "singular_values", "notes"]
+    assert list(data) == [
+        *keys.split(),
+        "correlation",
+        "singular_values",
+        "bic",
+        "left_out",
+        "notes",
+    ]
     ball, _ = data["parameters"]
     estimate = "path unit value lower upper resolution_share resolution_limit held"
     assert list(ball) == estimate.split()

@@ -14,8 +14,10 @@ from rich.markup import escape
 from rich.table import Table
 
 from tribo.cli.console import Console, titled
-from tribo.cli.options import CASE, JSON, PATH, SET, echo_json
+from tribo.cli.options import JSON, PATH, SET, echo_json
+from tribo.study.calibration.choice import Choice
 from tribo.study.calibration.outcome import Calibration
+from tribo.study.calibration.plan import Plan
 from tribo.study.calibration.quantities import in_si, in_words, percent
 
 LONGEST_NAME = 30
@@ -23,7 +25,7 @@ LONGEST_NAME = 30
 
 
 @click.command()
-@CASE
+@click.argument("cases", metavar="CASE...", nargs=-1, required=True, type=PATH)
 @click.option(
     "--measured",
     required=True,
@@ -41,39 +43,64 @@ LONGEST_NAME = 30
     help="Write the fitted case to a file; of several tests, one each, named after the test.",
 )
 @click.option("--force", is_flag=True, help="Replace existing files.")
+@click.option(
+    "--plan",
+    type=float,
+    metavar="PART",
+    help="Instead, say how many of the tests give intervals of ± this part, as 0.1.",
+)
 @JSON
 def calibrate(
-    case: Path,
+    cases: tuple[Path, ...],
     measured: Path,
     overrides: tuple[str, ...],
     level: float,
     output: Path | None,
     force: bool,
+    plan: float | None,
     as_json: bool,
 ) -> None:
     """Fit CASE's wear coefficients, or other numbers of it, to measured wear.
 
     Takes one test or several that differ from CASE, repeated or not. Prints estimates with
     intervals, how each measured value is met, what the data cannot tell, and what else the fitted
-    case gives.
+    case gives. Of several cases, with other laws say, it says for which the data speak.
 
     \b
-    Example:
+    Examples:
       tribo calibrate my.toml --measured weighed.toml -o fitted.toml
+      tribo calibrate archard.toml power.toml --measured weighed.toml
+      tribo calibrate my.toml --measured planned.toml --plan 0.1
     """
     from tribo.config.load import read_toml
     from tribo.config.overrides import apply_settings
     from tribo.config.write import to_toml
+    from tribo.core.errors import CaseError
     from tribo.core.files import write_whole
     from tribo.study.calibration.calibrate import calibrate
+    from tribo.study.calibration.choice import choose_case
     from tribo.study.calibration.measured import read_measurements
+    from tribo.study.calibration.plan import plan_tests
 
     asked = read_measurements(measured)
+    alternatives = {path.stem: apply_settings(read_toml(path), overrides) for path in cases}
+    if len(cases) > 1:
+        if output is not None or plan is not None or len(alternatives) < len(cases):
+            raise CaseError(
+                "several cases are compared: give files of different names, and --plan or -o with "
+                "one case only"
+            )
+        _choice(choose_case(alternatives, asked, level=level, on_run=_tell_of), as_json)
+        return
+    case, tables = cases[0], alternatives[cases[0].stem]
+    if plan is not None:
+        _plan(plan_tests(tables, asked, plan, level=level, on_run=_count), as_json)
+        return
     files = _files(output, list(dict.fromkeys(test.name for test in asked.tests.values())), force)
-    found = calibrate(apply_settings(read_toml(case), overrides), asked, level=level, on_run=_tell)
-    for name, tables in found.fitted.items():
-        if name in files:
-            write_whole(files[name], to_toml(tables))
+    found = calibrate(tables, asked, level=level, on_run=_tell)
+    for name, path in files.items():
+        if name in found.fitted:
+            write_whole(path, to_toml(found.fitted[name]))
     if as_json:
         echo_json(found.as_json())
         return
@@ -108,6 +135,63 @@ def _files(output: Path | None, names: list[str], force: bool) -> dict[str, Path
         if path.exists() and not force:
             raise CaseError(f"{path} exists; choose another name, or replace it with --force")
     return files
+
+
+def _plan(found: Plan, as_json: bool) -> None:
+    """Print how many tests of each kind there are to be."""
+    if as_json:
+        echo_json(found.as_json())
+        return
+    names = [each or "the case as it is" for each in found.tests["test"]]
+    count = int(found.tests["count"].sum())
+    table = _table("Tests", names, "how many")
+    for name, each in zip(names, found.tests.itertuples(), strict=True):
+        table.add_row(name, str(each.count))
+    parameters = _table(
+        "Expected", list(found.parameters["path"]), f"{100 * found.level:g} % interval"
+    )
+    for each in found.parameters.itertuples():
+        parameters.add_row(each.path, f"±{percent(each.half_width)} %")
+    console = Console()
+    part = f"±{percent(found.within)} %"
+    console.print(f"{count} test{'s' * (count != 1)} give intervals within {part}.")
+    console.print(table)
+    console.print(parameters)
+
+
+def _choice(found: Choice, as_json: bool) -> None:
+    """Print what the data say of several cases."""
+    if as_json:
+        echo_json(found.as_json())
+        return
+    console, names = Console(), list(found.cases["case"])
+    columns = ["criterion", "weight", "left out", "χ²", "to spare", "parameters"]
+    table = _table("Cases", names, *columns)
+    for each in found.cases.itertuples():
+        own = found.calibrations[each.case]
+        left_out = "" if math.isnan(each.left_out) else f"{each.left_out:.1f}"
+        table.add_row(
+            each.case,
+            f"{each.bic:.1f}",
+            f"{each.weight:.2g}",
+            left_out,
+            f"{own.chi_square:.3g}",
+            str(own.degrees_of_freedom),
+            str(each.parameters),
+        )
+    console.print(table)
+    for name in names:
+        console.print(f"\n{escape(name)}")
+        console.print(_estimates(found.calibrations[name]))
+    console.print(f"In short: {escape(found.verdict)}.")
+
+
+def _tell_of(name: str, run: int, misfit: float) -> None:
+    click.echo(f"{name}, run {run}: misfit χ² {misfit:.3g}", err=True)
+
+
+def _count(run: int) -> None:
+    click.echo(f"run {run}", err=True)
 
 
 def _tell(run: int, misfit: float) -> None:

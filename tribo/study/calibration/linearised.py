@@ -17,6 +17,8 @@ REPEATABILITIES = 1e-3, 3.0
 """Least and largest that is estimated."""
 _PASSES, _SAME = 30, 1e-5
 _RIDGE = 1e-12
+_UNKNOWN = 10.0
+"""Standard deviation of a logarithm from which a parameter is not determined."""
 
 
 @dataclass(frozen=True)
@@ -222,6 +224,51 @@ class Linearised:
             - 2 * np.sum(np.log(self._inverse(values)))
             + np.sum(values) * np.log(2 * np.pi)
         )
+
+    def only(self, rows: Mask) -> Linearised:
+        """Return the model with some of the data, whole tests, and nothing else."""
+        problem, n = self.problem, len(rows)
+        weights = self.weights[rows] if self.weights.ndim == 1 else self.weights[rows][:, rows]
+        return replace(
+            self,
+            problem=replace(
+                problem,
+                observed=problem.observed[rows],
+                sigma=problem.sigma[rows],
+                below=problem.below[rows],
+                specimen=problem.specimen[rows],
+                logged=problem.logged[:n][rows],
+            ),
+            responses=self.responses[:n][rows],
+            slopes=self.slopes[:n][rows],
+            weights=weights,
+        )
+
+    def left_out(self) -> Array:
+        """Return the log-likelihood of each test foretold from all others, shape (tests,).
+
+        NaN if those do not determine a parameter; none of a single test.
+        """
+        found = []
+        tests = np.unique(self.problem.specimen)
+        for specimen in tests if len(tests) > 1 else []:
+            rows = self.problem.specimen == specimen
+            rest, own = self.only(~rows), self.only(rows)
+            point = rest.least(self.point)
+            rest = replace(rest, point=point, responses=rest.at(point))
+            root = root_covariance(rest.sensitivity())
+            # How far the estimate puts each value off, beside its own scatter.
+            apart = weigh(own.weights, own.effects(point)) @ root
+            values = ~own.problem.below
+            covariance = np.where(np.outer(values, values), apart @ apart.T, 0.0)
+            covariance[np.diag_indices(len(values))] = 1 + np.sum(apart**2, axis=1)
+            broader = solve_triangular(
+                np.linalg.cholesky(covariance), np.eye(len(values)), lower=True
+            )
+            weighed = replace(own, weights=weigh(own.weights.T, broader.T).T)
+            known = np.max(np.sum(root**2, axis=1)) < _UNKNOWN**2
+            found.append(-0.5 * weighed.deviance(point) if known else np.nan)
+        return np.array(found)
 
     def _inverse(self, rows: Mask) -> Array:
         """Return the diagonal of the weights in some rows."""

@@ -76,6 +76,12 @@ class Calibration:
         Of the derivatives of the residuals by the logarithms of the
         parameters, largest first: each is the number of standard deviations
         by which a change by a factor e would show in the data.
+    bic : float
+        Schwarz's criterion, −2 ln L + p ln n, with the repeatability as a
+        parameter where it is estimated.
+    left_out : ndarray, shape (tests,)
+        Log-likelihood of each test foretold from all others; NaN where those do
+        not determine a parameter, none of a single test.
     notes : tuple of str
         Remarks on what the data can tell.
     """
@@ -92,6 +98,8 @@ class Calibration:
     fitted: Mapping[str, Mapping[str, Any]]
     correlation: Array
     singular_values: Array
+    bic: float
+    left_out: Array
     notes: tuple[str, ...]
 
     @property
@@ -124,6 +132,8 @@ class Calibration:
             "repeatability_estimated": self.repeatability_estimated,
             "correlation": self.correlation.tolist(),
             "singular_values": self.singular_values.tolist(),
+            "bic": self.bic,
+            "left_out": self.left_out.tolist(),
             "notes": list(self.notes),
         }
 
@@ -188,6 +198,9 @@ def outcome(
         fitted={name: apply_settings(case, settled) for name, case in cases.items()},
         correlation=root @ root.T / np.outer(deviations, deviations),
         singular_values=np.asarray(np.linalg.svd(jacobian, compute_uv=False), dtype=np.float64),
+        bic=fitted.deviance(fitted.point)
+        + (len(held) + (problem.repeatability is None)) * math.log(len(data)),
+        left_out=fitted.left_out(),
         notes=(
             *notes(estimates, data, jacobian, None if problem.repeatability is None else spare),
             *notices,

@@ -85,6 +85,14 @@ def check_set(parameters: Sequence[Parameter], paths: Iterable[str], place: str)
                 )
 
 
+def is_number(case: Case, path: str) -> bool:
+    """Whether a path leads to a number of a case that can be fitted; CaseError if it is no path."""
+    keys = path_keys(path)
+    return any(
+        isinstance(value, float) and [*map(str, place)] == keys for place, value, _ in leaves(case)
+    )
+
+
 def _number(case: Case, keys: tuple[str, ...]) -> tuple[float, Quantity]:
     """Return the number that the keys lead to, and what its field says of it."""
     known = {tuple(map(str, place)): (value, mark) for place, value, mark in leaves(case)}

@@ -1,0 +1,182 @@
+"""Which of several cases, of other laws say, the data speak for; or that they cannot tell."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from tribo.case import Case
+from tribo.config.load import case_tables, validate_case
+from tribo.core.errors import CaseError, TriboError
+from tribo.registry.registry import Registry
+from tribo.study.calibration.calibrate import calibrate
+from tribo.study.calibration.measured import Fitted, Measurements, read_measurements
+from tribo.study.calibration.outcome import Calibration
+from tribo.study.calibration.parameters import is_number
+from tribo.study.calibration.quantities import in_words
+
+STRONG = 6.0
+"""Difference of the criterion from which evidence is called strong (Kass & Raftery)."""
+_ERRORS = 2.0
+
+
+@dataclass(frozen=True, eq=False)
+class Choice:
+    """Several cases calibrated to the same data, and what these say of them.
+
+    Parameters
+    ----------
+    cases : DataFrame
+        A row a case, the best first: `case`, its name; `bic`, Schwarz's
+        criterion: −2 ln L + p ln n for p parameters and n values; `weight`, the
+        probability that follows where all were as likely before; `left_out`,
+        the log-likelihood of each test foretold from the others, in sum, NaN
+        where the others do not determine a parameter; `parameters`, their
+        number.
+    calibrations : dict of Calibration
+        By the name of the case.
+    verdict : str
+        What the data say, in a sentence.
+    """
+
+    cases: pd.DataFrame
+    calibrations: Mapping[str, Calibration]
+    verdict: str
+
+    def as_json(self) -> dict[str, Any]:
+        """Return it as plain data in SI units; what is not given is NaN."""
+        rows = self.cases.to_dict("records")
+        own = [self.calibrations[name].as_json() for name in self.cases["case"]]
+        pairs = zip(rows, own, strict=True)
+        return {
+            "verdict": self.verdict,
+            "cases": [{**row, "calibration": each} for row, each in pairs],
+        }
+
+
+def choose_case(
+    cases: Mapping[str, Case | Mapping[str, Any] | str | Path],
+    measured: Measurements | Mapping[str, Any] | str | Path,
+    *,
+    level: float = 0.95,
+    registry: Registry | None = None,
+    on_run: Callable[[str, int, float], None] | None = None,
+) -> Choice:
+    """Calibrate several cases to the same data, and say for which of them these speak.
+
+    Parameters
+    ----------
+    cases : Mapping
+        By name the cases, their tables, or their TOML files.
+    measured : Measurements, Mapping, str or Path
+        As for `calibrate`. Of the parameters to fit a case takes those it has.
+    level : float, optional
+        Probability of the intervals.
+    registry : Registry, optional
+        Where to look components up; the installed plugins if left out.
+    on_run : callable, optional
+        Called after each round of runs with the name of the case, the number of
+        its runs and their misfit χ².
+
+    Raises
+    ------
+    CaseError
+        If there are fewer than two cases, or one cannot be calibrated.
+    NumericalError
+        If a run fails or estimates do not settle.
+
+    References
+    ----------
+    Schwarz, G. (1978), Estimating the dimension of a model, Ann. Stat. 6,
+    461-464. Kass, R. E. and Raftery, A. E. (1995), Bayes factors, J. Am. Stat.
+    Assoc. 90, 773-795. Vehtari, A., Gelman, A. and Gabry, J. (2017), Practical
+    Bayesian model evaluation using leave-one-out cross-validation, Stat. Comput.
+    27, 1413-1432.
+    """
+    if len(cases) < 2:
+        raise CaseError("give two cases or more to choose from")
+    asked = read_measurements(measured)
+    fitted = {name: _own(case, asked.fit, registry) for name, case in cases.items()}
+    for i, entry in enumerate(asked.fit):
+        if not any(entry in own for own in fitted.values()):
+            raise CaseError(f"{entry.path} is a number of none of the cases", f"fit[{i}].path")
+    found = {}
+    for name, case in cases.items():
+        if asked.fit and not fitted[name]:
+            raise CaseError(f"{name} has none of the numbers to fit; add one of its own to fit")
+
+        def tell(run: int, misfit: float, name: str = name) -> None:
+            if on_run is not None:
+                on_run(name, run, misfit)
+
+        own = asked.model_copy(update={"fit": fitted[name]})
+        try:
+            found[name] = calibrate(case, own, level=level, registry=registry, on_run=tell)
+        except TriboError as error:
+            raise type(error)(f"{name}: {error}") from error
+    rows = pd.DataFrame(
+        {
+            "case": name,
+            "bic": each.bic,
+            "left_out": float(np.sum(each.left_out)) if len(each.left_out) else np.nan,
+            "parameters": len(each.parameters),
+        }
+        for name, each in found.items()
+    ).sort_values("bic", ignore_index=True)
+    weight = np.exp(-0.5 * (rows["bic"] - rows["bic"].min()))
+    rows.insert(2, "weight", weight / weight.sum())
+    return Choice(rows, found, _verdict(rows, found))
+
+
+def _own(
+    case: Case | Mapping[str, Any] | str | Path,
+    fit: tuple[Fitted, ...],
+    registry: Registry | None,
+) -> tuple[Fitted, ...]:
+    known = validate_case(case_tables(case), registry=registry)
+    return tuple(entry for entry in fit if is_number(known, entry.path))
+
+
+def _verdict(rows: pd.DataFrame, found: Mapping[str, Calibration]) -> str:
+    best, *others = rows.itertuples()
+    doubts = []
+    for other in others:
+        by = other.bic - best.bic
+        ahead = found[best.case].left_out - found[other.case].left_out
+        error = float(np.std(ahead, ddof=1) * len(ahead) ** 0.5) if len(ahead) > 1 else np.inf
+        # Where a test alone determines a parameter it cannot be left out.
+        refuted = bool(np.sum(ahead) < -_ERRORS * error)
+        if by < STRONG or refuted:
+            doubts.append((other.case, by))
+    if not doubts:
+        by = others[0].bic - best.bic
+        told = f"the data speak for {best.case}: Schwarz's criterion is lower by {by:.3g} or more"
+        wrong = found[best.case].p_value
+        if wrong is not None and wrong < 0.01:
+            told += f"; yet {best.case} does not describe them either (p = {wrong:.1g})"
+        return told
+    names = " and ".join([best.case, *(name for name, _ in doubts)])
+    differs = ", ".join(f"{by:.2g}" for _, by in doubts)
+    told = f"these data cannot tell {names} apart: Schwarz's criterion differs by {differs}"
+    return f"{told}, where {STRONG:g} is strong evidence{_telling(found, best.case, doubts[0][0])}"
+
+
+def _telling(found: Mapping[str, Calibration], first: str, second: str) -> str:
+    """Name the quantity in which two cases differ most, for the next test."""
+    keys = ["test", "body", "quantity"]
+    both = found[first].predictions.merge(found[second].predictions, on=keys)
+    if not len(both):
+        return ""
+    apart = np.abs(np.log(both["value_x"] / both["value_y"]))
+    each = both.loc[apart.idxmax()]
+    where = f" in {each.test}" if each.test else ""
+    values = [in_words(each.quantity, value) for value in (each.value_x, each.value_y)]
+    return (
+        f"; of what was not measured they differ most in the {each.quantity} of {each.body!r}"
+        f"{where}: {values[0]} and {values[1]}"
+    )
