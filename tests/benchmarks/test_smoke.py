@@ -157,15 +157,6 @@ def test_resolved_hour(tmp_path):
 
 
 @pytest.mark.slow
-def test_settled(tmp_path):
-    pytest.importorskip("tribo_roughening")
-    options = ("--cells", "16", "--particles", "2", "--layers", "1")
-    rows = figures("settled", tmp_path, *options)["patch"]
-    assert [row["layers"] for row in rows] == 2 * [0, 0.5, 1]
-    assert rows[0]["Sa_nm"] > 4 * rows[3]["Sa_nm"]
-
-
-@pytest.mark.slow
 def test_moving_contact(tmp_path):
     options = ("--cells", "16", "--half-width", "2", "--passes", "1")
     tables = figures("moving_contact", tmp_path, *options)
