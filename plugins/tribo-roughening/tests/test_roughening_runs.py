@@ -16,6 +16,8 @@ EXAMPLE = runpy.run_path(str(ROOT / "examples/settled_roughness.py"))
 case, K, PRESSURE = EXAMPLE["case"], EXAMPLE["K"], EXAMPLE["PRESSURE"]
 DIAMETER, THICKNESS = EXAMPLE["DIAMETER"], EXAMPLE["THICKNESS"]
 MODULUS = 207e9 / (2 * (1 - 0.3**2))
+INTEGRATED = 1e-4
+"""What is remembered is integrated within a step to 3e-5."""
 
 
 class Stop(Observer):
@@ -55,16 +57,20 @@ def test_it_wears_as_a_plain_loop_of_small_steps_does():
         assert result.saves()[-1]["contact_area_m2"] == pytest.approx(32e-6**2, rel=1e-9, abs=0)
     size = 2 * DIAMETER
     loop = plain_loop(height, size, 2, 1000)
-    # With a tenth of the tolerances both errors, 0.3 and 0.6 %, are a tenth.
-    assert worn.mean() == pytest.approx(loop.mean(), rel=5e-3, abs=0)
-    assert np.std(worn - loop) < 0.01 * loop.std()
+    # The second is 3 %, and 0.2 % in ten times the steps: of first order.
+    assert worn.mean() == pytest.approx(loop.mean(), rel=1e-3, abs=0)
+    assert np.std(worn - loop) < 0.04 * loop.std()
 
 
 @pytest.mark.slow
 def test_a_patch_settles_at_a_roughness_of_its_own():
     rough, smooth, archard = (
         EXAMPLE["roughnesses"](each)
-        for each in (case(160e-9), case(20e-9), case(160e-9, EXAMPLE["ARCHARD"]))
+        for each in (
+            case(160e-9, cells=16, layers=5),
+            case(20e-9, cells=16, layers=5),
+            case(160e-9, EXAMPLE["ARCHARD"], cells=16, layers=5),
+        )
     )
     settled = [np.mean(sa[6:]) for sa in (rough, smooth)]
     assert settled[0] == pytest.approx(settled[1], rel=0.25, abs=0)
@@ -75,10 +81,10 @@ def test_a_patch_settles_at_a_roughness_of_its_own():
 
 @pytest.mark.slow
 def test_wear_is_that_of_archard_on_the_mean():
-    with Simulation(case(20e-9, cells=16, layers=8)).run() as result:
+    with Simulation(case(20e-9, cells=16, layers=4)).run() as result:
         depth = result.body("patch").wear_depth[-1]
-    # 16 particles in 8 layers: ±0.5/√128.
-    assert depth.mean() == pytest.approx(8 * THICKNESS, rel=0.15, abs=0)
+    # 16 particles in 4 layers: ±0.5/√64.
+    assert depth.mean() == pytest.approx(4 * THICKNESS, rel=0.15, abs=0)
     assert parameters(depth).Sq_m < THICKNESS
 
 
@@ -86,17 +92,17 @@ def test_wear_is_that_of_archard_on_the_mean():
 def test_the_law_knows_the_depth_it_has_worn():
     with Simulation(case(20e-9, cells=16, particles=2, layers=2)).run() as result:
         patch = result.body("patch")
-        np.testing.assert_allclose(patch.state["worn"], patch.wear_depth, rtol=1e-12)
+        np.testing.assert_allclose(patch.state["worn"], patch.wear_depth, rtol=INTEGRATED)
 
 
 @pytest.mark.slow
 def test_two_bodies_that_slide_over_each_other_each_know_their_own_depth(monkeypatch):
     monkeypatch.syspath_prepend(ROOT / "examples")
     rough_on_rough = runpy.run_path(str(ROOT / "examples/rough_on_rough.py"))["rough_on_rough"]
-    data = rough_on_rough(20e-9, True, cells=16, particles=2, positions="cells", layers=1)
+    data = rough_on_rough(20e-9, True, cells=16, particles=2, positions=3, layers=1)
     with Simulation(data).run() as result:
         for body in map(result.body, result.body_names):
-            np.testing.assert_allclose(body.state["worn"], body.wear_depth[:], rtol=1e-12)
+            np.testing.assert_allclose(body.state["worn"], body.wear_depth[:], rtol=INTEGRATED)
             # Four particles in one layer: ±0.5/√4.
             assert body.wear_depth[-1].mean() == pytest.approx(THICKNESS, rel=0.5, abs=0)
 
