@@ -23,6 +23,7 @@ FACTS = {
     "state_fields": "Keeps per point",
     "accepts_wear_compliance": "Takes a wear compliance (implicit steps)",
     "honours_cap": "Limits the pressure to a hardness",
+    "takes_coatings": "Takes elastic layers on the bodies",
     "periodic": "Repeats with the window",
 }
 """Words for the attributes of a class that its description tells."""
