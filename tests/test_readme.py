@@ -18,7 +18,7 @@ WALL_TIME = re.compile(r"\d+\.\d s\.")
 RESOLVED = re.compile(r"(?<=\d) +[\d.]+$|(?<=groove )\d+(?= % too deep: docs)")
 QUICK = (
     "kinematics.positions=33",
-    "grid.cells=16",
+    "grid.cells=32",
     "stepping.depth_tolerance=0.02",
     "stepping.pressure_tolerance=0.5",
     "stepping.settle=0.1",
