@@ -46,9 +46,11 @@ class HertzContact:
 def hertz_contact(system: ContactSystem) -> HertzContact | None:
     """Return Hertz's contact for the system's curvature and load.
 
-    None where the surfaces state no curvature, or neither axis is curved. A
-    line contact bears its load evenly over the window's length.
+    None where the surfaces state no curvature, neither axis is curved, or a body has an elastic
+    layer. A line contact bears its load evenly over the window's length.
     """
+    if system.coatings:
+        return None
     cx, cy = system.curvature or (0.0, 0.0)
     if cx < 0 or cy < 0 or cx + cy == 0:
         return None
@@ -68,7 +70,10 @@ def hertz_contact(system: ContactSystem) -> HertzContact | None:
 
 def first_hertz(result: Result) -> HertzContact | None:
     """Return Hertz's contact for the first save of a result; None also of bodies worn by then."""
-    return None if result.case.get("begin") else hertz_contact(result.system)
+    layers = (each for body in result.case["bodies"].values() for each in body.get("layers", ()))
+    # A result's system does not keep them.
+    elastic = any(each.get(key) is not None for each in layers for key in ("young", "poisson"))
+    return None if elastic or result.case.get("begin") else hertz_contact(result.system)
 
 
 def computed_pressure(

@@ -117,7 +117,7 @@ def _first_contact(result: Result) -> tuple[FirstContact, str]:
     if hertz is None:
         return FirstContact(None, largest, None), (
             f"First contact: {words}; no closed form to compare: the surfaces state no curvature, "
-            "the contact is flat, or the bodies were worn already."
+            "the contact is flat, a body has an elastic layer, or the bodies were worn already."
         )
     p0, ratio = hertz.peak_pressure, None
     words = f"First contact: {words}, Hertz {1e-6 * p0:.1f} MPa"
