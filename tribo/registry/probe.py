@@ -37,7 +37,7 @@ def probe(plugin: Plugin, time_limit: float | None = None) -> Plugin:
     """
     if plugin.status != "available":
         return plugin
-    limit = _limit(time_limit)
+    limit = time_limit_of_plugins(time_limit)
     command = [sys.executable, "-P", "-m", __name__, plugin.distribution, plugin.entry_point]
     # The child finds what this process would find.
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
@@ -58,11 +58,12 @@ def probe(plugin: Plugin, time_limit: float | None = None) -> Plugin:
         except subprocess.TimeoutExpired:
             reason = f"its import did not end, or left a thread running, within {limit:g} s"
         except ValueError:
-            reason = _ended(child.returncode)
+            reason = f"its import {how_it_ended(child.returncode)}"
     return replace(plugin, status="broken", reason=reason)
 
 
-def _limit(given: float | None) -> float:
+def time_limit_of_plugins(given: float | None = None) -> float:
+    """Return the seconds that a plugin has in a child process; see `probe`."""
     chosen = os.environ.get(LIMIT, TIME_LIMIT) if given is None else given
     try:
         limit = float(chosen)
@@ -76,11 +77,12 @@ def _limit(given: float | None) -> float:
     return limit
 
 
-def _ended(code: int) -> str:
+def how_it_ended(code: int) -> str:
+    """Return what a child process did that ended with an exit code."""
     if code < 0:
         known = {number.value: number.name for number in signal.Signals}
-        return f"its import crashed the process ({known.get(-code, f'signal {-code}')})"
-    return f"its import ended the process with exit code {code}"
+        return f"crashed the process ({known.get(-code, f'signal {-code}')})"
+    return f"ended the process with exit code {code}"
 
 
 def _answer(distribution: str, entry_point: str) -> None:

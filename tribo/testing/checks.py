@@ -3,23 +3,28 @@
 from __future__ import annotations
 
 import io
-import pickle
 import random
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator, Mapping
-from concurrent.futures import ProcessPoolExecutor
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import redirect_stdout
 from copy import deepcopy
-from functools import cache
-from multiprocessing import get_context, parent_process
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from tribo.component import Component
 from tribo.core.arrays import Array
 from tribo.core.dimensions import scale
-from tribo.testing.compare import CheckFailed, apply_if, first_difference, locked, require
+from tribo.testing.child import Lost, Unknown, child
+from tribo.testing.compare import (
+    CheckFailed,
+    expect_close,
+    first_difference,
+    locked,
+    require,
+    values_in,
+)
+from tribo.testing.rescaling import UNITS, in_other_units, rescaled
 
 FieldValue = float | Callable[[Array], Array]
 """The value of a local field, or how it follows from the pressure."""
@@ -38,20 +43,42 @@ class Checks(ABC):
         The configuration.
     fields : Mapping[str, float or callable]
         Typical values of local fields, in SI, or functions of the pressure.
+    others : sequence of Component, optional
+        The other configurations that are checked: some facts need hold in one of them only.
     """
 
-    def __init__(self, config: Component, fields: Mapping[str, FieldValue]) -> None:
+    _numbers: ClassVar[Sequence[int]] = (0, 1)
+    """Of the inputs that it is asked."""
+    _exactness: ClassVar[float] = 1e-9
+    """Part of an answer by which it may differ in other units."""
+
+    def __init__(
+        self,
+        config: Any,
+        fields: Mapping[str, FieldValue],
+        others: Sequence[Any] = (),
+    ) -> None:
         self._cls: Any = type(config)
         self._config = config
-        self._fields = fields
+        self._fields = dict(fields)
+        self._others = [*others]
+        self._lost = ""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle what it is made of."""
+        return type(self), (self._config, self._fields, self._others)
 
     @abstractmethod
     def _inputs(self, component: Any, number: int) -> Any:
-        """Return new inputs for a call; those of number 0 and 1 differ."""
+        """Return new inputs for a call, by number."""
 
     @abstractmethod
     def _call(self, component: Any, inputs: Any) -> Mapping[str, Any]:
         """Call the component with inputs, and return its answers by name."""
+
+    def _units(self, component: Any) -> Mapping[str, float]:
+        """Return by what inputs and answers are multiplied in the other units, by their names."""
+        return UNITS
 
     def _make(self) -> Any:
         """Return a new component with the configuration."""
@@ -92,13 +119,9 @@ class Checks(ABC):
 
     def configuration_can_be_pickled(self) -> None:
         """An object can be sent to another process, as parallel sweeps need it."""
-        apply_if(parent_process() is None, "this is another process already")
         try:
-            sent = pickle.dumps(self._config)
-            again = _other_process().submit(pickle.loads, sent).result()
-        except Exception as error:
-            # The other process may have died of it.
-            _other_process.cache_clear()
+            again = child().call(deepcopy, self._config)
+        except (Unknown, Lost) as error:
             raise CheckFailed(
                 f"{error}; put the class in a module that can be imported by its name"
             ) from error
@@ -146,17 +169,34 @@ class Checks(ABC):
 
     def same_inputs_give_same_bits(self) -> None:
         """The answer follows from the inputs alone, whatever was asked before."""
-        component = self._make()
-        first = deepcopy(self._answers(component))
-        again = deepcopy(self._answers(component))
-        self._answers(component, 1)
-        for when, answers in (
-            ("asked again", again),
-            ("asked after other inputs", self._answers(component)),
-            ("asked of a new object", self._answers(self._make())),
-        ):
-            where = first_difference(first, answers)
-            require(where is None, f"{where} differs when {when}; keep nothing that evolves")
+        used = self._make()
+        for number in self._numbers:
+            first = deepcopy(self._answers(self._make(), number))
+            for when, component in (
+                ("asked of one that was asked others before", used),
+                ("asked again", used),
+                ("asked of a new object", self._make()),
+            ):
+                where = first_difference(first, self._answers(component, number))
+                require(where is None, f"{where} differs when {when}; keep nothing that evolves")
+
+    def units_may_be_rescaled(self) -> None:
+        """In other units of length, mass, time and temperature it answers the same."""
+        component, other = self._make(), rescaled(self._config)
+        units = self._units(component)
+        for number in self._numbers:
+            given = locked(self._inputs(component, number))
+            answer = in_other_units(deepcopy(self._call(component, given)), units)
+            found = dict(values_in(self._call(other, locked(in_other_units(given, units)))))
+            for where, needed in values_in(answer):
+                if isinstance(needed, float | np.ndarray) and "residuals" not in where:
+                    expect_close(
+                        f"{where} in other units (a number in the code has a unit, or the answer "
+                        "has not the one that is declared)",
+                        np.asarray(found[where]),
+                        np.asarray(needed),
+                        self._exactness,
+                    )
 
     def nothing_is_printed(self) -> None:
         """Standard output is left to the command line."""
@@ -201,9 +241,3 @@ def _is_bare(schema: Mapping[str, Any]) -> bool:
 def _generators() -> Mapping[str, Any]:
     legacy: Any = np.random.get_state
     return {"random": random.getstate(), "numpy.random": deepcopy(legacy())}
-
-
-@cache
-def _other_process() -> ProcessPoolExecutor:
-    """Return a process that knows what it can import, and nothing else."""
-    return ProcessPoolExecutor(1, get_context("spawn"))

@@ -6,43 +6,119 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
+from tribo.core.arrays import Array
+from tribo.core.errors import CaseError
 from tribo.core.fields import ContactConditions, LocalConditions, WearRate
+from tribo.core.grid import Grid
 from tribo.simulation.guards import GuardedEffect
 from tribo.testing import samples
-from tribo.testing.checks import Checks
-from tribo.testing.compare import first_difference, locked, require
+from tribo.testing.ageing import aged
+from tribo.testing.checks_local import LocalChecks
+from tribo.testing.compare import (
+    NotApplicable,
+    apply_if,
+    expect_close,
+    first_difference,
+    locked,
+    require,
+    values_in,
+)
+from tribo.testing.samples import GRID
 from tribo.wear.law import WearLaw
 
+_LONGEST = 60.0
+"""Time for which a state has been there at most, in s."""
 
-class EffectChecks(Checks):
+
+class EffectChecks(LocalChecks):
     """Checks of an effect."""
 
+    _numbers = (0, 1, 2)
+    _per = "s"
+
     def _inputs(self, component: Any, number: int) -> ContactConditions:
-        conditions = samples.contact_conditions(component, self._fields)
-        if number == 0:
-            return conditions
-        return replace(conditions, pressure=0.5 * conditions.pressure, time=20.0, distance=2.0)
+        return self._remembering(samples.contact_conditions(component, self._fields, number))
+
+    def _remembering(self, given: ContactConditions) -> ContactConditions:
+        """Return conditions with a state that each point has had for a time of its own."""
+        effect = self._make()
+
+        def rates(state: Mapping[str, Array]) -> Mapping[str, Array]:
+            found: Mapping[str, Array] = effect.state_rates(replace(given, state=state))
+            return found
+
+        if not given.state:
+            return given
+        time = _LONGEST * samples.pattern(GRID.cells) ** 3
+        return replace(given, state=aged(effect.state_fields, rates, given.state, time))
 
     def _call(self, component: Any, inputs: Any) -> Mapping[str, Any]:
-        return {name: dict(values) for name, values in component.fields(inputs).items()}
+        fields = component.fields(replace(inputs, wear_rates={}))
+        rates = component.state_rates(inputs) if inputs.state else {}
+        return {name: dict(values) for name, values in fields.items()} | {
+            f"the rate of {name!r}": values for name, values in rates.items()
+        }
 
     def answers_fit_a_run(self) -> None:
         """Each declared field comes for each body, finite, within its limits, on the window."""
-        effect = self._make()
-        for number in (0, 1):
-            GuardedEffect(effect).fields(locked(self._inputs(effect, number)))
+        effect = GuardedEffect(self._make(), samples.BODIES)
+        for given in self._samples(effect.component):
+            effect.fields(replace(given, wear_rates={}))
+            effect.state_rates(given)
 
     def bodies_may_have_any_names(self) -> None:
-        """Nothing depends on what the bodies are called."""
+        """Nothing depends on names and order of the bodies, unless its configuration has names."""
         effect = self._make()
         usual = self._answers(effect)
         names = ("upper", "lower")
-        given = locked(samples.contact_conditions(effect, self._fields, names))
-        renamed = self._call(effect, given)
-        for field in effect.provides:
-            for name, before in zip(names, samples.BODIES, strict=True):
-                changed = first_difference(renamed[field.name][name], usual[field.name][before])
-                require(not changed, f"{field.name!r} changes when {before!r} is called {name!r}")
+        given = samples.contact_conditions(effect, self._fields, names=names)
+        try:
+            GuardedEffect(effect, names)
+            effect.check(given.materials, given.swept)
+        except CaseError as error:
+            raise NotApplicable(f"its configuration names the bodies: {error}") from error
+        given = self._remembering(given)
+        turned = replace(given, materials=dict(reversed([*given.materials.items()])))
+        back = dict(zip(names, samples.BODIES, strict=True))
+        for asked, how in ((given, f"are called {names}"), (turned, "change places")):
+            answers = {
+                field: {back.get(n, n): v for n, v in of.items()} if isinstance(of, dict) else of
+                for field, of in self._call(effect, locked(asked)).items()
+            }
+            changed = first_difference(answers, usual)
+            require(not changed, f"{changed} changes when the bodies {how}")
+
+    def larger_window_has_the_same_fields(self) -> None:
+        """A wider rim round the contact, without pressure, changes nothing within."""
+        effect = self._make()
+        given, usual = self._inputs(effect, 0), dict(values_in(self._answers(effect)))
+        (nx, ny), (dx, dy) = GRID.cells, GRID.spacing
+        grid = Grid(((nx + 6) * dx, (ny + 4) * dy), (nx + 6, ny + 4))
+        wide = _widened(replace(given, grid=grid))
+        for where, values in values_in(self._call(effect, locked(wide))):
+            inside = np.broadcast_to(np.asarray(values), grid.cells)[3 : nx + 3, 2 : ny + 2]
+            needed = np.broadcast_to(np.asarray(usual[where]), GRID.cells)
+            expect_close(f"{where} in a larger window", inside, needed, 1e-9)
+
+    def slopes_are_derivatives(self) -> None:
+        """A field called NAME_slope is the derivative of the field NAME in pressure."""
+        effect = self._make()
+        names = {field.name for field in effect.provides}
+        sloped = [name for name in names if f"{name}_slope" in names]
+        apply_if(sloped, "it provides no slope")
+        for number in self._numbers:
+            given = self._inputs(effect, number)
+            step = 1e-6 * given.pressure
+            more = self._call(effect, replace(given, pressure=given.pressure + step))
+            less = self._call(effect, replace(given, pressure=given.pressure - step))
+            now = self._call(effect, given)
+            for name in sloped:
+                for body in given.materials:
+                    found = np.asarray(now[f"{name}_slope"][body]) * step
+                    needed = 0.5 * (np.asarray(more[name][body]) - np.asarray(less[name][body]))
+                    expect_close(f"change of {name!r} by its slope", found, needed, 1e-4)
 
     def only_declared_fields_are_asked_for(self) -> None:
         """It asks for no field but those in `requires`."""
@@ -62,6 +138,20 @@ class EffectChecks(Checks):
         effect = self._make()
         law = _reads([field.name for field in effect.provides])
         samples.run(self._fields, law=law, effects=[effect])
+
+
+def _widened(given: ContactConditions) -> ContactConditions:
+    """Return conditions with some more rows and columns on each side, without pressure."""
+
+    def widened(value: Any) -> Any:
+        if isinstance(value, Mapping):
+            return {name: widened(inner) for name, inner in value.items()}
+        uniform = value.shape == (1, 1)
+        return value if uniform else np.pad(value, [(3, 3), (2, 2)], mode="edge")
+
+    pressure = np.pad(given.pressure, [(3, 3), (2, 2)])
+    parts = {name: widened(getattr(given, name)) for name in ("fields", "state", "wear_rates")}
+    return replace(given, pressure=pressure, **parts)
 
 
 def _reads(names: Sequence[str]) -> WearLaw:

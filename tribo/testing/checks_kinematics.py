@@ -14,36 +14,49 @@ from tribo.core.grid import Grid, RepeatingGrid
 from tribo.simulation.guarded_motion import GuardedExposure, GuardedMotion
 from tribo.testing import samples
 from tribo.testing.checks import Checks
-from tribo.testing.compare import apply_if, expect_close, require
+from tribo.testing.compare import NotApplicable, apply_if, expect_close, require
 from tribo.testing.samples import BODIES, GRID
 
 _PARTS = np.linspace(0.0, 1.0, 201)
+_TIMES = 0.999 * samples.pattern((2000,))
 
 
 class KinematicsChecks(Checks):
     """Checks of a motion."""
 
     def _inputs(self, component: Any, number: int) -> dict[str, Any]:
+        # Of as many cells, but not of the same size.
+        size = tuple((1 - 0.1 * number) * length for length in GRID.size)
+        grid = GRID.model_copy(update={"size": size})
         pattern = samples.pattern(GRID.cells) + number
-        exposures = component.exposures(GRID, BODIES)
+        exposures = component.exposures(grid, BODIES)
         return {
+            "grid": grid,
             "rate": 1e-7 * pattern,
-            "derivative": 1e-16 * pattern,
+            "local": 1e-16 * pattern,
             "pressure": 1e9 * pattern,
             "own": {name: _field(exposures[name]) + number for name in BODIES},
         }
 
     def _call(self, component: Any, inputs: Any) -> Mapping[str, Any]:
         end = component.end_time
-        answers: dict[str, Any] = {"path": [component.distance_at(part * end) for part in _PARTS]}
-        for name, exposure in component.exposures(GRID, BODIES).items():
+        answers: dict[str, Any] = {
+            "end": float(end),
+            "path": np.array([component.distance_at(part * end) for part in _PARTS]),
+            "time": np.array(list(component.edges), dtype=float),
+            "cycle": [
+                {"share": p.share, "speed": np.array([v for v, _ in p.speeds or ()])}
+                for p in component.cycle(inputs["grid"])
+            ],
+        }
+        for name, exposure in component.exposures(inputs["grid"], BODIES).items():
             average = exposure.average(inputs["rate"])
             answers[name] = {
                 "volume": exposure.volume(average),
                 # Copies, for identity is allowed: a stationary point sees its own rate.
                 "average": np.array(average),
                 "envelope": np.array(exposure.envelope(inputs["own"][name])),
-                "compliance": exposure.compliance(inputs["derivative"], inputs["pressure"]),
+                "compliance": exposure.compliance(inputs["local"], inputs["pressure"]),
             }
         return answers
 
@@ -114,11 +127,22 @@ class KinematicsChecks(Checks):
         apply_if(bool(speeds), "speeds() is None: the mean speed is taken")
         slowest = min(speed for speed, _ in speeds)
         require(slowest > 0, f"speeds() has {slowest!r} m/s; it must be positive")
-        mean = motion.distance_at(motion.end_time) / motion.end_time
+        end = motion.end_time
+        mean = motion.distance_at(end) / end
         stated = 1 / sum(share / speed for speed, share in speeds)
         require(
             stated >= 0.99 * mean,
             f"its speeds have a mean of {stated:.4g} m/s, but it slides at {mean:.4g} m/s",
+        )
+        instant = 1e-8 * end
+        at = [(motion.distance_at(t), motion.distance_at(t + instant)) for t in _TIMES * end]
+        slid = np.array([later - now for now, later in at])
+        found = float(np.sum(slid**2) / np.sum(slid)) / instant
+        stated = sum(share * speed for speed, share in speeds)
+        require(
+            abs(stated - found) <= 0.05 * found,
+            f"over the path its speeds have a mean of {stated:.4g} m/s, but by distance_at that is "
+            f"{found:.4g} m/s",
         )
 
     def worn_volume_is_conserved(self) -> None:
@@ -153,6 +177,28 @@ class KinematicsChecks(Checks):
             found = 0.5 * (found[:, ::2] + found[:, 1::2])
             needed = np.repeat(np.broadcast_to(coarse[name].average(rate), GRID.cells), 2, axis=0)
             expect_close(f"{name!r}: average on cells of half the size", found, needed, 1e-6)
+
+    def larger_window_averages_the_same(self) -> None:
+        """A wider rim round the contact, in which nothing wears, changes no average."""
+        (nx, ny), (dx, dy) = GRID.cells, GRID.spacing
+        wide = Grid(((nx + 4) * dx, (ny + 4) * dy), (nx + 4, ny + 4))
+        rate = samples.hertz_pressure(GRID)
+        usual, wider = self._exposures(), self._exposures(wide)
+        for name in BODIES:
+            found = np.broadcast_to(wider[name].average(np.pad(rate, 2)), wide.cells)[2:-2, 2:-2]
+            needed = np.broadcast_to(usual[name].average(rate), GRID.cells)
+            expect_close(f"{name!r}: average in a larger window", found, needed, 1e-9)
+
+    def bodies_may_have_any_names(self) -> None:
+        """Nothing depends on what the bodies are called, unless the configuration names them."""
+        names, rate = ("upper", "lower"), samples.hertz_pressure(GRID)
+        try:
+            renamed = GuardedMotion(self._make()).exposures(GRID, names)
+        except CaseError as error:
+            raise NotApplicable(f"its configuration names the bodies: {error}") from error
+        for name, usual in zip(names, self._exposures().values(), strict=True):
+            found = renamed[name].average(rate)
+            expect_close(f"average of a body called {name!r}", found, usual.average(rate), 0.0)
 
     def envelope_covers_the_field(self) -> None:
         """No point meets less than what it meets now, and meeting it twice adds nothing."""

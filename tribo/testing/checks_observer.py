@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from contextlib import chdir
 from copy import deepcopy
-from dataclasses import replace
+from dataclasses import fields, is_dataclass, replace
 from functools import cache
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -17,7 +17,7 @@ from tribo.core.state import RunInfo, Snapshot
 from tribo.observers.observer import Observer
 from tribo.testing import samples
 from tribo.testing.checks import Checks
-from tribo.testing.compare import first_difference, locked, require
+from tribo.testing.compare import NotApplicable, first_difference, locked, require
 
 
 class Keeps(Observer):
@@ -38,6 +38,9 @@ class Keeps(Observer):
 class ObserverChecks(Checks):
     """Checks of an observer."""
 
+    def _units(self, component: Any) -> Mapping[str, float]:
+        raise NotApplicable("an observer answers nothing")
+
     def _inputs(self, component: Any, number: int) -> tuple[RunInfo, list[Snapshot]]:
         run, *snapshots = deepcopy(_watched()[: 4 + number])
         return run, snapshots
@@ -55,16 +58,34 @@ class ObserverChecks(Checks):
             require(where is None, f"{where} of step {number} differs when it watches")
 
     def any_run_is_survived(self) -> None:
-        """A run may end early, fail, go on from a state not seen, or be the second one."""
+        """A run may end early, fail, go on from a state not seen, be another, or the second one."""
         run, snapshots = locked(self._inputs(None, 1))
         for reason in ("done", "interrupted", "failed"):
             _show(self._make(), run, snapshots, reason)
         _show(self._make(), run, (), "failed")
         resumed = replace(run, resumed_from=snapshots[1], wall_time=5.0)
         _show(self._make(), resumed, snapshots[2:])
+        _show(self._make(), *locked(_renamed(run, snapshots)))
         observer = self._make()
         for _ in range(2):
             _show(observer, run, snapshots)
+
+
+def _renamed(run: RunInfo, snapshots: Sequence[Snapshot]) -> Any:
+    """Return a run and what it showed with bodies of other names."""
+    names = dict(zip(samples.BODIES, ("upper", "lower"), strict=True))
+
+    def renamed(value: Any) -> Any:
+        if isinstance(value, Mapping):
+            return {names.get(key, key): renamed(inner) for key, inner in value.items()}
+        if isinstance(value, list | tuple):
+            return type(value)(map(renamed, value))
+        if is_dataclass(value) and not isinstance(value, type):
+            parts = {f.name: renamed(getattr(value, f.name)) for f in fields(value) if f.init}
+            return replace(value, **parts)
+        return names.get(value, value) if isinstance(value, str) else value
+
+    return renamed(run), renamed(snapshots)
 
 
 @cache

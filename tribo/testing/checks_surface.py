@@ -24,7 +24,10 @@ class SurfaceChecks(Checks):
     """Checks of a surface."""
 
     def _inputs(self, component: Any, number: int) -> Grid:
-        return _finer(self._grid(), 1 + number)
+        # Of as many cells, but not of the same size.
+        grid = self._grid()
+        size = tuple((1 - 0.1 * number) * length for length in grid.size)
+        return grid.model_copy(update={"size": size})
 
     def _call(self, component: Any, inputs: Any) -> Mapping[str, Any]:
         return {"height": component.height(inputs), "curvature": component.curvature}

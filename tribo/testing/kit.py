@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import pickle
 import sys
 import traceback
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Literal
@@ -24,6 +26,7 @@ from tribo.testing.checks_kinematics import KinematicsChecks
 from tribo.testing.checks_observer import ObserverChecks
 from tribo.testing.checks_surface import SurfaceChecks
 from tribo.testing.checks_wear_law import WearLawChecks
+from tribo.testing.child import Lost, Unknown, child
 from tribo.testing.compare import CheckFailed, NotApplicable
 
 SUITES: Mapping[str, type[Checks]] = MappingProxyType(
@@ -153,7 +156,7 @@ def check(
     """
     check_class(cls)
     outcomes = [
-        _outcome(checks, name)
+        outcome_of(checks, name)
         for checks in suites(cls, configs, fields)
         for name in names_of(type(checks))
     ]
@@ -212,14 +215,12 @@ def parametrize_checks(
 
     @pytest.mark.parametrize(("checks", "name"), tests)
     def test_conformance(checks: Checks, name: str) -> None:
-        __tracebackhide__ = True
-        try:
-            perform(checks, name)
-        except NotApplicable as reason:
-            pytest.skip(str(reason))
-        except CheckFailed as fault:
-            fact = _fact(checks, name)
-            pytest.fail(f"{fact} With {_label(checks)}: {fault}", pytrace=False)
+        outcome = outcome_of(checks, name)
+        if outcome.status == "not applicable":
+            pytest.skip(outcome.message)
+        if outcome.status == "failed":
+            told = f"{outcome.fact} With {outcome.config}: {outcome.message}"
+            pytest.fail(told, pytrace=False)
 
     return test_conformance
 
@@ -270,13 +271,15 @@ def suites(
             "configuration, and no example is given; put some in: "
             "model_config = ConfigDict(json_schema_extra={'examples': [{…}]})"
         )
+    made = []
     for number, config in enumerate(configs):
         try:
-            made = config if isinstance(config, cls) else cls.model_validate(config)
+            made.append(config if isinstance(config, cls) else cls.model_validate(config))
         except ValidationError as error:
             what = f"configs[{number}] is not valid for {cls.__qualname__}"
             raise ValueError(f"{what}: {error}") from error
-        yield SUITES[cls.kind()](made, fields)
+    for config in made:
+        yield SUITES[cls.kind()](config, fields, made)
 
 
 def perform(checks: Checks, name: str) -> None:
@@ -293,21 +296,52 @@ def names_of(suite: type[Checks]) -> list[str]:
     return [name for name in methods if not name.startswith("_")]
 
 
-def _outcome(checks: Checks, name: str) -> Outcome:
-    def came(status: Any, message: str = "") -> Outcome:
-        return Outcome(name, _fact(checks, name), _label(checks), status, message)
+def outcome_of(checks: Checks, name: str) -> Outcome:
+    """Make one check in a process of its own, so that no component can end or hold up this one.
 
+    In this process where the class cannot be found by another.
+    """
+    if name == Checks.configuration_can_be_pickled.__name__:
+        return _outcome(checks, name)
+    if checks._lost:
+        return _came(checks, name, "failed", checks._lost)
+    try:
+        found: Outcome = child().call(_outcome_there, pickle.dumps(checks), name)
+    except (Unknown, pickle.PicklingError, AttributeError, TypeError):
+        return _outcome(checks, name)
+    except Lost as error:
+        checks._lost = f"{error}, as no call of a component may; nothing more is tried"
+        return _came(checks, name, "failed", checks._lost)
+    return found
+
+
+def _outcome_there(checks: bytes, name: str) -> Outcome:
+    return _outcome(_unpacked(checks), name)
+
+
+@lru_cache(maxsize=1)
+def _unpacked(checks: bytes) -> Checks:
+    found: Checks = pickle.loads(checks)
+    return found
+
+
+def _outcome(checks: Checks, name: str) -> Outcome:
     try:
         perform(checks, name)
     except NotApplicable as reason:
-        return came("not applicable", str(reason))
+        return _came(checks, name, "not applicable", str(reason))
     except CheckFailed as fault:
-        return came("failed", " ".join(str(fault).split()))
+        return _came(checks, name, "failed", " ".join(str(fault).split()))
     except KeyboardInterrupt:
         raise
     except BaseException as error:
-        return came("failed", f"it raised {said(error)}, in {_place(error, checks)}")
-    return came("passed")
+        where = _place(error, checks)
+        return _came(checks, name, "failed", f"it raised {said(error)}, in {where}")
+    return _came(checks, name, "passed")
+
+
+def _came(checks: Checks, name: str, status: Any, message: str = "") -> Outcome:
+    return Outcome(name, _fact(checks, name), _label(checks), status, message)
 
 
 def _fact(checks: Checks, name: str) -> str:

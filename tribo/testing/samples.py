@@ -25,8 +25,9 @@ from tribo.surfaces.cylinder import Cylinder
 from tribo.surfaces.flat import Flat
 from tribo.surfaces.sphere import Sphere
 from tribo.testing.checks import FieldValue
-from tribo.testing.compare import locked, require
+from tribo.testing.compare import NotApplicable, locked, require
 from tribo.wear.archard import Archard
+from tribo.wear.law import WearLaw
 
 # Neither square nor of square cells, so that swapped axes are noticed.
 GRID = Grid((0.72e-3, 0.8e-3), (24, 20))
@@ -36,7 +37,9 @@ RADIUS = 5e-3
 STEPS = 2000
 """Of a run, at most; most take fewer than a hundred."""
 SPEED = 0.1
+SPEEDS = (SPEED, 3e-3, 2.0)
 PEAK = 2e9
+BARE = Material(young=207e9, poisson=0.3)
 STEEL = Material(
     young=207e9,
     poisson=0.3,
@@ -49,40 +52,87 @@ ARCHARD = Archard(k=1e-16)
 """It wears a third of the first approach within some metres."""
 
 
-def field(name: str, names: Sequence[str], given: Mapping[str, FieldValue], p: Array) -> Array:
-    """Return a typical value of the field `name` at the pressures `p`.
+def field(
+    name: str,
+    names: Sequence[str],
+    given: Mapping[str, FieldValue],
+    p: Array,
+    spread: Array | float = 0.5,
+) -> Array:
+    """Return values of the field `name` at the pressures `p`.
 
-    As `given`, else as declared by an effect that was imported. One of which
-    nothing is known follows its slope if that is among `names` too, and is 1
-    if not.
+    `spread`, from 0 to 1, leads over the field's range: 5 % about a value that is `given`; half to
+    twice the typical value that an effect declares that was imported, or from one of its limits to
+    the other. A field of which nothing is known follows its slope if that is among `names` too, and
+    is about 1 if not; a slope is 1.
     """
-    value = given.get(name, _declared(name))
-    if value is None:
-        slope = f"{name}_slope"
-        return field(slope, (), given, p) * p if slope in names else np.ones_like(p)
-    return np.zeros_like(p) + (value(p) if callable(value) else value)
+    about = 0.95 + 0.1 * np.asarray(spread)
+    value = given.get(name)
+    if value is not None:
+        return np.zeros_like(p) + (value(p) if callable(value) else about * value)
+    if (known := declared(name)) and (values := _range(known)):
+        return np.zeros_like(p) + np.interp(spread, (0.0, 0.5, 1.0), values)
+    slope = f"{name}_slope"
+    if slope in names:
+        return field(slope, (), given, p, spread) * p
+    return np.zeros_like(p) + (1.0 if name.endswith("_slope") else about)
 
 
-def _declared(name: str) -> float | None:
-    """Return the typical value of a field that the case or a loaded effect provides, if stated."""
+def declared(name: str) -> Field | None:
+    """Return the declaration of a field that the case or a loaded effect provides."""
     known = [FRICTION_COEFFICIENT, PLACE_X, PLACE_Y]
-    effects = Effect.__subclasses__()
-    for effect in effects:
-        effects += effect.__subclasses__()
-        known += getattr(effect, "provides", ())
-    return next((f.typical for f in known if f.name == name and f.typical is not None), None)
+    models: list[type[Effect | WearLaw]] = [*Effect.__subclasses__(), *WearLaw.__subclasses__()]
+    for model in models:
+        models += model.__subclasses__()
+        if model.__module__.startswith(__package__):
+            continue
+        for fields in (getattr(model, "provides", ()), model.state_fields):
+            known += fields if isinstance(fields, tuple) else ()
+    named = [field for field in known if field.name == name]
+    return next((field for field in named if _range(field)), next(iter(named), None))
 
 
-def fields(names: Sequence[str], given: Mapping[str, FieldValue], p: Array) -> dict[str, Array]:
-    """Return fields that vary a little about their typical values."""
-    return {name: field(name, names, given, p) * (0.95 + 0.1 * pattern(p.shape)) for name in names}
+def known_field(name: str) -> Field:
+    """Return the declaration of a field, of whose unit more is to be known.
+
+    Raises
+    ------
+    NotApplicable
+        If nothing here declares it.
+    """
+    found = declared(name)
+    if found is None:
+        raise NotApplicable(f"the unit of {name!r} is not known: no effect here declares it")
+    return found
 
 
-def pattern(shape: tuple[int, ...]) -> Array:
-    """Return values between 0 and 1 without symmetry, each point its own, always the same."""
+def _range(declared: Field) -> tuple[float, float, float] | None:
+    """Return a low, a middle and a high value of a field, if it says enough."""
+    least, most, typical = declared.at_least, declared.at_most, declared.typical
+    if typical is not None:
+        low, high = sorted((0.5 * typical, 2 * typical))
+        return (
+            max(low, low if least is None else least),
+            typical,
+            min(high, high if most is None else most),
+        )
+    if least is not None and most is not None:
+        return least, 0.5 * (least + most), most
+    return None
+
+
+def fields(
+    names: Sequence[str], given: Mapping[str, FieldValue], p: Array, spread: Array
+) -> dict[str, Array]:
+    """Return `field` for each of some names."""
+    return {name: field(name, names, given, p, spread) for name in names}
+
+
+def pattern(shape: tuple[int, ...], number: int = 0) -> Array:
+    """Return values between 0 and 1 without symmetry, each point its own, by number others."""
     golden = 0.6180339887498949
-    values: Array = ((1 + np.arange(np.prod(shape, dtype=int))) * golden % 1.0).reshape(shape)
-    return values
+    count = 1 + 17 * number + np.arange(np.prod(shape, dtype=int))
+    return (count * golden % 1.0).reshape(shape)
 
 
 def hertz_pressure(grid: Grid) -> Array:
@@ -117,21 +167,26 @@ class Asked(UserDict[str, Any]):
 
 
 def contact_conditions(
-    effect: Any, given: Mapping[str, FieldValue], names: Sequence[str] = BODIES
+    effect: Any,
+    given: Mapping[str, FieldValue],
+    number: int = 0,
+    names: Sequence[str] = BODIES,
 ) -> ContactConditions:
-    """Return what an effect is told; the second body is swept."""
-    pressure = hertz_pressure(GRID)
-    known = fields(effect.requires, given, pressure)
+    """Return what a fresh effect is told, by number something else; the second body is swept."""
+    # The faster, the less pressure: the power stays what it is.
+    pressure = hertz_pressure(GRID) / (1, 2, 20)[number]
+    known = fields(effect.requires, given, pressure, pattern(GRID.cells, number))
+    start = effect.initial_state()
     state = {
-        f.name: np.full((1, 1) if f.uniform else GRID.cells, effect.initial_state()[f.name])
+        f.name: np.full((1, 1) if f.uniform else GRID.cells, start[f.name])
         for f in effect.state_fields
     }
     return ContactConditions(
         grid=GRID,
         pressure=pressure,
-        speed=SPEED,
-        time=10.0,
-        distance=1.0,
+        speed=SPEEDS[number],
+        time=10.0 * (1 + number),
+        distance=1.0 + number,
         materials=dict.fromkeys(names, STEEL),
         swept=frozenset(names[1:]),
         fields={name: {body: values.copy() for body in names} for name, values in known.items()},
@@ -140,12 +195,12 @@ def contact_conditions(
     )
 
 
-def ball(grid: Grid, scale: float = 1.0, cells: tuple[int, int] = (0, 0)) -> Array:
+def ball(grid: Grid, cells: tuple[int, int] = (0, 0)) -> Array:
     """Return a ball with a slanted ripple, which has no symmetry, moved by some cells."""
     x, y = grid.mesh
     x, y = x - cells[0] * grid.spacing[0], y - cells[1] * grid.spacing[1]
-    bowl = (x**2 + y**2) / (2 * scale * RADIUS)
-    ripple = 1e-7 * scale * np.sin((3.1 * x + 4.7 * y) / (0.72e-3 * scale) + 0.4)
+    bowl = (x**2 + y**2) / (2 * RADIUS)
+    ripple = 1e-7 * np.sin((3.1 * x + 4.7 * y) / 0.72e-3 + 0.4)
     return np.asarray(bowl + ripple)
 
 
@@ -155,24 +210,20 @@ def problem(
     load: float = LOAD,
     cap: float | None = None,
     wear: WearCompliance | None = None,
-    scale: float = 1.0,
-    stiffer: float = 1.0,
 ) -> ContactProblem:
-    """Return a contact problem with lengths times `scale` and moduli times `stiffer`."""
-    grid = Grid((scale * GRID.size[0], scale * GRID.size[1]), GRID.cells)
-    force = scale**2 * stiffer
-    material = STEEL.model_copy(update={"young": stiffer * STEEL.young, "hardness": cap})
+    """Return a contact problem: steel on steel."""
+    material = STEEL.model_copy(update={"hardness": cap})
     # The system states the first contact's load, whatever the problem's own is.
     system = ContactSystem(
-        grid=grid,
+        grid=GRID,
         modulus=contact_modulus([material, material]),
-        load=force * LOAD,
+        load=LOAD,
         cap=cap,
-        curvature=(1 / (scale * RADIUS), 1 / (scale * RADIUS)),
+        curvature=(1 / RADIUS, 1 / RADIUS),
         materials=dict.fromkeys(BODIES, material),
     )
-    gap = ball(grid, scale) if gap is None else gap
-    return locked(ContactProblem(system, gap, force * load, wear))
+    gap = ball(GRID) if gap is None else gap
+    return locked(ContactProblem(system, gap, load, wear))
 
 
 def run(
@@ -240,7 +291,8 @@ def _providing(names: Sequence[str], given: Mapping[str, FieldValue]) -> Effect:
         provides = tuple(Field(name, "1", "A sample.") for name in names)
 
         def fields(self, contact: ContactConditions) -> Mapping[str, Mapping[str, Array]]:
-            answers = fields(names, given, contact.pressure)
+            shape = contact.pressure.shape
+            answers = fields(names, given, contact.pressure, 0.49 + 0.02 * pattern(shape))
             return {name: dict.fromkeys(contact.materials, v) for name, v in answers.items()}
 
     return Given()

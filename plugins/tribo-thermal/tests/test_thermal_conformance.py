@@ -13,7 +13,6 @@ test_flash_by_body = parametrize_checks(
         {"ambient": 363.0, "heat_paths": {"ball": {"length": "5 mm", "area": "78 mm^2"}}},
         {"ambient": 363.0, "heat_fraction": {"ball": 0.7, "disk": 0.3}},
     ],
-    expected_failures={"bodies_may_have_any_names": "its configuration names the bodies"},
 )
 test_flash_in_time = parametrize_checks(
     Flash,

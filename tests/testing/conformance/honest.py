@@ -29,13 +29,16 @@ class Law(WearLaw):
     """Specific wear rate per coefficient of friction."""
     p_ref: Annotated[float, Quantity("Pa", above=0)] = 1e9
     """Pressure at which the wear rate has doubled."""
+    length: Annotated[float, Quantity("m", above=0)] = 1.0
+    """Distance over which rubbed points wear less."""
 
     requires = ("friction_coefficient",)
     state_fields = (Field("rubbed", "m", "Distance slid under pressure."),)
 
     def rate(self, local):
         p, c = local.pressure, self
-        k = c.k * local.fields["friction_coefficient"] * (1 + np.exp(-local.state["rubbed"]))
+        rubbed = np.exp(-local.state["rubbed"] / c.length)
+        k = c.k * local.fields["friction_coefficient"] * (1 + rubbed)
         rubbed = {"rubbed": (p > 0).astype(float)}
         return WearRate(k * p * (1 + p / c.p_ref), k * (1 + 2 * p / c.p_ref), rubbed)
 
@@ -48,10 +51,13 @@ class Solver(ContactSolver):
     accepts_wear_compliance = True
     honours_cap = True
 
+    def operator(self, grid, modulus):
+        return HalfSpace(grid.cells, grid.spacing, modulus)
+
     def solve(self, problem, start=None):
         grid, system = problem.system.grid, problem.system
         return solve_bounded(
-            HalfSpace(grid.cells, grid.spacing, system.modulus),
+            self.operator(grid, system.modulus),
             problem.gap,
             problem.load,
             system.cap,
@@ -102,11 +108,13 @@ class Hill(Surface):
     type = "honest.hill"
     radius: Annotated[float, Quantity("m", above=0)] = 8e-3
     """Radius along x; twice that along y."""
+    beside: Annotated[float, Quantity("m")] = 4e-5
+    """Place of the top along x."""
 
     def height(self, grid):
         x, y = grid.mesh
         c = 1 / self.radius
-        return -0.5 * c * (x - 4e-5) ** 2 - 0.25 * c * (y + 3e-5) ** 2
+        return -0.5 * c * (x - self.beside) ** 2 - 0.25 * c * (y + 0.8 * self.beside) ** 2
 
     @property
     def curvature(self):

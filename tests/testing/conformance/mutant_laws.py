@@ -107,17 +107,10 @@ def clipped(rate, local):
     return rate
 
 
-def remembering(self, local):
-    self._slid += 0.1
-    rate = Law.rate(self, local)
-    return replace(rate, depth_rate=rate.depth_rate * np.exp(-self._slid))
-
-
 LAWS += wrong(
     Law,
     ("inputs_stay_as_they_are", {"rate": rate(zeroed)}),
     ("same_inputs_give_same_bits", {"rate": rate(clipped)}, ValueError),
-    ("same_inputs_give_same_bits", {"_slid": 0.0, "rate": remembering}),
     ("nothing_is_printed", {"rate": rate(lambda r, local: print("rate") or r)}),
 )
 
@@ -137,11 +130,6 @@ def parts(change):
     return {"rate": rate(lambda r, local: replace(r, **change(r, local)))}
 
 
-def divided(rate, local):
-    with np.errstate(invalid="ignore"):
-        return {"depth_slope": local.pressure / local.pressure}
-
-
 def falling(rate, local):
     fall = np.where(local.pressure > 1e9, 1e9 / np.maximum(local.pressure, 1.0), 1.0)
     return {"depth_rate": rate.depth_rate * fall**4}
@@ -153,17 +141,8 @@ def failing_later(rate, local):
     return {}
 
 
-def unsteady(rate, local):
-    # Each step finds another wear rate than the one before.
-    return {"depth_rate": rate.depth_rate * (1.5 + np.sin(3e4 * local.state["rubbed"]))}
-
-
 def secant(rate, local):
     return {"depth_slope": rate.depth_rate / np.maximum(local.pressure, 1.0)}
-
-
-def normalised(rate, local):
-    return {"depth_rate": rate.depth_rate * np.mean(local.pressure) / 1e9}
 
 
 def asking(rate, local):
@@ -172,16 +151,13 @@ def asking(rate, local):
 
 LAWS += wrong(
     Law,
-    ("answers_fit_a_run", parts(divided)),
     ("answers_fit_a_run", parts(lambda r, local: {"depth_rate": r.depth_rate + 1e-12})),
     ("answers_fit_a_run", parts(lambda r, local: {"depth_rate": -r.depth_rate})),
     ("answers_fit_a_run", parts(lambda r, local: {"state_rates": {}})),
     ("derivative_is_that_of_the_depth", parts(secant)),
     ("depth_grows_with_pressure", parts(falling)),
-    ("points_are_independent", parts(normalised)),
     ("untouched_points_keep_their_state", parts(lambda r, local: {"state_rates": {"rubbed": 1.0}})),
     ("only_declared_fields_are_asked_for", parts(asking)),
     ("declared_fields_have_units", {"state_fields": (Field("rubbed", "mm", "Distance slid."),)}),
     ("runs_under_implicit_stepping", parts(failing_later), RuntimeError),
-    ("runs_under_implicit_stepping", parts(unsteady)),
 )

@@ -114,11 +114,12 @@ class Heated(Law):
     """Its derivative follows a field that follows the pressure."""
 
     requires = ("heat",)
+    state_fields = ()
 
     def rate(self, local):
         heat = local.fields["heat"]
         touching = np.where(local.pressure > 0, heat, 0.0)
-        return WearRate(1e-16 * touching, np.full_like(heat, 2e-16), {"rubbed": 0 * heat})
+        return WearRate(1e-16 * touching, np.full_like(heat, 2e-16))
 
 
 def test_a_field_has_the_value_given_and_may_follow_the_pressure():
@@ -133,11 +134,12 @@ class Sloped(Law):
     """Its derivative is by a slope that it is told."""
 
     requires = ("heat", "heat_slope")
+    state_fields = ()
 
     def rate(self, local):
         touching = local.pressure > 0
         heat = np.where(touching, 1e-16 * local.fields["heat"], 0.0)
-        return WearRate(heat, 1e-16 * local.fields["heat_slope"], {"rubbed": 1.0 * touching})
+        return WearRate(heat, 1e-16 * local.fields["heat_slope"])
 
 
 @pytest.mark.parametrize("fields", [{}, {"heat_slope": 2.0}, {"heat": lambda pressure: pressure}])

@@ -1,0 +1,123 @@
+"""What wear laws and effects must fulfil alike: they read fields, and may remember."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any, ClassVar
+
+import numpy as np
+
+from tribo.core.units import quantities
+from tribo.testing import samples
+from tribo.testing.checks import Checks
+from tribo.testing.compare import apply_if, first_difference, locked, require
+from tribo.testing.rescaling import UNITS, factor, renewed
+
+
+class LocalChecks(Checks):
+    """Checks of what answers at each point, from fields and from a state of its own."""
+
+    _per: ClassVar[str]
+    """What rates of the state are per: m or s."""
+
+    def _units(self, component: Any) -> Mapping[str, float]:
+        required = map(samples.known_field, component.requires)
+        units = dict(UNITS)
+        for field in (*required, *component.state_fields, *getattr(component, "provides", ())):
+            units[field.name] = factor(field.unit)
+            units[f"the rate of {field.name!r}"] = factor(field.unit) / factor(self._per)
+        return units
+
+    def _samples(self, component: Any) -> list[Any]:
+        return [locked(self._inputs(component, number)) for number in self._numbers]
+
+    def _each(self) -> list[Any]:
+        """Return the checks of every configuration, this one's first."""
+        others = [each for each in self._others if each is not self._config]
+        return [self, *(type(self)(each, self._fields) for each in others)]
+
+    def configuration_matters(self) -> None:
+        """Each number that is given changes an answer, in one configuration at least."""
+        idle = {name for name in self._cls.model_fields if _is_given(self._config, name)}
+        apply_if(idle, "no number is given but defaults and 0")
+        for checks in self._each():
+            config = checks._config
+            usual = [checks._answers(checks._make(), number) for number in self._numbers]
+            for name in [n for n in idle if getattr(config, n)]:
+                for times in (0.5, 2.0):
+                    other = renewed(config, {name: times * getattr(config, name)})
+                    for number, before in zip(self._numbers, usual, strict=True):
+                        if first_difference(before, checks._answers(other, number)):
+                            idle.discard(name)
+        names = ", ".join(sorted(idle))
+        require(not idle, f"{names}: half as much, or twice, changes no answer")
+
+    def states_move_and_matter(self) -> None:
+        """Each state field changes, and a law's changes the wear or another state."""
+        names = [field.name for field in self._make().state_fields]
+        apply_if(names, "it keeps no state")
+        still, idle = {*names}, {*names} if self._per == "m" else set()
+        for checks in self._each():
+            component = checks._make()
+            for given in checks._samples(component):
+                answers = dict(self._call(component, given))
+                for name in names:
+                    if np.any(answers.get(f"the rate of {name!r}", 0.0)):
+                        still.discard(name)
+                    fresh = np.full_like(given.state[name], component.initial_state()[name])
+                    other = locked(replace(given, state={**given.state, name: fresh}))
+                    own = {f"the rate of {name!r}": None}
+                    if first_difference(answers | own, {**self._call(component, other), **own}):
+                        idle.discard(name)
+        for names_of, fault in ((still, "never moves"), (idle, "alters nothing")):
+            require(not names_of, f"the state {', '.join(sorted(names_of))} {fault}")
+
+    def states_keep_their_limits(self) -> None:
+        """At a limit of a state field, its rate does not lead beyond."""
+        component = self._make()
+        limited = [
+            (field, limit, sign)
+            for field in component.state_fields
+            for limit, sign in ((field.at_least, -1.0), (field.at_most, 1.0))
+            if limit is not None
+        ]
+        apply_if(limited, "no state field has a limit")
+        for given in self._samples(component):
+            for field, limit, sign in limited:
+                at = {**given.state, field.name: np.full_like(given.state[field.name], limit)}
+                answers = self._call(component, locked(replace(given, state=at)))
+                beyond = float(np.max(sign * np.asarray(answers[f"the rate of {field.name!r}"])))
+                require(
+                    beyond <= 0,
+                    f"{field.name!r} at its limit of {limit:g} {field.unit} changes by "
+                    f"{sign * beyond:.3g} per {self._per}",
+                )
+
+    def required_fields_matter(self) -> None:
+        """Each field that it requires changes an answer, in one configuration at least."""
+        idle = {*self._make().requires}
+        apply_if(idle, "it requires no field")
+        for checks in self._each():
+            component = checks._make()
+            for given in checks._samples(component):
+                answers = self._call(component, given)
+                for name in idle & {*given.fields}:
+                    more = {**given.fields, name: _more(given.fields[name])}
+                    other = locked(replace(given, fields=more))
+                    if first_difference(answers, self._call(component, other)):
+                        idle = idle - {name}
+        require(not idle, f"{', '.join(sorted(idle))}: no answer changes by 1 % more of it")
+
+
+def _is_given(config: Any, name: str) -> bool:
+    """Whether a field holds a quantity that is neither 0 nor its default."""
+    field, value = type(config).model_fields[name], getattr(config, name)
+    marked = any(quantities((field.annotation, *field.metadata)))
+    return marked and isinstance(value, float) and value not in (0, field.default)
+
+
+def _more(field: Any) -> Any:
+    if isinstance(field, Mapping):
+        return {body: _more(values) for body, values in field.items()}
+    return 1.01 * field

@@ -1,0 +1,113 @@
+"""A process of its own for what might end it, or never end."""
+
+from __future__ import annotations
+
+import os
+import pickle
+import subprocess
+import sys
+from collections.abc import Callable
+from contextlib import suppress
+from functools import cache
+from threading import Timer
+from typing import Any
+
+from tribo.registry.probe import how_it_ended, time_limit_of_plugins
+
+_READY = b"ready"
+
+
+class Lost(Exception):
+    """The process ended, or took too long; the text says how."""
+
+
+class Unknown(Exception):
+    """The process cannot find what it was sent, or it cannot be sent."""
+
+
+class Child:
+    """A process that makes calls, one after the other, and is begun again when it has ended."""
+
+    def __init__(self) -> None:
+        self._process: subprocess.Popen[bytes] | None = None
+
+    def call(self, function: Callable[..., Any], *given: Any) -> Any:
+        """Return what a function returns there.
+
+        Raises
+        ------
+        Unknown
+            If function, arguments or answer cannot be sent, or are not found there.
+        Lost
+            If the process ended, or exceeded the time limit of plugins.
+        """
+        try:
+            sent = pickle.dumps((function, given))
+        except Exception as error:
+            raise Unknown(str(error)) from error
+        # A check may be some runs.
+        limit = 3 * time_limit_of_plugins()
+        process = self._process = self._process or _begin()
+        assert process.stdin is not None
+        assert process.stdout is not None
+        late = Timer(limit, process.kill)
+        late.start()
+        try:
+            pickle.dump(sent, process.stdin)
+            process.stdin.flush()
+            answer, fault = pickle.load(process.stdout)
+        except (OSError, EOFError, pickle.UnpicklingError):
+            code, self._process = process.wait(), None
+            with suppress(OSError):
+                process.stdin.close()
+            process.stdout.close()
+            how = (
+                f"did not end within {limit:g} s" if late.finished.is_set() else how_it_ended(code)
+            )
+            raise Lost(f"it {how}") from None
+        finally:
+            late.cancel()
+        if fault is not None:
+            raise Unknown(fault)
+        return pickle.loads(answer)
+
+
+@cache
+def child() -> Child:
+    """Return the one child of this process."""
+    return Child()
+
+
+def _begin() -> subprocess.Popen[bytes]:
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    process = subprocess.Popen(
+        [sys.executable, "-P", "-c", f"import {__name__} as child; child.serve()"],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        env=environment,
+    )
+    assert process.stdout is not None
+    process.stdout.read(len(_READY))
+    return process
+
+
+def serve() -> None:
+    """Make the calls that are asked for on the standard input, until that ends."""
+    # What a model prints goes elsewhere.
+    answers = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)
+    answers.write(_READY)
+    answers.flush()
+    while True:
+        try:
+            sent = pickle.load(sys.stdin.buffer)
+        except EOFError:
+            return
+        try:
+            function, given = pickle.loads(sent)
+        except Exception as error:
+            reply: tuple[bytes | None, str | None] = None, str(error)
+        else:
+            reply = pickle.dumps(function(*given)), None
+        pickle.dump(reply, answers)
+        answers.flush()

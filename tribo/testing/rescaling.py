@@ -1,0 +1,118 @@
+"""The same model, asked the same, in other units of length, mass, time and temperature."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import fields, is_dataclass, replace
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any, TypeVar, get_args, get_origin
+
+import numpy as np
+from pydantic import BaseModel
+
+from tribo.core.dimensions import scale
+from tribo.core.units import parts, quantities
+from tribo.testing.compare import NotApplicable
+
+T = TypeVar("T")
+
+_POWERS = (6, -11, 3, -5, 0)
+"""Powers of 2, which cost no digit, by which numbers in m, kg, s, K and mol grow. In these units
+the gas constant, Boltzmann's and Stefan's constants and the acceleration of free fall have the
+numbers that they have in SI, so that a model may know them."""
+
+
+def factor(unit: str) -> float:
+    """Return by what a number in an SI unit is multiplied."""
+    dimension = scale(unit)[1]
+    return 2.0 ** sum(power * n for power, n in zip(_POWERS, dimension, strict=True))
+
+
+UNITS: Mapping[str, float] = MappingProxyType(
+    {
+        name: factor(unit)
+        for unit, names in {
+            "m": "distance gap approach overlap height rate average path",
+            "m^3": "volume",
+            "1/m": "curvature",
+            "s": "time end",
+            "m/s": "speed",
+            "N": "load",
+            "Pa": "pressure modulus cap",
+            "m/Pa": "local",
+            "1/Pa": "swept",
+        }.items()
+        for name in names.split()
+    }
+)
+"""Factors of what components are given and answer, by its name."""
+
+
+def rescaled(table: T) -> T:
+    """Return a table, or a component, with its quantities in the other units.
+
+    Raises
+    ------
+    NotApplicable
+        If numbers of it are in a file.
+    """
+    cls: Any = type(table)
+    return renewed(
+        table,
+        {
+            name: _rescaled((field.annotation, *field.metadata), getattr(table, name))
+            for name, field in cls.model_fields.items()
+        },
+    )
+
+
+def renewed(table: T, values: Mapping[str, Any]) -> T:
+    """Return a table of the same class with some values, beyond its bounds if need be."""
+    cls: Any = type(table)
+    values = {name: values.get(name, getattr(table, name)) for name in cls.model_fields}
+    try:
+        made: T = cls.model_validate(values)
+    except ValueError:
+        made = cls.model_construct(**values)
+    return made
+
+
+def _rescaled(annotation: Any, value: Any) -> Any:
+    if isinstance(value, BaseModel):
+        return rescaled(value)
+    if isinstance(value, Path):
+        raise NotApplicable(f"{value.name} is in the units that it is in")
+    if isinstance(value, Mapping):
+        return {key: _rescaled(annotation, inner) for key, inner in value.items()}
+    if isinstance(value, list | tuple):
+        inside = zip(_inside(annotation, len(value)), value, strict=True)
+        return type(value)(_rescaled(of, inner) for of, inner in inside)
+    unit = next((mark.unit for mark in quantities(annotation)), "1")
+    return value * factor(unit) if isinstance(value, float | np.ndarray) else value
+
+
+def _inside(annotation: Any, count: int) -> list[Any]:
+    """Return what annotates each of the values of a sequence."""
+    for part in parts(annotation):
+        inner = [a for a in get_args(part) if a is not Ellipsis]
+        if get_origin(part) in (list, tuple) and len(inner) in (1, count):
+            return inner * (count // len(inner))
+    return [annotation] * count
+
+
+def in_other_units(value: T, units: Mapping[str, float], own: float = 1.0) -> T:
+    """Return nested values in the other units, each by the factor of the innermost known name."""
+    new: Any = value
+    if isinstance(value, BaseModel):
+        new = rescaled(value)
+    elif isinstance(value, Mapping):
+        new = {k: in_other_units(v, units, units.get(k, own)) for k, v in value.items()}
+    elif isinstance(value, list | tuple):
+        new = type(value)(in_other_units(v, units, own) for v in value)
+    elif is_dataclass(value) and not isinstance(value, type):
+        named = {f.name: getattr(value, f.name) for f in fields(value)}
+        new = replace(value, **in_other_units(named, units, own))
+    elif isinstance(value, float | np.ndarray):
+        new = value * own
+    return new  # type: ignore[no-any-return]
