@@ -53,7 +53,7 @@ def model(law=COVERED, effects=(), **changes):
             "grid": Grid((0.7e-3, 0.7e-3), (20, 20)),
             "bodies": bodies,
             "contact": foundation(),
-            "kinematics": motion(duration=30),
+            "kinematics": motion(duration=4),
             "effects": effects,
             **changes,
         }
@@ -82,16 +82,16 @@ def test_what_is_uniform_is_one_number_and_relaxes_as_it_should():
 
 @pytest.mark.parametrize("stepping", ["implicit", "explicit"])
 def test_both_schemes_come_to_the_same(stepping):
-    steps = {"stepping": Explicit(time_step="1 s")} if stepping == "explicit" else {}
+    steps = {"stepping": Explicit(time_step="0.2 s")} if stepping == "explicit" else {}
     last = states(model(effects=[Debris(length="0.5 m")], **steps))[-1]
     middle = last.between["debris_thickness"][10, 10]
-    assert middle == pytest.approx(1.038e-7, rel=0.02, abs=0)
+    assert middle == pytest.approx(1.0052e-7, rel=5e-3, abs=0)
 
 
 def test_on_a_body_that_passes_it_moves_with_it():
     case = model(
         effects=[Debris(length="2 mm", on="disk")],
-        kinematics=motion(stroke="0.5 mm", frequency=5, duration=10, positions=9),
+        kinematics=motion(stroke="0.5 mm", frequency=5, duration=3, positions=9),
     )
     last = states(case)[-1]
     wear, debris = last.bodies["disk"].wear, last.between["debris_thickness"]
@@ -104,7 +104,7 @@ def test_on_a_body_that_passes_it_moves_with_it():
 
 class Kill(Observer):
     type = "test.kill"
-    after: int = 5
+    after: int = 3
 
     def on_step(self, snapshot):
         if snapshot.state.steps == self.after:
@@ -113,7 +113,7 @@ class Kill(Observer):
 
 @pytest.mark.parametrize("on", [None, "disk"])
 def test_a_resumed_run_has_the_same_bits(tmp_path, on):
-    case = model(effects=[Debris(length="0.5 m", on=on), Bath()], save_times=(15,)).case
+    case = model(effects=[Debris(length="0.5 m", on=on), Bath()], save_times=(2,)).case
     with Simulation(case).run() as whole:
         expected = whole.dataset.load()
     path = tmp_path / "run.h5"
@@ -152,7 +152,7 @@ class Runaway(Effect):
 
     def state_rates(self, contact):
         assert contact.state["left"].min() >= 0, "beyond its limits at a trial"
-        return {"left": np.full((1, 1), -0.1)}
+        return {"left": np.full((1, 1), -1.0)}
 
 
 def test_a_state_that_leaves_its_limits_ends_the_run_by_name():

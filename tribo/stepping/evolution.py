@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -14,7 +14,7 @@ from tribo.core.contact import ContactSolution
 from tribo.core.fields import Field, WearRate
 from tribo.core.state import State
 from tribo.stepping.contacts import in_stripes
-from tribo.stepping.extrapolation import Limits, Values, integrated
+from tribo.stepping.extrapolation import Limits, Plan, Values, integrated
 from tribo.stepping.layers import in_layers
 from tribo.stepping.memory import Memory, laid, remembered
 from tribo.stepping.rates import CycleRates, Moment, rates_at_each, resting_rates, wear_rates
@@ -33,13 +33,13 @@ class Course:
         Mean rates over it, by position and body; no slopes where something is remembered.
     memory : Memory
         What is remembered at its end.
-    parts : tuple of float
-        Parts of the increment in which that is accurate.
+    plan : Plan
+        How the increment is divided for that to be accurate.
     """
 
     rates: CycleRates
     memory: Memory
-    parts: tuple[float, ...] = (1.0,)
+    plan: Plan = field(default_factory=Plan)
 
 
 def course(
@@ -48,12 +48,11 @@ def course(
     contacts: Sequence[ContactSolution],
     increment: float,
     moment: Moment,
-    parts: Sequence[float] = (1.0,),
-    **exact: float,
+    plan: Plan | None = None,
 ) -> Course:
     """Return what an increment (m) comes to, from what is remembered before it.
 
-    It is divided into `parts`, or finer. Without anything to remember, rates stay as they are, but
+    It is divided as in `plan`, or finer. Without anything to remember, rates stay as they are, but
     where a body wears through a layer.
     """
     before = in_layers(model, before, contacts, increment, moment)
@@ -61,7 +60,7 @@ def course(
         return Course(wear_rates(model, contacts, before, moment), before)
     of_model = partial(_rates, model, before, contacts, moment)
     values, depths, taken = integrated(
-        of_model, before.values, increment, _limits(model, before), parts, **exact
+        of_model, before.values, increment, _limits(model, before), plan
     )
     each = iter(depths)
     mean = [
@@ -86,7 +85,8 @@ def sloped(
     if not before.values:
         return known.rates
     nudged, stripes = in_stripes(contacts)
-    other = course(model, before, nudged, increment, moment, known.parts, accuracy=np.inf)
+    plan = replace(known.plan, accuracy=np.inf)
+    other = course(model, before, nudged, increment, moment, plan)
     laws = wear_rates(model, contacts, known.memory, moment)
     sloped = []
     for rates, higher, law, stripe in zip(known.rates, other.rates, laws, stripes, strict=True):

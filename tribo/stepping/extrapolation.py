@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,13 +12,17 @@ from tribo.core.arrays import Array
 from tribo.core.errors import BadValues
 
 ACCURACY = 3e-5
-"""Error of a part of the increment, summed over the cells, relative to what it integrates."""
-STAGES = (1, 2, 3, 4)
-"""Euler steps of the rows of the extrapolation, which is of fourth order."""
-MOST_PARTS = 64
-"""Parts of an increment, after which what is not smooth is taken as it is."""
+"""Error of an increment, summed over the cells, relative to what it integrates."""
+LOOSER, LOOSEST = 10.0, 3e-3
+"""By how much less accurate rates that jump are integrated, and how far that goes."""
+MOST_PARTS = 32
+"""Parts of an increment after which that is done."""
+JUMP = 0.1
+"""Relative difference from a smooth rate at which one is looked at as one that jumps."""
 FINEST = 2.0**-20
 """The smallest part, where a state goes on to leave its limits."""
+PLAIN, RELAXING = (1, 2, 3), (1, 2, 3, 4)
+"""Euler steps of the rows of the extrapolation, without and with the relaxation of the states."""
 NUDGE = 1e-6
 """Part of a state by which it is moved to find how fast it relaxes."""
 
@@ -35,19 +39,35 @@ class Limits:
     name: str
 
 
+@dataclass(frozen=True)
+class Plan:
+    """How an increment is divided to be accurate.
+
+    Parameters
+    ----------
+    parts : tuple of (float, bool)
+        Parts of it, in sum 1, each with whether its states relax within it.
+    accuracy : float
+        To which it is integrated; infinite to take the parts as they are.
+    """
+
+    parts: tuple[tuple[float, bool], ...] = ((1.0, False),)
+    accuracy: float = ACCURACY
+
+
 def integrated(
     rates: Rates,
     start: Sequence[Array],
     length: float,
     limits: Sequence[Limits],
-    parts: Sequence[float] = (1.0,),
-    accuracy: float = ACCURACY,
-) -> tuple[Values, Values, tuple[float, ...]]:
-    """Return states after an increment, what other rates come to over it, and its parts.
+    plan: Plan | None = None,
+) -> tuple[Values, Values, Plan]:
+    """Return states after an increment, what other rates come to over it, and how it was divided.
 
-    Each part is solved by Euler steps that are linearly implicit, each state in itself, and
-    extrapolated; one that is not accurate, or leaves the limits of a state, is halved. States
-    that relax over far less than a part come to rest there.
+    Each part is solved by Euler steps, extrapolated; where that is not accurate, by such that are
+    linearly implicit, each state in itself; and where that is not either, or leaves the limits of
+    a state, in two halves. States that relax over far less than a part come to rest there. Rates
+    that jump would need parts without end: they are integrated less accurately.
 
     Parameters
     ----------
@@ -59,10 +79,9 @@ def integrated(
         The increment, in the unit that rates are per.
     limits : sequence of Limits
         One for each state: trial values are held to them.
-    parts : sequence of float, optional
-        Parts of the increment to begin with, in sum 1; they are halved, but never joined.
-    accuracy : float, optional
-        As `ACCURACY`; infinite to take `parts` as they are.
+    plan : Plan, optional
+        Parts to begin with; they are divided, but never joined, so that the answer follows
+        smoothly from the rates.
 
     Raises
     ------
@@ -75,14 +94,18 @@ def integrated(
     differential-algebraic systems, Numer. Math. 51, 501-516. Hairer, E., Wanner, G. (1996),
     Solving Ordinary Differential Equations II, section IV.9.
     """
+    plan = plan or Plan()
     count, values = len(start), list(start)
     first = rates(values)
+    begin = first
     sums = [np.zeros_like(rate) for rate in first[count:]]
-    waiting, done = list(parts), list[float]()
+    waiting, done = list(plan.parts), list[tuple[float, bool]]()
     while waiting:
-        part = waiting[0]
-        relaxing = _relaxing(rates, values, first, part * length, limits)
-        best, rough = _extrapolated(rates, values, first, relaxing, part * length, limits)
+        part, relaxes = waiting[0]
+        span = part * length
+        slopes = _relaxing(rates, values, first, span, limits) if relaxes else [0.0] * count
+        stages = RELAXING if relaxes else PLAIN
+        best, rough, samples = _extrapolated(rates, values, first, slopes, span, stages, limits)
         sizes = [
             np.maximum(np.abs(old), np.abs(new)) for old, new in zip(values, best, strict=False)
         ]
@@ -90,25 +113,40 @@ def integrated(
             np.maximum(np.abs(new), part * np.abs(old))
             for old, new in zip(sums, best[count:], strict=True)
         ]
+        held = [_held(*each) for each in zip(best, limits, strict=False)]
+        last = rates(held)
         off = max(map(_relative, best, rough, sizes), default=0.0)
+        if off <= plan.accuracy < math.inf:
+            off = max(off, _jump(samples, last, span, sums, count))
         beyond = [_beyond(*each) for each in zip(best, sizes, limits, strict=False)]
-        left = max(beyond, default=0.0)
-        wrong = off > accuracy and len(waiting) + len(done) < MOST_PARTS
-        if wrong or left > min(accuracy, ACCURACY):
+        left = max(beyond, default=0.0) > ACCURACY
+        if off > plan.accuracy or left:
+            if not relaxes:
+                waiting[0] = part, True
+                continue
             if part <= FINEST:
                 limit = limits[int(np.argmax(beyond))]
                 raise BadValues(
                     f"{limit.name} goes on beyond its limits of {limit.least:g} to {limit.most:g}: "
                     "let its rate vanish there"
                 )
-            waiting[:1] = [0.5 * part, 0.5 * part]
+            waiting[:1] = [(0.5 * part, False)] * 2
+            if not left and len(waiting) + len(done) > MOST_PARTS:
+                # Rates that jump, at one point after the other.
+                plan = _looser(plan)
+                values, first, waiting, done = list(start), begin, list(plan.parts), []
+                sums = [np.zeros_like(rate) for rate in first[count:]]
             continue
-        values = [_held(*each) for each in zip(best, limits, strict=False)]
+        values, first = held, last
         sums = [old + new for old, new in zip(sums, best[count:], strict=True)]
         done.append(waiting.pop(0))
-        if waiting:
-            first = rates(values)
-    return values, sums, tuple(done)
+    return values, sums, replace(plan, parts=tuple(done))
+
+
+def _looser(plan: Plan) -> Plan:
+    if LOOSER * plan.accuracy <= LOOSEST:
+        return replace(plan, accuracy=LOOSER * plan.accuracy)
+    return Plan(((1 / MOST_PARTS, False),) * MOST_PARTS, math.inf)
 
 
 def _extrapolated(
@@ -117,17 +155,23 @@ def _extrapolated(
     first: Sequence[Array],
     relaxing: Sequence[Array | float],
     length: float,
+    stages: Sequence[int],
     limits: Sequence[Limits],
-) -> tuple[Values, Values]:
-    """Return the last two columns of Neville's table: ends of the states, integrals of the rest."""
+) -> tuple[Values, Values, list[Sequence[Array]]]:
+    """Return the last two columns of Neville's table: ends of the states, integrals of the rest.
+
+    With them come the rates at 0, 1/2, 1/3 and 2/3 of the part.
+    """
     row: list[Values] = []
-    for stage, steps in enumerate(STAGES):
+    samples: list[Sequence[Array]] = [first]
+    for stage, steps in enumerate(stages):
         step = length / steps
         states, found = list(start), first
         sums = [np.zeros_like(rate) for rate in first[len(start) :]]
         for taken in range(steps):
             if taken:
                 found = rates([_held(*each) for each in zip(states, limits, strict=True)])
+                samples.append(found)
             sums = [
                 total + step * rate for total, rate in zip(sums, found[len(start) :], strict=True)
             ]
@@ -137,11 +181,32 @@ def _extrapolated(
             ]
         column = [[*states, *sums]]
         for back, before in enumerate(row, start=1):
-            ratio = steps / STAGES[stage - back] - 1
+            ratio = steps / stages[stage - back] - 1
             pairs = zip(column[-1], before, strict=True)
             column.append([fine + (fine - coarse) / ratio for fine, coarse in pairs])
         row = column
-    return row[-1], row[-2]
+    return row[-1], row[-2], samples[:4]
+
+
+def _jump(
+    samples: Sequence[Sequence[Array]],
+    last: Sequence[Array],
+    length: float,
+    sums: Sequence[Array],
+    count: int,
+) -> float:
+    """Return what a rate that jumps before or after all samples may hide, relative to all so far.
+
+    It is what the end of a part differs by from the cubic through the samples.
+    """
+    worst = 0.0
+    for total, *at, end in zip(sums, *(each[count:] for each in (*samples, last)), strict=True):
+        first, half, third, two_thirds = at
+        off = float(np.sum(np.abs(9 * third - 16 * half + 9 * two_thirds - first - end)))
+        size = float(np.sum(np.maximum(np.abs(first), np.abs(end))))
+        if off > JUMP * size:
+            worst = max(worst, off * length / (float(np.sum(total)) + size * length))
+    return worst
 
 
 def _relaxing(

@@ -235,7 +235,7 @@ class Implicit(Scheme):
             implied = beyond + wear.depths(contacts, dx)
             passes, solves = passes + 1, solves + solved(contacts)
             iterations += sum(contact.iterations for contact in contacts)
-            slid = slide(contacts=contacts, parts=guess.course.parts)
+            slid = slide(contacts=contacts, plan=guess.course.plan)
             guess = _guess(model, contacts, slid, increment)
             off = np.abs(guess.depths - implied)
             mismatch = _loaded_mean(model, contacts, off) if resolved else _largest(off)
