@@ -45,6 +45,7 @@ SHOWN = {
     # A page has the tables of the terminal.
     "report/result.py": {"cli"},
     "report/comparison.py": {"cli"},
+    "report/calibration.py": {"cli"},
 }
 
 

@@ -9,7 +9,7 @@ import pytest
 from command_line import tribo
 from rich.console import Console
 
-from tribo.cli.calibrate import _estimates
+from tribo.cli.calibrate import estimates_table
 from tribo.config.load import load_case
 from tribo.study.calibration.outcome import Calibration
 
@@ -69,7 +69,7 @@ def test_wide_tables_break_no_value_at_80_columns(capsys):
         np.zeros(1),
         (),
     )
-    Console(width=80).print(_estimates(found))
+    Console(width=80).print(estimates_table(found))
     text = capsys.readouterr().out
     assert max(map(len, text.splitlines())) <= 80
     for whole in (estimate["path"], "1.23e-15 1/Pa", "1.36e-14", "±134 %", "resolution"):

@@ -35,7 +35,7 @@ def test_it_says_how_far_the_second_is_off_the_first(ran):
 def test_a_study_of_one_case_does_not_go_with_several_results(ran):
     done = command("report", "a.h5", "b.h5", "--verified", "study.json", cwd=ran[0])
     assert done.returncode == 2
-    assert "--verified: a study of one case says nothing of several results" in done.stderr
+    assert "--verified: a study of one case goes with one result" in done.stderr
 
 
 def test_a_folder_without_results_is_told(tmp_path):

@@ -105,12 +105,14 @@ def calibrate(
         echo_json(found.as_json())
         return
     console = Console()
-    console.print(_estimates(found))
-    console.print(_data(found))
+    console.print(estimates_table(found))
+    console.print(data_table(found))
     if len(found.predictions):
-        console.print(_predictions(found))
-    for line in _judgement(found):
-        console.print(line)
+        console.print(predictions_table(found))
+    for line in judgement(found):
+        console.print(line, markup=False)
+    for note in found.notes:
+        console.print(f"[yellow]Note:[/] {escape(note)}")
     if output is not None:
         for name in found.fitted:
             click.echo(f"Run it: tribo run {shlex.quote(str(files[name]))}")
@@ -182,7 +184,7 @@ def _choice(found: Choice, as_json: bool) -> None:
     console.print(table)
     for name in names:
         console.print(f"\n{escape(name)}")
-        console.print(_estimates(found.calibrations[name]))
+        console.print(estimates_table(found.calibrations[name]))
     console.print(f"In short: {escape(found.verdict)}.")
 
 
@@ -212,7 +214,8 @@ def _table(title: str, names: list[str], *columns: str) -> Table:
     return table
 
 
-def _estimates(found: Calibration) -> Table:
+def estimates_table(found: Calibration) -> Table:
+    """Return the parameters with their intervals."""
     names, level = list(found.parameters["path"]), f"{100 * found.level:g} % interval"
     table = _table(f"Fitted in {found.runs} runs", names, "estimate", level, "", "resolution")
     for each in found.parameters.itertuples():
@@ -226,7 +229,8 @@ def _estimates(found: Calibration) -> Table:
     return table
 
 
-def _data(found: Calibration) -> Table:
+def data_table(found: Calibration) -> Table:
+    """Return what was measured, and how the fit meets it."""
     names = [_name(each) for each in found.data.itertuples()]
     table = _table("Measured", names, "value", "uncertainty", "computed", "residual")
     for name, each in zip(names, found.data.itertuples(), strict=True):
@@ -238,7 +242,8 @@ def _data(found: Calibration) -> Table:
     return table
 
 
-def _predictions(found: Calibration) -> Table:
+def predictions_table(found: Calibration) -> Table:
+    """Return what else the fitted case gives."""
     names = [_name(each) for each in found.predictions.itertuples()]
     level = f"{100 * found.level:g} % interval"
     table = _table("Not measured, at the end", names, "computed", level, "")
@@ -250,7 +255,8 @@ def _predictions(found: Calibration) -> Table:
     return table
 
 
-def _judgement(found: Calibration) -> Iterator[str]:
+def judgement(found: Calibration) -> Iterator[str]:
+    """Say how good the fit is, and how well the data tell the parameters apart."""
     if found.p_value is not None:
         yield (
             f"χ² {found.chi_square:.3g} with {found.degrees_of_freedom} to spare, "
@@ -266,8 +272,6 @@ def _judgement(found: Calibration) -> Iterator[str]:
         for j, second in enumerate(paths[:i]):
             both = round(found.correlation[i, j], 2) + 0.0
             yield f"Correlation of {second} and {first}: {both:+.2f}."
-    for note in found.notes:
-        yield f"[yellow]Note:[/] {escape(note)}"
 
 
 def _name(row: Any) -> str:

@@ -18,16 +18,19 @@ from tribo.cli.options import PATH
 def report(what: tuple[Path, ...], output: Path | None, verified: Path | None) -> None:
     """Write a report of WHAT to hand on: one HTML file that opens offline in any browser.
 
-    WHAT is a result; several results, or the folder of 'tribo compare', are set side by
-    side. The report has the answer in a sentence, tables, the case, maps and sections at
-    every saved time, the worn surface in 3-D, the history, and what made it. It needs the
-    extra 'report': pip install "tribo[report]".
+    WHAT is a result, or the folder of a sweep, or what 'tribo calibrate --json' printed;
+    several results, or the folder of 'tribo compare', are set side by side. The report has
+    the answer in a sentence, tables, the case, maps and sections at every saved time, the
+    worn surface in 3-D, the history, and what made it. It needs the extra 'report': pip
+    install "tribo[report]".
 
     \b
     Example:
       tribo report my.h5
       tribo report my.h5 -o report.html --verified study.json
       tribo report a.h5 b.h5
+      tribo report study-sweep
+      tribo report fit.json
     """
     from tribo.report.write import write_report
 

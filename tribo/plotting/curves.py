@@ -21,8 +21,18 @@ from tribo.result.read import Result
 
 SHOWN = {"_Pa": "Pa", "_m": "m"}
 """Ends of names of columns that are shown in a unit which fits them."""
-OTHERS = ("_m3", "mm³"), ("_m2", "mm²"), ("_J", "J"), ("_N_m", "N m"), ("_N", "N"), ("_s", "s")
-"""Ends of other names, and their unit."""
+OTHERS = (
+    ("_1_Pa", "1/Pa"),
+    ("_m_s", "m/s"),
+    ("_J_m2", "J/m²"),
+    ("_m3", "mm³"),
+    ("_m2", "mm²"),
+    ("_J", "J"),
+    ("_N_m", "N m"),
+    ("_N", "N"),
+    ("_s", "s"),
+)
+"""Ends of other names, and their unit; the longer first, as the inverse of a pressure."""
 FIT = 4.0
 """Height of a measured value in the picture of a fit, in mm."""
 
@@ -151,13 +161,13 @@ def _draw(
 ) -> list[Line2D]:
     """Draw a curve in units that fit `every` value, and label the axes."""
     every = every or (x, y)
-    (below, scale), (beside, size_up) = _label(across, every[0]), _label(up, every[1])
+    (below, scale), (beside, size_up) = column_label(across, every[0]), column_label(up, every[1])
     axes.set_xlabel(below)
     axes.set_ylabel(beside.replace(" (", "\n("))
     return axes.plot(x / scale, y / size_up, **{"color": "#202020", **look})
 
 
-def _label(name: str, values: Array) -> tuple[str, float]:
+def column_label(name: str, values: Array) -> tuple[str, float]:
     """Return what an axis says of a column, with the unit for its values, and the unit's size."""
     (unit, end), factor = _unit(name, values)
     words = name.removesuffix(end).replace("_", " ").replace(".", " ").removeprefix("bodies ")
@@ -167,11 +177,11 @@ def _label(name: str, values: Array) -> tuple[str, float]:
 def _unit(name: str, values: Array) -> tuple[tuple[str, str], float]:
     """Return the unit for a column, the end of the name that it replaces, and its size in SI."""
     largest = float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values)))
-    for end, si in SHOWN.items():
-        if name.endswith(end) and not name.endswith("_N_m"):
-            unit = "m" if si == "m" and largest >= 1.0 else fitting(si, largest)
-            return (unit, end), size(unit)
     for end, unit in OTHERS:
         if name.endswith(end):
             return (unit, end), size(unit.replace(" ", "*"))
+    for end, si in SHOWN.items():
+        if name.endswith(end):
+            unit = "m" if si == "m" and largest >= 1.0 else fitting(si, largest)
+            return (unit, end), size(unit)
     return ("", ""), 1.0

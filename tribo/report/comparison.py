@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -11,7 +12,7 @@ from tribo.plotting.overlays import comparison_picture
 from tribo.plotting.units import time_labels
 from tribo.report.curves import history, moments, sections, thinned
 from tribo.report.fields import pressure_maps
-from tribo.report.page import check_installed, packed, render, stills
+from tribo.report.page import check_installed, render, stills
 from tribo.report.result import cited
 from tribo.report.sentence import DEPTHS, VOLUMES, quoted
 from tribo.report.tables import for_page
@@ -40,7 +41,7 @@ def comparison_page(comparison: Comparison) -> str:
         title=" and ".join(results) if len(results) == 2 else f"{len(results)} results",
         answers=_answers(comparison),
         tables_title="Side by side",
-        tables=[table],
+        tables=[replace(table, title="At the first and the last common save")],
         remarks=[how_compared(comparison)],
         notes=comparison.notes,
         has_moments=True,
@@ -56,7 +57,7 @@ def comparison_page(comparison: Comparison) -> str:
         citation=cited(first),
         case=to_toml(first.case),
         whose=f" of {comparison.reference}",
-        data=packed(data),
+        data=data,
     )
 
 

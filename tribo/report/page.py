@@ -38,8 +38,11 @@ def check_installed() -> None:
         ) from error
 
 
-def render(template: str, **values: Any) -> str:
-    """Return a template of this package filled in, with styles and scripts inside."""
+def render(template: str, *, data: Mapping[str, Any] | None, **values: Any) -> str:
+    """Return a template of this package filled in, with styles, scripts and data inside.
+
+    Without `data` there is nothing to draw, and Plotly is left out.
+    """
     from jinja2 import Environment, PackageLoader, StrictUndefined
     from plotly.offline import get_plotlyjs
 
@@ -54,7 +57,8 @@ def render(template: str, **values: Any) -> str:
     return environment.get_template(template).render(
         style=(own / "report.css").read_text(encoding="utf-8"),
         script=(own / "report.js").read_text(encoding="utf-8"),
-        plotly=packed(get_plotlyjs()),
+        plotly=packed(get_plotlyjs()) if data else "",
+        data="" if data is None else packed(data),
         **values,
     )
 

@@ -15,7 +15,7 @@ from tribo.plotting.sections import number_of_saves
 from tribo.report.amounts import amount, component_words, load_words, material_words
 from tribo.report.drawing import drawing
 from tribo.report.fields import charts
-from tribo.report.page import check_installed, packed, render, stills
+from tribo.report.page import check_installed, render, stills
 from tribo.report.sentence import Estimate, read_verified, sentence, trust
 from tribo.report.tables import PageTable, for_page
 from tribo.result.read import Result
@@ -46,7 +46,7 @@ def result_page(result: Result, verified: Path | None = None) -> str:
         notes=result.notices,
         drawing=drawing(case, swept) if _is_whole(case) else "",
         facts=_facts(case),
-        data=packed(charts(result)),
+        data=charts(result),
         stills=stills(result_pictures(result)),
         held=_held(result),
         provenance=_provenance(result),

@@ -18,7 +18,7 @@ AGREES = 0.02
 
 EXACT = 1e-6
 """Relative uncertainty up to which none is quoted: Archard's law fixes the volume."""
-LEAST = 1e-4
+LEAST = 0.9999e-4
 """Part of a unit from which a value is given in it, as a lab does."""
 VOLUMES = {"mm³": 1e-9, "µm³": 1e-18}
 MASSES = {"mg": 1e-6, "ng": 1e-12}

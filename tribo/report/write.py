@@ -6,15 +6,21 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from tribo.core.errors import CaseError
+from tribo.report.calibration import calibration_page, read_calibration
 from tribo.report.comparison import comparison_page
 from tribo.report.page import write_page
 from tribo.report.result import result_page
+from tribo.report.sweep import RUNS, sweep_page
 from tribo.result.read import Result
+from tribo.study.calibration.outcome import Calibration
 from tribo.study.comparison import Comparison, compare
+from tribo.study.sweeping.sweep import Sweep
+
+What = Result | Comparison | Sweep | Calibration | str | Path | Sequence[str | Path]
 
 
 def write_report(
-    what: Result | Comparison | str | Path | Sequence[str | Path],
+    what: What,
     path: str | Path,
     *,
     verified: str | Path | None = None,
@@ -23,10 +29,12 @@ def write_report(
 
     Parameters
     ----------
-    what : Result, Comparison, str, Path or sequence of str or Path
-        A result or its file; or a comparison, the files of several results, or
-        a folder of them, as that of ``tribo compare``. The first, of a folder in
-        the order of the names, is what the others are compared with.
+    what : Result, Comparison, Sweep, Calibration, str, Path or sequence of str or Path
+        A result or its file; a comparison, the files of several results, or
+        a folder of them, as that of ``tribo compare``; a sweep or its folder; a
+        calibration, or what ``tribo calibrate --json`` printed, in a file that ends
+        in ``.json``. Results are compared with the first, of a folder in the order
+        of the names.
     path : str or Path
         The file to write; what is there is replaced.
     verified : str or Path, optional
@@ -57,24 +65,37 @@ def write_report(
     return Path(path)
 
 
-def _page(
-    what: Result | Comparison | str | Path | Sequence[str | Path], verified: Path | None
-) -> str:
-    if isinstance(what, Result):
-        return result_page(what, verified)
-    if isinstance(what, str | Path):
-        place = Path(what)
-        if not place.is_dir():
-            with Result.open(place) as result:
-                return result_page(result, verified)
-        what = sorted(place.glob("*.h5"))
-        if not what:
-            raise CaseError(f"{place} holds no result file (.h5)")
+def _page(what: What, verified: Path | None) -> str:
+    found = _found(what) if isinstance(what, str | Path) else what
+    if isinstance(found, Result):
+        return result_page(found, verified)
+    if isinstance(found, Sequence) and len(found) == 1:
+        with Result.open(found[0]) as result:
+            return result_page(result, verified)
     if verified is not None:
-        raise CaseError("a study of one case says nothing of several results", "--verified")
-    if isinstance(what, Comparison):
-        return comparison_page(what)
-    if len(what) == 1:
-        return _page(what[0], verified)
-    with compare(what) as comparison:
+        raise CaseError("a study of one case goes with one result", "--verified")
+    if isinstance(found, Sweep):
+        return sweep_page(found.folder)
+    if isinstance(found, Path):
+        return sweep_page(found)
+    if isinstance(found, Calibration):
+        return calibration_page(found, what.stem if isinstance(what, Path) else "Calibration")
+    if isinstance(found, Comparison):
+        return comparison_page(found)
+    with compare(found) as comparison:
         return comparison_page(comparison)
+
+
+def _found(what: str | Path) -> Calibration | Path | Sequence[Path]:
+    """Return what a path stands for: a calibration, the folder of a sweep, or result files."""
+    place = Path(what)
+    if place.suffix == ".json":
+        return read_calibration(place)
+    if not place.is_dir():
+        return [place]
+    if (place / RUNS).exists():
+        return place
+    results = sorted(place.glob("*.h5"))
+    if not results:
+        raise CaseError(f"{place} holds no result file (.h5)")
+    return results

@@ -155,11 +155,11 @@ function drawSurface(plot, data, surface, save, moment, camera) {
   }), CONFIG);
 }
 
-function drawHistory(plot, panel, label) {
+function drawHistory(plot, panel, label, isLog) {
   const ends = panel.curves.map(({ name, y }) => `${name} ${y[y.length - 1]} ${panel.unit}`);
   plot.setAttribute("aria-label", `${panel.name} against ${label}; at the end: ${ends.join(", ")}.`);
   return Plotly.react(plot, lines(panel.curves), layout(panel.name, {
-    xaxis: axis(label, { rangemode: "tozero" }),
+    xaxis: isLog ? scaled(label, panel.curves.flatMap(({ x }) => x)) : axis(label, { rangemode: "tozero" }),
     yaxis: panel.log ? scaled(panel.unit, panel.curves.flatMap(({ y }) => y)) : axis(panel.unit, { rangemode: "tozero" }),
     ...legend(panel.curves),
   }), CONFIG);
@@ -252,8 +252,8 @@ async function showHistory(history) {
   }
   const plots = panels.map((panel) => place(at("history"), panel.name, history.note));
   const draw = (chosen) => {
-    const { label, panels: drawn } = history.axes[chosen];
-    return Promise.all(plots.map((plot, i) => drawHistory(plot, drawn[i], label)));
+    const { label, log, panels: drawn } = history.axes[chosen];
+    return Promise.all(plots.map((plot, i) => drawHistory(plot, drawn[i], label, log)));
   };
   choices(at("against"), "against", history.axes.map(({ name }) => `against ${name}`), draw);
   await draw(0);
@@ -285,4 +285,4 @@ at("copy")?.addEventListener("click", async () => {
     at("copy-said").textContent = "Selected; copy it with Ctrl+C.";
   }
 });
-show();
+if (at("data")) show();

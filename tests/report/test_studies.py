@@ -1,0 +1,108 @@
+"""The reports of a sweep and of a calibration."""
+
+import json
+import re
+
+import pandas as pd
+import pytest
+from command_line import tribo as command
+from made_results import written
+from pages import Checked
+
+import tribo
+
+ESTIMATE = {
+    "path": "bodies.ball.wear.k",
+    "unit": "1/Pa",
+    "value": 7.08e-15,
+    "lower": 6.79e-15,
+    "upper": 7.36e-15,
+    "resolution_share": 0.9,
+    "resolution_limit": 0.05,
+    "held": False,
+}
+MEASURED = {
+    "test": "",
+    "body": "ball",
+    "quantity": "mass",
+    "time_s": None,
+    "position_m": None,
+    "unit": "kg",
+    "measured": 2e-6,
+    "below": False,
+    "sigma": 4e-8,
+    "computed": 2e-6,
+    "residual": 0.0,
+}
+FIT = {
+    "level": 0.95,
+    "runs": 3,
+    "parameters": [ESTIMATE, ESTIMATE | {"path": "bodies.disk.wear.k", "upper": None}],
+    "data": [MEASURED],
+    "predictions": [],
+    "chi_square": 0.0,
+    "degrees_of_freedom": 0,
+    "p_value": None,
+    "repeatability": 0.0,
+    "repeatability_estimated": False,
+    "correlation": [[1.0, 0.0], [0.0, 1.0]],
+    "singular_values": [49.0, 5.0],
+    "bic": 0.0,
+    "left_out": [None],
+    "notes": ["there are no more data than parameters"],
+}
+
+
+def answers(path):
+    page = path.read_text(encoding="utf-8")
+    Checked(page)
+    return re.findall('<p class="answer">(.*?)</p>', page, re.S)
+
+
+def test_a_sweep_tells_the_least_and_the_most_wear(tmp_path):
+    folder = tmp_path / "study-sweep"
+    (folder / "results").mkdir(parents=True)
+    rows = []
+    for run, (load, motion) in enumerate([(50.0, "a"), (100.0, "a"), (50.0, "b")], start=1):
+        written(folder / "results" / f"{run}.h5", times=(0.0, 100.0 * run))
+        with tribo.open(folder / "results" / f"{run}.h5") as result:
+            saves = {name: values[-1] for name, values in result.table("saves").items()}
+        varied = {"load.normal_N": load, "kinematics.type": motion}
+        rows.append({"run": run, "status": "done", **varied, **saves, "file": f"{run}.h5"})
+    rows.append({"run": 4, "status": "failed", "message": "too steep"})
+    pd.DataFrame(rows).to_csv(folder / "runs.csv", index=False)
+    done = command("report", "study-sweep", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    count, ball, _ = answers(tmp_path / "study-sweep-report.html")
+    assert count == "3 of 4 runs are done."
+    volumes = [f"{1e9 * row['bodies.ball.wear_volume_m3']:.3g}" for row in (rows[0], rows[2])]
+    assert f"The ball lost {volumes[0]} mm³" in ball
+    assert f"to {volumes[1]} mm³" in ball
+    assert "(run 3: load normal 50 N, kinematics type b)" in ball
+    assert "runs 4: too steep" in (tmp_path / "study-sweep-report.html").read_text()
+
+
+def test_a_sweep_without_a_run_that_is_done_has_no_report(tmp_path):
+    (tmp_path / "runs.csv").write_text("run,status,time_s,file,message\n1,failed,,1.h5,too steep\n")
+    with pytest.raises(tribo.CaseError, match=r"no run of .* is done"):
+        tribo.write_report(tmp_path, tmp_path / "report.html")
+
+
+def test_a_calibration_tells_its_estimates(tmp_path):
+    (tmp_path / "fit.json").write_text(json.dumps(FIT))
+    done = command("report", "fit.json", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    first, second = answers(tmp_path / "fit-report.html")
+    assert first == (
+        "bodies.ball.wear.k is 7.08e-15 1/Pa, between 6.79e-15 and 7.36e-15 with a probability "
+        "of 95 %."
+    )
+    assert second.endswith("the data do not bound it.")
+    # Nothing to draw: Plotly is left out.
+    assert (tmp_path / "fit-report.html").stat().st_size < 200_000
+
+
+def test_another_json_file_is_refused(tmp_path):
+    (tmp_path / "other.json").write_text("{}")
+    with pytest.raises(tribo.CaseError, match="is not what 'tribo calibrate --json' prints"):
+        tribo.write_report(tmp_path / "other.json", tmp_path / "report.html")

@@ -1,0 +1,101 @@
+"""The report of a calibration."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from tribo.cli.calibrate import data_table, estimates_table, judgement, predictions_table
+from tribo.config.write import to_toml
+from tribo.core.errors import CaseError
+from tribo.plotting.curves import fit_picture
+from tribo.report.page import check_installed, render, stills
+from tribo.report.result import CITATION
+from tribo.report.tables import for_page
+from tribo.result.provenance import environment
+from tribo.study.calibration.outcome import DATA, Calibration
+from tribo.study.calibration.quantities import in_si
+
+
+def read_calibration(path: Path) -> Calibration:
+    """Return the calibration that ``tribo calibrate --json`` printed, without the fitted cases.
+
+    Raises
+    ------
+    CaseError
+        If the file is not one.
+    """
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+        tables: dict[str, Any] = {
+            name: pd.DataFrame(found.pop(name)) for name in ("parameters", "data", "predictions")
+        }
+        for name in ("parameters", "predictions"):
+            if "upper" in tables[name]:
+                # JSON has no infinity.
+                tables[name]["upper"] = tables[name]["upper"].fillna(math.inf)
+        missing = {*DATA} - {*tables["data"]}
+        if missing:
+            raise CaseError(f"it has no {', '.join(sorted(missing))}")
+        del found["p_value"]
+        for name in ("correlation", "singular_values", "left_out"):
+            found[name] = np.array(found[name], dtype=float)
+        found |= {"fitted": {}, "notes": tuple(found["notes"])}
+        return Calibration(**tables, **found)
+    except (OSError, ValueError, LookupError, TypeError, AttributeError, CaseError) as error:
+        raise CaseError(f"{path} is not what 'tribo calibrate --json' prints: {error}") from error
+
+
+def calibration_page(found: Calibration, title: str) -> str:
+    """Return the report of a calibration as HTML; see `tribo.write_report`."""
+    check_installed()
+    tables = [estimates_table(found), data_table(found)]
+    if len(found.predictions):
+        tables.append(predictions_table(found))
+    packages: Any = environment()["packages"]
+    return render(
+        "study.html.j2",
+        kind="Calibration",
+        title=title,
+        answers=list(_answers(found)),
+        tables_title="What was fitted",
+        tables=[for_page(table) for table in tables],
+        remarks=list(judgement(found)),
+        notes=found.notes,
+        has_moments=False,
+        curves_title="",
+        stills=stills({"fit, over what was measured": partial(fit_picture, found.data)}),
+        always=True,
+        provenance=[("report made with", ", ".join(f"{k} {v}" for k, v in packages.items()))],
+        citation=CITATION.format(version=packages.get("tribo", "")),
+        case="\n".join(_cases(found)),
+        whose=" as fitted",
+        data=None,
+    )
+
+
+def _answers(found: Calibration) -> Iterator[str]:
+    """Say each estimate, and between which ends it lies."""
+    for each in found.parameters.itertuples():
+        words = f"{each.path} is {in_si(each.value, each.unit)}"
+        if each.held:
+            yield f"{words}, held by its bound."
+        elif math.isinf(each.upper):
+            yield f"{words}; the data do not bound it."
+        else:
+            yield (
+                f"{words}, between {each.lower:.3g} and {each.upper:.3g} with a probability of "
+                f"{100 * found.level:g} %."
+            )
+
+
+def _cases(found: Calibration) -> Iterator[str]:
+    for name, tables in found.fitted.items():
+        yield (f"# {name}\n" if name else "") + to_toml(tables)

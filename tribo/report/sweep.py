@@ -1,0 +1,179 @@
+"""The report of a sweep."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from tribo.core.errors import CaseError
+from tribo.plotting.curves import column_label, sweep_curves
+from tribo.report.page import check_installed, render, stills
+from tribo.report.reduced import plain
+from tribo.report.result import cited
+from tribo.report.sentence import DEPTHS, VOLUMES, quoted
+from tribo.report.tables import PageTable
+from tribo.result.read import Result
+
+RUNS, RESULTS = "runs.csv", "results"
+MOST_CURVES = 6
+MOST_PICTURES = 4
+DECADE = 10.0
+MEASURES = ("wear_volume_m3", "max_wear_depth_m", "scar_across_m")
+
+
+def sweep_page(folder: Path) -> str:
+    """Return the report of the sweep in a folder as HTML; see `tribo.write_report`.
+
+    Raises
+    ------
+    CaseError
+        If there is no table of its runs, or none of them is done.
+    """
+    check_installed()
+    try:
+        runs = pd.read_csv(folder / RUNS)
+        done = runs[runs["status"] == "done"]
+        if done.empty:
+            raise CaseError(f"no run of {folder} is done; there is nothing to report")
+        varied = list(runs.columns[2 : runs.columns.get_loc("time_s")])
+        first = done.iloc[0]["file"]
+    except (OSError, ValueError, KeyError) as error:
+        raise CaseError(f"{folder / RUNS} is not the table of a sweep: {error}") from error
+    with Result.open(folder / RESULTS / str(first)) as result:
+        bodies, citation = result.body_names, cited(result)
+        made = ", ".join(f"{name} {v}" for name, v in result.provenance["packages"].items())
+    measures = [
+        column
+        for column in (*(f"bodies.{b}.{m}" for m in MEASURES for b in bodies), "max_pressure_Pa")
+        if column in done and np.any(done[column] != 0)
+    ]
+    messages = runs[runs["message"].notna()].groupby("message", sort=False)["run"]
+    return render(
+        "study.html.j2",
+        kind="Sweep",
+        title=folder.name,
+        answers=list(_answers(done, len(runs), varied, bodies)),
+        tables_title="The runs",
+        tables=[_table(runs, varied, measures)],
+        remarks=[],
+        notes=[f"runs {', '.join(map(str, rows))}: {text}" for text, rows in messages],
+        has_moments=False,
+        curves_title="What varies, and what comes of it",
+        stills=stills(_pictures(done, varied, measures)),
+        always=False,
+        provenance=[("folder", str(folder.name)), ("made with", made)],
+        citation=citation,
+        case="",
+        whose="",
+        data={"history": _curves(done, varied, measures)},
+    )
+
+
+def _answers(
+    done: pd.DataFrame, count: int, varied: list[str], bodies: tuple[str, ...]
+) -> Iterator[str]:
+    """Say between which ends each body's wear lies, and in which runs."""
+    yield f"{len(done)} of {count} runs are done."
+    for body in bodies:
+        volumes = done[f"bodies.{body}.wear_volume_m3"]
+        if not volumes.max() > 0:
+            continue
+        ends = []
+        for index in (volumes.idxmin(), volumes.idxmax()):
+            row = done.loc[index]
+            depth = quoted(row[f"bodies.{body}.max_wear_depth_m"], DEPTHS)
+            where = ", ".join(f"{_words(name, done)} {_cell(name, done, index)}" for name in varied)
+            ends.append(
+                f"{quoted(row[f'bodies.{body}.wear_volume_m3'], VOLUMES)}, {depth} deep (run "
+                f"{row['run']}: {where})"
+            )
+        yield f"The {body} lost {' to '.join(dict.fromkeys(ends))}."
+
+
+def _words(name: str, runs: pd.DataFrame) -> str:
+    return _labelled(name, runs)[0].partition(" (")[0]
+
+
+def _labelled(name: str, runs: pd.DataFrame) -> tuple[str, float]:
+    """Return what is said of a column, with its unit, and the unit's size."""
+    if not pd.api.types.is_numeric_dtype(runs[name]):
+        return name.replace("_", " ").replace(".", " "), 1.0
+    return column_label(name, runs[name].to_numpy(float))
+
+
+def _cell(name: str, runs: pd.DataFrame, index: Any) -> str:
+    """Return a value of a run, in the unit of its column."""
+    value = runs.at[index, name]
+    if isinstance(value, str):
+        return value
+    if pd.isna(value):
+        return "–"
+    label, factor = _labelled(name, runs)
+    unit = label.rpartition(" (")[2].removesuffix(")") if label.endswith(")") else ""
+    return f"{float(value) / factor:.4g} {unit}".rstrip()
+
+
+def _table(runs: pd.DataFrame, varied: list[str], measures: list[str]) -> PageTable:
+    shown = [*varied, *measures]
+    head = ["run", "status", *(_labelled(name, runs)[0] for name in shown)]
+    rows = []
+    for index, run in runs.iterrows():
+        cells = [_cell(name, runs, index) for name in shown]
+        # The heading has the unit.
+        cells = [cell.split(" ")[0] for cell in cells]
+        rows.append([str(run["run"]), str(run["status"]), *cells])
+    return PageTable("Each run at its end", head, rows, True)
+
+
+def _curves(done: pd.DataFrame, varied: list[str], measures: list[str]) -> dict[str, Any]:
+    """Return what is measured over each quantity that varies, a curve for each of the others."""
+    axes = []
+    for across in varied:
+        label, factor = _labelled(across, done)
+        groups = _groups(done.sort_values(across), [name for name in varied if name != across])
+        is_text = not pd.api.types.is_numeric_dtype(done[across])
+        low, high = (0.0, 0.0) if is_text else (done[across].min(), done[across].max())
+        panels = []
+        for name in measures:
+            words, size = _labelled(name, done)
+            what, _, unit = words.rpartition(" (")
+            curves = [
+                {
+                    "name": called,
+                    "x": list(rows[across]) if is_text else plain(rows[across] / factor),
+                    "y": plain(rows[name] / size),
+                }
+                for called, rows in groups.items()
+            ]
+            panels.append({"name": what, "unit": unit.rstrip(")"), "log": False, "curves": curves})
+        log = bool(low > 0 and high >= DECADE * low)
+        axes.append({"name": _words(across, done), "label": label, "log": log, "panels": panels})
+    return {"axes": axes, "note": "A mark for each run that is done, at its end."}
+
+
+def _pictures(
+    done: pd.DataFrame, varied: list[str], measures: list[str]
+) -> dict[str, Callable[[], Figure]]:
+    """Return how to draw the first measures over the first number that varies, for paper."""
+    numbers = [name for name in varied if pd.api.types.is_numeric_dtype(done[name])]
+    others = [name for name in varied if name not in numbers[:1]]
+    by = others if len(_groups(done, others)) > 1 else []
+    return {
+        _words(name, done): partial(sweep_curves, done, numbers[0], name, by)
+        for name in measures[: MOST_PICTURES if numbers else 0]
+    }
+
+
+def _groups(runs: pd.DataFrame, others: list[str]) -> dict[str, pd.DataFrame]:
+    """Return the runs of each curve by name; all in one if there would be too many."""
+    parts = {
+        ", ".join(f"{_words(n, runs)} {_cell(n, runs, rows.index[0])}" for n in others): rows
+        for _, rows in (runs.groupby(others, sort=True) if others else [])
+    }
+    return parts if 0 < len(parts) <= MOST_CURVES else {"runs": runs}
