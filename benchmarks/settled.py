@@ -1,7 +1,8 @@
 """Two rough bodies that slide over each other: the roughness at which the one that wears settles.
 
 The patch loses particles (`roughening.detachment`), the plate is rough and hard. The README of
-tribo-roughening, which must be installed, states the figures. About 20 minutes on one core:
+tribo-roughening, which must be installed, states the figures. About an hour on one core on 256²
+cells, and five on 512²:
 
     python benchmarks/settled.py --json docs/_data/settled.json
 """
