@@ -14,6 +14,7 @@ from tribo.contact.periodic import Periodic
 from tribo.contact.winkler import Winkler
 from tribo.core.errors import CaseError, NumericalError
 from tribo.core.grid import Grid
+from tribo.motion.rotating import Rotating
 from tribo.motion.unidirectional import Unidirectional
 from tribo.simulation.positions import composed
 from tribo.stepping.explicit import Explicit
@@ -131,6 +132,16 @@ KINDS = {
         1e-6,
     ),
     "repeating": (flats(), Depth("ball"), ["load.normal", "bodies.ball.surface.amplitude"], 1e-5),
+    "rows of their own speed": (
+        run(
+            kinematics=Rotating(track_radius="1.5 mm", speed=0.1, duration=20.0),
+            bodies=pair(power(1.5), archard()),
+            stepping=few(nonlinear_tolerance=1e-13),
+        ),
+        Depth("disk"),
+        ["load.normal", "kinematics.speed", "kinematics.track_radius"],
+        1e-5,
+    ),
     "line": (
         run(bodies=LINE, ends_at_window=True, load=10.0),
         Volume("ball"),
@@ -282,6 +293,7 @@ def test_a_number_without_derivative_is_refused(path, message):
 def test_without_paths_all_numbers_count_and_the_rest_says_why():
     found = gradient(run(kinematics=resolved()), Depth("disk"))
     assert found["bodies.disk.wear.k"] > 0
+    assert str(found).startswith("bodies.disk.wear.k ")
     assert "whole cells" in found.refused["kinematics.stroke"]
     with pytest.raises(CaseError, match="whole cells"):
         found["kinematics.stroke"]

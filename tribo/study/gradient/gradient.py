@@ -53,6 +53,14 @@ class Gradient:
     worn_before: Mapping[str, Array]
     refused: Mapping[str, str]
 
+    def __str__(self) -> str:
+        """Return which numbers rule the objective, in per cent for one per cent, as lines."""
+        ranked = sorted(self.relative.items(), key=lambda item: -abs(item[1]))
+        width = max((len(path) for path in self.relative), default=0)
+        lines = [f"{path:{width}}  {percent:+.3f} % for 1 %" for path, percent in ranked]
+        lines += [f"{path}: {reason}" for path, reason in self.refused.items()]
+        return "\n".join(lines)
+
     def __getitem__(self, path: str) -> float:
         """Return the derivative in the number at `path`; `CaseError` if there is none."""
         if path in self.refused:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.fft
@@ -16,8 +16,10 @@ from tribo.core.errors import NumericalError
 
 Map = Callable[[Array], Array]
 
-TOLERANCE = 1e-10
+TOLERANCE = 1e-9
 """Residual of a system, relative to its right side."""
+MIRRORED = 1e-9
+"""Relative difference below which positions mirror each other."""
 MOST, RESTART = 400, 60
 """Iterations of which the method gives up, and after which GMRES starts anew."""
 
@@ -89,6 +91,8 @@ class StepSystem:
         Of each body that wears: its `Carrier`, and r', shape (positions, nx, ny), in m/Pa.
     free : ndarray of bool, shape (positions, nx, ny)
         The cells whose pressure lies between its bounds.
+    mirrored : bool, optional
+        Whether each position stands for another too, that mirrors it along x; the last for itself.
     """
 
     operator: Operator
@@ -96,6 +100,7 @@ class StepSystem:
     shares: Array
     bodies: Sequence[tuple[Carrier, Array]]
     free: Mask
+    mirrored: bool = False
 
     def apply(self, z: Array) -> Array:
         """Return A z on all of the box."""
@@ -103,7 +108,10 @@ class StepSystem:
         if self.bodies:
             weighed = over(self.shares) * z
             for carrier, slope in self.bodies:
-                found = found + slope * carrier.seen(carrier.gathered(weighed, self.box), self.box)
+                own = carrier.gathered(weighed, self.box)
+                if self.mirrored:
+                    own = own + own[::-1]
+                found = found + slope * carrier.seen(own, self.box)
         return found
 
     def solve(self, given: Array, fixed: Array, start: Array) -> tuple[Array, Array, Array]:
@@ -118,6 +126,11 @@ class StepSystem:
         start : ndarray, of the same shape
             A z to start from.
         """
+        if self._mirrors(given, fixed):
+            z, mean, left = self._one_side().solve(
+                *(a[: self._half] for a in (given, fixed, start))
+            )
+            return _both(z), np.concatenate([mean, mean[-2::-1]]), _both(left)
         count = self.free.sum(CELLS)
         if np.any((count == 0) & (np.sum(fixed, CELLS) != 0)):
             raise NumericalError(
@@ -153,6 +166,38 @@ class StepSystem:
             left = given - self.apply(z)
         mean = np.sum(left * self.free, axis=CELLS) * share
         return z, mean, left
+
+    @property
+    def _half(self) -> int:
+        return len(self.shares) // 2 + 1
+
+    def _one_side(self) -> StepSystem:
+        shares = self.shares[: self._half].copy()
+        # The middle position mirrors itself.
+        shares[-1] *= 0.5
+        bodies = [
+            (replace(carrier, starts=carrier.starts[: self._half]), slope[: self._half])
+            for carrier, slope in self.bodies
+        ]
+        return replace(
+            self, shares=shares, bodies=bodies, free=self.free[: self._half], mirrored=True
+        )
+
+    def _mirrors(self, given: Array, fixed: Array) -> bool:
+        """Whether each position mirrors another along x, and the middle one itself."""
+        beside = 2 * self.box.first[0] + self.box.shape[0] - self.box.window[0]
+        if self.mirrored or len(self.shares) < 3 or len(self.shares) % 2 == 0 or beside:
+            return False
+        for carrier, _ in self.bodies:
+            rest = carrier.rows - carrier.cells[0]
+            pairs = zip(carrier.starts, reversed(carrier.starts), strict=True)
+            if carrier.weights is None and any((a + b - rest) % carrier.rows for a, b in pairs):
+                return False
+        fields = [given, fixed, self.free.astype(float), *(slope for _, slope in self.bodies)]
+        return np.allclose(self.shares, self.shares[::-1], rtol=MIRRORED) and all(
+            np.max(np.abs(field - field[::-1, ::-1])) <= MIRRORED * np.max(np.abs(field))
+            for field in fields
+        )
 
     @property
     def is_symmetric(self) -> bool:
@@ -232,6 +277,12 @@ def _minimal(applied: Map, preconditioned: Map, residual: Array, tolerance: floa
         if _norm(residual) <= tolerance:
             return found
     raise _unsolved(residual, tolerance)
+
+
+def _both(values: Array) -> Array:
+    """Return fields at all positions, from those on one side and in the middle."""
+    middle = 0.5 * (values[-1:] + values[-1:, ::-1])
+    return np.concatenate([values[:-1], middle, values[-2::-1, ::-1]])
 
 
 def _norm(values: Array) -> float:

@@ -131,8 +131,7 @@ class Depth:
 class Deepest:
     """The largest depth worn off a body, in m, made smooth: Σ wᵐ / Σ wᵐ⁻¹ with m = `order`.
 
-    It lies below the largest depth, within a few per cent at the default order where the scar is
-    round at its deepest.
+    It lies below the largest depth, by 1/m of it where the scar is round at its deepest.
     """
 
     body: str
