@@ -139,7 +139,7 @@ MUTANTS = {
 
 @pytest.fixture
 def no_operator_kept():
-    caches = dcfft._half_space, periodic._half_space, love.nyquist_compliance
+    caches = dcfft._cached, periodic._cached, love.nyquist_compliance
     for cache in caches:
         cache.cache_clear()
     yield
