@@ -8,6 +8,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
+from tribo.case import Layer
 from tribo.core.dimensions import scale
 from tribo.core.errors import CaseError
 from tribo.core.material import Material
@@ -39,15 +40,20 @@ def amount(value: float, unit: str) -> str:
 
 def component_words(config: Mapping[str, Any]) -> str:
     """Return the type of a component and its values, those left out of the case too."""
-    name = str(config.get("type", ""))
+    name, table = str(config.get("type", "")), None
     with suppress(CaseError):
-        return ", ".join([name, *_values(config, default_registry().find(name))])
-    return ", ".join([name, *_values(config, None)])
+        table = default_registry().find(name)
+    return ", ".join([name, *_values(config, table)])
 
 
 def material_words(config: Mapping[str, Any]) -> str:
     """Return the values of a material."""
     return ", ".join(_values(config, Material))
+
+
+def layer_words(config: Mapping[str, Any]) -> str:
+    """Return the values of a layer, and how it wears."""
+    return ", ".join(_values(config, Layer))
 
 
 def load_words(load: Mapping[str, Any]) -> str:
@@ -70,7 +76,8 @@ def _values(config: Mapping[str, Any], table: type[BaseModel] | None) -> Iterato
         unit = _unit(table, key)
         name = key.replace("_", " ")
         if isinstance(value, Mapping):
-            yield f"{name} {component_words(value)}"
+            words = component_words if "type" in value else material_words
+            yield f"{name} {words(value)}"
         elif isinstance(value, bool):
             yield name
         elif isinstance(value, Sequence) and not isinstance(value, str):

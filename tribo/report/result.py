@@ -12,7 +12,7 @@ from tribo.lab.report import LabReport, lab_report
 from tribo.lab.running_in import rough_bodies
 from tribo.plotting.figures import result_pictures
 from tribo.plotting.sections import number_of_saves
-from tribo.report.amounts import amount, component_words, load_words, material_words
+from tribo.report.amounts import amount, component_words, layer_words, load_words, material_words
 from tribo.report.drawing import drawing
 from tribo.report.fields import charts
 from tribo.report.page import check_installed, render, stills
@@ -116,6 +116,8 @@ def _facts(case: Mapping[str, Any]) -> list[tuple[str, str]]:
         ):
             if body.get(part):
                 facts.append((f"{name}, {part}", words(body[part])))
+        layers = enumerate(body.get("layers") or (), start=1)
+        facts += [(f"{name}, layer {i} from the top", layer_words(layer)) for i, layer in layers]
     if "load" in case:
         facts.append(("normal load", load_words(case["load"])))
     facts += [
