@@ -119,17 +119,19 @@ def test_masses_give_each_coefficient_in_four_runs():
 
 @pytest.mark.slow
 def test_several_tests_give_one_coefficient_and_share_runs():
-    """Twice the same load, and half of it, of which a loss was not seen."""
-    half = {"set": {"load": {"normal": LOAD / 2}}}
-    seen, unseen = (measured("ball", "mass", part * mass(BALL)) for part in (0.5, 1))
+    """Twice the same load, and half of it for less time, of which a loss was not seen."""
+    half = {"set": {"load": {"normal": LOAD / 2}, "kinematics": {"duration": "200 s"}}}
+    third = mass(BALL) / 3
+    seen, unseen = (measured("ball", "mass", part * third) for part in (1, 2))
     tests = [
         {"measured": [measured("ball", "mass", 1.1 * mass(BALL))]},
         {"measured": [measured("ball", "mass", 0.9 * mass(BALL))]},
         {**half, "name": "half", "measured": [seen]},
-        {**half, "name": "half", "measured": [{**unseen, "value": f"< {mass(BALL)} kg"}]},
+        {**half, "name": "half", "measured": [{**unseen, "value": f"< {2 * third} kg"}]},
     ]
+    case = apply_settings(CASE, {"output.save_times": ["100 s", "300 s"]})
     found = calibrate(
-        CASE, {"test": tests, "repeatability": 0.2, "fit": fitting(BALL_K, start=1.5 * BALL)}
+        case, {"test": tests, "repeatability": 0.2, "fit": fitting(BALL_K, start=1.5 * BALL)}
     )
     # A start, a difference and the estimate, for each of two loads.
     assert found.runs == 6
@@ -140,6 +142,8 @@ def test_several_tests_give_one_coefficient_and_share_runs():
     assert {*found.predictions["test"]} == {"test 1", "half"}
     loads = {name: case["load"]["normal"] for name, case in found.fitted.items()}
     assert loads == {"test 1": "100 N", "half": LOAD / 2}
+    saved = {name: each["output"]["save_times"] for name, each in found.fitted.items()}
+    assert saved == {"test 1": ["100 s", "300 s"], "half": [100.0]}
     assert found.fitted["half"]["bodies"]["ball"]["wear"]["k"] == float(f"{each.value:.7g}")
 
 

@@ -86,9 +86,11 @@ def benches(
     """
     cases: dict[str, tuple[Tested, Case, Model]] = {}
     of = []
+    given = validate_case(tables, registry=registry).output.save_times
     for place, test in tests.items():
         try:
-            case = valid_case(tables, dict(test.set), registry)
+            # A test may end before times at which the case is saved.
+            case = valid_case(tables, {**test.set, "output.save_times": []}, registry)
         except CaseError as error:
             raise error if not place else CaseError(str(error), f"{place}set") from None
         key = repr(case)
@@ -108,6 +110,9 @@ def benches(
             **chosen(case, model),
         }
         changed = apply_settings(tables, test.set)
+        reached = [time for time in given if time <= model.end_time]
+        if len(reached) < len(given):
+            changed = apply_settings(changed, {"output.save_times": reached})
         predicted = _not_measured(model, measured)
         found.append(
             Bench(
