@@ -14,6 +14,7 @@ TEMPLATES = {
     "block_on_ring": "A block on a turning ring, as in ASTM G77.",
     "fretting": "A cylinder that frets on a flat in gross slip.",
     "duty_cycle": "A ball under a load that changes over time.",
+    "coated_ball": "A ball whose hard coating is worn through.",
     "rough_ball": "A rough ball that runs in on a smooth disk.",
     "rough_flats": "A patch of two rough bodies that repeats.",
     "sweep": "A study over loads, coefficients and contact models, for tribo sweep.",
