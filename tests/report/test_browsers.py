@@ -53,6 +53,15 @@ def test_history_goes_against_time_too(page):
     page.wait(f"{title} === 'Time (s)'")
 
 
+def test_buttons_turn_the_worn_surface(page):
+    eye = "document.querySelector('#surface .plot')?._fullLayout.scene.camera.eye"
+    before = page.run(eye)
+    if before is None:
+        pytest.skip("this browser has no WebGL, which the report says")
+    page.run("document.querySelector('[data-turn]').click()")
+    page.wait(f"{eye}.x !== {before['x']}")
+
+
 def test_an_accessibility_checker_finds_nothing(page):
     axe = (files("axe_core_python") / "axe.min.js").read_text(encoding="utf-8")
     page.run(f"(() => {{ {axe}\nreturn 1; }})()")
