@@ -10,10 +10,13 @@ from paper_models import K, archard, flat, foundation, motion, named, small, sph
 from strangers.debris import Covered, Debris
 
 from tribo import CaseError, Effect, Field, Grid, Result, Simulation, WearLaw, WearRate
+from tribo.case import Begin
 from tribo.cli.show import show
 from tribo.core.errors import PluginError
 from tribo.motion.unidirectional import Unidirectional
 from tribo.observers.observer import Observer
+from tribo.simulation.assembly import assemble
+from tribo.simulation.march import begin
 from tribo.stepping.explicit import Explicit
 
 COVERED = Covered(k=K, cover="50 nm")
@@ -141,6 +144,19 @@ def test_the_result_has_it_without_being_asked(tmp_path):
     assert last["warm_K"]["min"] == last["warm_K"]["max"] > 300
     shown = CliRunner().invoke(show, [str(path)], catch_exceptions=False).output
     assert "between the bodies warm_K" in shown
+
+
+@pytest.mark.parametrize("on", [None, "disk"])
+def test_a_run_that_begins_worn_goes_on_with_it(tmp_path, on):
+    effects = [Debris(length="0.5 m", on=on), Bath()]
+    case = model(effects=effects, kinematics=motion(duration=0.5)).case
+    with Simulation(case).run(tmp_path / "worn.h5"):
+        pass
+    last = states(model(effects=effects, kinematics=motion(duration=0.5)))[-1]
+    begun = case.model_copy(update={"begin": Begin(result=str(tmp_path / "worn.h5"))})
+    first = begin(assemble(begun))
+    for name, values in last.between.items():
+        np.testing.assert_array_equal(first.between[name], values)
 
 
 class Runaway(Effect):

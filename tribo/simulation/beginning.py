@@ -15,7 +15,7 @@ from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.core.state import BodyState, State
-from tribo.result.layout import TRACK, TRACK_PLASTIC, TRACK_STATE
+from tribo.result.layout import BETWEEN, STATE, TRACK, TRACK_PLASTIC, TRACK_STATE
 from tribo.result.read import Result
 from tribo.simulation.model import Model
 from tribo.stepping.step import first_contact
@@ -51,7 +51,7 @@ def first_state(model: Model) -> State:
         save = _save(result, begin)
         _check_alike(model, result)
         bodies = {name: _worn(model, result, name, save) for name in model.bodies}
-        carried = result.saves()[save]
+        carried, between = result.saves()[save], _between(model, result, save)
     load_distance = carried["load_distance_N_m"]
     if isnan(load_distance):
         # Older files lack it; their load was constant.
@@ -62,6 +62,7 @@ def first_state(model: Model) -> State:
         load_distance=load_distance,
         friction_energy=0.0 if isnan(energy) else energy,
     )
+    state = replace(state, between={**state.between, **between})
     return state.with_notice(
         "begin",
         f"the bodies begin as worn as in {begin.result} at {carried['time_s']:g} s; wear depths, "
@@ -156,6 +157,30 @@ def _worn(model: Model, result: Result, name: str, save: int) -> BodyState:
             remembered = {k: _on_rows(state[k], rows, nx) for k in law if k in state}
             law |= {k: values for k, values in remembered.items() if values is not None}
     return BodyState(wear=wear, plastic=kept[1], law=law)
+
+
+def _between(model: Model, result: Result, save: int) -> dict[str, Array]:
+    """Return what a result has of the state of the effects, where each lies in the case."""
+    found = {}
+    whole = {field.name: key for key, field in result.fields_of(BETWEEN).items()}
+    for name, (effect, field) in model.between.items():
+        if effect.carrier is None or field.uniform:
+            if name in whole:
+                kept = result.field(whole[name], save)
+                found[name] = kept.reshape(1, 1) if field.uniform else kept
+            continue
+        along = {f.name: k for k, f in result.fields_of(TRACK_STATE, effect.carrier).items()}
+        here = {f.name: k for k, f in result.fields_of(STATE, effect.carrier).items()}
+        values = None
+        if name in along:
+            values = _along_track(result, along[name], effect.carrier, save)
+        elif name in here:
+            values = result.field(here[name], save, effect.carrier)
+        rows, nx = model.exposures[effect.carrier].rows, model.grid.cells[0]
+        laid = None if values is None else _on_rows(values, rows, nx)
+        if laid is not None:
+            found[name] = laid
+    return found
 
 
 def _same_law(model: Model, result: Result, name: str) -> bool:
