@@ -15,8 +15,10 @@ from tribo.result.export import profile
 from tribo.result.read import Result
 
 MOST_SAVES = 40
-LONGEST = 400
+LONGEST, SHORTEST = 400, 64
 """Points of a section, and of a history."""
+NUMBERS = 150_000
+"""Numbers in all sections together, which keeps the file below 4 MB."""
 
 Results = Mapping[str, Result]
 """By label; that of a single one is empty."""
@@ -84,8 +86,10 @@ def sections(results: Results, times: Sequence[float]) -> list[dict[str, Any]]:
         [limits(marked[label], result.grid, axis) for label, result in results.items()]
         for axis in (0, 1)
     ]
+    count = 2 * len(times) * sum(len(curves) for _, curves in shown.values())
+    most = max(min(LONGEST, NUMBERS // count), SHORTEST)
     return [
-        _section(name, axis, (min(low), max(high)), si, curves)
+        _section(name, axis, (min(low), max(high)), si, curves, most)
         for axis in (0, 1)
         for low, high in (zip(*ends[axis], strict=True),)
         for name, (si, curves) in shown.items()
@@ -98,13 +102,14 @@ def _section(
     window: tuple[float, float],
     si: str,
     curves: Curves,
+    most: int,
 ) -> dict[str, Any]:
     """Return the curves of fields, one for each time, along an axis through the centre."""
     along, largest, lines, sizes = fitting("m", max(map(abs, window))), 0.0, {}, []
     for label, (result, fields) in curves.items():
         x = (result.grid.x, result.grid.y)[axis]
         inside = np.flatnonzero((window[0] <= x) & (x <= window[1]))
-        blocks = Blocks.of(x[inside], LONGEST)
+        blocks = Blocks.of(x[inside], most)
         sizes.append(blocks)
         values = [blocks.mean(profile(field, axis)[inside], 0) for field in fields]
         largest = max([largest, *(float(np.max(np.abs(value))) for value in values)])
