@@ -9,7 +9,7 @@ from gradients import difference, taken
 from paper_models import K, archard, case, flat, half_space, motion, named, sphere, states, steel
 from scipy.optimize import minimize
 
-from tribo.case import Stop
+from tribo.case import Body, Layer, Stop
 from tribo.contact.periodic import Periodic
 from tribo.contact.winkler import Winkler
 from tribo.core.errors import CaseError, NumericalError
@@ -87,6 +87,16 @@ RAMP = [
     {"until": 21, "normal": 20.0},
 ]
 LINE = [named("ball", Cylinder(radius="5 mm"), steel(), archard()), named("disk", flat(), steel())]
+LAYERED = pair(archard(), archard())
+LAYERED[0] = (
+    "ball",
+    Body(
+        surface=sphere(),
+        material=steel(),
+        wear=archard(),
+        layers=[Layer(thickness="1 um", wear=archard(K / 2))],
+    ),
+)
 YIELDING = pair(archard(), archard(), ("1.2 GPa", "1.1 GPa"))
 SOFT = pair(archard(), archard(), ("1.1 GPa", "1 GPa"))
 STAGES = ["load.normal.0.normal", "load.normal.1.normal", "load.normal.2.normal"]
@@ -265,6 +275,7 @@ def test_a_hardness_of_both_bodies_is_named_once():
     [
         ({"stepping": Explicit(time_step=1.0)}, "stepping.type: gradients go through implicit"),
         ({"stop": Stop(depth="1 um")}, "stop.depth: a run that a depth ends has another length"),
+        ({"bodies": LAYERED}, r"bodies.ball.layers: gradients do not go through layers"),
         (
             {"bodies": pair(RunningIn(law=archard(), factor=2.0, over="1 GPa m"), archard())},
             r"bodies.ball.wear: 'running_in' remembers \(pressure_distance\)",
