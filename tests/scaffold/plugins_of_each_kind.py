@@ -2,7 +2,7 @@
 
 NAMES = {
     "wear-law": "acme-fretting",
-    "contact-solver": "acme-coating",
+    "contact-solver": "acme-layered",
     "kinematics": "acme-shuttle",
     "surface": "acme-dome",
     "effect": "acme-heat",

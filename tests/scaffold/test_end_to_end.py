@@ -110,7 +110,7 @@ surface = { type = "flat" }
 material = { young = "207 GPa", poisson = 0.3 }
 
 [contact]
-type = "acme.coating"
+type = "acme.layered"
 
 [kinematics]
 type = "acme.shuttle"
