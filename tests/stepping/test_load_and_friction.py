@@ -15,7 +15,16 @@ from paper_models import (
     steel,
 )
 
-from tribo import FRICTION_COEFFICIENT, LOAD_SHARE, CaseError, Effect, Grid, Simulation
+from tribo import (
+    FRICTION_COEFFICIENT,
+    LOAD_SHARE,
+    CaseError,
+    Effect,
+    Grid,
+    Simulation,
+    WearLaw,
+    WearRate,
+)
 from tribo.core.errors import PluginError
 from tribo.motion.unidirectional import Unidirectional
 from tribo.wear.power import Power
@@ -70,8 +79,18 @@ def test_a_film_that_carries_nothing_is_the_dry_case_to_the_bit():
             np.testing.assert_array_equal(wet.dataset[name], values, err_msg=name)
 
 
-def test_a_film_that_carries_all_leaves_no_wear():
-    with run(effects=[Film(share=1.0)]) as result:
+class NoSlope(WearLaw):
+    """Archard's law, its slope left to be found."""
+
+    type = "test.no_slope"
+
+    def rate(self, local):
+        return WearRate(K * local.pressure)
+
+
+@pytest.mark.parametrize("law", [archard(), NoSlope()])
+def test_a_film_that_carries_all_leaves_no_wear(law):
+    with run(law, effects=[Film(share=1.0)]) as result:
         assert volume(result) == 0
         assert result.body("disk").effects["load_share"][-1].min() == 1
 

@@ -150,8 +150,11 @@ class GuardedLaw(Guard[WearLaw]):
         return answer, depth
 
     def _slope(self, local: LocalConditions, depth: Array) -> Array:
-        """Return the derivative of the depth in pressure, by a finite step up."""
+        """Return the derivative of the depth in pressure, by a finite step up; 0 at no pressure."""
         step = NUDGE * float(np.max(local.pressure))
+        if step == 0:
+            # As under a film that carries all: there is no pressure to take a part of.
+            return np.zeros_like(local.pressure)
         higher = local.pressure + step
         higher.setflags(write=False)
         slope: Array = (self._depth(replace(local, pressure=higher))[1] - depth) / step
