@@ -262,6 +262,38 @@ def test_the_objective_may_follow_an_input_itself():
     assert found.relative["load.normal"] == pytest.approx(1, rel=1e-8)
 
 
+def test_a_number_at_its_bound_has_the_derivative_of_one_side():
+    # Of a flat pin V = k s F (p/p0)^(m - 1), where m is at least 1.
+    bodies = [named("ball", flat(), steel(), power(1.0)), named("disk", flat(), steel())]
+    flats = run(bodies=bodies, contact=Winkler(modulus=1e15), ends_at_window=True)
+    exponent = "bodies.ball.wear.p_exponent"
+    found = gradient(flats, Volume("ball"), [exponent]).relative[exponent]
+    pressure = 20.0 / (0.5e-3) ** 2
+    assert found == pytest.approx(np.log(pressure / 1e9), rel=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("slides", "path", "expected"),
+    [
+        # V = k ∫ F ds, of which the run has 20 N for 10 s, then 50 N.
+        (motion(duration=20), "kinematics.duration", 20 * 50 / (10 * 20 + 10 * 50)),
+        (
+            Unidirectional(speed=0.1, track_length=1.0, distance=2.0),
+            "kinematics.speed",
+            10 * (20 - 50) / (10 * 20 + 10 * 50),
+        ),
+    ],
+)
+def test_stages_of_the_load_may_end_with_the_run(slides, path, expected):
+    case = run(
+        load=[{"until": 10, "normal": 20.0}, {"until": 20, "normal": 50.0}],
+        kinematics=slides,
+        contact=Winkler(),
+    )
+    found = gradient(case, Volume("ball"), [path]).relative[path]
+    assert found == pytest.approx(expected, rel=1e-7)
+
+
 def test_a_hardness_of_both_bodies_is_named_once():
     case = run(bodies=pair(archard(), archard(), ("2 GPa", "2 GPa")))
     with pytest.raises(CaseError, match=r"either may be the softer; name both, as bodies\.\*"):

@@ -200,18 +200,19 @@ def chain(
         raise CaseError("is 0, of which no part can be taken as a difference", path)
     step = value * (FINE if places[0][0] == "kinematics" else NUDGE)
     errors: list[str] = []
-    ways = carriers(base)
     central, upper = [(1, 0.5), (-1, -0.5)], [(0, -1.5), (1, 2.0), (2, -0.5)]
     lower = [(-by, -weight) for by, weight in upper]
     for scheme in (central, upper, lower):
         try:
-            variants = [
-                _variant(base, places, value + by * step, weight / step, factors, ways)
-                for by, weight in scheme
+            models = [
+                _varied(base, places, value + by * step, factors) if by else base
+                for by, _ in scheme
             ]
         except (TriboError, ValidationError) as error:
             errors.append(str(error))
             continue
+        weights = [weight / step for _, weight in scheme]
+        variants = _weighed(base, models, weights)
         if scheme is central:
             _check_smooth(base, *variants)
         stops = _stops(base)
@@ -219,38 +220,56 @@ def chain(
     raise CaseError(f"has no derivative here: {errors[0]}", path)
 
 
-def _variant(
-    base: Model,
-    places: Sequence[Sequence[Any]],
-    number: float,
-    weight: float,
-    factors: Mapping[str, Array],
-    unmoved: Mapping[str, Carrier],
-) -> Variant:
+def _varied(
+    base: Model, places: Sequence[Sequence[Any]], number: float, factors: Mapping[str, Array]
+) -> Model:
+    """Return the model of a case with another number."""
     case = base.case
     for place in places:
         case = changed(case, place, number)
     model = localised(assemble(case), factors)
     _check_alike(base, model)
-    stops = _stops(model)
-    if len(stops) != len(_stops(base)):
+    if len(_stops(model)) != len(_stops(base)):
         raise CaseError("it changes how many stops the run makes")
-    moves = not (
-        case.kinematics == base.case.kinematics
-        and case.friction == base.case.friction
-        and np.array_equal(stops, _stops(base))
+    return model
+
+
+def _weighed(base: Model, models: Sequence[Model], weights: Sequence[float]) -> list[Variant]:
+    """Return models with their weights, each with all laws that differ in any of them.
+
+    The base may be one of them; what it leaves out, the others must leave out too.
+    """
+    stops = [_stops(model) for model in models]
+    moves = any(
+        model.case.kinematics != base.case.kinematics
+        or model.case.friction != base.case.friction
+        or not np.array_equal(of_model, _stops(base))
+        for model, of_model in zip(models, stops, strict=True)
     )
     if not moves:
-        # Only what it changes need be asked.
-        laws = {
-            name: law
-            for name, law in model.laws.items()
-            if (case.bodies[name].wear, case.bodies[name].material)
-            != (base.case.bodies[name].wear, base.case.bodies[name].material)
+        worn = {name: (body.wear, body.material) for name, body in base.case.bodies.items()}
+        differ = {
+            name
+            for model in models
+            for name, body in model.case.bodies.items()
+            if (body.wear, body.material) != worn[name]
         }
-        model = replace(model, laws=laws)
-    ways = carriers(model) if moves else unmoved
-    return Variant(model, weight, stops, _distances(model, stops), ways, moves)
+        models = [
+            replace(model, laws={name: law for name, law in model.laws.items() if name in differ})
+            for model in models
+        ]
+    unmoved = carriers(base)
+    return [
+        Variant(
+            model,
+            weight,
+            of_model,
+            _distances(model, of_model),
+            carriers(model) if moves else unmoved,
+            moves,
+        )
+        for model, weight, of_model in zip(models, weights, stops, strict=True)
+    ]
 
 
 def changed(value: Any, place: Sequence[Any], number: float) -> Any:
