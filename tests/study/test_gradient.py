@@ -294,6 +294,14 @@ def test_stages_of_the_load_may_end_with_the_run(slides, path, expected):
     assert found == pytest.approx(expected, rel=1e-7)
 
 
+@pytest.mark.parametrize(
+    "path", ["contact.tolerance", "grid.size.0", "stepping.depth_tolerance", "stepping.settle"]
+)
+def test_how_a_run_is_computed_has_no_derivative(path):
+    with pytest.raises(CaseError, match=f"{path}: says how the run is computed"):
+        gradient(run(), Volume("ball"), [path])
+
+
 def test_a_hardness_of_both_bodies_is_named_once():
     case = run(bodies=pair(archard(), archard(), ("2 GPa", "2 GPa")))
     with pytest.raises(CaseError, match=r"either may be the softer; name both, as bodies\.\*"):

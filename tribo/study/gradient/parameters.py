@@ -27,7 +27,9 @@ FINE = 1e-7
 """The same for numbers of the motion, which may be at any phase of many cycles."""
 ANY = "*"
 """The key that stands for each body, as in ``bodies.*.material.hardness``."""
-NOT_PHYSICS = ("grid", "stepping", "output", "stop", "begin", "effects", "observers", "requires")
+HOW = ("grid", "stepping")
+"""Parts of a case that say how it is computed, and have no derivative."""
+NOT_PHYSICS = (*HOW, "output", "stop", "begin", "effects", "observers", "requires")
 """Parts of a case whose numbers are left out unless they are named."""
 
 
@@ -142,7 +144,8 @@ def find(
     Raises
     ------
     CaseError
-        If a path does not lead to a number with decimals, or several to different ones.
+        If a path does not lead to a number with decimals, or to several different ones, or to one
+        that says how the run is computed.
     """
     known = {
         place: (value, mark.unit if mark else "1")
@@ -153,7 +156,7 @@ def find(
         return [
             (".".join(map(str, place)), [place], value, unit)
             for place, (value, unit) in known.items()
-            if place[0] not in NOT_PHYSICS and place != ("contact", "tolerance") and value != 0
+            if not (place[0] in NOT_PHYSICS or _is_tolerance(place) or value == 0)
         ]
     found = []
     for path in asked:
@@ -168,11 +171,21 @@ def find(
                 f"is no number with decimals in this case{suggestion(did_you_mean(path, paths))}",
                 path,
             )
+        if any(place[0] in HOW or _is_tolerance(place) for place in places):
+            raise CaseError(
+                "says how the run is computed, in which there is no derivative; name numbers of "
+                "bodies, load, motion, friction or contact",
+                path,
+            )
         values = {known[place][0] for place in places}
         if len(values) > 1:
             raise CaseError(f"stands for different numbers: {sorted(values)}", path)
         found.append((path, places, values.pop(), known[places[0]][1]))
     return found
+
+
+def _is_tolerance(place: Sequence[Any]) -> bool:
+    return str(place[-1]).endswith("tolerance")
 
 
 def _fits(place: Sequence[Any], keys: Sequence[str]) -> bool:
