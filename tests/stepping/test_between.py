@@ -221,3 +221,15 @@ def test_an_effect_may_require_what_a_law_remembers():
     with Simulation(model(bodies=bodies, effects=[Follows()])).run() as result:
         twice = result.body("disk").effects["rubbed_twice"][-1]
         assert twice.max() == pytest.approx(2 * result.distances[-1])
+
+
+class Clashes(Follows):
+    type = "test.clashes"
+    requires = ()
+    provides = (Field("rubbed", "m", "What a law remembers too."),)
+
+
+def test_a_field_may_not_have_the_name_of_what_a_law_remembers():
+    bodies = [named("ball", sphere(), steel(), Rubbed()), named("disk", flat(), steel())]
+    with pytest.raises(CaseError, match=r"'rubbed' is provided twice.*test\.clashes"):
+        model(bodies=bodies, effects=[Clashes()])

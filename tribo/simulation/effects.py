@@ -18,7 +18,7 @@ def in_order(case: Case) -> tuple[Effect, ...]:
     MissingFieldError
         If an effect or a wear law requires what nothing provides.
     CaseError
-        If a field is provided twice.
+        If a field is provided twice, or has the name of what a wear law remembers.
     """
     known = {PLACE_X.name, PLACE_Y.name}
     of_laws = {f.name for b in case.bodies.values() if b.wear for f in b.wear.state_fields}
@@ -41,7 +41,7 @@ def in_order(case: Case) -> tuple[Effect, ...]:
         waiting.remove(ready)
         ordered.append(ready)
         for field in ready.provides:
-            if field.name in known:
+            if field.name in known | of_laws:
                 raise _twice(field, ready)
             known.add(field.name)
     for name, body in case.bodies.items():
