@@ -27,6 +27,7 @@ from tribo import (
 )
 from tribo.core.errors import PluginError
 from tribo.motion.unidirectional import Unidirectional
+from tribo.stepping.explicit import Explicit
 from tribo.wear.power import Power
 
 
@@ -54,6 +55,20 @@ class Faster(Effect):
         return {"friction_coefficient": dict.fromkeys(contact.materials, friction)}
 
 
+class Loaded(Effect):
+    """A coefficient of friction in proportion to the mean pressure of the window."""
+
+    type = "test.loaded"
+    provides = (FRICTION_COEFFICIENT,)
+
+    def fields(self, contact):
+        friction = np.full((1, 1), PER_LOAD * contact.pressure.sum() * contact.grid.cell_area)
+        return {"friction_coefficient": dict.fromkeys(contact.materials, friction)}
+
+
+PER_LOAD = 2e-3
+
+
 def run(law=None, **changes):
     law = law or archard()
     return Simulation(
@@ -67,6 +82,16 @@ def run(law=None, **changes):
             }
         ).case
     ).run()
+
+
+def pin(law):
+    return {
+        "grid": Grid((1e-3, 1e-3), (8, 8)),
+        "bodies": [named("pin", flat(), steel(), law), named("disk", flat(), steel())],
+        "contact": foundation(),
+        "kinematics": Unidirectional(speed=0.1, track_length="10 mm", distance=2),
+        "ends_at_window": True,
+    }
 
 
 def volume(result):
@@ -98,13 +123,7 @@ def test_a_film_that_carries_all_leaves_no_wear(law):
 @pytest.mark.parametrize("law", [archard(), Power(k=K, reference_pressure="1 GPa", p_exponent=2)])
 def test_what_it_carries_does_not_wear(law):
     # A flat pin has an even pressure, which the film takes a quarter of.
-    shape = {
-        "grid": Grid((1e-3, 1e-3), (8, 8)),
-        "bodies": [named("pin", flat(), steel(), law), named("disk", flat(), steel())],
-        "contact": foundation(),
-        "kinematics": Unidirectional(speed=0.1, track_length="10 mm", distance=2),
-        "ends_at_window": True,
-    }
+    shape = pin(law)
     with run(**shape) as dry, run(effects=[Film(share=0.25)], **shape) as wet:
         lost = [r.saves()[-1]["bodies"]["pin"]["wear_volume_m3"] for r in (dry, wet)]
     power = 1 if law == archard() else 2
@@ -136,6 +155,21 @@ def test_friction_may_follow_the_speed():
     assert last["friction_force_N"] == pytest.approx(40.0, rel=1e-9)
     assert first["friction_energy_J"] == pytest.approx(20.0, rel=1e-9)
     assert last["friction_energy_J"] == pytest.approx(20.0 + 80.0, rel=1e-9)
+
+
+def test_friction_may_follow_the_load():
+    jumps = [{"until": 10, "normal": 20}, {"until": 11, "normal": 100}, {"until": 20, "normal": 20}]
+    parts = {"effects": [Loaded()], "stepping": Explicit(time_step=2), **pin(archard())}
+    with run(load={"normal": jumps}, **parts) as result:
+        work = result.saves()[-1]["friction_energy_J"]
+    # ∫ μ F ds with μ = c F; each stage from the load after its jump on.
+    assert work == pytest.approx(PER_LOAD * 0.1 * (20**2 * 19 + 100**2), rel=1e-9)
+    ramp = [{"at": 0, "normal": 20}, {"at": 20, "normal": 100}]
+    with run(load={"normal": ramp}, **parts) as result:
+        work = result.saves()[-1]["friction_energy_J"]
+    exact = PER_LOAD * 0.1 * 20 * (20**2 + 20 * 100 + 100**2) / 3
+    # Trapezoids under a parabola, over steps in which the load grows by 8 N.
+    assert work - exact == pytest.approx(PER_LOAD * 0.1 * 20 * 8**2 / 6, rel=1e-6)
 
 
 def test_friction_has_one_source():

@@ -9,8 +9,10 @@ import numpy as np
 
 from tribo.core.fields import FRICTION_COEFFICIENT
 from tribo.core.state import State
+from tribo.stepping.events import unheard
 from tribo.stepping.memory import remembered, under
 from tribo.stepping.rates import Moment, local_fields
+from tribo.stepping.step import start_sliding
 
 if TYPE_CHECKING:
     from tribo.simulation.model import Model
@@ -21,8 +23,7 @@ def mean_friction(model: Model, state: State) -> float | None:
 
     Where an effect provides it, it is asked at the speeds of the cycle. None where nothing does.
     """
-    provided = (field.name for effect in model.effects for field in effect.provides)
-    if FRICTION_COEFFICIENT.name not in provided:
+    if not _varies(model):
         return model.friction_coefficient
     force = load = 0.0
     memory = remembered(state)
@@ -40,8 +41,27 @@ def mean_friction(model: Model, state: State) -> float | None:
 
 
 def friction_energy(model: Model, before: State, after: State) -> float:
-    """Return the work of friction up to `after`, in J, of a step that begins at `before`."""
+    """Return the work of friction up to `after`, in J, of a step that begins at `before`.
+
+    What an effect provides is taken to go in a straight line, as a force, between both ends of the
+    step: after a jump of the load that it begins with, and before one that it ends with.
+    """
+    slid = after.distance - before.distance
+    if slid == 0 or not _varies(model):
+        friction = model.friction_coefficient or 0.0
+        return before.friction_energy + friction * (after.load_distance - before.load_distance)
+    # Of this contact, solved a second time, no listener is told.
+    began = start_sliding(replace(model, tell=unheard), before)
+    loads = model.loads.after(before.time), model.loads.before(after.time)
     # Both at the speed of the step.
-    ends = [mean_friction(model, state) for state in (replace(before, speed=after.speed), after)]
-    mean = 0.5 * sum(end or 0.0 for end in ends)
-    return before.friction_energy + mean * (after.load_distance - before.load_distance)
+    forces = [
+        (mean_friction(model, state) or 0.0) * model.loads.over_cycle(load)
+        for state, load in zip((replace(began, speed=after.speed), after), loads, strict=True)
+    ]
+    return before.friction_energy + 0.5 * sum(forces) * slid
+
+
+def _varies(model: Model) -> bool:
+    """Whether an effect provides the coefficient of friction."""
+    provided = (field.name for effect in model.effects for field in effect.provides)
+    return FRICTION_COEFFICIENT.name in provided
