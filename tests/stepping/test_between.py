@@ -233,3 +233,18 @@ def test_a_field_may_not_have_the_name_of_what_a_law_remembers():
     bodies = [named("ball", sphere(), steel(), Rubbed()), named("disk", flat(), steel())]
     with pytest.raises(CaseError, match=r"'rubbed' is provided twice.*test\.clashes"):
         model(bodies=bodies, effects=[Clashes()])
+
+
+class OfBoth(Follows):
+    type = "test.of_both"
+
+    def fields(self, contact):
+        both = contact.fields["rubbed"]
+        return {"rubbed_twice": {name: 2 * both[name] for name in contact.materials}}
+
+
+def test_a_body_whose_law_does_not_remember_is_named():
+    bodies = [named("ball", sphere(), steel(), Rubbed()), named("disk", flat(), steel())]
+    words = r"^bodies\.disk\.wear: an effect asks for 'rubbed' of 'disk'.*that of ball does"
+    with pytest.raises(CaseError, match=words):
+        states(model(bodies=bodies, effects=[OfBoth()]))

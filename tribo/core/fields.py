@@ -193,7 +193,7 @@ class ContactConditions:
         Names of the bodies whose points pass through the contact.
     fields : Mapping[str, Mapping[str, ndarray]]
         Fields of the effects that ran before, and what effects and wear laws remember if it is
-        required, by field and body.
+        required, by field and body; what laws remember, for the bodies whose law does.
     state : Mapping[str, ndarray]
         The effect's own state fields where the window is, shape (nx, ny), or (1, 1) of one that is
         uniform.

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tribo.core.arrays import Array, readonly
+from tribo.core.errors import CaseError
 from tribo.core.state import State
 
 if TYPE_CHECKING:
@@ -40,6 +41,21 @@ class Memory:
         """Return the same with other arrays, in the order of `values`."""
         laws = {name: {key: next(values) for key in of} for name, of in self.laws.items()}
         return replace(self, laws=laws, between={key: next(values) for key in self.between})
+
+
+class OfLaws(dict[str, Array]):
+    """What laws remember under a name, by body; a body whose law does not raises `CaseError`."""
+
+    def __init__(self, field: str) -> None:
+        super().__init__()
+        self.field = field
+
+    def __missing__(self, body: str) -> Array:
+        raise CaseError(
+            f"an effect asks for {self.field!r} of {body!r}, whose wear law does not remember it; "
+            f"that of {', '.join(self)} does. Give {body!r} such a law, or leave out the effect",
+            f"bodies.{body}.wear",
+        )
 
 
 def remembered(state: State) -> Memory:
@@ -98,12 +114,15 @@ def laid(model: Model, key: str, rate: Array, position: int) -> Array:
 
 
 def fields_of(model: Model, memory: Memory) -> dict[str, dict[str, Array]]:
-    """Return what of it is required, where the window is, by field and body, shape (nx, ny)."""
+    """Return what of it is required, where the window is, by field and body, shape (nx, ny).
+
+    What laws remember is there for the bodies whose law does.
+    """
     fields: dict[str, dict[str, Array]] = {}
     for name, of_law in memory.laws.items():
         for key in of_law.keys() & model.required:
             of_body = np.broadcast_to(of_law[key], model.grid.cells)
-            fields.setdefault(key, {})[name] = of_body
+            fields.setdefault(key, OfLaws(key))[name] = of_body
     for key in memory.between.keys() & model.required:
         everywhere = np.broadcast_to(memory.between[key], model.grid.cells)
         fields[key] = dict.fromkeys(model.bodies, everywhere)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -259,6 +260,6 @@ def _conditions(
         distance=moment.distance,
         materials=dict(model.system.materials),
         swept=model.swept,
-        fields={name: dict(of_bodies) for name, of_bodies in fields.items()},
+        fields={name: copy(of_bodies) for name, of_bodies in fields.items()},
         state={key: in_window(model, key, memory.between[key]) for key in effect.initial_state},
     )
