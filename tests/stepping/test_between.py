@@ -9,10 +9,21 @@ from click.testing import CliRunner
 from paper_models import K, archard, flat, foundation, motion, named, small, sphere, states, steel
 from strangers.debris import Covered, Debris
 
-from tribo import CaseError, Effect, Field, Grid, Result, Simulation, WearLaw, WearRate
+from tribo import (
+    CaseError,
+    Effect,
+    Field,
+    Grid,
+    Result,
+    RunningIn,
+    Simulation,
+    WearLaw,
+    WearRate,
+)
 from tribo.case import Begin
 from tribo.cli.show import show
 from tribo.core.errors import PluginError
+from tribo.core.fields import LOAD_SHARE
 from tribo.motion.unidirectional import Unidirectional
 from tribo.observers.observer import Observer
 from tribo.simulation.assembly import assemble
@@ -248,3 +259,49 @@ def test_a_body_whose_law_does_not_remember_is_named():
     words = r"^bodies\.disk\.wear: an effect asks for 'rubbed' of 'disk'.*that of ball does"
     with pytest.raises(CaseError, match=words):
         states(model(bodies=bodies, effects=[OfBoth()]))
+
+
+class Fades(Effect):
+    """Carries the part s / m of the load, and may keep a state that nothing follows."""
+
+    type = "test.fades"
+    keeps: bool = True
+    provides = (LOAD_SHARE,)
+
+    @property
+    def state_fields(self):
+        return (Field("clock", "m", "Distance slid."),) if self.keeps else ()
+
+    def initial_state(self):
+        return {"clock": 0.0} if self.keeps else {}
+
+    def fields(self, contact):
+        carried = np.full((1, 1), min(contact.distance, 1.0))
+        return {LOAD_SHARE.name: dict.fromkeys(contact.materials, carried)}
+
+    def state_rates(self, contact):
+        return {"clock": np.full((1, 1), contact.speed)} if self.keeps else {}
+
+
+def pin(effects, cells=4, **changes):
+    """A square pin of which alone the wear is even, under 10 MPa."""
+    return model(
+        effects=effects,
+        **{
+            "grid": Grid((2e-3, 2e-3), (cells, cells)),
+            "ends_at_window": True,
+            "load": 40.0,
+            "bodies": [named("pin", flat(), steel(), archard()), named("disk", flat(), steel())],
+            "contact": foundation(modulus=1e15),
+            "kinematics": Unidirectional(speed="0.1 m/s", track_length="8 mm", distance="1 m"),
+            **changes,
+        },
+    )
+
+
+@pytest.mark.parametrize("law", [archard(), RunningIn(law=archard(), factor=1, over=1e7)])
+@pytest.mark.parametrize("keeps", [False, True])
+def test_what_follows_the_distance_is_taken_along_the_step(keeps, law):
+    bodies = [named("pin", flat(), steel(), law), named("disk", flat(), steel())]
+    last = states(pin([Fades(keeps=keeps)], bodies=bodies))[-1]
+    assert np.max(last.bodies["pin"].wear) == pytest.approx(0.5 * K * 10e6, rel=6e-3, abs=0)

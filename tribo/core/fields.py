@@ -184,9 +184,9 @@ class ContactConditions:
         Sliding speed, in m/s: one of those that the motion has in a cycle, or
         its mean over the step.
     time : float
-        Time at the end of the step, in s.
+        Time at the end of the step, in s; or within it, where laws or effects keep a state.
     distance : float
-        Sliding distance at the end of the step, in m.
+        Sliding distance then, in m.
     materials : Mapping[str, Material]
         The bodies' materials, by name.
     swept : frozenset of str

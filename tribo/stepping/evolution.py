@@ -52,13 +52,13 @@ def course(
 ) -> Course:
     """Return what an increment (m) comes to, from what is remembered before it.
 
-    It is divided as in `plan`, or finer. Without anything to remember, rates stay as they are, but
-    where a body wears through a layer.
+    `moment` is its end. It is divided as in `plan`, or finer. Without anything to remember, rates
+    are those of `moment` throughout, but where a body wears through a layer.
     """
     before = in_layers(model, before, contacts, increment, moment)
     if not before.values:
         return Course(wear_rates(model, contacts, before, moment), before)
-    of_model = partial(_rates, model, before, contacts, moment)
+    of_model = partial(_rates, model, before, contacts, increment, moment)
     values, depths, taken = integrated(
         of_model, before.values, increment, _limits(model, before), plan
     )
@@ -106,11 +106,11 @@ def rested_memory(model: Model, state: State, time: float) -> Memory:
         return before
     of_effects = partial(resting_rates, model, state.contacts)
 
-    def rates(values: Sequence[Array]) -> Values:
+    def rates(values: Sequence[Array], passed: float) -> Values:
         memory = Memory(before.laws, dict(zip(before.between, values, strict=True)))
-        return [
-            of_effects(memory, Moment(time, state.distance, 0.0))[key] for key in before.between
-        ]
+        now = Moment(time - (1 - passed) * (time - state.time), state.distance, 0.0)
+        changes = of_effects(memory, now)
+        return [changes[key] for key in before.between]
 
     limits = _limits(model, Memory({}, before.between))
     values, _, _ = integrated(rates, [*before.between.values()], time - state.time, limits)
@@ -121,10 +121,13 @@ def _rates(
     model: Model,
     before: Memory,
     contacts: Sequence[ContactSolution],
-    moment: Moment,
+    increment: float,
+    end: Moment,
     values: Sequence[Array],
+    passed: float,
 ) -> Values:
     """Return the rates of what is remembered, where it lies, and the depths in the contact."""
+    moment = end.back((1 - passed) * increment)
     found = rates_at_each(model, contacts, before.with_values(iter(values)), moment)
     total: Values = [np.zeros_like(value) for value in values]
     for position, rates in enumerate(found):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -27,7 +28,7 @@ NUDGE = 1e-6
 """Part of a state by which it is moved to find how fast it relaxes."""
 
 Values = list[Array]
-Rates = Callable[[Sequence[Array]], Values]
+Rates = Callable[[Sequence[Array], float], Values]
 
 
 @dataclass(frozen=True)
@@ -72,7 +73,8 @@ def integrated(
     Parameters
     ----------
     rates : callable
-        The rates of the states, and after them those that are only integrated, at given states.
+        The rates of the states, and after them those that are only integrated, at given states and
+        a part of the increment that has passed.
     start : sequence of ndarray
         The states at the beginning.
     length : float
@@ -96,16 +98,17 @@ def integrated(
     """
     plan = plan or Plan()
     count, values = len(start), list(start)
-    first = rates(values)
-    begin = first
+    first = rates(values, 0.0)
+    begin, passed = first, 0.0
     sums = [np.zeros_like(rate) for rate in first[count:]]
     waiting, done = list(plan.parts), list[tuple[float, bool]]()
     while waiting:
         part, relaxes = waiting[0]
         span = part * length
-        slopes = _relaxing(rates, values, first, span, limits) if relaxes else [0.0] * count
+        along = partial(_along, rates, passed, part)
+        slopes = _relaxing(along, values, first, span, limits) if relaxes else [0.0] * count
         stages = RELAXING if relaxes else PLAIN
-        best, rough, samples = _extrapolated(rates, values, first, slopes, span, stages, limits)
+        best, rough, samples = _extrapolated(along, values, first, slopes, span, stages, limits)
         sizes = [
             np.maximum(np.abs(old), np.abs(new)) for old, new in zip(values, best, strict=False)
         ]
@@ -114,7 +117,7 @@ def integrated(
             for old, new in zip(sums, best[count:], strict=True)
         ]
         held = [_held(*each) for each in zip(best, limits, strict=False)]
-        last = rates(held)
+        last = along(held, 1.0)
         off = max(map(_relative, best, rough, sizes), default=0.0)
         if off <= plan.accuracy < math.inf:
             off = max(off, _jump(samples, last, span, sums, count))
@@ -135,9 +138,10 @@ def integrated(
                 # Rates that jump, at one point after the other.
                 plan = _looser(plan)
                 values, first, waiting, done = list(start), begin, list(plan.parts), []
+                passed = 0.0
                 sums = [np.zeros_like(rate) for rate in first[count:]]
             continue
-        values, first = held, last
+        values, first, passed = held, last, passed + part
         sums = [old + new for old, new in zip(sums, best[count:], strict=True)]
         done.append(waiting.pop(0))
     return values, sums, replace(plan, parts=tuple(done))
@@ -147,6 +151,13 @@ def _looser(plan: Plan) -> Plan:
     if LOOSER * plan.accuracy <= LOOSEST:
         return replace(plan, accuracy=LOOSER * plan.accuracy)
     return Plan(((1 / MOST_PARTS, False),) * MOST_PARTS, math.inf)
+
+
+def _along(
+    rates: Rates, passed: float, part: float, values: Sequence[Array], within: float
+) -> Values:
+    """Return the rates at a place within a part of the increment, 0 to 1."""
+    return rates(values, passed + within * part)
 
 
 def _extrapolated(
@@ -170,7 +181,8 @@ def _extrapolated(
         sums = [np.zeros_like(rate) for rate in first[len(start) :]]
         for taken in range(steps):
             if taken:
-                found = rates([_held(*each) for each in zip(states, limits, strict=True)])
+                trial = [_held(*each) for each in zip(states, limits, strict=True)]
+                found = rates(trial, taken / steps)
                 samples.append(found)
             sums = [
                 total + step * rate for total, rate in zip(sums, found[len(start) :], strict=True)
@@ -225,7 +237,7 @@ def _relaxing(
             continue
         moved = state + NUDGE * largest
         moved = np.where(moved > limit.most, state - NUDGE * largest, moved)
-        nudged = rates([*states[:index], moved, *states[index + 1 :]])[index]
+        nudged = rates([*states[:index], moved, *states[index + 1 :]], 0.0)[index]
         found.append(np.minimum((nudged - rate) / (moved - state), 0.0))
     return found
 

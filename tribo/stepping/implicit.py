@@ -214,8 +214,14 @@ class Implicit(Scheme):
         base = np.stack([geometry(model, state.bodies, m) for m in range(len(model.cycle))])
         dx = model.grid.spacing[0]
         before = remembered(state)
-        slide = partial(course, model, before, increment=increment, moment=moment)
-        slid = Course(state.rates, before) if state.rates else slide(contacts=state.contacts)
+        slide = partial(course, model, before, increment=increment)
+        # What is remembered is integrated along the step; other rates are those where it begins.
+        begin = moment if before.values else moment.back(increment)
+        slid = (
+            Course(state.rates, before)
+            if state.rates
+            else slide(contacts=state.contacts, moment=begin)
+        )
         guess = _guess(model, state.contacts, slid, increment)
         loads = model.loads.mean(state.time, time)
         heavier = loads[0] / model.loads.after(state.time)[0]
@@ -235,7 +241,7 @@ class Implicit(Scheme):
             implied = beyond + wear.depths(contacts, dx)
             passes, solves = passes + 1, solves + solved(contacts)
             iterations += sum(contact.iterations for contact in contacts)
-            slid = slide(contacts=contacts, plan=guess.course.plan)
+            slid = slide(contacts=contacts, moment=moment, plan=guess.course.plan)
             guess = _guess(model, contacts, slid, increment)
             off = np.abs(guess.depths - implied)
             mismatch = _loaded_mean(model, contacts, off) if resolved else _largest(off)

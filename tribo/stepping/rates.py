@@ -40,7 +40,7 @@ CycleRates = Sequence[Mapping[str, WearRate]]
 
 @dataclass(frozen=True)
 class Moment:
-    """When rates are asked for: end of the step (s, m) and its mean speed (m/s).
+    """When rates are asked for (s, m), and the mean speed of the step (m/s).
 
     The speed is told where the motion does not state those of its cycle.
     """
@@ -48,6 +48,14 @@ class Moment:
     time: float
     distance: float
     speed: float
+
+    def back(self, distance: float) -> Moment:
+        """Return the moment that lies by a distance (m) before, at its speed."""
+        if distance == 0:
+            return self
+        return replace(
+            self, time=self.time - distance / self.speed, distance=self.distance - distance
+        )
 
 
 @dataclass(frozen=True)
