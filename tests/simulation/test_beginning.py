@@ -22,10 +22,12 @@ from paper_models import (
 from tribo import (
     Begin,
     CaseError,
+    Effect,
     Explicit,
     Field,
     Grid,
     Interrupted,
+    Scaled,
     Simulation,
     Stage,
     Stop,
@@ -37,6 +39,7 @@ from tribo.cli.console import Console
 from tribo.cli.tables import print_report
 from tribo.observers.observer import Observer
 from tribo.plotting.pressure import pressure_map
+from tribo.simulation.beginning import first_state
 from tribo.simulation.predict import predict
 from tribo.study.runs import is_done
 from tribo.surfaces.height_map import HeightMap
@@ -202,6 +205,66 @@ def test_a_law_keeps_what_it_remembers_along_a_resolved_track(tmp_path):
         del file["track_state_slip"]
     with pytest.raises(CaseError, match=r"begin\.result: .*older tribo"):
         Simulation(worn_case(begin=begin, **parts)).run()
+
+
+def test_what_a_law_within_a_law_remembers_goes_on(tmp_path):
+    begin, small = tmp_path / "first.h5", {"grid": Grid((0.7e-3, 0.7e-3), (24, 24))}
+
+    def bodies(law):
+        return [named("ball", sphere(), steel(), law), named("disk", flat(), steel())]
+
+    with Simulation(worn_case(duration=1, bodies=bodies(Slips()), **small)).run(begin) as first:
+        slipped = first.field("slip", -1, "ball")
+    for law in (Slips(), Scaled(factor=0.5, law=Slips())):
+        case = worn_case(duration=1, bodies=bodies(law), begin=begin, **small)
+        state = first_state(Simulation(case).model)
+        np.testing.assert_array_equal(state.bodies["ball"].law["slip"], slipped)
+        assert state.notices[-1].text.endswith("begin anew")
+    case = worn_case(duration=1, bodies=bodies(archard()), begin=begin, **small)
+    assert (
+        first_state(Simulation(case).model)
+        .notices[-1]
+        .text.endswith("; left out of it is slip of ball")
+    )
+
+
+class Warm(Effect):
+    """A temperature that grows, in the contact or on the ball, as one number or a field."""
+
+    type = "test.warm"
+    unit: str = "K"
+    even: bool = False
+    on: str | None = None
+
+    @property
+    def state_fields(self):
+        return (Field("warm", self.unit, "Temperature.", uniform=self.even),)
+
+    def carrier(self):
+        return self.on
+
+    def initial_state(self):
+        return {"warm": 1.0}
+
+    def state_rates(self, contact):
+        return {"warm": np.ones((1, 1))}
+
+
+def test_what_an_effect_remembers_goes_on_at_its_place_only_and_the_notice_tells(tmp_path):
+    small = {"grid": Grid((0.7e-3, 0.7e-3), (24, 24))}
+    field, even, on_ball = Warm(), Warm(even=True), Warm(on="ball")
+    pairs = {field: [field, even, on_ball, Warm(unit="1")], even: [even, field]}
+    for was, each in pairs.items():
+        begin = tmp_path / f"{was.even}.h5"
+        Simulation(worn_case(duration=1, effects=[was], **small)).run(begin).close()
+        for now in each:
+            case = worn_case(duration=1, effects=[now], begin=begin, **small)
+            state = first_state(Simulation(case).model)
+            text = state.notices[-1].text
+            np.testing.assert_allclose(state.between["warm"], 2.0 if now == was else 1.0)
+            before, after = (f"warm of {each.on or 'the contact'}" for each in (was, now))
+            words = f"begins afresh: {after}; left out of it is {before}"
+            assert text.endswith("begin anew" if now == was else words)
 
 
 @pytest.mark.slow

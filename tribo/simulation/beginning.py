@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
 from hashlib import sha256
 from math import isnan
@@ -13,6 +12,7 @@ import numpy as np
 from tribo.case import Begin
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
+from tribo.core.fields import Field
 from tribo.core.grid import Grid
 from tribo.core.state import BodyState, State
 from tribo.result.layout import BETWEEN, STATE, TRACK, TRACK_PLASTIC, TRACK_STATE
@@ -28,8 +28,8 @@ SAME = 1e-6
 def first_state(model: Model) -> State:
     """Return the state before any sliding: the first contact, of worn bodies if the case says so.
 
-    Wear and load times distance go on from the result that the case begins with; time and distance
-    begin anew.
+    Wear, load times distance and what laws and effects remember go on from the result that the
+    case begins with; time and distance begin anew.
 
     Raises
     ------
@@ -51,7 +51,10 @@ def first_state(model: Model) -> State:
         save = _save(result, begin)
         _check_alike(model, result)
         bodies = {name: _worn(model, result, name, save) for name in model.bodies}
-        carried, between = result.saves()[save], _between(model, result, save)
+        found, otherwise = _remembered(model, result, save)
+        carried = result.saves()[save]
+    for name, body in bodies.items():
+        bodies[name] = replace(body, law={k: found.get((name, k), v) for k, v in body.law.items()})
     load_distance = carried["load_distance_N_m"]
     if isnan(load_distance):
         # Older files lack it; their load was constant.
@@ -62,11 +65,12 @@ def first_state(model: Model) -> State:
         load_distance=load_distance,
         friction_energy=0.0 if isnan(energy) else energy,
     )
-    state = replace(state, between={**state.between, **between})
+    between = {key: found.get((_place(model, key), key), v) for key, v in state.between.items()}
+    state = replace(state, between=between)
     return state.with_notice(
         "begin",
         f"the bodies begin as worn as in {begin.result} at {carried['time_s']:g} s; wear depths, "
-        "volumes and load_distance go on from there, time and distance begin anew",
+        f"volumes and load_distance go on from there, time and distance begin anew{otherwise}",
     )
 
 
@@ -126,15 +130,12 @@ def _worn(model: Model, result: Result, name: str, save: int) -> BodyState:
         raise CaseError(f"{name} {was} in {result.name}, and {is_now} in the case", PLACE)
     if track is None:
         kept = [body.wear_depth[save], body.plastic_depth[save]]
-        state = {field: values[save] for field, values in body.state.items()}
     else:
         plastic = _along_track(result, TRACK_PLASTIC, name, save)
         kept = [track, np.zeros_like(track) if plastic is None else plastic]
-        along = {f.name: key for key, f in result.fields_of(TRACK_STATE, name).items()}
-        found = {field: _along_track(result, key, name, save) for field, key in along.items()}
-        state = {field: values for field, values in found.items() if values is not None}
+        along = {field.name for field in result.fields_of(TRACK_STATE, name).values()}
         yielded = result.saves()[save]["bodies"][name]["max_plastic_depth_m"] > 0
-        if (yielded and plastic is None) or set(body.state) - set(state):
+        if (yielded and plastic is None) or set(body.state) - along:
             raise CaseError(
                 f"{result.name} is of an older tribo, which kept of what has yielded, and of what "
                 f"a law remembers, only the part of {name} in the window; run its case again",
@@ -150,43 +151,64 @@ def _worn(model: Model, result: Result, name: str, save: int) -> BodyState:
             "average both",
             PLACE,
         )
-    law = {}
-    if name in model.laws:
-        law = {k: np.full_like(wear, v) for k, v in model.laws[name].initial_state.items()}
-        if _same_law(model, result, name):
-            remembered = {k: _on_rows(state[k], rows, nx) for k in law if k in state}
-            law |= {k: values for k, values in remembered.items() if values is not None}
+    initial = model.laws[name].initial_state if name in model.laws else {}
+    law = {field: np.full_like(wear, value) for field, value in initial.items()}
     return BodyState(wear=wear, plastic=kept[1], law=law)
 
 
-def _between(model: Model, result: Result, save: int) -> dict[str, Array]:
-    """Return what a result has of the state of the effects, where each lies in the case."""
-    found = {}
-    whole = {field.name: key for key, field in result.fields_of(BETWEEN).items()}
-    for name, (effect, field) in model.between.items():
-        if effect.carrier is None or field.uniform:
-            if name in whole:
-                kept = result.field(whole[name], save)
-                found[name] = kept.reshape(1, 1) if field.uniform else kept
-            continue
-        along = {f.name: k for k, f in result.fields_of(TRACK_STATE, effect.carrier).items()}
-        here = {f.name: k for k, f in result.fields_of(STATE, effect.carrier).items()}
-        values = None
-        if name in along:
-            values = _along_track(result, along[name], effect.carrier, save)
-        elif name in here:
-            values = result.field(here[name], save, effect.carrier)
-        rows, nx = model.exposures[effect.carrier].rows, model.grid.cells[0]
-        laid = None if values is None else _on_rows(values, rows, nx)
-        if laid is not None:
-            found[name] = laid
-    return found
+def _remembered(
+    model: Model, result: Result, save: int
+) -> tuple[dict[tuple[str | None, str], Array], str]:
+    """Return what the case goes on with of what laws and effects remember, by body and field.
+
+    The body is None for the contact as a whole. A field goes on where the result has one of its
+    name and unit at the same place; the words say which others begin afresh or are left out.
+    """
+    found: dict[tuple[str | None, str], Array] = {}
+    afresh, left = [], []
+    for place in (*model.bodies, None):
+        where = "the contact" if place is None else place
+        kept = _kept(result, place)
+        for field in model.kept_on(place):
+            key = kept.get((field.name, field.unit))
+            values = None if key is None else _read(result, key, save, place)
+            laid = None if values is None else _laid(model, place, field, values)
+            if laid is None:
+                afresh.append(f"{field.name} of {where}")
+            else:
+                found[place, field.name] = laid
+        left += [f"{name} of {where}" for name, _ in kept if (place, name) not in found]
+    words = f"; what it does not have begins afresh: {', '.join(afresh)}" if afresh else ""
+    return found, words + (f"; left out of it is {', '.join(left)}" if left else "")
 
 
-def _same_law(model: Model, result: Result, name: str) -> bool:
-    """Whether a body has a law of the same type in a result and in the case."""
-    law, was = model.case.bodies[name].wear, result.case["bodies"][name].get("wear")
-    return law is not None and isinstance(was, Mapping) and law.type == was.get("type")
+def _kept(result: Result, place: str | None) -> dict[tuple[str, str], str]:
+    """Return the variable of each state field of a body, or of the contact, by name and unit."""
+    # What there is along the whole track comes last, and so is what is taken.
+    kinds = (BETWEEN,) if place is None else (STATE, TRACK_STATE)
+    fields = [each for kind in kinds for each in result.fields_of(kind, place).items()]
+    return {(field.name, field.unit): variable for variable, field in fields}
+
+
+def _read(result: Result, variable: str, save: int, place: str | None) -> Array | None:
+    if place is not None and variable in result.fields_of(TRACK_STATE, place):
+        return _along_track(result, variable, place, save)
+    return result.field(variable, save, place)
+
+
+def _laid(model: Model, place: str | None, field: Field, values: Array) -> Array | None:
+    """Return a state field as the case keeps it; None where it is of another shape."""
+    if place is not None:
+        return _on_rows(values, model.exposures[place].rows, model.grid.cells[0])
+    if field.uniform:
+        return values.reshape(1, 1) if values.size == 1 else None
+    return values if values.shape == model.grid.cells else None
+
+
+def _place(model: Model, key: str) -> str | None:
+    """Return the body on which an effect keeps a state field; None of the contact as a whole."""
+    effect, field = model.between[key]
+    return None if field.uniform else effect.carrier
 
 
 def _along_track(result: Result, variable: str, name: str, save: int) -> Array | None:
