@@ -18,6 +18,8 @@ LOOSER, LOOSEST = 10.0, 3e-3
 """By how much less accurate rates that jump are integrated, and how far that goes."""
 MOST_PARTS = 32
 """Parts of an increment after which that is done."""
+ROUGHEST = 0.05
+"""Error, in the mean over those parts, up to which they are taken as they are."""
 JUMP = 0.1
 """Relative difference from a smooth rate at which one is looked at as one that jumps."""
 FINEST = 2.0**-20
@@ -88,7 +90,8 @@ def integrated(
     Raises
     ------
     BadValues
-        If a state leaves its limits however short the part.
+        If a state leaves its limits however short the part, or the increment is too long for the
+        parts that it may have.
 
     References
     ----------
@@ -99,7 +102,7 @@ def integrated(
     plan = plan or Plan()
     count, values = len(start), list(start)
     first = rates(values, 0.0)
-    begin, passed = first, 0.0
+    begin, passed, missed = first, 0.0, 0.0
     sums = [np.zeros_like(rate) for rate in first[count:]]
     waiting, done = list(plan.parts), list[tuple[float, bool]]()
     while waiting:
@@ -138,12 +141,19 @@ def integrated(
                 # Rates that jump, at one point after the other.
                 plan = _looser(plan)
                 values, first, waiting, done = list(start), begin, list(plan.parts), []
-                passed = 0.0
+                passed = missed = 0.0
                 sums = [np.zeros_like(rate) for rate in first[count:]]
             continue
         values, first, passed = held, last, passed + part
         sums = [old + new for old, new in zip(sums, best[count:], strict=True)]
+        missed += part * off
         done.append(waiting.pop(0))
+    if not missed <= ROUGHEST:
+        names = ", ".join(limit.name for limit in limits)
+        raise BadValues(
+            f"what is remembered ({names}) changes too often to be followed over {length:g} (m, or "
+            "s of a rest): shorten the steps"
+        )
     return values, sums, replace(plan, parts=tuple(done))
 
 

@@ -1,0 +1,31 @@
+"""Rates integrated over an increment, against closed forms."""
+
+import numpy as np
+import pytest
+
+from tribo.core.errors import BadValues
+from tribo.stepping.extrapolation import Limits, integrated
+
+ANY = Limits(-np.inf, np.inf, "'a' of a test")
+ONE = np.ones((1, 1))
+
+
+def turning(period):
+    """A state that oscillates undamped, a' = 2π b / λ and b' = −2π a / λ, from 1 and 0."""
+    turns = 2 * np.pi / period
+
+    def rates(values, passed):
+        return [turns * values[1], -turns * values[0]]
+
+    return rates
+
+
+def test_an_oscillation_over_many_periods_is_refused_and_never_unstable():
+    with pytest.raises(BadValues, match=r"\('a' of a test, 'a' of a test\) changes too often"):
+        integrated(turning(0.05), [ONE, 0 * ONE], 3.0, [ANY, ANY])
+
+
+def test_an_oscillation_over_some_periods_is_followed():
+    (a, b), _, _ = integrated(turning(1.0), [ONE, 0 * ONE], 1.25, [ANY, ANY])
+    assert a[0, 0] == pytest.approx(0, abs=1e-3)
+    assert b[0, 0] == pytest.approx(-1, abs=1e-3)
