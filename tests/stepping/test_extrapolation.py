@@ -29,3 +29,11 @@ def test_an_oscillation_over_some_periods_is_followed():
     (a, b), _, _ = integrated(turning(1.0), [ONE, 0 * ONE], 1.25, [ANY, ANY])
     assert a[0, 0] == pytest.approx(0, abs=1e-3)
     assert b[0, 0] == pytest.approx(-1, abs=1e-3)
+
+
+def test_a_rate_that_is_zero_at_both_ends_is_integrated():
+    def rates(values, passed):
+        return [ONE, passed * (1 - passed) * (1 + 1e-4 * passed**2) * ONE]
+
+    _, (total,), _ = integrated(rates, [0 * ONE], 1.0, [ANY])
+    assert total[0, 0] == pytest.approx(1 / 6 + 1e-4 / 20, rel=3e-5)

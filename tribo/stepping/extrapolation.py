@@ -225,9 +225,9 @@ def _jump(
     for total, *at, end in zip(sums, *(each[count:] for each in (*samples, last)), strict=True):
         first, half, third, two_thirds = at
         off = float(np.sum(np.abs(9 * third - 16 * half + 9 * two_thirds - first - end)))
-        size = float(np.sum(np.maximum(np.abs(first), np.abs(end))))
+        size = float(np.sum(np.max(np.abs([*at, end]), axis=0)))
         if off > JUMP * size:
-            worst = max(worst, off * length / (float(np.sum(total)) + size * length))
+            worst = max(worst, off * length / (float(np.sum(np.abs(total))) + size * length))
     return worst
 
 
