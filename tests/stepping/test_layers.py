@@ -5,7 +5,18 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tribo import Archard, Body, CaseError, Layer, Observer, Result, Simulation
+from tribo import (
+    Archard,
+    Body,
+    Case,
+    CaseError,
+    Effect,
+    Field,
+    Layer,
+    Observer,
+    Result,
+    Simulation,
+)
 from tribo.core.errors import Interrupted
 from tribo.stepping.layers import over_increment
 
@@ -214,6 +225,37 @@ def test_hardness_below_a_limited_pressure_is_refused():
     case = flat(pin=coated(hardness="10 GPa"), contact={"type": "winkler", "modulus": 1e15})
     with pytest.raises(CaseError, match=r"^bodies\.pin\.layers: the limit of the pressure is the"):
         Simulation(case)
+
+
+class Counts(Effect):
+    type = "test.counts"
+    state_fields = (Field("slid", "m", "Distance slid."),)
+
+    def initial_state(self):
+        return {"slid": 0.0}
+
+    def state_rates(self, contact):
+        return {"slid": np.full((1, 1), contact.speed)}
+
+
+class Reads(Effect):
+    type = "test.reads_pressure_distance"
+    requires = ("pressure_distance",)
+    provides = (Field("read", "Pa m", "What it has read."),)
+
+    def fields(self, contact):
+        return {"read": dict.fromkeys(contact.materials, contact.pressure)}
+
+
+@pytest.mark.parametrize(
+    ("effect", "words"), [(Counts(), "'slid' of .*"), (Reads(), "'pressure_distance' of .*")]
+)
+def test_layers_along_with_what_changes_along_a_step_are_refused(effect, words):
+    law = {"type": "running_in", "factor": 2, "over": 1e9, "law": SLOW}
+    kinds = {"surface": "flat", "material": STEEL, "wear": law if "press" in words else FAST}
+    case = Case.model_validate(flat(pin=coated(), disk=kinds))
+    with pytest.raises(CaseError, match=rf"^bodies\.pin\.layers: layers cannot .*\({words}\): "):
+        Simulation(case.model_copy(update={"effects": (effect,)}))
 
 
 def test_layers_are_written_in_python():

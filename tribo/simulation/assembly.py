@@ -116,10 +116,29 @@ def assemble(case: Case) -> Model:
         end_time=end,
     )
     _check_ends(model)
+    _check_layers(model)
     for effect in effects:
         with located("effects"):
             effect.ask(effect.component.check, dict(system.materials), model.swept)
     return model
+
+
+def _check_layers(model: Model) -> None:
+    """Check that nothing else that steps integrate changes the rates at which layers wear."""
+    for name, law in model.laws.items():
+        if not law.bottoms:
+            continue
+        kept = [f"{field.name!r} of {effect}" for effect, field in model.between.values()]
+        for law_of in model.laws.values():
+            read = (field for field in law_of.state_fields if field.name in model.required)
+            kept += [f"{field.name!r} of {law_of}" for field in read]
+        if kept:
+            raise CaseError(
+                f"layers cannot go together with what changes along a step ({', '.join(kept)}): "
+                "when a point wears through would be wrong; leave out the layers, or the effect or "
+                "law that keeps that state",
+                f"bodies.{name}.layers",
+            )
 
 
 def as_it_repeats(grid: Grid, contact: ContactSolver) -> Grid:
