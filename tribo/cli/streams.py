@@ -89,7 +89,8 @@ def over(stream: TextIO, kind: type[Output | Remarks]) -> TextIO:
         io.BufferedWriter(kind(number, "w", closefd=False), size),
         encoding=stream.encoding,
         errors=PLAIN,
-        line_buffering=stream.line_buffering,
+        # A single byte stays in a buffer of one.
+        line_buffering=stream.line_buffering or stream.write_through,
         write_through=stream.write_through,
     )
 
