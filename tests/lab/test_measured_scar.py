@@ -136,6 +136,8 @@ def test_a_track_has_a_section_and_the_volume_of_its_length():
     assert mean.volume_m3 == pytest.approx(2e-3 * section, rel=0.01, abs=0)
     assert unworn.relative_error == pytest.approx(0, abs=0.05)
     assert ends.volume_m3 > unworn.volume_m3
+    (alone,) = measured_scar(before, after, track_length=2e-3).inferred
+    assert alone == mean
 
 
 def test_what_is_piled_up_beside_a_scar_is_told_apart(standard):
@@ -182,7 +184,7 @@ def test_the_command_measures_and_draws(tmp_path):
     given = [*files, "--pitch", "1 um", "--radius", "5 mm", "-o", str(picture)]
     done = CliRunner().invoke(command, given, catch_exceptions=False)
     volume = 1e9 * np.sum(lost) * PITCH**2
-    assert float(done.output.split("volume, mm³")[1].split()[0]) == pytest.approx(
+    assert float(done.output.split("volume in the map, mm³")[1].split()[0]) == pytest.approx(
         volume, rel=0.01, abs=0
     )
     for words in ("flat scar (ASTM G99)", "Laid on each other by 3.3", "Noise of the unworn"):
@@ -193,6 +195,8 @@ def test_the_command_measures_and_draws(tmp_path):
     assert '"volume_uncertainty_m3"' in told.output
     with pytest.raises(CaseError, match="has heights and no scale; give the distance"):
         CliRunner().invoke(command, files, catch_exceptions=False)
+    with pytest.raises(CaseError, match="--pitch: .*no unit"):
+        CliRunner().invoke(command, [*files, "--pitch", "5"], catch_exceptions=False)
     with pytest.raises(CaseError, match="1 files are given; give the maps before and after"):
         CliRunner().invoke(command, files[:1], catch_exceptions=False)
     ideal = [files[1], *given[2:4], "--ideal", "sphere"]

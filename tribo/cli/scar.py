@@ -48,14 +48,13 @@ def scar(
       tribo scar before.x3p after.x3p --radius '5 mm' -o scar.png
       tribo scar after.npy --pitch '1 um' --ideal '{ type = "sphere", radius = "5 mm" }'
     """
-    from tribo.config.overrides import parse_value
     from tribo.core.units import Quantity
     from tribo.lab.heights import read_heights
     from tribo.lab.measured_scar import measured_scar
 
     def length(option: str, text: str | None) -> float | None:
         with located(option):
-            return None if text is None else Quantity("m", above=0).read(parse_value(text))
+            return None if text is None else Quantity("m", above=0).read(text)
 
     if len(files) != (1 if ideal else 2):
         raise CaseError(
@@ -108,7 +107,7 @@ def _print(found: MeasuredScar) -> None:
     laid, console = found.registration, Console()
     table = titled("Scar, with standard uncertainties", "", "±")
     rows = [
-        ("volume, mm³", 1e9 * found.volume, 1e9 * found.volume_uncertainty),
+        ("volume in the map, mm³", 1e9 * found.volume, 1e9 * found.volume_uncertainty),
         ("largest depth, µm", 1e6 * found.depth, 1e6 * found.depth_uncertainty),
         ("along sliding, mm", 1e3 * found.along, None),
         ("across, mm", 1e3 * found.across, None),

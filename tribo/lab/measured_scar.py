@@ -132,7 +132,7 @@ def measured_scar(
     after : Heights
         The same after the test, x along the sliding direction.
     radius : float, optional
-        Radius of the ball, in m, for the formulas of standards; none are given without it.
+        Radius of the ball, in m, for the formulas of standards that need it.
     track_length : float, optional
         Length of the whole track, in m: the stroke, or 2πr. The map's own if left out.
     form : int, optional
@@ -200,8 +200,6 @@ def measured_scar(
         missing=float(np.mean(~known[scar])),
         inferred=(),
     )
-    if radius is None:
-        return whole
     inferred = tuple(_inferred(whole, smooth, core, radius, track_length))
     return replace(whole, inferred=inferred)
 
@@ -306,7 +304,7 @@ def _crossed(profile: Array, level: float) -> float:
 
 
 def _inferred(
-    whole: MeasuredScar, smooth: Array, core: Mask, radius: float, track_length: float | None
+    whole: MeasuredScar, smooth: Array, core: Mask, radius: float | None, track_length: float | None
 ) -> list[InferredVolume]:
     """Return the volumes by the formulas of standards, beside the measured one."""
     found: list[InferredVolume] = []
@@ -315,7 +313,7 @@ def _inferred(
         found.append(InferredVolume(body, method, standard, volume, volume / of - 1))
 
     width = min(whole.along, whole.across)
-    if not 0 < width < 2 * radius:
+    if radius is not None and not 0 < width < 2 * radius:
         raise CaseError(
             f"a scar {1e3 * width:.4g} mm wide is none of a ball of {1e3 * radius:.4g} mm radius; "
             "correct radius",
@@ -325,11 +323,15 @@ def _inferred(
         axis = 0 if math.isinf(whole.along) else 1
         length = track_length or whole.after.grid.size[axis]
         measured = planimetric_volume(whole.section, length)
-        area = circular_groove_area(width, radius)
         infer("track", "mean section times length", "ASTM G133, D7755", measured, measured)
+        if radius is None:
+            return found
+        area = circular_groove_area(width, radius)
         infer("track", "groove of an unworn ball", "ASTM G99", area * length, measured)
         volume = reciprocating_track_volume(width, radius, length)
         infer("track", "the same, with ends", "ASTM G133", volume, measured)
+        return found
+    if radius is None:
         return found
     mean = 0.5 * (whole.along + whole.across)
     infer("ball", "flat scar", "ASTM G99", ball_cap_volume(mean, radius), whole.volume)
