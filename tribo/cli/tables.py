@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
-from math import isfinite, isnan
+from math import isfinite
 from typing import Any
 
 from rich.markup import escape
@@ -73,7 +73,7 @@ def print_report(result: Result, console: Console | None = None) -> None:
     if max(plastic) > 0:
         first, last = (f"{100 * part:.2g} %" for part in plastic)
         console.print(f"At the hardness: {first} of the contact at first, {last} at the end.")
-    if not isnan(saves[-1]["friction_energy_J"]):
+    if "friction_energy_J" in saves[-1]:
         console.print(
             f"Friction: {saves[-1]['friction_force_N']:.4g} N at the end, "
             f"{saves[-1]['friction_energy_J']:.4g} J dissipated."

@@ -295,11 +295,12 @@ class Result:
         return columns
 
     def saves(self) -> list[dict[str, Any]]:
-        """Return the scalars of each save, those of the bodies under ``bodies``."""
+        """Return the scalars of each save that it has, those of the bodies under ``bodies``."""
         table = self.table("saves")
+        known = {c.label: table[c.label] for c in COLUMNS}
         return [
             {
-                **{c.label: float(table[c.label][i]) for c in COLUMNS},
+                **{label: float(v[i]) for label, v in known.items() if not np.isnan(v[i])},
                 "bodies": {
                     body: {
                         part.label: float(table[f"bodies.{body}.{part.label}"][i])

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 from hashlib import sha256
-from math import isnan
 from pathlib import Path
 
 import numpy as np
@@ -55,15 +54,12 @@ def first_state(model: Model) -> State:
         carried = result.saves()[save]
     for name, body in bodies.items():
         bodies[name] = replace(body, law={k: found.get((name, k), v) for k, v in body.law.items()})
-    load_distance = carried["load_distance_N_m"]
-    if isnan(load_distance):
-        # Older files lack it; their load was constant.
-        load_distance = result.system.load * carried["distance_m"]
-    energy = carried["friction_energy_J"]
+    # Older files lack it; their load was constant.
+    load_distance = result.system.load * carried["distance_m"]
     state = replace(
         first_contact(model, bodies),
-        load_distance=load_distance,
-        friction_energy=0.0 if isnan(energy) else energy,
+        load_distance=carried.get("load_distance_N_m", load_distance),
+        friction_energy=carried.get("friction_energy_J", 0.0),
     )
     between = {key: found.get((_place(model, key), key), v) for key, v in state.between.items()}
     state = replace(state, between=between)
