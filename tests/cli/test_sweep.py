@@ -24,12 +24,16 @@ def swept(tmp_path_factory):
 def test_it_ends_with_tables_and_a_folder_of_results(swept):
     folder, (code, out, err) = swept
     assert (code, err.splitlines()[-1]) == (0, "2 of 2 runs")
-    assert out == "2 of 2 runs are done.\nWrote study-sweep/runs.csv and study-sweep/saves.csv\n"
+    table, told = out.split("2 of 2 runs are done.\n")
+    assert "load.normal_N" in table
+    pictures = ("ball_depth.png", "disk_depth.png")
+    wrote = ("runs.csv and study-sweep/saves.csv", *pictures)
+    assert told == "".join(f"Wrote study-sweep/{name}\n" for name in wrote)
     runs = pandas.read_csv(folder / "study-sweep" / "runs.csv")
     files = {path.name for path in (folder / "study-sweep" / "results").iterdir()}
     assert files == set(runs["file"])
     left = {path.name for path in (folder / "study-sweep").iterdir()}
-    assert left == {"runs.csv", "saves.csv", "results"}
+    assert left == {"runs.csv", "saves.csv", "results", *pictures}
 
 
 @pytest.mark.slow
@@ -46,7 +50,7 @@ def test_failed_runs_are_told_by_reason_and_exit_with_3(tmp_path):
     sweeps.study(tmp_path, sweeps.QUICK + '[grid]\ngrid.size = ["0.6 mm", "0.2 mm"]')
     code, out, err = tribo("sweep", "study.toml", "-o", "out", cwd=tmp_path)
     assert code == 3
-    assert out.startswith("1 of 2 runs are done.\n")
+    assert "\n1 of 2 runs are done.\n" in out
     told = "error: 1 of 2 runs failed; --retry runs them again:\n  run 2 (grid.size=0.2 mm): "
     assert told in err
     assert "Traceback" not in err

@@ -60,7 +60,8 @@ def test_matched_bodies_are_compared_and_told(files, tmp_path):
         (note,) = comparison.notes
         assert note.startswith("plate and pin: compares 'pin' with 'ball', 'plate' with 'disk'; ")
         drawn = {path.name for path in save_overlays(comparison.results, [200.0], tmp_path)}
-        assert drawn == {"pressure_200s.png", "ball_200s.png", "disk_200s.png"}
+        names = ("comparison", "pressure", "ball", "disk")
+        assert drawn == {f"{name}_200s.png" for name in names}
 
 
 @pytest.mark.parametrize("match", [{"bal": "pin"}, {"ball": "pim"}, {"ball": "pin", "disk": "pin"}])

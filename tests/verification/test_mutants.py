@@ -84,7 +84,7 @@ MUTANTS = {
         "two materials",
     ),
     "sides of a cell swapped": ((operator, "wrapped_kernel"), sides_swapped, "oblong cells"),
-    "sides swapped, periodic": ((periodic, "PeriodicHalfSpace"), sides_swapped, "full contact"),
+    "sides swapped, periodic": ((periodic, "_cached"), sides_swapped, "full contact"),
     "groove not drawn out": (
         (Track, "envelope"),
         lambda right: lambda self, field: field,

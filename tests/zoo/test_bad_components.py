@@ -6,7 +6,7 @@ from zoo.components import GROOVES, ZOO, Ball, Heat, Law, Watcher, raising
 from zoo.motions import Slide
 from zoo_keeper import Zoo, case_of, expect_harmless, expect_one_message
 
-from tribo import CaseError, DcFft, Effect, Result, Simulation
+from tribo import CaseError, DcFft, Result, Simulation
 from tribo.core.errors import PluginError
 
 
@@ -79,13 +79,6 @@ def test_the_smallest_compliance_is_a_number(run):
     (bad,) = zoo.kept
     stepping = 'stepping = { type = "explicit", time_step = 1 }'
     expect_one_message(run(zoo, bad.cls, more=stepping), bad)
-
-
-def test_an_effect_that_does_not_say_what_it_provides_is_not_loaded():
-    zoo = Zoo()
-    zoo.bad("mute", Effect, fields=lambda self, contact: {})
-    with pytest.raises(TypeError, match="mute does not define provides, a tuple of Field"):
-        zoo.registry()
 
 
 # Observers have no say in the answer.

@@ -32,11 +32,6 @@ def check_class(cls: object) -> None:
     if inspect.isabstract(cls):
         missing = ", ".join(sorted(getattr(cls, "__abstractmethods__", ())))
         raise TypeError(f"{cls.__qualname__} does not define {missing}")
-    if "provides" in bases[0].__annotations__ and not hasattr(cls, "provides"):
-        raise TypeError(
-            f"{cls.__qualname__} does not define provides, a tuple of Field, as in "
-            '(Field("name", "m", "What it means."),)'
-        )
 
 
 def offered(answers: Iterable[object]) -> Classes:

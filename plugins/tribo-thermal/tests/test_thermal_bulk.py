@@ -46,7 +46,8 @@ def test_the_bulk_warms_and_cools_as_the_balance_says():
         bulk = result.bulk_rise_ball.to_numpy()
         ball = result.body("ball").effects["temperature_rise"]
     warm = POWER * RESISTANCE * (1 - math.exp(-25 / TIME))
-    assert bulk == pytest.approx([0, warm, warm * math.exp(-15 / TIME)], rel=1e-4)
+    assert bulk[0] == 0
+    assert bulk[1:] == pytest.approx([warm, warm * math.exp(-15 / TIME)], rel=1e-4)
     # The contact is hotter by the flash.
     assert ball[1].max() - bulk[1] > 5
 
