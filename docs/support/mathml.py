@@ -8,9 +8,10 @@ from sphinx.application import Sphinx
 from sphinx.writers.html5 import HTML5Translator
 
 
-def setup(app: Sphinx) -> None:
-    """Register the renderer."""
+def setup(app: Sphinx) -> dict[str, bool]:
+    """Register the renderer; pages may be read side by side."""
     app.add_html_math_renderer("mathml", (_inline, None), (_block, None))
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
 
 
 def _inline(self: HTML5Translator, node: nodes.math) -> None:

@@ -195,7 +195,7 @@ def test_the_command_measures_and_draws(tmp_path):
     assert '"volume_uncertainty_m3"' in told.output
     with pytest.raises(CaseError, match="has heights and no scale; give the distance"):
         CliRunner().invoke(command, files, catch_exceptions=False)
-    with pytest.raises(CaseError, match="--pitch: .*no unit"):
+    with pytest.raises(CaseError, match=r"--pitch: .*no unit"):
         CliRunner().invoke(command, [*files, "--pitch", "5"], catch_exceptions=False)
     with pytest.raises(CaseError, match="1 files are given; give the maps before and after"):
         CliRunner().invoke(command, files[:1], catch_exceptions=False)
