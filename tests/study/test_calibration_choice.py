@@ -1,11 +1,11 @@
 """Data of one law speak for it where they can, and are said not to where they cannot."""
 
 import json
-import tomllib
 from pathlib import Path
 
 import numpy as np
 import pytest
+from calibrations import cheap
 from click.testing import CliRunner
 from scipy.stats import multivariate_normal
 
@@ -16,16 +16,8 @@ from tribo.study.calibration.bench import make_run
 from tribo.study.calibration.choice import choose_case
 from tribo.study.calibration.fit import fit
 from tribo.study.calibration.linearised import Problem
-from tribo.templates import template
 
-CHEAP = {
-    "grid": {"size": "1 mm", "cells": 24},
-    "contact": {"type": "winkler"},
-    "stepping": {"type": "implicit", "depth_tolerance": 1e-2, "pressure_tolerance": 0.3},
-    "kinematics.duration": 100,
-    "output": {},
-}
-ARCHARD = apply_settings(tomllib.loads(template("ball_on_disk")), CHEAP)
+ARCHARD = cheap(100)
 POWER = {"type": "power", "k": 3.11e-16, "p_exponent": 2.0, "reference_pressure": "1 GPa"}
 CASES = {"archard": ARCHARD, "power": apply_settings(ARCHARD, {"bodies.ball.wear": POWER})}
 PER_LOAD = 3.11e-16 * 10.0 * 7850.0

@@ -1,29 +1,20 @@
 """How many tests are enough: by closed forms, and as the calibration itself finds."""
 
 import json
-import tomllib
 import warnings
 from pathlib import Path
 
 import numpy as np
 import pytest
+from calibrations import cheap
 from scipy.stats import norm, t
 
-from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError
 from tribo.study.calibration.calibrate import calibrate
 from tribo.study.calibration.linearised import Linearised, Problem, root_covariance
 from tribo.study.calibration.plan import Search, plan_tests
-from tribo.templates import template
 
-CHEAP = {
-    "grid": {"size": "1 mm", "cells": 24},
-    "contact": {"type": "winkler"},
-    "stepping": {"type": "implicit", "depth_tolerance": 1e-2, "pressure_tolerance": 0.3},
-    "kinematics.duration": 300,
-    "output": {},
-}
-CASE = apply_settings(tomllib.loads(template("ball_on_disk")), CHEAP)
+CASE = cheap(300)
 MASS = {"body": "ball", "quantity": "mass", "uncertainty": "0.2 ug"}
 DATA = Path(__file__).parents[2] / "docs" / "_data" / "calibration_coverage.json"
 

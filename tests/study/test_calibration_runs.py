@@ -1,10 +1,10 @@
 """A calibration gives back what the data were made with, and says what they cannot tell."""
 
-import tomllib
 import warnings
 
 import numpy as np
 import pytest
+from calibrations import cheap, on_springs
 
 from tribo.closed_forms.ball_on_track import ball_on_track
 from tribo.config.load import validate_case
@@ -16,24 +16,12 @@ from tribo.study.calibration.calibrate import calibrate, far_off
 from tribo.study.calibration.measured import read_measurements
 from tribo.study.calibration.parameters import Parameter, find_parameters
 from tribo.study.calibration.quantities import Reading, percent, read
-from tribo.templates import template
 
 TRUE = {"bodies.ball.wear.k": 3.11e-16, "bodies.disk.wear.k": 1.5e-16}
-CHEAP = {
-    "grid": {"size": "1 mm", "cells": 24},
-    "contact": {"type": "winkler"},
-    "stepping": {"type": "implicit", "depth_tolerance": 1e-2, "pressure_tolerance": 0.3},
-    "kinematics.duration": 300,
-    "output": {},
-    **TRUE,
-}
-CASE = apply_settings(tomllib.loads(template("ball_on_disk")), CHEAP)
+CASE = apply_settings(cheap(300), TRUE)
 LOAD, DISTANCE, DENSITY = 100.0, 30.0, 7850.0
 (BALL_K, BALL), (DISK_K, DISK) = TRUE.items()
-SPLIT = apply_settings(
-    tomllib.loads(template("weighed_split")),
-    {"grid.cells": 48, "contact": {"type": "winkler"}, "stepping": CHEAP["stepping"], "output": {}},
-)
+SPLIT = on_springs("weighed_split", {"grid.cells": 48})
 
 
 def mass(k):
