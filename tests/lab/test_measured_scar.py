@@ -75,7 +75,7 @@ def test_the_depth_is_known_as_well_as_it_says(standard):
     _, _, lost, found = standard
     assert (found.along, found.across) == pytest.approx((2 * WIDE, 2 * WIDE), rel=0.02, abs=0)
     assert found.depth == pytest.approx(1e-6, rel=0.02, abs=0)
-    lost = lost[found.part]
+    lost = lost[found.registration.part]
     known = np.isfinite(found.depths)
     assert 0.8 < np.mean(known) < 0.95
     off = (found.depths - lost)[known] / found.registration.uncertainty[known]
@@ -128,7 +128,7 @@ def test_a_track_has_a_section_and_the_volume_of_its_length():
     found = measured_scar(before, after, radius=50 * RADIUS / 1e3, track_length=2e-3)
     section = np.sum(lost[0]) * PITCH
     # What lies beyond the map before is left out.
-    assert found.part[0].stop == pytest.approx(96 - 15, abs=2)
+    assert found.registration.part[0].stop == pytest.approx(96 - 15, abs=2)
     assert np.isinf(found.along)
     assert found.across == pytest.approx(2 * WIDE, rel=0.02, abs=0)
     assert found.section == pytest.approx(section, rel=0.01, abs=0)

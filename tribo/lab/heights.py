@@ -6,13 +6,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import scipy.ndimage as ndimage
+from scipy.interpolate import griddata
 
-from tribo.core.arrays import Array
+from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError
 from tribo.core.files import table_of_numbers
 from tribo.core.grid import Grid
 from tribo.registry.registry import default_registry
-from tribo.surfaces.surface import Surface
 
 OWN = (".npy", ".csv", ".txt", ".h5", ".hdf5")
 """Files that are read without a plugin; they state no scale."""
@@ -103,6 +104,28 @@ def _by_plugin(path: Path) -> Heights:
     return heights
 
 
-def of_shape(surface: Surface, like: Heights) -> Heights:
-    """Return the heights of an ideal shape where another map has its pixels."""
-    return Heights(surface.height(like.grid), like.pitch)
+def smoothed(heights: Array, width: float = 2.0) -> Array:
+    """Return the mean of what is known around each pixel, weighted by a Gaussian; 0 far from it."""
+    known = np.isfinite(heights)
+    total, weight = (
+        ndimage.gaussian_filter(each, width, mode="constant")
+        for each in (np.where(known, heights, 0.0), known.astype(float))
+    )
+    return np.where(weight > 1e-3, total / np.maximum(weight, 1e-3), 0.0)
+
+
+def interpolated(heights: Array, wanted: Mask) -> Array:
+    """Return heights with those wanted from straight lines between known ones around them.
+
+    Outside of the hull of what is known, as at the map's edge, the nearest is taken.
+    """
+    whole = heights.copy()
+    rim = ndimage.binary_dilation(wanted, iterations=2) & np.isfinite(heights)
+    places, missing = np.argwhere(rim), np.argwhere(wanted)
+    methods = ["nearest"]
+    if len(places) >= 4 and np.min(np.ptp(places, axis=0)) > 0:
+        methods.append("linear")
+    for method in methods if len(missing) else ():
+        values = griddata(places, heights[rim], missing, method=method)
+        whole[wanted] = np.where(np.isfinite(values), values, whole[wanted])
+    return whole

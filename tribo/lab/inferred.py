@@ -8,12 +8,13 @@ import numpy as np
 
 from tribo.core.arrays import middle_rows
 from tribo.lab.ball import ball_cap_volume, conforming_ball_volume, flat_along_ball_volume
-from tribo.lab.scar import scar
+from tribo.lab.scar import Scar, scar
 from tribo.lab.track import circular_groove_area, groove_radius, planimetric_area
 from tribo.result.body import BodyResult
 from tribo.result.read import Result
 
-_ROUND = 1e-9
+ROUND = 1e-9
+UNWORN = "groove of an unworn ball"
 
 
 class InferredVolume(NamedTuple):
@@ -40,6 +41,13 @@ class InferredVolume(NamedTuple):
     relative_error: float
 
 
+def inferred(
+    body: str, method: str, standard: str | None, volume: float, worn: float
+) -> InferredVolume:
+    """Return a volume by a formula beside the one worn."""
+    return InferredVolume(body, method, standard, volume, volume / worn - 1)
+
+
 def inferred_volumes(result: Result, save: int = -1) -> list[InferredVolume]:
     """Return the volumes by the usual formulas for a ball on a flat, at a save.
 
@@ -60,27 +68,31 @@ def inferred_volumes(result: Result, save: int = -1) -> list[InferredVolume]:
         return []
     ball, flat, radius = pair
     worn = {name: body["wear_volume_m3"] for name, body in result.saves()[save]["bodies"].items()}
-    along, across = seen = scar(ball.wear_depth[save], result.grid)
+    seen = scar(ball.wear_depth[save], result.grid)
     width = scar(flat.wear_depth[save], result.grid).across
     section = track_section(result, flat, save)
     found: list[InferredVolume] = []
-
-    def infer(body: BodyResult, method: str, standard: str | None, volume: float) -> None:
-        off = volume / worn[body.name] - 1.0
-        found.append(InferredVolume(body.name, method, standard, volume, off))
-
     if not ball.swept and 0 < seen.mean_diameter < 2 * radius:
-        infer(ball, "flat scar", "ASTM G99", ball_cap_volume(seen.mean_diameter, radius))
-        if section and (groove := groove_radius(across, section)) > radius:
-            volume = conforming_ball_volume(along, across, radius, groove)
-            infer(ball, "scar in a groove", "ASTM D7755", volume)
-        volume = flat_along_ball_volume(along, across, radius)
-        infer(ball, "scar flat along sliding only", None, volume)
+        groove = groove_radius(seen.across, section) if section else None
+        found += ball_volumes(ball.name, seen, radius, groove, worn[ball.name])
     if section and 0 < width < 2 * radius:
-        length = worn[flat.name] / section
-        volume = length * circular_groove_area(width, radius)
-        infer(flat, "groove of an unworn ball", "ASTM G99", volume)
+        volume = worn[flat.name] / section * circular_groove_area(width, radius)
+        found.append(inferred(flat.name, UNWORN, "ASTM G99", volume, worn[flat.name]))
     return found
+
+
+def ball_volumes(
+    body: str, seen: Scar, radius: float, groove: float | None, worn: float
+) -> list[InferredVolume]:
+    """Return a ball's volumes by formulas, of its scar, its radius and that of the groove in m."""
+    methods: list[tuple[str, str | None, float]] = [
+        ("flat scar", "ASTM G99", ball_cap_volume(seen.mean_diameter, radius)),
+        ("scar flat along sliding only", None, flat_along_ball_volume(*seen, radius)),
+    ]
+    if groove and groove > radius:
+        volume = conforming_ball_volume(*seen, radius, groove)
+        methods.insert(1, ("scar in a groove", "ASTM D7755", volume))
+    return [inferred(body, *each, worn) for each in methods]
 
 
 def track_section(result: Result, body: BodyResult, save: int = -1) -> float | None:
@@ -98,6 +110,6 @@ def _ball_and_flat(result: Result) -> tuple[BodyResult, BodyResult, float] | Non
     flat, ball = bodies
     if np.ptp(flat.height) > 0 or np.ptp(ball.height) == 0 or curvature is None:
         return None
-    if curvature[0] <= 0 or abs(curvature[1] / curvature[0] - 1) > _ROUND:
+    if curvature[0] <= 0 or abs(curvature[1] / curvature[0] - 1) > ROUND:
         return None
     return ball, flat, 1 / curvature[0]

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
+from tribo.lab.heights import smoothed
 from tribo.lab.measured_scar import MeasuredScar
-from tribo.lab.registration import smoothed
 from tribo.plotting import style
 from tribo.plotting.maps import new_maps
 from tribo.plotting.units import height_unit, size
