@@ -170,7 +170,8 @@ def short_strokes(cells: int, passes: int) -> Iterator[Row]:
         yield {"asked_half_widths": widths, **row}
 
 
-def _options(parser: argparse.ArgumentParser) -> None:
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add grids and passes."""
     parser.add_argument("--cells", type=int, default=48, help="of the paper's window, a side")
     parser.add_argument("--half-width", type=int, default=8, help="cells of a half-width")
     parser.add_argument(
@@ -178,7 +179,8 @@ def _options(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def _measure(options: argparse.Namespace) -> Tables:
+def measure(options: argparse.Namespace) -> Tables:
+    """Return a table for each kind of stroke."""
     return {
         "paper": list(papers(options.cells, 4 * options.passes)),
         "grooves": list(grooves(options.half_width, options.passes)),
@@ -188,4 +190,4 @@ def _measure(options: argparse.Namespace) -> Tables:
 
 
 if __name__ == "__main__":
-    main(__doc__, _options, _measure)
+    main(__doc__, add_options, measure)

@@ -136,7 +136,7 @@ SCHEMES: dict[str, tuple[float | None, Callable[[Hour, Worn, float], Worn]]] = {
 }
 
 
-def compare(options: argparse.Namespace) -> Tables:
+def measure(options: argparse.Namespace) -> Tables:
     """Run every scheme with every ratio of increment to path."""
     hour = Hour(options.cells, options.duration)
     tight = [f"stepping.{setting}" for setting in TIGHT]
@@ -202,4 +202,4 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 if __name__ == "__main__":
-    main(__doc__, add_options, compare)
+    main(__doc__, add_options, measure)
