@@ -20,12 +20,12 @@ from tribo.config.load import validate_case
 
 @pytest.mark.slow
 def test_some_cases_of_each_kind_end_as_they_should():
-    done = fuzzing.fuzz(5 * len(trial.KINDS), seed=3)
+    done = fuzzing.fuzz(2 * len(trial.KINDS), seed=3, workers=1)
     assert done.faults == {}
     # Those that were stopped on a busy machine, with 130, are counted apart.
     codes = done.figures()["exit codes"]
-    assert codes["0"] > 4
-    assert codes["2"] > 10
+    assert codes["0"] > 1
+    assert codes["2"] > 5
 
 
 def test_what_to_install_is_said_before_anything_starts(monkeypatch, capsys):
