@@ -148,34 +148,31 @@ def test_a_field_whose_slope_is_required_follows_the_pressure(fields):
     assert report.ok, str(report)
 
 
-PYTEST = """
-from testing.conformance.test_kit import CURVATURE, Hill, InwardHeight, Unknown
-from tribo.testing import parametrize_checks
+def as_pytest_has_it(cls, **expected):
+    """Return the case that pytest makes of one check, and what running it raises."""
+    test = parametrize_checks(cls, configs=[{}], expected_failures=expected)
+    (cases,) = (mark.args[1] for mark in test.pytestmark)
+    (case,) = (each for each in cases if each.id == f"{CURVATURE}-0")
+    try:
+        test(*case.values)
+    except (pytest.fail.Exception, pytest.skip.Exception) as raised:
+        return case, raised
+    return case, None
 
-WRONG = {CURVATURE: "made so"}
-test_honest = parametrize_checks(Hill, configs=[{}])
-test_known = parametrize_checks(InwardHeight, configs=[{}], expected_failures=WRONG)
-test_wrong = parametrize_checks(InwardHeight, configs=[{}])
-test_mended = parametrize_checks(Hill, configs=[{}], expected_failures=WRONG)
-test_unknown = parametrize_checks(Unknown, configs=[{}])
-"""
 
-
-@pytest.mark.slow
-def test_pytest_reports_each_check(tmp_path):
-    (tmp_path / "test_them.py").write_text(PYTEST)
-    done = subprocess.run(
-        [sys.executable, "-m", "pytest", "-rA", "-p", "no:cacheprovider", "-k", CURVATURE],
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-        env={"PYTHONPATH": ":".join(sys.path)},
-    )
-    assert "2 failed, 1 passed, 1 skipped, " in done.stdout
-    assert "1 xfailed" in done.stdout
-    assert "The curvature is that at the highest point" in done.stdout
-    for name in ("test_wrong", "test_mended"):
-        assert f"FAILED test_them.py::{name}[{CURVATURE}-0]" in done.stdout
+def test_pytest_reports_each_check():
+    assert as_pytest_has_it(Hill)[1] is None
+    _, failed = as_pytest_has_it(InwardHeight)
+    assert isinstance(failed, pytest.fail.Exception)
+    assert "The curvature is that at the highest point" in str(failed)
+    _, skipped = as_pytest_has_it(Unknown)
+    assert isinstance(skipped, pytest.skip.Exception)
+    # One that passes all the same is a failure to pytest, for the mark is strict.
+    known, failed = as_pytest_has_it(InwardHeight, **{CURVATURE: "made so"})
+    assert failed is not None
+    assert [(mark.name, mark.kwargs) for mark in known.marks] == [
+        ("xfail", {"reason": "made so", "strict": True})
+    ]
 
 
 @pytest.mark.slow
