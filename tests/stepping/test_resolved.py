@@ -37,7 +37,7 @@ from tribo.lab.inferred import track_section
 from tribo.motion.exposure import Stationary
 from tribo.observers.observer import Observer
 from tribo.plotting.profiles import along_track
-from tribo.stepping.step import first_contact, geometry
+from tribo.stepping.step import first_contact, undeformed
 
 GRID = Grid((1.2e-3, 0.75e-3), (32, 20))
 STROKE = 12 * GRID.spacing[0]
@@ -174,7 +174,7 @@ def test_nothing_yields_twice_at_any_position(soft):
     assert state.bodies["disk"].plastic.shape == (32 + 12, 20)
     assert deepest > 1e-8
     for position in range(7):
-        gap = geometry(model, state.bodies, position)
+        gap = undeformed(model, state)[position]
         again = model.contact.solve(ContactProblem(model.system, gap, model.load))
         assert again.overlap.max() <= 1e-5 * deepest
         assert again.pressure.max() <= 1.5e9 * (1 + 1e-9)

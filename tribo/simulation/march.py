@@ -21,7 +21,6 @@ from tribo.simulation.validity import (
     limitation,
     short_of_a_lap,
 )
-from tribo.stepping.friction import friction_energy
 from tribo.stepping.invariants import chattering_words, chatters, hold
 from tribo.stepping.step import start_sliding
 
@@ -109,7 +108,6 @@ def _advanced(model: Model, state: State, until: float, limit: float) -> State:
         error.args = (f"{error}, at {state.distance:.6g} m ({state.time:.6g} s)",)
         raise
     after = hold(model, state, after)
-    after = replace(after, friction_energy=friction_energy(model, state, after))
     _check_window(model, after)
     return _noticed(model, after)
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
-from tribo.core.fields import Field, WearRate
+from tribo.core.fields import WearRate
 from tribo.core.state import State
 from tribo.stepping.contacts import in_stripes
 from tribo.stepping.extrapolation import Limits, Plan, Values, integrated
@@ -88,14 +88,13 @@ def sloped(
     plan = replace(known.plan, accuracy=np.inf)
     other = course(model, before, nudged, increment, moment, plan)
     laws = wear_rates(model, contacts, known.memory, moment)
-    sloped = []
-    for rates, higher, law, stripe in zip(known.rates, other.rates, laws, stripes, strict=True):
-        sloped.append(
-            {
-                name: replace(rate, depth_slope=_slope(rate, higher[name], law[name], stripe))
-                for name, rate in rates.items()
-            }
-        )
+    sloped = [dict(rates) for rates in known.rates]
+    for rates, higher, law, stripe in zip(sloped, other.rates, laws, stripes, strict=True):
+        for name, rate in rates.items():
+            change = higher[name].depth_rate - rate.depth_rate
+            slope = law[name].depth_slope.copy()
+            np.divide(change, stripe, out=slope, where=stripe != 0)
+            rates[name] = replace(rate, depth_slope=np.maximum(slope, 0.0))
     return sloped
 
 
@@ -104,17 +103,17 @@ def rested_memory(model: Model, state: State, time: float) -> Memory:
     before = remembered(state)
     if not before.between:
         return before
-    of_effects = partial(resting_rates, model, state.contacts)
+    rest = time - state.time
 
     def rates(values: Sequence[Array], passed: float) -> Values:
-        memory = Memory(before.laws, dict(zip(before.between, values, strict=True)))
-        now = Moment(time - (1 - passed) * (time - state.time), state.distance, 0.0)
-        changes = of_effects(memory, now)
-        return [changes[key] for key in before.between]
+        between = dict(zip(before.between, values, strict=True))
+        now = Moment(time - (1 - passed) * rest, state.distance, 0.0)
+        changes = resting_rates(model, state.contacts, replace(before, between=between), now)
+        return [changes[key] for key in between]
 
     limits = _limits(model, Memory({}, before.between))
-    values, _, _ = integrated(rates, [*before.between.values()], time - state.time, limits)
-    return Memory(before.laws, dict(zip(before.between, values, strict=True)))
+    values, _, _ = integrated(rates, [*before.between.values()], rest, limits)
+    return replace(before, between=dict(zip(before.between, values, strict=True)))
 
 
 def _rates(
@@ -143,23 +142,21 @@ def _rates(
     return total + [rate.depth_rate for rates in found for rate in rates.wear.values()]
 
 
-def _slope(rate: WearRate, higher: WearRate, law: WearRate, stripe: Array) -> Array:
-    change = higher.depth_rate - rate.depth_rate
-    slope = np.divide(change, stripe, out=law.depth_slope.copy(), where=stripe != 0)
-    return np.maximum(slope, 0.0)
-
-
 def _limits(model: Model, memory: Memory) -> list[Limits]:
     """Return the limits of all that is remembered, in the order of `Memory.values`."""
-    found = []
-    for name, of_law in memory.laws.items():
-        declared = {field.name: field for field in model.laws[name].state_fields} if of_law else {}
-        found += [_limits_of(declared[key], f"{model.laws[name]}") for key in of_law]
-    between = (model.between[key] for key in memory.between)
-    return found + [_limits_of(field, f"{effect}") for effect, field in between]
-
-
-def _limits_of(field: Field, who: str) -> Limits:
-    least = -np.inf if field.at_least is None else field.at_least
-    most = np.inf if field.at_most is None else field.at_most
-    return Limits(least, most, f"{field.name!r} of {who}")
+    of_laws = [
+        (field, f"{model.laws[name]}")
+        for name, of_law in memory.laws.items()
+        for key in of_law
+        for field in model.laws[name].state_fields
+        if field.name == key
+    ]
+    between = [(model.between[key][1], f"{model.between[key][0]}") for key in memory.between]
+    return [
+        Limits(
+            -np.inf if field.at_least is None else field.at_least,
+            np.inf if field.at_most is None else field.at_most,
+            f"{field.name!r} of {who}",
+        )
+        for field, who in (*of_laws, *between)
+    ]

@@ -14,25 +14,22 @@ from tribo.core.errors import CaseError
 from tribo.core.fields import WearRate
 from tribo.core.state import State
 from tribo.core.units import Quantity
-from tribo.stepping.contacts import in_stripes, solve_cycle, solved
+from tribo.stepping.contacts import in_stripes, solve_cycle
 from tribo.stepping.evolution import Course, course
-from tribo.stepping.invariants import wear_balance
-from tribo.stepping.layers import worn_through
 from tribo.stepping.linear_wear import wear_compliance
 from tribo.stepping.memory import remembered
-from tribo.stepping.quadrature import with_missed
 from tribo.stepping.rates import CycleRates, Moment, wear_rates
 from tribo.stepping.scheme import Scheme
 from tribo.stepping.step import (
     accepted,
+    counted,
     distance_until,
-    geometry,
     moment_after,
     rested,
     rests,
     start_sliding,
-    worn_bodies,
-    worn_depths,
+    undeformed,
+    worn_by,
 )
 
 if TYPE_CHECKING:
@@ -101,24 +98,15 @@ class Explicit(Scheme):
 
     def step(self, model: Model, state: State, increment: float, time: float) -> State:
         """Return the state after one forward Euler step; see `Scheme.step`."""
-        moment = moment_after(state, increment, time)
-        slid = Course(rated(model, state, moment).rates, remembered(state))
-        if slid.memory.values or any(law.bottoms for law in model.laws.values()):
-            slid = course(model, slid.memory, state.contacts, increment, moment)
-        rates, worn = slid.rates, worn_depths(model, slid.rates, increment)
-        bodies = with_missed(model, worn_bodies(state, worn, slid.memory), rates, increment)
-        gaps = [geometry(model, bodies, position) for position in range(len(model.cycle))]
+        moment, memory = moment_after(state, increment, time), remembered(state)
+        if memory.values or any(law.bottoms for law in model.laws.values()):
+            slid = course(model, memory, state.contacts, increment, moment)
+        else:
+            slid = Course(rated(model, state, moment).rates, memory)
+        after = worn_by(model, state, slid, increment, moment)
         loads = model.loads.before(time)
-        contacts = solve_cycle(model, gaps, loads, _extrapolated(state))
-        kept = replace(
-            state,
-            rates=(),
-            between=slid.memory.between,
-            notices=(*state.notices, *worn_through(model, state, bodies, slid.memory, increment)),
-            invariants=wear_balance(model, worn, rates, increment, state),
-        )
-        iterations = sum(contact.iterations for contact in contacts)
-        return accepted(model, kept, bodies, contacts, loads, moment, solved(contacts), iterations)
+        contacts = solve_cycle(model, undeformed(model, after), loads, _extrapolated(state))
+        return accepted(model, state, counted(after, contacts), contacts, loads)
 
     def _instability(self, model: Model, state: State, moment: Moment) -> str | None:
         """Return a warning of a step that is beyond the limit where the case allows it.
@@ -196,14 +184,12 @@ def _steepened(model: Model, state: State, rates: CycleRates, moment: Moment) ->
         return rates
     nudged, stripes = in_stripes(state.contacts)
     others = wear_rates(model, nudged, remembered(state), moment)
-    steeper = []
-    for at, other, each in zip(rates, others, stripes, strict=True):
-        steeper.append(dict(at))
+    steeper = [dict(at) for at in rates]
+    for at, other, stripe in zip(steeper, others, stripes, strict=True):
         for name in following:
             change = other[name].depth_rate - at[name].depth_rate
-            slope = np.divide(change, each, out=np.zeros_like(change), where=each != 0)
-            derivative = np.maximum(at[name].depth_slope, slope)
-            steeper[-1][name] = replace(at[name], depth_slope=derivative)
+            slope = np.divide(change, stripe, out=np.zeros_like(change), where=stripe != 0)
+            at[name] = replace(at[name], depth_slope=np.maximum(at[name].depth_slope, slope))
     return steeper
 
 

@@ -9,10 +9,8 @@ import numpy as np
 
 from tribo.core.fields import FRICTION_COEFFICIENT
 from tribo.core.state import State
-from tribo.stepping.events import unheard
 from tribo.stepping.memory import remembered, under
 from tribo.stepping.rates import Moment, local_fields
-from tribo.stepping.step import start_sliding
 
 if TYPE_CHECKING:
     from tribo.simulation.model import Model
@@ -40,25 +38,23 @@ def mean_friction(model: Model, state: State) -> float | None:
     return force / load
 
 
-def friction_energy(model: Model, before: State, after: State) -> float:
-    """Return the work of friction up to `after`, in J, of a step that begins at `before`.
+def friction_work(model: Model, before: State, after: State) -> float:
+    """Return the work of friction over a step, in J.
 
     What an effect provides is taken to go in a straight line, as a force, between both ends of the
     step: after a jump of the load that it begins with, and before one that it ends with.
     """
-    slid = after.distance - before.distance
-    if slid == 0 or not _varies(model):
+    if not _varies(model):
         friction = model.friction_coefficient or 0.0
-        return before.friction_energy + friction * (after.load_distance - before.load_distance)
-    # Of this contact, solved a second time, no listener is told.
-    began = start_sliding(replace(model, tell=unheard), before)
+        return friction * (after.load_distance - before.load_distance)
     loads = model.loads.after(before.time), model.loads.before(after.time)
     # Both at the speed of the step.
+    ends = replace(before, speed=after.speed), after
     forces = [
         (mean_friction(model, state) or 0.0) * model.loads.over_cycle(load)
-        for state, load in zip((replace(began, speed=after.speed), after), loads, strict=True)
+        for state, load in zip(ends, loads, strict=True)
     ]
-    return before.friction_energy + 0.5 * sum(forces) * slid
+    return 0.5 * sum(forces) * (after.distance - before.distance)
 
 
 def _varies(model: Model) -> bool:

@@ -16,28 +16,25 @@ from tribo.core.contact import ContactSolution
 from tribo.core.errors import BadValues, NumericalError, PluginError
 from tribo.core.state import State
 from tribo.core.units import Quantity
-from tribo.stepping.contacts import solve_cycle, solved
+from tribo.stepping.contacts import solve_cycle
 from tribo.stepping.evolution import Course, course, sloped
-from tribo.stepping.invariants import wear_balance
-from tribo.stepping.layers import worn_through
 from tribo.stepping.linear_wear import linear_wear
 from tribo.stepping.memory import remembered
-from tribo.stepping.quadrature import with_missed
 from tribo.stepping.rates import Moment, wear_rates
 from tribo.stepping.repeated import check_repeatable
 from tribo.stepping.scheme import Scheme
 from tribo.stepping.step import (
     SMALLEST,
     accepted,
+    counted,
     distance_until,
-    geometry,
     load_changes,
-    lost,
     moment_after,
     rested,
     rests,
     start_sliding,
-    worn_bodies,
+    undeformed,
+    worn_by,
     worn_depths,
 )
 
@@ -211,7 +208,7 @@ class Implicit(Scheme):
         moment = moment_after(state, increment, time)
         resolved = len(model.cycle) > 1
         tolerance = self.cycle_tolerance if resolved else self.nonlinear_tolerance
-        base = np.stack([geometry(model, state.bodies, m) for m in range(len(model.cycle))])
+        base = undeformed(model, state)
         dx = model.grid.spacing[0]
         before = remembered(state)
         slide = partial(course, model, before, increment=increment)
@@ -226,7 +223,7 @@ class Implicit(Scheme):
         loads = model.loads.mean(state.time, time)
         heavier = loads[0] / model.loads.after(state.time)[0]
         forward = {name: heavier * depth for name, depth in guess.worn.items()}
-        passes = solves = iterations = 0
+        solved, passes = state, 0
         while True:
             rates = sloped(model, before, guess.contacts, increment, moment, guess.course)
             wear = linear_wear(model, rates, guess.contacts, increment)
@@ -239,8 +236,7 @@ class Implicit(Scheme):
             except NumericalError as error:
                 raise StepRejected(str(error)) from error
             implied = beyond + wear.depths(contacts, dx)
-            passes, solves = passes + 1, solves + solved(contacts)
-            iterations += sum(contact.iterations for contact in contacts)
+            solved, passes = counted(solved, contacts), passes + 1
             slid = slide(contacts=contacts, moment=moment, plan=guess.course.plan)
             guess = _guess(model, contacts, slid, increment)
             off = np.abs(guess.depths - implied)
@@ -254,18 +250,12 @@ class Implicit(Scheme):
                     "raise stepping.max_passes or lower stepping.pressure_tolerance"
                 )
         rates, memory = guess.course.rates, guess.course.memory
-        bodies = with_missed(model, worn_bodies(state, guess.worn, memory), rates, increment)
-        # Set first: settling a groove leaves the pressure that these rates belong to.
-        kept = replace(
-            state,
-            # What is remembered changes them along a step, and so do layers.
-            rates=() if memory.values or memory.shares else rates,
-            between=memory.between,
-            notices=(*state.notices, *worn_through(model, state, bodies, memory, increment)),
-            invariants=wear_balance(model, guess.worn, rates, increment, state),
-        )
-        after = accepted(model, kept, bodies, contacts, loads, moment, solves, iterations)
-        return Trial(after, forward)
+        after = worn_by(model, solved, guess.course, increment, moment)
+        if not (memory.values or memory.shares):
+            # Set first: settling a groove leaves the pressure that these rates belong to. What is
+            # remembered changes them along a step, and so do layers.
+            after = replace(after, rates=rates)
+        return Trial(accepted(model, state, after, contacts, loads), forward)
 
     def errors(self, model: Model, before: State, trial: Trial) -> Errors:
         """Return the step's depth, pressure and volume errors as multiples of their tolerances.
@@ -283,26 +273,23 @@ class Implicit(Scheme):
         not linear in pressure or that remembers, and all have one sign. So the
         volume's is compared with what the step itself wears.
         """
-        after = trial.state
-        pressures = [
-            (position, after.contacts[position].pressure, model.cycle[position].share)
-            for position in range(len(model.cycle))
-        ]
-        load = sum(share * float(np.sum(p)) for _, p, share in pressures)
+        after, contacts = trial.state, trial.state.contacts
+        shares = [position.share for position in model.cycle]
+        pressures = [(share, c.pressure) for share, c in zip(shares, contacts, strict=True)]
+        load = sum(share * float(np.sum(p)) for share, p in pressures)
         change = sum(
-            share * float(np.sum(np.abs(p - before.contacts[position].pressure)))
-            for position, p, share in pressures
+            share * float(np.sum(np.abs(p - was.pressure)))
+            for (share, p), was in zip(pressures, before.contacts, strict=True)
         )
         depth_error = volume_error = 0.0
         for name, forward in trial.forward.items():
             worn = after.bodies[name].wear - before.bodies[name].wear
             lag = np.abs(worn - forward)
             scale = float(np.max(after.bodies[name].wear)) + FIRST * after.reference_depth
-            late = sum(
-                share * float(np.sum(p * model.under(name, lag, position)))
-                for position, p, share in pressures
+            late = _loaded_mean(
+                model, contacts, [model.under(name, lag, m) for m in range(len(shares))]
             )
-            depth_error = max(depth_error, 0.5 * late / (load * scale))
+            depth_error = max(depth_error, 0.5 * late / scale)
             own = 0.5 * (worn + forward)
             # What lags where points pass from layer to layer is mended too.
             if np.any(own > 0) and not model.laws[name].bottoms:
@@ -332,7 +319,10 @@ def _guess(
     model: Model, contacts: Sequence[ContactSolution], slid: Course, increment: float
 ) -> Guess:
     worn = worn_depths(model, slid.rates, increment)
-    depths = np.stack([lost(model, worn, position) for position in range(len(contacts))])
+    depths = np.zeros((len(contacts), *model.grid.cells))
+    for position, depth in enumerate(depths):
+        for name, of_body in worn.items():
+            depth += model.under(name, of_body, position)
     return Guess(contacts, slid, worn, depths)
 
 
@@ -362,8 +352,10 @@ def _largest(arrays: Iterable[Array]) -> float:
     return max((float(np.max(np.abs(array))) for array in arrays), default=0.0)
 
 
-def _loaded_mean(model: Model, contacts: Sequence[ContactSolution], arrays: Array) -> float:
-    """Return the mean over a cycle of arrays (positions, nx, ny), weighted with the load."""
+def _loaded_mean(
+    model: Model, contacts: Sequence[ContactSolution], arrays: Iterable[Array]
+) -> float:
+    """Return the mean over a cycle of arrays, one for each position, weighted with the load."""
     weighed = load = 0.0
     for position, contact, array in zip(model.cycle, contacts, arrays, strict=True):
         weighed += position.share * float(np.sum(contact.pressure * array))

@@ -19,11 +19,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Memory:
-    """State fields, by name: those of each body's law, by body, and those of the effects.
+    """State fields where they lie: of each body's law, by body, and of the effects, by name.
 
-    All lie where they belong: on the body's own surface, or in the contact frame. `worn` has the
-    depth that each body has lost, and `shares` for how much of an increment each layer of a body
-    is what wears (`tribo.stepping.layers`).
+    `worn` has the depth that each body has lost, and `shares` for how much of an increment each
+    layer of a body is what wears (`tribo.stepping.layers`).
     """
 
     laws: Mapping[str, Mapping[str, Array]]
@@ -86,8 +85,9 @@ def under(model: Model, memory: Memory, position: int) -> Memory:
     )
     worn = {name: model.under(name, depth, position) for name, depth in memory.worn.items()}
     between = dict(memory.between)
-    for key, carrier in _carried(model):
-        between[key] = model.under(carrier, between[key], position)
+    for key, (effect, field) in model.between.items():
+        if effect.carrier is not None and not field.uniform:
+            between[key] = model.under(effect.carrier, between[key], position)
     return Memory(laws, between, worn, shares)
 
 
@@ -133,12 +133,3 @@ def in_window(model: Model, key: str, values: Array) -> Array:
     """Return the state of an effect as it is told of it: (nx, ny), or (1, 1) if uniform."""
     _, field = model.between[key]
     return readonly(values if field.uniform else np.broadcast_to(values, model.grid.cells))
-
-
-def _carried(model: Model) -> list[tuple[str, str]]:
-    """Return the state fields that lie on a body's surface, each with the body."""
-    return [
-        (key, effect.carrier)
-        for key, (effect, field) in model.between.items()
-        if effect.carrier is not None and not field.uniform
-    ]

@@ -2,31 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tribo.core.state import BodyState, State
-from tribo.stepping.rates import CycleRates
-from tribo.stepping.step import worn_depths
+from tribo.core.state import State
 
 if TYPE_CHECKING:
     from tribo.simulation.model import Model
-
-
-def with_missed(
-    model: Model, bodies: Mapping[str, BodyState], rates: CycleRates, increment: float
-) -> dict[str, BodyState]:
-    """Return bodies with what a finer cycle is estimated to add over `increment` (m)."""
-    shares = model.missed_shares
-    missed = {} if shares is None else worn_depths(model, rates, increment, shares)
-    after = dict(bodies)
-    for name, depth in missed.items():
-        before = bodies[name].missed
-        after[name] = replace(bodies[name], missed=depth if before is None else before + depth)
-    return after
 
 
 def cycle_error(model: Model, state: State) -> float:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
+from functools import reduce
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -119,17 +120,19 @@ def _rates_at(
 ) -> Rates:
     """Return the rates at a position per metre of the motion: the mean over its speeds."""
     place = model.cycle[position]
-    wear: dict[str, WearRate] = {}
-    between: dict[str, Array] = {}
     speeds = place.speeds or [(moment.speed, 1.0)]
     weighed = speeds if place.reach is None else by_row(speeds, place.reach)
-    for speed, share in weighed:
-        at_speed = _rates_of(model, position, contact, memory, replace(moment, speed=speed))
-        for name, rate in at_speed.wear.items():
-            part = rate if np.ndim(share) == 0 and share == 1 else _times(share, rate)
-            wear[name] = _sum(wear[name], part) if name in wear else part
-        for key, change in at_speed.between.items():
-            between[key] = between.get(key, 0.0) + share * change
+    found = [
+        (share, _rates_of(model, position, contact, memory, replace(moment, speed=speed)))
+        for speed, share in weighed
+    ]
+    (_, first), *others = found
+    if not others and np.ndim(found[0][0]) == 0 and found[0][0] == 1:
+        return first
+    wear = {name: _mean([(share, each.wear[name]) for share, each in found]) for name in first.wear}
+    between = {
+        key: _sum((share, each.between[key]) for share, each in found) for key in first.between
+    }
     return Rates(wear, between)
 
 
@@ -148,14 +151,17 @@ def by_row(speeds: Speeds, reach: Array) -> list[tuple[float, Array]]:
     ]
 
 
-def _times(share: float | Array, rate: WearRate) -> WearRate:
-    state = {name: share * values for name, values in rate.state_rates.items()}
-    return WearRate(share * rate.depth_rate, share * rate.depth_slope, state)
+def _mean(rates: Sequence[tuple[float | Array, WearRate]]) -> WearRate:
+    keys = rates[0][1].state_rates
+    return WearRate(
+        _sum((share, rate.depth_rate) for share, rate in rates),
+        _sum((share, rate.depth_slope) for share, rate in rates),
+        {key: _sum((share, rate.state_rates[key]) for share, rate in rates) for key in keys},
+    )
 
 
-def _sum(one: WearRate, other: WearRate) -> WearRate:
-    state = {name: values + other.state_rates[name] for name, values in one.state_rates.items()}
-    return WearRate(one.depth_rate + other.depth_rate, one.depth_slope + other.depth_slope, state)
+def _sum(parts: Iterable[tuple[float | Array, Array]]) -> Array:
+    return reduce(np.add, (share * values for share, values in parts))
 
 
 def _rates_of(

@@ -17,9 +17,11 @@ from tribo.core.measures import Invariants, reaches_border
 from tribo.core.state import BodyState, State
 from tribo.stepping.contacts import solve, solve_cycle, solved
 from tribo.stepping.events import Drawn, Solved, Worn, Yielded
-from tribo.stepping.evolution import rested_memory
-from tribo.stepping.invariants import ONE_LOAD
-from tribo.stepping.memory import Memory, first_memory
+from tribo.stepping.evolution import Course, rested_memory
+from tribo.stepping.friction import friction_work
+from tribo.stepping.invariants import ONE_LOAD, wear_balance
+from tribo.stepping.layers import worn_through
+from tribo.stepping.memory import first_memory
 from tribo.stepping.rates import CycleRates, Moment
 
 if TYPE_CHECKING:
@@ -49,18 +51,24 @@ def first_contact(model: Model, worn: Mapping[str, BodyState] | None = None) -> 
     NumericalError
         If the solver fails.
     """
-    solved: dict[tuple[int, float], ContactSolution] = {}
-    bodies = _unworn(model) if worn is None else worn
-    gaps: Sequence[Array] = model.gaps
-    if worn is not None:
-        gaps = [geometry(model, worn, position) for position in range(len(gaps))]
-    loads = model.loads.after(0.0)
-    asked = [(id(gap), load) for gap, load in zip(gaps, loads, strict=True)]
-    for gap, load, key in zip(gaps, loads, asked, strict=True):
+    state = State(
+        time=0.0,
+        distance=0.0,
+        bodies=_unworn(model) if worn is None else worn,
+        contacts=(),
+        increment=0.0,
+        reference_depth=0.0,
+        load_distance=0.0,
+        between=first_memory(model),
+    )
+    gaps = model.gaps if worn is None else undeformed(model, state)
+    solutions: dict[tuple[int, float], ContactSolution] = {}
+    asked = [(id(gap), load) for gap, load in zip(gaps, model.loads.after(0.0), strict=True)]
+    for gap, key in zip(gaps, asked, strict=True):
         # Where nothing varies along the path, one solve serves all positions.
-        if key not in solved:
-            solved[key] = solve(model, gap, load, None, *list(solved.values())[-1:])
-    contacts = tuple(solved[key] for key in asked)
+        if key not in solutions:
+            solutions[key] = solve(model, gap, key[1], None, *list(solutions.values())[-1:])
+    contacts = tuple(solutions[key] for key in asked)
     if any(reaches_border(each.pressure) for each in contacts) and not model.may_reach_edge:
         raise CaseError(
             "the first contact reaches the edge of the window of "
@@ -70,18 +78,14 @@ def first_contact(model: Model, worn: Mapping[str, BodyState] | None = None) -> 
         )
     model.tell(Solved(contacts))
     middle = len(contacts) // 2
-    return State(
-        time=0.0,
-        distance=0.0,
-        bodies=_yielded(model, bodies, contacts, [middle]),
+    return replace(
+        state,
         contacts=contacts,
-        increment=0.0,
+        contact_solves=len(solutions),
+        solver_iterations=sum(contact.iterations for contact in solutions.values()),
+        bodies=_yielded(model, state.bodies, contacts, [middle]),
         # The approach counts from the lowest point of unworn bodies.
         reference_depth=contacts[middle].approach - float(np.min(gaps[middle])),
-        load_distance=0.0,
-        between=first_memory(model),
-        contact_solves=len(solved),
-        solver_iterations=sum(contact.iterations for contact in solved.values()),
     )
 
 
@@ -98,13 +102,23 @@ def _unworn(model: Model) -> dict[str, BodyState]:
     return bodies
 
 
-def geometry(model: Model, bodies: Mapping[str, BodyState], position: int = 0) -> Array:
-    """Return the undeformed gap, worn and plastically deformed, shape (nx, ny), in m."""
-    gap = model.gaps[position].copy()
-    for name, body in bodies.items():
-        gap += model.under(name, body.wear, position)
-        gap += model.under(name, body.plastic, position)
-    return gap
+def undeformed(model: Model, state: State) -> Array:
+    """Return the gap at each position, worn and plastically deformed, (positions, nx, ny), in m."""
+    gaps = np.stack(model.gaps)
+    for position, gap in enumerate(gaps):
+        for name, body in state.bodies.items():
+            gap += model.under(name, body.wear, position)
+            gap += model.under(name, body.plastic, position)
+    return gaps
+
+
+def counted(state: State, contacts: Sequence[ContactSolution]) -> State:
+    """Return `state` with the solves of the contacts of a cycle counted."""
+    return replace(
+        state,
+        contact_solves=state.contact_solves + solved(contacts),
+        solver_iterations=state.solver_iterations + sum(c.iterations for c in contacts),
+    )
 
 
 def moment_after(state: State, increment: float, time: float) -> Moment:
@@ -149,6 +163,19 @@ def rested(model: Model, state: State, time: float) -> State:
     )
 
 
+def start_sliding(model: Model, state: State) -> State:
+    """Return `state` as a step begins: under the load after a jump, its indentation drawn out.
+
+    At s = 0 plastic displacement is local; once a body slides, its groove is
+    the envelope along the track, and the contact in it is solved anew.
+    """
+    loads = model.loads.after(state.time)
+    if loads != model.loads.before(state.time):
+        # How far a step may go under the load before says little.
+        state = replace(_under(model, state, loads), increment=0.0)
+    return _settle(model, state, loads) if state.distance == 0 else state
+
+
 def worn_depths(
     model: Model, rates: CycleRates, increment: float, shares: Array | None = None
 ) -> dict[str, Array]:
@@ -166,93 +193,75 @@ def worn_depths(
     return worn
 
 
-def lost(model: Model, worn: Mapping[str, Array], position: int) -> Array:
-    """Return what the depths `worn` add to the gap at a position, shape (nx, ny), in m."""
-    depth = np.zeros(model.grid.cells)
-    for name, of_body in worn.items():
-        depth += model.under(name, of_body, position)
-    return depth
-
-
-def worn_bodies(state: State, worn: Mapping[str, Array], memory: Memory) -> dict[str, BodyState]:
-    """Return the bodies of `state` after they have lost the depths `worn`, in m."""
-    laws = memory.laws
-    return {
-        name: replace(body, wear=body.wear + worn[name], law=laws[name]) if name in worn else body
-        for name, body in state.bodies.items()
-    }
-
-
-def accepted(
-    model: Model,
-    before: State,
-    bodies: Mapping[str, BodyState],
-    contacts: Sequence[ContactSolution],
-    loads: ByPosition,
-    moment: Moment,
-    solves: int,
-    iterations: int,
-) -> State:
-    """Return the state of the worn bodies in contact, after what yields has come to rest.
-
-    The contacts carry `loads`, in N; they are solved anew where those at the end are others.
-    """
-    model.tell(Worn(contacts, before.time, before.distance, moment))
+def worn_by(model: Model, before: State, slid: Course, increment: float, moment: Moment) -> State:
+    """Return the state after an increment (m) up to `moment`, its contacts yet to be solved."""
+    depths = worn_depths(model, slid.rates, increment)
+    shares = model.missed_shares
+    between = {} if shares is None else worn_depths(model, slid.rates, increment, shares)
+    bodies = dict(before.bodies)
+    for name, depth in depths.items():
+        body = bodies[name] = replace(
+            bodies[name], wear=bodies[name].wear + depth, law=slid.memory.laws[name]
+        )
+        if name in between:
+            missed = between[name] if body.missed is None else body.missed + between[name]
+            bodies[name] = replace(body, missed=missed)
     mean = model.loads.over_cycle(model.loads.mean(before.time, moment.time))
-    state = replace(
+    passed = worn_through(model, before, bodies, slid.memory, increment)
+    return replace(
         before,
         time=moment.time,
         distance=moment.distance,
         load_distance=before.load_distance + mean * (moment.distance - before.distance),
         speed=moment.speed,
         bodies=bodies,
-        contacts=tuple(contacts),
+        between=slid.memory.between,
+        rates=(),
         steps=before.steps + 1,
-        contact_solves=before.contact_solves + solves,
-        solver_iterations=before.solver_iterations + iterations,
+        notices=(*before.notices, *passed),
+        invariants=wear_balance(model, depths, slid.rates, increment, before),
     )
-    at_end = model.loads.before(moment.time)
-    return _at_rest(model, state, loads) if loads == at_end else _under(model, state, at_end)
 
 
-def start_sliding(model: Model, state: State) -> State:
-    """Return `state` as a step begins: under the load after a jump, its indentation drawn out.
+def accepted(
+    model: Model,
+    before: State,
+    after: State,
+    contacts: Sequence[ContactSolution],
+    loads: ByPosition,
+) -> State:
+    """Return `after`, the worn bodies, in contact, with what yields at rest.
 
-    At s = 0 plastic displacement is local; once a body slides, its groove is
-    the envelope along the track, and the contact in it is solved anew.
+    The contacts carry `loads`, in N; they are solved anew where those at the end are others.
     """
-    loads = model.loads.after(state.time)
-    if loads != model.loads.before(state.time):
-        # How far a step may go under the load before says little.
-        state = replace(_under(model, state, loads), increment=0.0)
-    return _settle(model, state, loads) if state.distance == 0 else state
+    moment = Moment(after.time, after.distance, after.speed)
+    model.tell(Worn(contacts, before.time, before.distance, moment))
+    after = replace(after, contacts=tuple(contacts))
+    at_end = model.loads.before(after.time)
+    after = _at_rest(model, after, loads) if loads == at_end else _under(model, after, at_end)
+    work = friction_work(model, before, after)
+    return replace(after, friction_energy=before.friction_energy + work)
 
 
 def _under(model: Model, state: State, loads: ByPosition) -> State:
     """Return `state` with its contacts solved anew under other loads (N), and nothing worn."""
-    gaps = [geometry(model, state.bodies, position) for position in range(len(model.cycle))]
-    contacts = solve_cycle(model, gaps, loads, state.contacts)
+    return _at_rest(model, _solved_anew(model, state, loads), loads)
+
+
+def _solved_anew(model: Model, state: State, loads: ByPosition) -> State:
+    contacts = solve_cycle(model, undeformed(model, state), loads, state.contacts)
     model.tell(Solved(contacts))
-    anew = replace(
-        state,
-        contacts=tuple(contacts),
-        rates=(),
-        contact_solves=state.contact_solves + solved(contacts),
-        solver_iterations=state.solver_iterations + sum(c.iterations for c in contacts),
-    )
-    return _at_rest(model, anew, loads)
+    return replace(counted(state, contacts), contacts=tuple(contacts), rates=())
 
 
 def _at_rest(model: Model, state: State, loads: ByPosition) -> State:
     """Return `state` after what yields in its contacts, under `loads`, has come to rest."""
     if not yields(state.contacts):
         return state
-    if state.distance > 0:
-        yielded = _yielded(model, state.bodies, state.contacts)
-        return _settle(model, replace(state, bodies=yielded), loads)
     # Before it slides the load stands in the middle alone.
-    middle = [len(state.contacts) // 2]
-    return replace(state, bodies=_yielded(model, state.bodies, state.contacts, middle))
+    places = range(len(state.contacts)) if state.distance > 0 else [len(state.contacts) // 2]
+    state = replace(state, bodies=_yielded(model, state.bodies, state.contacts, places))
+    return _settle(model, state, loads) if state.distance > 0 else state
 
 
 def yields(contacts: Sequence[ContactSolution]) -> bool:
@@ -264,12 +273,11 @@ def _yielded(
     model: Model,
     bodies: Mapping[str, BodyState],
     contacts: Sequence[ContactSolution],
-    places: Sequence[int] | None = None,
+    places: Sequence[int],
 ) -> dict[str, BodyState]:
-    """Return the bodies with what yields at positions, all if None, once where these overlap."""
+    """Return the bodies with what yields at some positions, once where these overlap."""
     if not yields(contacts):
         return dict(bodies)
-    places = range(len(contacts)) if places is None else places
     model.tell(Yielded(places))
     yielded = {}
     for name, body in bodies.items():
@@ -289,26 +297,18 @@ def _settle(model: Model, state: State, loads: ByPosition) -> State:
         return state
     for _ in range(SETTLE_PASSES):
         model.tell(Drawn({name: body.plastic for name, body in state.bodies.items()}))
-        drawn = {
-            name: replace(body, plastic=_drawn_out(model, name, body.plastic))
-            for name, body in state.bodies.items()
-        }
-        gaps = [geometry(model, drawn, position) for position in range(len(model.cycle))]
-        contacts = solve_cycle(model, gaps, loads, state.contacts)
-        model.tell(Solved(contacts))
+        drawn = {}
+        for name, body in state.bodies.items():
+            envelope = model.exposures[name].envelope(body.plastic)
+            plastic = np.array(np.broadcast_to(envelope, body.plastic.shape))
+            drawn[name] = replace(body, plastic=plastic)
+        state = _solved_anew(model, replace(state, bodies=drawn), loads)
         deepest = max(float(np.max(body.plastic)) for body in drawn.values())
-        still = max(float(np.max(contact.overlap)) for contact in contacts)
-        settled = still <= SETTLED * deepest
-        state = replace(
-            state,
-            bodies=drawn if settled else _yielded(model, drawn, contacts),
-            contacts=tuple(contacts),
-            rates=(),
-            contact_solves=state.contact_solves + solved(contacts),
-            solver_iterations=state.solver_iterations + sum(c.iterations for c in contacts),
-        )
-        if settled:
+        still = max(float(np.max(contact.overlap)) for contact in state.contacts)
+        if still <= SETTLED * deepest:
             return state
+        everywhere = range(len(state.contacts))
+        state = replace(state, bodies=_yielded(model, drawn, state.contacts, everywhere))
     raise NumericalError(
         f"at {state.distance:.6g} m the groove still yields after {SETTLE_PASSES} passes of the "
         f"contact, by {still:.2g} m a pass: sliding under "
@@ -316,9 +316,3 @@ def _settle(model: Model, state: State, loads: ByPosition) -> State:
         f"{1e-9 * (model.system.cap or 0):g} GPa; lower load.normal, or set contact.plasticity = "
         "false"
     )
-
-
-def _drawn_out(model: Model, name: str, plastic: Array) -> Array:
-    """Return the plastic depth of a body along its whole path."""
-    envelope = model.exposures[name].envelope(plastic)
-    return np.array(np.broadcast_to(envelope, plastic.shape))
