@@ -42,6 +42,10 @@ def whole_depth_for_each(right):
     return shares
 
 
+def given_back(right):
+    return lambda model, given, *rest: given
+
+
 def times(factor):
     return lambda right: lambda *given: factor * right(*given)
 
@@ -67,54 +71,33 @@ def one_rate_for_both(right):
 
 
 # What is replaced, what makes the mutant of it, and the case in which it must be noticed.
+MODULUS, CASES = (assembly, "contact_modulus"), "two materials"
+YIELDS, WIDTH, SCAR = "times that load", "by its width", "size of its scar"
+PIN = "flat pin under even pressure"
 MUTANTS = {
-    "second modulus ignored": (
-        (assembly, "contact_modulus"),
-        lambda right: lambda materials: right([materials[0]] * 2),
-        "two materials",
-    ),
-    "second body rigid": (
-        (assembly, "contact_modulus"),
-        lambda right: lambda materials: right(materials[:1]),
-        "two materials",
-    ),
-    "Poisson's ratio left out": (
-        (assembly, "contact_modulus"),
-        without_poisson,
-        "two materials",
-    ),
+    "second modulus ignored": (MODULUS, lambda right: lambda each: right([each[0]] * 2), CASES),
+    "second body rigid": (MODULUS, lambda right: lambda each: right(each[:1]), CASES),
+    "Poisson's ratio left out": (MODULUS, without_poisson, CASES),
     "sides of a cell swapped": ((operator, "wrapped_kernel"), sides_swapped, "oblong cells"),
     "sides swapped, periodic": ((periodic, "_cached"), sides_swapped, "full contact"),
-    "groove not drawn out": (
-        (Track, "envelope"),
-        lambda right: lambda self, field: field,
-        "draws a groove",
-    ),
-    "groove never settled": (
-        (step, "_settle"),
-        lambda right: lambda model, state, loads: state,
-        "draws a groove",
-    ),
-    "yields twice as deep": ((GuardedSolver, "solve"), twice_the_overlap, "times that load"),
-    "each body yields by the whole": (
-        (assembly, "_plastic"),
-        whole_depth_for_each,
-        "times that load",
-    ),
+    "groove not drawn out": ((Track, "envelope"), given_back, "draws a groove"),
+    "groove never settled": ((step, "_settle"), given_back, "draws a groove"),
+    "yields twice as deep": ((GuardedSolver, "solve"), twice_the_overlap, YIELDS),
+    "each body yields by the whole": ((assembly, "_plastic"), whole_depth_for_each, YIELDS),
     "exponent one more": (
         (Power, "rate"),
         rate_times(lambda law, pressure: pressure / law.reference_pressure),
-        "flat pin under even pressure",
+        PIN,
     ),
     "reference pressure left out": (
         (Power, "rate"),
         rate_times(lambda law, pressure: law.reference_pressure / 2e9),
-        "flat pin under even pressure",
+        PIN,
     ),
     "hardness left out": (
         (Archard, "_coefficient"),
         lambda right: lambda law, material: right(law, material) if law.K is None else law.K,
-        "flat pin under even pressure",
+        PIN,
     ),
     "one coefficient for both": (
         (evolution, "wear_rates"),
@@ -126,14 +109,14 @@ MUTANTS = {
         lambda right: property(lambda self: np.full(len(self.cells), 1 / len(self.cells))),
         "stroke of 20 half-widths",
     ),
-    "groove radius by 16": ((track, "groove_radius"), times(12 / 16), "by its width"),
-    "section too large": ((track, "planimetric_area"), times(1.1), "by its width"),
-    "groove too large": ((track, "circular_groove_area"), times(1.1), "by its width"),
-    "straight track too large": ((track, "reciprocating_track_volume"), times(1.1), "by its width"),
-    "block on ring doubled": ((track, "block_on_ring_volume"), times(2), "by its width"),
-    "conforming scar doubled": ((ball, "conforming_ball_volume"), times(2), "size of its scar"),
-    "flat scar doubled": ((ball, "flat_along_ball_volume"), times(2), "size of its scar"),
-    "cap doubled": ((ball, "ball_cap_volume"), times(2), "size of its scar"),
+    "groove radius by 16": ((track, "groove_radius"), times(12 / 16), WIDTH),
+    "section too large": ((track, "planimetric_area"), times(1.1), WIDTH),
+    "groove too large": ((track, "circular_groove_area"), times(1.1), WIDTH),
+    "straight track too large": ((track, "reciprocating_track_volume"), times(1.1), WIDTH),
+    "block on ring doubled": ((track, "block_on_ring_volume"), times(2), WIDTH),
+    "conforming scar doubled": ((ball, "conforming_ball_volume"), times(2), SCAR),
+    "flat scar doubled": ((ball, "flat_along_ball_volume"), times(2), SCAR),
+    "cap doubled": ((ball, "ball_cap_volume"), times(2), SCAR),
 }
 
 

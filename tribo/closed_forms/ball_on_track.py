@@ -51,58 +51,39 @@ from tribo.core.arrays import Array
 
 @dataclass(frozen=True)
 class BallOnTrack:
-    """The worn ball and flat at a sequence of sliding distances.
-
-    Parameters
-    ----------
-    distance : ndarray, shape (n,)
-        Sliding distance s, in m; all others have its shape.
-    half_width_along, half_width_across : ndarray
-        Half-widths of the contact, a along the sliding direction and c across it, in m.
-    ball_depth : ndarray
-        Worn depth at the centre of the ball, in m.
-    flat_depth : ndarray
-        Depth of the groove in the flat, which is also the crown left on the
-        ball, in m.
-    centre_pressure, peak_pressure : ndarray
-        Pressure at the centre, and the largest, at the contact's edges across the
-        track, in Pa; infinite at s = 0.
-    ball_volume, flat_volume : ndarray
-        Volumes worn off the ball and off the flat's whole track, in m³.
-    """
+    """The worn ball and flat at a sequence of sliding distances."""
 
     distance: Array
+    """Sliding distance s, in m; all others have its shape."""
     half_width_along: Array
     half_width_across: Array
+    """Half-widths of the contact, a along the sliding direction and c across it, in m."""
     ball_depth: Array
+    """Worn depth at the centre of the ball, in m."""
     flat_depth: Array
+    """Depth of the groove in the flat, which is also the crown left on the ball, in m."""
     centre_pressure: Array
     peak_pressure: Array
+    """Pressure at the centre, and the largest, at the contact's edges across the track, in Pa;
+    infinite at s = 0."""
     ball_volume: Array
     flat_volume: Array
+    """Volumes worn off the ball and off the flat's whole track, in m³."""
 
 
 @dataclass(frozen=True)
 class TrackProfile:
-    """The contact as a function of the position across the track.
-
-    Parameters
-    ----------
-    y : ndarray
-        Position across the track, in m; all others have its shape.
-    half_length : ndarray
-        Half-length b of the contact along the sliding direction, in m.
-    ball_depth, flat_depth : ndarray
-        Worn depth of the ball at x = 0, and of the flat, in m.
-    pressure : ndarray
-        Pressure, uniform along x, in Pa; 0 outside the contact.
-    """
+    """The contact as a function of the position across the track."""
 
     y: Array
+    """Position across the track, in m; all others have its shape."""
     half_length: Array
+    """Half-length b of the contact along the sliding direction, in m."""
     ball_depth: Array
     flat_depth: Array
+    """Worn depth of the ball at x = 0, and of the flat, in m."""
     pressure: Array
+    """Pressure, uniform along x, in Pa; 0 outside the contact."""
 
 
 def ball_on_track(
@@ -126,10 +107,6 @@ def ball_on_track(
         ℓ, in m: the stroke, or the circumference of the track.
     ball_wear_coefficient, flat_wear_coefficient : float
         Archard's k_b and k_f, in 1/Pa; k_b is positive, and 0 leaves the flat unworn.
-
-    Returns
-    -------
-    BallOnTrack
     """
     s = np.atleast_1d(np.asarray(distance, dtype=float))
     q = _groove_rate(track_length, ball_wear_coefficient, flat_wear_coefficient)
@@ -169,10 +146,6 @@ def track_profile(
         Sliding distance s, in m; positive.
     load, radius, track_length, ball_wear_coefficient, flat_wear_coefficient : float
         As for `ball_on_track`.
-
-    Returns
-    -------
-    TrackProfile
     """
     positions = np.asarray(y, dtype=float)
     q = _groove_rate(track_length, ball_wear_coefficient, flat_wear_coefficient)

@@ -22,21 +22,14 @@ from tribo.core.arrays import Array
 
 @dataclass(frozen=True)
 class WornFace:
-    """The flat face worn on a body; arrays are shaped like the sliding distance.
-
-    Parameters
-    ----------
-    half_width : ndarray
-        Radius of the face, in m.
-    depth : ndarray
-        Worn depth at the centre, in m.
-    pressure : ndarray
-        Uniform pressure on the face, in Pa; infinite at zero distance.
-    """
+    """The flat face worn on a body; arrays are shaped like the sliding distance."""
 
     half_width: Array
+    """Radius of the face, in m."""
     depth: Array
+    """Worn depth at the centre, in m."""
     pressure: Array
+    """Uniform pressure on the face, in Pa; infinite at zero distance."""
 
 
 def ball(distance: ArrayLike, *, load: float, radius: float, wear_coefficient: float) -> WornFace:
@@ -50,10 +43,6 @@ def ball(distance: ArrayLike, *, load: float, radius: float, wear_coefficient: f
         Sliding distance s, in m.
     load, radius, wear_coefficient : float
         Normal load F, in N; radius R of the ball, in m; Archard's k, in 1/Pa.
-
-    Returns
-    -------
-    WornFace
     """
     given = {"load": load, "radius": radius, "wear_coefficient": wear_coefficient}
     a = elastic_ball_half_width(distance, **given, initial_half_width=0.0)

@@ -22,21 +22,14 @@ from tribo.core.arrays import Array
 
 @dataclass(frozen=True)
 class ConeContact:
-    """A cone in contact.
-
-    Parameters
-    ----------
-    half_width : float
-        Contact radius, in m.
-    mean_pressure : float
-        Load over contact area, in Pa; it does not depend on the load.
-    approach : float
-        Rigid approach, in m.
-    """
+    """A cone in contact."""
 
     half_width: float
+    """Contact radius, in m."""
     mean_pressure: float
+    """Load over contact area, in Pa; it does not depend on the load."""
     approach: float
+    """Rigid approach, in m."""
 
 
 def cone(load: float, semi_angle: float, modulus: float) -> ConeContact:
@@ -48,10 +41,6 @@ def cone(load: float, semi_angle: float, modulus: float) -> ConeContact:
     ----------
     load, semi_angle, modulus : float
         Normal load F, in N; angle α between axis and flank, in rad; contact modulus E*, in Pa.
-
-    Returns
-    -------
-    ConeContact
     """
     cot = 1.0 / math.tan(semi_angle)
     mean = 0.5 * modulus * cot

@@ -14,21 +14,14 @@ from scipy.special import elliprd, elliprf
 
 @dataclass(frozen=True)
 class PointContact:
-    """An elliptic contact, p = p0 √(1 − x²/a² − y²/b²).
-
-    Parameters
-    ----------
-    semi_axes : tuple of float
-        a along x and b along y, in m.
-    peak_pressure : float
-        p0, in Pa.
-    approach : float
-        In m.
-    """
+    """An elliptic contact, p = p0 √(1 − x²/a² − y²/b²)."""
 
     semi_axes: tuple[float, float]
+    """a along x and b along y, in m."""
     peak_pressure: float
+    """p0, in Pa."""
     approach: float
+    """In m."""
 
 
 @dataclass(frozen=True)
@@ -36,17 +29,12 @@ class LineContact:
     """A strip of contact, p = p0 √(1 − x²/b²).
 
     Its approach depends on the size of the bodies and has no value here.
-
-    Parameters
-    ----------
-    half_width : float
-        b, in m.
-    peak_pressure : float
-        p0, in Pa.
     """
 
     half_width: float
+    """b, in m."""
     peak_pressure: float
+    """p0, in Pa."""
 
 
 def point(modulus: float, load: float, curvature_x: float, curvature_y: float) -> PointContact:
@@ -59,10 +47,6 @@ def point(modulus: float, load: float, curvature_x: float, curvature_y: float) -
     curvature_x, curvature_y : float
         Curvatures of the gap along x and y, in 1/m; positive. A ball of
         radius R on a flat has 1/R for both.
-
-    Returns
-    -------
-    PointContact
 
     Raises
     ------
@@ -104,10 +88,6 @@ def line(modulus: float, load_per_length: float, curvature: float) -> LineContac
         Contact modulus E*, in Pa, and load per length, in N/m.
     curvature : float
         In 1/m; positive. A cylinder of radius R on a flat has 1/R.
-
-    Returns
-    -------
-    LineContact
 
     Raises
     ------

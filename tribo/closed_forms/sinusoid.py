@@ -65,24 +65,16 @@ def worn_amplitude(distance: ArrayLike, wear_coefficient: float, compliance: Arr
 
 @dataclass(frozen=True)
 class Westergaard:
-    """A rigid wavy surface, Δ cos(2πx/λ), pressed on a half-space.
-
-    Parameters
-    ----------
-    mean_pressure : float
-        Load per nominal area p̄, in Pa.
-    complete : float
-        Mean pressure p* = πE*Δ/λ that closes the gap, in Pa.
-    contact_fraction : float
-        Width of contact per wavelength, 2a/λ.
-    peak_pressure : float
-        Pressure on the crest, in Pa.
-    """
+    """A rigid wavy surface, Δ cos(2πx/λ), pressed on a half-space."""
 
     mean_pressure: float
+    """Load per nominal area p̄, in Pa."""
     complete: float
+    """Mean pressure p* = πE*Δ/λ that closes the gap, in Pa."""
     contact_fraction: float
+    """Width of contact per wavelength, 2a/λ."""
     peak_pressure: float
+    """Pressure on the crest, in Pa."""
 
 
 def westergaard(
@@ -98,10 +90,6 @@ def westergaard(
     mean_pressure, amplitude, wavelength, modulus : float
         Load per nominal area p̄, in Pa; amplitude Δ and wavelength λ of the height
         Δ cos(2πx/λ), in m; contact modulus E*, in Pa.
-
-    Returns
-    -------
-    Westergaard
     """
     complete = np.pi * modulus * amplitude / wavelength
     ratio = min(mean_pressure / complete, 1.0)
@@ -142,21 +130,14 @@ def westergaard_pressure(x: ArrayLike, contact: Westergaard, wavelength: float) 
 
 @dataclass(frozen=True)
 class WavyLimits:
-    """The two ends of the contact of a surface that is wavy both ways.
-
-    Parameters
-    ----------
-    complete : float
-        Mean pressure p* that closes the gap, in Pa.
-    light_area : float
-        Contact area per nominal area as p̄/p* → 0.
-    heavy_area : float
-        The same as p̄/p* → 1.
-    """
+    """The two ends of the contact of a surface that is wavy both ways."""
 
     complete: float
+    """Mean pressure p* that closes the gap, in Pa."""
     light_area: float
+    """Contact area per nominal area as p̄/p* → 0."""
     heavy_area: float
+    """The same as p̄/p* → 1."""
 
 
 def johnson_greenwood_higginson(
@@ -172,10 +153,6 @@ def johnson_greenwood_higginson(
     ----------
     mean_pressure, amplitude, wavelength, modulus : float
         As for `westergaard`.
-
-    Returns
-    -------
-    WavyLimits
     """
     complete = float(np.sqrt(2.0) * np.pi * modulus * amplitude / wavelength)
     ratio = mean_pressure / complete

@@ -25,21 +25,14 @@ from tribo.core.arrays import Array
 
 @dataclass(frozen=True)
 class WinklerContact:
-    """An unworn contact on a Winkler foundation.
-
-    Parameters
-    ----------
-    half_width : float
-        Contact radius, in m.
-    pressure : float
-        Pressure at the centre, in Pa.
-    approach : float
-        Rigid approach, in m.
-    """
+    """An unworn contact on a Winkler foundation."""
 
     half_width: float
+    """Contact radius, in m."""
     pressure: float
+    """Pressure at the centre, in Pa."""
     approach: float
+    """Rigid approach, in m."""
 
 
 def sphere(load: float, radius: float, stiffness: float) -> WinklerContact:
@@ -51,10 +44,6 @@ def sphere(load: float, radius: float, stiffness: float) -> WinklerContact:
     ----------
     load, radius, stiffness : float
         Normal load F, in N; radius R, in m; foundation stiffness K_w, in Pa/m.
-
-    Returns
-    -------
-    WinklerContact
     """
     a = (4.0 * radius * load / (np.pi * stiffness)) ** 0.25
     approach = a**2 / (2.0 * radius)

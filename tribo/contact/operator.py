@@ -168,18 +168,12 @@ def _folded(kernel: Array, shape: tuple[int, int], spacing: tuple[float, float])
 
 @dataclass(frozen=True)
 class WornOperator:
-    """An operator with the wear of an implicit step as additional compliance.
-
-    Parameters
-    ----------
-    base : Operator
-        The elastic operator K.
-    wear : WearCompliance or CycleCompliance
-        On the same box as `base`.
-    """
+    """An operator with the wear of an implicit step as additional compliance."""
 
     base: Operator
+    """The elastic operator K."""
     wear: WearCompliance | CycleCompliance
+    """On the same box as `base`."""
 
     @property
     def shape(self) -> tuple[int, int]:

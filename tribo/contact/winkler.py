@@ -25,21 +25,14 @@ Match = Literal["contact_radius", "peak_pressure", "approach"]
 
 @dataclass(frozen=True)
 class Springs:
-    """Independent springs under pressure: an `Operator`.
-
-    Parameters
-    ----------
-    shape : tuple of int
-        Cells (nx, ny) of the box.
-    spacing : tuple of float
-        Edge lengths of a cell along x and y, in m.
-    modulus : float
-        Foundation modulus K_w, in Pa/m.
-    """
+    """Independent springs under pressure: an `Operator`."""
 
     shape: tuple[int, int]
+    """Cells (nx, ny) of the box."""
     spacing: tuple[float, float]
+    """Edge lengths of a cell along x and y, in m."""
     modulus: float
+    """Foundation modulus K_w, in Pa/m."""
 
     def apply(self, pressure: Array) -> Array:
         """Return p/K_w; see `Operator.apply`."""

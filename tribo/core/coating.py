@@ -15,13 +15,6 @@ from tribo.core.material import Material
 class Coating:
     """A layer of one material bonded to a half-space of another.
 
-    Parameters
-    ----------
-    thickness : float
-        In m.
-    layer, base : Material
-        Of the layer, and of what is below it.
-
     References
     ----------
     T. C. O'Sullivan, R. B. King, "Sliding contact stress field due to a spherical
@@ -30,8 +23,10 @@ class Coating:
     """
 
     thickness: float
+    """In m."""
     layer: Material
     base: Material
+    """Of the layer, and of what is below it."""
 
     @cached_property
     def modulus(self) -> float:

@@ -13,25 +13,12 @@ from tribo.core.arrays import Array
 from tribo.core.contact import ContactProblem, ContactSolution, Residuals
 from tribo.core.grid import Grid
 from tribo.registry.registry import default_registry
-from tribo.verification.problems import (
-    BALL,
-    HALF_SPACE,
-    HARDNESS,
-    LOAD,
-    MODULUS,
-    ONSET,
-    PERIODIC,
-    WEAR_COEFFICIENT,
-    on_flat,
-    paraboloid,
-    press,
-    slide,
-    square,
-)
+from tribo.verification import problems as paper
 from tribo.verification.reference import Reference, Row, norm
 
 CELLS, WIDTH = 48, 0.7e-3
 TAMAAS = ("tamaas", "tribo_tamaas")
+CONTACT_MECHANICS = ("ContactMechanics", "SurfaceTopography")
 NOTE = "difference of the two codes, both at their tolerance"
 Solve = Callable[[Array, Grid, float], Array]
 
@@ -57,7 +44,7 @@ def tamaas_free(gap: Array, grid: Grid, load: float, cap: float | None = None) -
     cls = default_registry().lookup("contact_solver", "tamaas.half_space")
     solver = cls.model_validate({"tolerance": 1e-9})
     assert isinstance(solver, ContactSolver)
-    return press(solver, gap, grid, load, cap).pressure
+    return paper.press(solver, gap, grid, load, cap).pressure
 
 
 def tamaas_periodic(gap: Array, grid: Grid, load: float) -> Array:
@@ -71,8 +58,8 @@ def tamaas_periodic(gap: Array, grid: Grid, load: float) -> Array:
     model.E, model.nu = 1.0, 0.0
     solver = tamaas.PolonskyKeerRey(model, np.ascontiguousarray(-scale * gap), 1e-10)
     solver.max_iter = 2000
-    solver.solve(load / (grid.size[0] * grid.size[1]) / MODULUS)
-    return np.array(model.traction).reshape(grid.cells) * MODULUS
+    solver.solve(load / (grid.size[0] * grid.size[1]) / paper.MODULUS)
+    return np.array(model.traction).reshape(grid.cells) * paper.MODULUS
 
 
 def contact_mechanics(gap: Array, grid: Grid, load: float, *, repeats: bool = False) -> Array:
@@ -84,13 +71,11 @@ def contact_mechanics(gap: Array, grid: Grid, load: float, *, repeats: bool = Fa
         from ContactMechanics.Factory import make_system
         from SurfaceTopography import Topography
 
-    substrate = PeriodicFFTElasticHalfSpace if repeats else FreeFFTElasticHalfSpace
-    system = make_system(
-        substrate=substrate(grid.cells, MODULUS, grid.size), surface=Topography(-gap, grid.size)
-    )
-    found = system.minimize_proxy(
-        external_force=load, pentol=1e-11 * float(np.ptp(gap)), maxiter=1000
-    )
+    kind = PeriodicFFTElasticHalfSpace if repeats else FreeFFTElasticHalfSpace
+    substrate = kind(grid.cells, paper.MODULUS, grid.size)
+    system = make_system(substrate=substrate, surface=Topography(-gap, grid.size))
+    pentol = 1e-11 * float(np.ptp(gap))
+    found = system.minimize_proxy(external_force=load, pentol=pentol, maxiter=1000)
     assert found.success, found.message
     nx, ny = grid.cells
     return np.asarray(found.jac)[:nx, :ny] / grid.cell_area
@@ -101,35 +86,34 @@ def _row(name: str, ours: Array, theirs: Array) -> Row:
 
 
 def _free(solve: Solve, level: int, placement: float) -> list[Row]:
-    grid = square(WIDTH, CELLS)
-    gap = paraboloid(grid)
-    ours = press(HALF_SPACE, gap, grid, LOAD).pressure
-    return [_row("pressure", ours, solve(gap, grid, LOAD))]
+    grid = paper.square(WIDTH, CELLS)
+    gap = paper.paraboloid(grid)
+    ours = paper.press(paper.HALF_SPACE, gap, grid, paper.LOAD).pressure
+    return [_row("pressure", ours, solve(gap, grid, paper.LOAD))]
 
 
 def _capped(level: int, placement: float) -> list[Row]:
-    grid, load = square(2 * WIDTH, CELLS), 1.5 * ONSET
-    gap = paraboloid(grid)
-    ours = press(HALF_SPACE, gap, grid, load, HARDNESS).pressure
-    return [_row("pressure", ours, tamaas_free(gap, grid, load, HARDNESS))]
+    grid, load = paper.square(2 * WIDTH, CELLS), 1.5 * paper.ONSET
+    gap = paper.paraboloid(grid)
+    ours = paper.press(paper.HALF_SPACE, gap, grid, load, paper.HARDNESS).pressure
+    return [_row("pressure", ours, tamaas_free(gap, grid, load, paper.HARDNESS))]
 
 
 def _rough(solve: Solve, level: int, placement: float) -> list[Row]:
-    grid = square(WIDTH, CELLS)
+    grid = paper.square(WIDTH, CELLS)
     x, y = (2 * np.pi * v / WIDTH for v in grid.mesh)
     gap = 1e-6 * (np.cos(3 * x + 1) * np.cos(2 * y) + 0.4 * np.cos(7 * x - 5 * y))
-    ours = press(PERIODIC, gap, grid, LOAD).pressure
-    return [_row("pressure", ours, solve(gap, grid, LOAD))]
+    ours = paper.press(paper.PERIODIC, gap, grid, paper.LOAD).pressure
+    return [_row("pressure", ours, solve(gap, grid, paper.LOAD))]
 
 
 def _history(solve: Solve, level: int, placement: float) -> list[Row]:
-    distance, k, grid = 4.0, WEAR_COEFFICIENT, square(WIDTH, CELLS)
-    ours, theirs = (
-        slide(
-            on_flat(BALL, grid, contact, flat_k=k, distance=distance), distance, 20, explicit=True
-        )[1].bodies
-        for contact in (HALF_SPACE, Other(pressure=solve))
-    )
+    distance, k, grid = 4.0, paper.WEAR_COEFFICIENT, paper.square(WIDTH, CELLS)
+    worn = []
+    for contact in (paper.HALF_SPACE, Other(pressure=solve)):
+        model = paper.on_flat(paper.BALL, grid, contact, flat_k=k, distance=distance)
+        worn.append(paper.slide(model, distance, 20, explicit=True)[1].bodies)
+    ours, theirs = worn
     return [_row(f"depth of the {name}", ours[name].wear, theirs[name].wear) for name in ours]
 
 
@@ -144,13 +128,9 @@ def _against(
         yield Reference(f"{case}, {code}", code, rows, (CELLS,), needs=needs)
 
 
+_REPEATING = partial(contact_mechanics, repeats=True)
 REFERENCES = (
     *_against("tamaas", TAMAAS, tamaas_free, tamaas_periodic),
     Reference("ball beyond yield, tamaas", "tamaas", _capped, (CELLS,), needs=TAMAAS),
-    *_against(
-        "ContactMechanics",
-        ("ContactMechanics", "SurfaceTopography"),
-        contact_mechanics,
-        partial(contact_mechanics, repeats=True),
-    ),
+    *_against("ContactMechanics", CONTACT_MECHANICS, contact_mechanics, _REPEATING),
 )

@@ -34,36 +34,23 @@ SCATTER = 0.01
 
 @dataclass(frozen=True)
 class Convergence:
-    """The error of a quantity, from its values at three levels.
-
-    Parameters
-    ----------
-    values : tuple of float
-        From coarse to fine.
-    behaviour : str
-        "exact" if the values agree to round-off; "converges" if their
-        differences shrink and keep their sign; "not asymptotic" if they do so
-        at an order far from the formal one; "oscillates" if the sign changes;
-        "diverges" if they do not shrink, and "scatters" if nor do they exceed
-        the scatter of such values; "unrefined" if the sizes do not fall,
-        whatever the values do.
-    order : float or None
-        Observed order; only of what converges, or is not asymptotic.
-    limit : float or None
-        Value extrapolated with it; only of what converges.
-    gci : float or None
-        Grid convergence index of the finest level, relative to its value; only
-        of what converges.
-    uncertainty : float or None
-        Of the value at the case's own level, in its unit; None of what diverges.
-    """
+    """The error of a quantity, from its values at three levels."""
 
     values: tuple[float, float, float]
+    """From coarse to fine."""
     behaviour: Behaviour
-    order: float | None
-    limit: float | None
-    gci: float | None
-    uncertainty: float | None
+    """`exact` if the values agree to round-off; `converges` if their differences shrink and keep
+    their sign; `not asymptotic` if they do so at an order far from the formal one; `oscillates` if
+    the sign changes; `diverges` if they do not shrink, and `scatters` if nor do they exceed the
+    scatter of such values; `unrefined` if the sizes do not fall, whatever the values do."""
+    order: float | None = None
+    """Observed order; only of what converges, or is not asymptotic."""
+    limit: float | None = None
+    """Value extrapolated with it; only of what converges."""
+    gci: float | None = None
+    """Grid convergence index of the finest level, relative to its value; of what converges."""
+    uncertainty: float | None = None
+    """Of the value at the case's own level, in its unit; None of what diverges."""
 
 
 def convergence(
@@ -106,22 +93,17 @@ def convergence(
     scatter : float, optional
         Range of the values, in their unit, that is no sign of divergence; 1 %
         of the largest if that is more.
-
-    Returns
-    -------
-    Convergence
     """
-    coarse, middle, fine = values
+    coarse, middle, fine = three = values[0], values[1], values[2]
     spread = max(values) - min(values)
 
     def doubtful(behaviour: Behaviour, order: float | None = None) -> Convergence:
-        three = (coarse, middle, fine)
-        return Convergence(three, behaviour, order, None, None, DOUBTFUL_SAFETY * spread)
+        return Convergence(three, behaviour, order, uncertainty=DOUBTFUL_SAFETY * spread)
 
     if not sizes[0] > sizes[1] > sizes[2]:
         return doubtful("unrefined")
     if spread <= ROUND_OFF * max(map(abs, values)):
-        return Convergence((coarse, middle, fine), "exact", None, None, 0.0, 0.0)
+        return Convergence(three, "exact", gci=0.0, uncertainty=0.0)
     rough, close = coarse - middle, middle - fine
     if rough * close < 0 or close == 0:
         return doubtful("oscillates")
@@ -129,7 +111,7 @@ def convergence(
     if order is None:
         if spread <= max(scatter, SCATTER * max(map(abs, values))):
             return doubtful("scatters")
-        return Convergence((coarse, middle, fine), "diverges", None, None, None, None)
+        return Convergence(three, "diverges")
     if not 0.5 * formal_order <= order <= formal_order + 1:
         return doubtful("not asymptotic", order)
     safety = SAFETY if abs(order - formal_order) <= MET * formal_order else DOUBTFUL_SAFETY
@@ -137,7 +119,7 @@ def convergence(
     limit = fine - close / gain
     gci = safety * abs(close) / gain / abs(fine) if fine != 0 else None
     uncertainty = safety * abs(values[own] - limit)
-    return Convergence((coarse, middle, fine), "converges", order, limit, gci, uncertainty)
+    return Convergence(three, "converges", order, limit, gci, uncertainty)
 
 
 def _observed_order(rough: float, close: float, sizes: Sequence[float]) -> float | None:

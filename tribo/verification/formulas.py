@@ -15,8 +15,8 @@ WIDTH, LENGTH = 1e-3, 10e-3
 SOURCE = "shapes summed up cell by cell"
 
 
-def _row(quantity: str, unit: str, exact: float, got: float) -> Row:
-    return Row(quantity, unit, exact, got, 1e-5, note="the sum's cells")
+def _rows(*found: tuple[str, str, float, float]) -> list[Row]:
+    return [Row(*each, 1e-5, note="the sum's cells") for each in found]
 
 
 def _middles(cells: int) -> tuple[Array, float]:
@@ -48,13 +48,13 @@ def _ball(cells: int, placement: float) -> list[Row]:
     flat = volume((0.25 * length**2 * (1 - (y / half) ** 2) - x**2) / (2 * RADIUS))
     groove = ball.conforming_ball_volume(WIDTH, WIDTH, RADIUS, GROOVE)
     along = ball.flat_along_ball_volume(length, WIDTH, RADIUS)
-    return [
-        _row("flat scar, G99", "m^3", cap, ball.ball_cap_volume(WIDTH, RADIUS)),
-        _row("flat scar, G99, shallow", "m^3", shallow, ball.shallow_cap_volume(WIDTH, RADIUS)),
-        _row("diameter of a flat scar", "m", WIDTH, ball.cap_diameter(cap, RADIUS)),
-        _row("scar in a groove, D7755", "m^3", conforming, groove),
-        _row("scar flat along sliding", "m^3", flat, along),
-    ]
+    return _rows(
+        ("flat scar, G99", "m^3", cap, ball.ball_cap_volume(WIDTH, RADIUS)),
+        ("flat scar, G99, shallow", "m^3", shallow, ball.shallow_cap_volume(WIDTH, RADIUS)),
+        ("diameter of a flat scar", "m", WIDTH, ball.cap_diameter(cap, RADIUS)),
+        ("scar in a groove, D7755", "m^3", conforming, groove),
+        ("scar flat along sliding", "m^3", flat, along),
+    )
 
 
 @reference("section and volume of a track by its width", SOURCE, 500)
@@ -62,21 +62,20 @@ def _track(cells: int, placement: float) -> list[Row]:
     y, spacing = _middles(cells)
     parabola = (0.25 * WIDTH**2 - y**2) / (2 * GROOVE)
     area = track.planimetric_area(parabola, spacing)
-    circle = _segment(RADIUS, cells)
     summed = float(np.sum(parabola)) * spacing * LENGTH
-    straight = LENGTH * circle + ball.ball_cap_volume(WIDTH, RADIUS)
-    ring = 7 * RADIUS
+    circle, ring = _segment(RADIUS, cells), 7 * RADIUS
     on_ring = LENGTH * _segment(0.5 * ring, cells)
+    straight = LENGTH * circle + ball.ball_cap_volume(WIDTH, RADIUS)
     unworn = track.circular_groove_area(WIDTH, RADIUS)
     disk = track.disk_track_volume(WIDTH, RADIUS, LENGTH)
     to_and_fro = track.reciprocating_track_volume(WIDTH, RADIUS, LENGTH)
     block = track.block_on_ring_volume(WIDTH, ring, LENGTH)
-    return [
-        _row("section of a groove, D7755", "m^2", WIDTH**3 / (12 * GROOVE), area),
-        _row("radius of a groove, D7755", "m", GROOVE, track.groove_radius(WIDTH, area)),
-        _row("volume of a track, D7755", "m^3", summed, track.planimetric_volume(area, LENGTH)),
-        _row("groove of an unworn ball, G99", "m^2", circle, unworn),
-        _row("round track, G99", "m^3", 2 * math.pi * LENGTH * circle, disk),
-        _row("straight track, G133", "m^3", straight, to_and_fro),
-        _row("block on ring, G77", "m^3", on_ring, block),
-    ]
+    return _rows(
+        ("section of a groove, D7755", "m^2", WIDTH**3 / (12 * GROOVE), area),
+        ("radius of a groove, D7755", "m", GROOVE, track.groove_radius(WIDTH, area)),
+        ("volume of a track, D7755", "m^3", summed, track.planimetric_volume(area, LENGTH)),
+        ("groove of an unworn ball, G99", "m^2", circle, unworn),
+        ("round track, G99", "m^3", 2 * math.pi * LENGTH * circle, disk),
+        ("straight track, G133", "m^3", straight, to_and_fro),
+        ("block on ring, G77", "m^3", on_ring, block),
+    )

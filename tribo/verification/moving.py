@@ -13,16 +13,9 @@ from tribo.simulation.model import Model
 
 @dataclass(frozen=True)
 class Worn:
-    """What a moving contact has worn.
+    """What a moving contact has worn, in m: the ball, and the flat along its track.
 
-    Parameters
-    ----------
-    ball : ndarray, shape (nx, ny)
-        Worn depth of the ball, in m.
-    flat : ndarray, shape (rows, ny)
-        Worn depth of the flat along its track, in m.
-    contact : ContactSolution
-        The contact at mid-stroke in the last pass; on a ring, the last one.
+    `contact` is the one at mid-stroke in the last pass; on a ring, the last one.
     """
 
     ball: Array
@@ -52,10 +45,6 @@ def to_and_fro(
         Sliding distance, in m.
     passes : int
         How many passes stand for the whole of it.
-
-    Returns
-    -------
-    Worn
     """
     nx, ny = model.grid.cells
     ball, flat = np.zeros((nx, ny)), np.zeros((nx + stroke, ny))

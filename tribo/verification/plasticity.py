@@ -12,32 +12,21 @@ from tribo.core.material import Material
 from tribo.core.measures import contact_area
 from tribo.simulation.model import Model
 from tribo.stepping.step import first_contact, start_sliding
-from tribo.verification.problems import (
-    BALL,
-    HALF_SPACE,
-    HARDNESS,
-    MODULUS,
-    ONSET,
-    POISSON,
-    RADIUS,
-    YOUNG,
-    on_flat,
-    paraboloid,
-    press,
-    square,
-)
+from tribo.verification import problems as paper
 from tribo.verification.reference import Row, norm, reference
 
 SOURCE = "Tian & Bhushan (1996); Almqvist et al. (2007)"
+HARDNESS, ONSET = paper.HARDNESS, paper.ONSET
 
 
 def _window(load: float, cells: int) -> Grid:
-    return square(3 * math.sqrt(max(load, 2 * ONSET) / HARDNESS / math.pi), cells)
+    return paper.square(3 * math.sqrt(max(load, 2 * ONSET) / HARDNESS / math.pi), cells)
 
 
 def _soft(load: float, cells: int) -> Model:
-    soft = Material(young=YOUNG, poisson=POISSON, hardness=HARDNESS)
-    return on_flat(BALL, _window(load, cells), HALF_SPACE, load=load, material=soft)
+    soft = Material(young=paper.YOUNG, poisson=paper.POISSON, hardness=HARDNESS)
+    grid = _window(load, cells)
+    return paper.on_flat(paper.BALL, grid, paper.HALF_SPACE, load=load, material=soft)
 
 
 def _part(name: str, depth: Array, deepest: float, tolerance: float, note: str) -> Row:
@@ -48,8 +37,9 @@ def _part(name: str, depth: Array, deepest: float, tolerance: float, note: str) 
 def _below(cells: int, placement: float) -> list[Row]:
     load = 0.98 * ONSET
     grid = _window(load, cells)
-    capped = press(HALF_SPACE, paraboloid(grid), grid, load, HARDNESS)
-    elastic = press(HALF_SPACE, paraboloid(grid), grid, load).pressure
+    gap = paper.paraboloid(grid)
+    capped = paper.press(paper.HALF_SPACE, gap, grid, load, HARDNESS)
+    elastic = paper.press(paper.HALF_SPACE, gap, grid, load).pressure
     name, note = "sum |p - p_elastic| / sum p", "no effect below the cap"
     return [
         norm(name, capped.pressure, elastic, 1e-8, note=note),
@@ -66,8 +56,8 @@ def _above(factor: int, placement: float) -> list[Row]:
     # A disc under H throughout: its edge is where the bodies just touch. What the ball reaches
     # into the flat there, less what the flat's surface is dished elastically, is permanent.
     radius = math.sqrt(load / HARDNESS / math.pi)
-    dished = (2 - 4 / math.pi) * HARDNESS * radius / MODULUS
-    left = radius**2 / (2 * RADIUS) - dished
+    dished = (2 - 4 / math.pi) * HARDNESS * radius / paper.MODULUS
+    left = radius**2 / (2 * paper.RADIUS) - dished
     depth = sum(float(np.max(body.plastic)) for body in state.bodies.values())
     mean = load / contact_area(pressure, model.grid)
     growing = "tends to H with the load, not the grid"
@@ -79,11 +69,10 @@ def _above(factor: int, placement: float) -> list[Row]:
     ]
 
 
-@reference(
-    "hardness, ball draws a groove as it begins to slide",
-    "the envelope of the indentation along the track",
-    33,
-)
+GROOVE = "the envelope of the indentation along the track"
+
+
+@reference("hardness, ball draws a groove as it begins to slide", GROOVE, 33)
 def _groove(cells: int, placement: float) -> list[Row]:
     model = _soft(3 * ONSET, cells)
     state = start_sliding(model, first_contact(model))
@@ -99,10 +88,11 @@ def _groove(cells: int, placement: float) -> list[Row]:
 def _again(cells: int, placement: float) -> list[Row]:
     load = 5 * ONSET
     grid = _window(load, cells)
-    gap = paraboloid(grid)
-    first = press(HALF_SPACE, gap, grid, load, HARDNESS).overlap
+    gap = paper.paraboloid(grid)
+    first = paper.press(paper.HALF_SPACE, gap, grid, load, HARDNESS).overlap
     same, half = (
-        press(HALF_SPACE, gap + first, grid, part * load, HARDNESS).overlap for part in (1, 0.5)
+        paper.press(paper.HALF_SPACE, gap + first, grid, part * load, HARDNESS).overlap
+        for part in (1, 0.5)
     )
     name, deepest = "further depth / depth", float(np.max(first))
     return [

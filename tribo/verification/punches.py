@@ -10,15 +10,7 @@ from tribo.contact.periodic import Periodic
 from tribo.core.arrays import Array, Mask
 from tribo.core.grid import Grid
 from tribo.core.state import State
-from tribo.verification.problems import (
-    MODULUS,
-    WEAR_COEFFICIENT,
-    Shape,
-    drawn_radius,
-    on_flat,
-    slide,
-    square,
-)
+from tribo.verification import problems as paper
 from tribo.verification.reference import Row, reference
 
 RADIUS = 0.3e-3
@@ -30,12 +22,11 @@ SOURCE = "Galin (1976); tribo.closed_forms.punch_wear"
 def _rate(
     inside: Mask, grid: Grid, radius: float, contact: DcFft | Periodic, load: float, tilt: Array
 ) -> float:
-    shape = Shape(heights=lambda _: np.where(inside, tilt, -1e-3))
-    model = on_flat(shape, grid, contact, load=load)
-    unit = radius / (WEAR_COEFFICIENT * MODULUS)
-    before, after = (
-        _beside_mean(state, inside) for state in slide(model, STEPS * STEP * unit, STEPS)
-    )
+    shape = paper.Shape(heights=lambda _: np.where(inside, tilt, -1e-3))
+    model = paper.on_flat(shape, grid, contact, load=load)
+    unit = radius / (paper.WEAR_COEFFICIENT * paper.MODULUS)
+    states = paper.slide(model, STEPS * STEP * unit, STEPS)
+    before, after = (_beside_mean(state, inside) for state in states)
     if tilt.any():
         before, after = (0.5 * (field - field[::-1]) for field in (before, after))
     # A mode falls to 1/(1 + λ step) of itself; modes are orthogonal, so what is left of the
@@ -57,12 +48,10 @@ def _row(prefix: str, exact: float, got: float) -> Row:
 
 @reference("flat round punch wears", SOURCE, 61, 121, 241)
 def _disc(cells: int, placement: float) -> list[Row]:
-    grid = square(2.4 * RADIUS, cells, placement)
-    x, y = grid.mesh
-    inside, level = np.hypot(x, y) < RADIUS, np.zeros(grid.cells)
-    contact = DcFft(tolerance=1e-11)
-    rate = _rate(inside, grid, drawn_radius(inside, grid), contact, 100.0, level)
-    return [_row("", disc_rates()[0], rate)]
+    grid = paper.square(2.4 * RADIUS, cells, placement)
+    inside, level = np.hypot(*grid.mesh) < RADIUS, np.zeros(grid.cells)
+    radius, contact = paper.drawn_radius(inside, grid), DcFft(tolerance=1e-11)
+    return [_row("", disc_rates()[0], _rate(inside, grid, radius, contact, 100.0, level))]
 
 
 @reference("flat strip wears (periodic, 400 half-widths apart)", SOURCE, 32, 64, 128)

@@ -19,45 +19,26 @@ ORDER_MARGIN = 0.2
 
 @dataclass(frozen=True)
 class Row:
-    """One line of the table.
-
-    A function of a `Reference` gives the first seven; `Reference.run` adds the others.
-
-    Parameters
-    ----------
-    quantity : str
-        What is compared.
-    unit : str
-        SI unit of its values; "1" for ratios and norms.
-    expected, got : float or None
-        Exact and computed value. An expected 0 marks an error, such as a norm, that is
-        relative already.
-    tolerance : float
-        Largest error at the finest level.
-    theory : float, optional
-        Theoretical order of convergence; the observed one must be within 0.2 of it.
-    note : str, optional
-        What the error consists of, and why there is no order.
-    case, source : str
-        Those of the reference.
-    error : float or None
-        Relative; the root mean square over the placements of the grid.
-    order : float or None
-        Observed order of convergence.
-    verdict : {"holds", "fails", "not installed"}
-    """
+    """One line of the table; what follows the note is added by `Reference.run`."""
 
     quantity: str
     unit: str
+    """SI unit of the values; "1" for ratios and norms."""
     expected: float | None
+    """Exact value; 0 marks an error, such as a norm, that is relative already."""
     got: float | None
     tolerance: float
+    """Largest error at the finest level."""
     theory: float | None = None
+    """Theoretical order of convergence; the observed one must be within 0.2 of it."""
     note: str = ""
+    """What the error consists of, and why there is no order."""
     case: str = ""
     source: str = ""
     error: float | None = None
+    """Relative; the root mean square over the placements of the grid."""
     order: float | None = None
+    """Observed order of convergence."""
     verdict: Verdict = "fails"
 
 
@@ -76,31 +57,21 @@ def norm(
 
 @dataclass(frozen=True)
 class Reference:
-    """A problem with a known answer.
-
-    Parameters
-    ----------
-    case : str
-        What is computed.
-    source : str
-        Where the answer comes from.
-    rows : callable
-        From a level and a placement in [0, 1) to rows with `expected` and `got`.
-    levels : tuple of int
-        Cells, steps or what else is refined, coarse to fine.
-    placements : int, optional
-        How many placements of the grid are tried; errors are the root mean
-        square over them, since the edge of a contact falls anywhere in a cell.
-    needs : tuple of str, optional
-        Modules of another code, without which nothing is computed.
-    """
+    """A problem with a known answer."""
 
     case: str
+    """What is computed."""
     source: str
+    """Where the answer comes from."""
     rows: Callable[[int, float], Sequence[Row]]
+    """From a level and a placement in [0, 1) to rows."""
     levels: tuple[int, ...]
+    """Cells, steps or what else is refined, coarse to fine."""
     placements: int = 1
+    """How many placements of the grid are tried; errors are the root mean square over them,
+    since the edge of a contact falls anywhere in a cell."""
     needs: tuple[str, ...] = ()
+    """Modules of another code, without which nothing is computed."""
 
     def run(self) -> list[Row]:
         """Compute the rows at all levels and judge them."""
@@ -127,14 +98,9 @@ class Reference:
         if row.theory is not None:
             order = observed_order(self.levels, errors)
             holds = holds and order is not None and abs(order - row.theory) <= ORDER_MARGIN
-        return replace(
-            row,
-            case=self.case,
-            source=self.source,
-            error=errors[-1],
-            order=order,
-            verdict="holds" if holds else "fails",
-        )
+        verdict: Verdict = "holds" if holds else "fails"
+        judged = replace(row, error=errors[-1], order=order, verdict=verdict)
+        return replace(judged, case=self.case, source=self.source)
 
 
 def reference(

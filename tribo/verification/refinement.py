@@ -34,33 +34,22 @@ class Level:
 
 @dataclass(frozen=True)
 class UncertainValue:
-    """A quantity at the end of the run, with its numerical uncertainty.
-
-    Parameters
-    ----------
-    name : str
-        What it is; with the body's name where it belongs to one.
-    unit : str
-        SI unit.
-    value : float
-        As the case itself gives it, without saves on the way.
-    grid, steps : Convergence
-        Over three grids, and over three lengths of step.
-    floor : float
-        Least uncertainty on these cells: a counted width is good to half a cell.
-    uncertainty : float or None
-        To quote with `value`: those of grid and steps added, at least `floor`.
-        They are not added as squares, for they are no random errors. None
-        where one of the two diverges.
-    """
+    """A quantity at the end of the run, with its numerical uncertainty."""
 
     name: str
+    """What it is; with the body's name where it belongs to one."""
     unit: str
     value: float
+    """As the case itself gives it, without saves on the way, in the SI unit `unit`."""
     grid: Convergence
+    """Over three grids."""
     steps: Convergence
+    """Over three lengths of step."""
     floor: float
+    """Least uncertainty on these cells: a counted width is good to half a cell."""
     uncertainty: float | None
+    """To quote with `value`: those of grid and steps added, at least `floor`. They are not added
+    as squares, for they are no random errors. None where one of the two diverges."""
 
 
 @dataclass(frozen=True)

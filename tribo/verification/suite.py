@@ -2,20 +2,10 @@
 
 from __future__ import annotations
 
-from tribo.verification import (
-    codes,
-    contacts,
-    formulas,
-    plasticity,
-    punches,
-    resolved,
-    strokes,
-    waves,
-    wear,
-)
+from tribo.verification import codes, contacts, formulas, plasticity, punches, strokes, wear
 from tribo.verification.reference import Reference
 
-_MODULES = (contacts, waves, plasticity, wear, punches, strokes, resolved, formulas)
+_MODULES = (contacts, plasticity, wear, punches, strokes, formulas)
 _FOUND = (value for module in _MODULES for value in vars(module).values())
 
 REFERENCES = (*(known for known in _FOUND if isinstance(known, Reference)), *codes.REFERENCES)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import tomllib
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -20,51 +21,31 @@ from tribo.core.measures import Measures, contact_area
 from tribo.simulation.measure import measure
 from tribo.simulation.run import Simulation
 from tribo.templates import template
-from tribo.verification.problems import (
-    BALL,
-    HARDNESS,
-    LOAD,
-    MODULUS,
-    PERIODIC,
-    POISSON,
-    RADIUS,
-    WEAR_COEFFICIENT,
-    YOUNG,
-    Shape,
-    on_flat,
-    run_to_end,
-    slide,
-    square,
-)
-from tribo.verification.reference import Row, reference
+from tribo.verification import problems as paper
+from tribo.verification.problems import BALL, LOAD, MODULUS, POISSON, RADIUS, YOUNG
+from tribo.verification.reference import Reference, Row, reference
 from tribo.wear.archard import Archard
 from tribo.wear.law import WearLaw
 from tribo.wear.power import Power
 
-K = WEAR_COEFFICIENT
+K = paper.WEAR_COEFFICIENT
 HOUR = 360.0
 """Sliding distance of the paper's hour, in m."""
 WAVELENGTH, AMPLITUDE = 1e-4, 1e-8
+SPRINGS = "tribo.closed_forms.winkler; Johnson (1985), section 4.3"
 
 
 def _volume(name: str, k: float, distance: float, got: float) -> Row:
     return Row(name, "m^3", k * LOAD * distance, got, 1e-10, note="V = kFs, exact")
 
 
-@reference(
-    "ball on springs wears for 20 m, equal steps",
-    "tribo.closed_forms.winkler; Johnson (1985), section 4.3",
-    40,
-    80,
-    160,
-)
+@reference("ball on springs wears for 20 m, equal steps", SPRINGS, 40, 80, 160)
 def _foundation(steps: int, placement: float) -> list[Row]:
     distance = 20.0
     # A foundation with this stiffness has Hertz's contact radius.
     stiffness = 16 * MODULUS / (3 * math.pi * 148.837e-6)
-    springs = Winkler(modulus=stiffness)
-    model = on_flat(BALL, square(0.7e-3, 129), springs)
-    contact = slide(model, distance, steps)[1].contact
+    model = paper.on_flat(BALL, paper.square(0.7e-3, 129), Winkler(modulus=stiffness))
+    contact = paper.slide(model, distance, steps)[1].contact
     given = {"load": LOAD, "radius": RADIUS, "stiffness": stiffness, "wear_coefficient": K}
     exact = float(winkler.worn_sphere_pressure(0.0, distance, **given))
     radius = float(winkler.worn_sphere_half_width(distance, **given))
@@ -80,20 +61,17 @@ def _foundation(steps: int, placement: float) -> list[Row]:
 
 def _worn_ball(stiffer: int) -> Measures:
     hard = Material(young=YOUNG * stiffer, poisson=POISSON)
-    grid = square(1.2e-3, 65)
-    model = on_flat(BALL, grid, DcFft(tolerance=1e-8), distance=HOUR, material=hard)
-    return measure(model, run_to_end(model))
+    contact, grid = DcFft(tolerance=1e-8), paper.square(1.2e-3, 65)
+    model = paper.on_flat(BALL, grid, contact, distance=HOUR, material=hard)
+    return measure(model, paper.run_to_end(model))
 
 
 @reference("elastic ball wears for 360 m", "Argatov (2011)", 65)
 def _elastic_ball(cells: int, placement: float) -> list[Row]:
     end = _worn_ball(1)
     first = hertz.point(MODULUS, LOAD, 1 / RADIUS, 1 / RADIUS).semi_axes[0]
-    exact = float(
-        ball_wear.elastic_ball_half_width(
-            HOUR, load=LOAD, radius=RADIUS, wear_coefficient=K, initial_half_width=first
-        )
-    )
+    given = {"load": LOAD, "radius": RADIUS, "wear_coefficient": K, "initial_half_width": first}
+    exact = float(ball_wear.elastic_ball_half_width(HOUR, **given))
     counted, note = math.sqrt(end.area / math.pi), "Argatov's law is good to 1 %"
     depth = end.bodies["ball"].centre_wear_depth
     return [
@@ -103,13 +81,10 @@ def _elastic_ball(cells: int, placement: float) -> list[Row]:
     ]
 
 
-@reference(
-    "ball wears for 360 m, 4, 16, 64 times as stiff: rigid limit",
-    "Archard (1953); h = sqrt(kFs/(pi R))",
-    4,
-    16,
-    64,
-)
+RIGID = "ball wears for 360 m, 4, 16, 64 times as stiff: rigid limit"
+
+
+@reference(RIGID, "Archard (1953); h = sqrt(kFs/(pi R))", 4, 16, 64)
 def _rigid_ball(stiffer: int, placement: float) -> list[Row]:
     depth = _worn_ball(stiffer).bodies["ball"].centre_wear_depth
     exact = ball_wear.ball(HOUR, load=LOAD, radius=RADIUS, wear_coefficient=K).depth
@@ -122,12 +97,12 @@ def _wave(grid: Grid) -> Array:
     return np.broadcast_to(heights, grid.cells).copy()
 
 
-def _full_contact(steps: int, *, explicit: bool) -> list[Row]:
+def _full_contact(explicit: bool, steps: int, placement: float) -> list[Row]:
     compliance = float(sinusoid.compliance(2 * np.pi / WAVELENGTH, MODULUS))
     distance = compliance / K
     grid = Grid((WAVELENGTH, WAVELENGTH / 8), (16, 2))
-    model = on_flat(Shape(heights=_wave), grid, Periodic(tolerance=1e-12), load=5.0)
-    _, state = slide(model, distance, steps, explicit=explicit)
+    model = paper.on_flat(paper.Shape(heights=_wave), grid, Periodic(tolerance=1e-12), load=5.0)
+    _, state = paper.slide(model, distance, steps, explicit=explicit)
     left = float(np.ptp(_wave(grid) - state.bodies["ball"].wear)) / float(np.ptp(_wave(grid)))
     # What one step of Euler's leaves, with k Δs/K of it worn.
     part = K * distance / steps / compliance
@@ -139,49 +114,39 @@ def _full_contact(steps: int, *, explicit: bool) -> list[Row]:
     ]
 
 
-@reference(
-    "wave in full contact, one decay length, implicit steps",
-    "tribo.closed_forms.sinusoid",
-    *(20, 40, 80),
+_IMPLICIT_WAVE, _EXPLICIT_WAVE = (
+    Reference(
+        f"wave in full contact, one decay length, {scheme} steps",
+        "tribo.closed_forms.sinusoid",
+        partial(_full_contact, scheme == "explicit"),
+        (20, 40, 80),
+    )
+    for scheme in ("implicit", "explicit")
 )
-def _implicit_wave(steps: int, placement: float) -> list[Row]:
-    return _full_contact(steps, explicit=False)
-
-
-@reference(
-    "wave in full contact, one decay length, explicit steps",
-    "tribo.closed_forms.sinusoid",
-    *(20, 40, 80),
-)
-def _explicit_wave(steps: int, placement: float) -> list[Row]:
-    return _full_contact(steps, explicit=True)
 
 
 def _pin(law: WearLaw, pressure: float, distance: float, hardness: float | None = None) -> float:
     """Return the depth worn off a flat pin that presses evenly, in m."""
-    pin, grid = Shape(heights=lambda grid: np.zeros(grid.cells)), square(1e-4, 4)
+    pin, grid = paper.Shape(heights=lambda grid: np.zeros(grid.cells)), paper.square(1e-4, 4)
     soft = Material(young=YOUNG, poisson=POISSON, hardness=hardness)
     load = pressure * grid.size[0] ** 2
-    model = on_flat(pin, grid, PERIODIC, load=load, ball_law=law, material=soft)
-    _, state = slide(model, distance, 2)
+    model = paper.on_flat(pin, grid, paper.PERIODIC, load=load, ball_law=law, material=soft)
+    _, state = paper.slide(model, distance, 2)
     return float(np.mean(state.bodies["ball"].wear))
 
 
-@reference(
-    "flat pin under even pressure wears",
-    "h = k p s; k = K/H (Archard 1953); h = k p0 (p/p0)^m s (Rhee 1970)",
-    4,
-)
+LAWS = "h = k p s; k = K/H (Archard 1953); h = k p0 (p/p0)^m s (Rhee 1970)"
+
+
+@reference("flat pin under even pressure wears", LAWS, 4)
 def _flat_pin(level: int, placement: float) -> list[Row]:
-    p, s, at, ratio = 0.4e9, 5.0, 1e9, K * HARDNESS
-    archard = K * p * s
+    p, s, at, hardness = 0.4e9, 5.0, 1e9, paper.HARDNESS
+    archard, ratio = K * p * s, K * hardness
+    by_own = _pin(Archard(K=ratio, hardness=hardness), p, s)
     depths = {
         "archard by k": (archard, _pin(Archard(k=K), p, s)),
-        "archard by K and its hardness": (
-            archard,
-            _pin(Archard(K=ratio, hardness=HARDNESS), p, s),
-        ),
-        "archard by K and the body's hardness": (archard, _pin(Archard(K=ratio), p, s, HARDNESS)),
+        "archard by K and its hardness": (archard, by_own),
+        "archard by K and the body's hardness": (archard, _pin(Archard(K=ratio), p, s, hardness)),
     }
     for exponent in (1.5, 3.0):
         power = Power(k=K, p_exponent=exponent, reference_pressure=at)
@@ -192,16 +157,15 @@ def _flat_pin(level: int, placement: float) -> list[Row]:
     ]
 
 
-@reference(
-    "ball and flat wear, the flat by three times the coefficient",
-    "V = kFs (Archard 1953)",
-    32,
-)
+BOTH = "ball and flat wear, the flat by three times the coefficient"
+
+
+@reference(BOTH, "V = kFs (Archard 1953)", 32)
 def _both(cells: int, placement: float) -> list[Row]:
-    distance = 5.0
-    grid = square(0.7e-3, cells)
-    model = on_flat(BALL, grid, DcFft(tolerance=1e-8), flat_k=3 * K, distance=distance)
-    bodies = measure(model, slide(model, distance, 5)[1]).bodies
+    distance, contact = 5.0, DcFft(tolerance=1e-8)
+    grid = paper.square(0.7e-3, cells)
+    model = paper.on_flat(BALL, grid, contact, flat_k=3 * K, distance=distance)
+    bodies = measure(model, paper.slide(model, distance, 5)[1]).bodies
     return [
         _volume("volume of the ball", K, distance, bodies["ball"].wear_volume),
         _volume("volume of the flat", 3 * K, distance, bodies["flat"].wear_volume),
@@ -214,7 +178,7 @@ def _paper(cells: int, placement: float) -> list[Row]:
     case["grid"] |= {"size": "1.4 mm", "cells": cells}
     case["output"] = {}
     model = Simulation(case).model
-    end = measure(model, run_to_end(model))
+    end = measure(model, paper.run_to_end(model))
     worn = ball_on_track(
         end.distance,
         load=LOAD,
@@ -226,18 +190,18 @@ def _paper(cells: int, placement: float) -> list[Row]:
     ball, disk = end.bodies["ball"], end.bodies["disk"]
     elastic = "the bodies are elastic; 0.6 % by an independent elastic run"
     counted = "counted: half a cell is 1.5 %"
-
-    def row(name: str, unit: str, exact: Array, got: float, tolerance: float, note: str) -> Row:
-        return Row(name, unit, float(exact[0]), got, tolerance, note=note)
-
-    along, across = worn.half_width_along, worn.half_width_across
+    centre = worn.centre_pressure, end.centre_pressure
+    compared = (
+        ("depth of the ball", "m", worn.ball_depth, ball.centre_wear_depth, 1e-2, elastic),
+        ("depth of the disk", "m", worn.flat_depth, disk.max_wear_depth, 1e-2, elastic),
+        ("half-width along", "m", worn.half_width_along, end.half_width_x, 3e-2, counted),
+        ("half-width across", "m", worn.half_width_across, end.half_width_y, 3e-2, counted),
+        ("pressure at the centre", "Pa", *centre, 2e-2, elastic),
+    )
     return [
-        row("depth of the ball", "m", worn.ball_depth, ball.centre_wear_depth, 1e-2, elastic),
-        row("depth of the disk", "m", worn.flat_depth, disk.max_wear_depth, 1e-2, elastic),
-        row("half-width along", "m", along, end.half_width_x, 3e-2, counted),
-        row("half-width across", "m", across, end.half_width_y, 3e-2, counted),
-        row(
-            "pressure at the centre", "Pa", worn.centre_pressure, end.centre_pressure, 2e-2, elastic
+        *(
+            Row(name, unit, float(exact[0]), got, tolerance, note=note)
+            for name, unit, exact, got, tolerance, note in compared
         ),
         _volume("volume of the ball", K, end.distance, ball.wear_volume),
         _volume("volume of the disk", K, end.distance, disk.wear_volume),
