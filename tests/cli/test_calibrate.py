@@ -49,7 +49,8 @@ def test_it_tells_of_each_run_on_stderr(done):
 def test_wide_tables_break_no_value_at_80_columns(capsys):
     """Intervals are broken around "to"."""
     estimate = {"path": "bodies.second_ball.wear.factor", "unit": "1/Pa", "value": 1.234e-15}
-    estimate |= {"lower": 1.111e-16, "upper": 1.357e-14, "resolution_limit": 1.34, "held": False}
+    estimate |= {"lower": 1.111e-16, "upper": 1.357e-14, "resolution_limit": 1.34}
+    estimate |= {"held": False, "limited": False}
     table = pd.DataFrame([estimate])
     none = pd.DataFrame()
     found = Calibration(
@@ -89,7 +90,7 @@ def test_json_is_finite_and_in_si_units():
         "notes",
     ]
     ball, _ = data["parameters"]
-    estimate = "path unit value lower upper resolution_share resolution_limit held"
+    estimate = "path unit value lower upper resolution_share resolution_limit held limited"
     assert list(ball) == estimate.split()
     assert (ball["path"], ball["unit"]) == ("bodies.ball.wear.k", "1/Pa")
     assert ball["value"] == pytest.approx(7.08e-15, rel=1e-3, abs=0)
@@ -108,6 +109,7 @@ def test_json_is_finite_and_in_si_units():
 
 def test_the_fitted_case_is_written_to_run(tmp_path):
     ran = tribo(*WEIGHED, "-o", tmp_path / "fitted.toml", cwd=EXAMPLES)
+    assert (tmp_path / "fitted-fit.png").stat().st_size > 5000
     assert ran.stdout.splitlines()[-1] == f"Run it: tribo run {tmp_path / 'fitted.toml'}"
     case = load_case(tmp_path / "fitted.toml")
     assert case.bodies["disk"].wear.k == pytest.approx(7.077e-16, rel=1e-3, abs=0)

@@ -122,7 +122,8 @@ def test_a_limit_bounds_from_above_only():
     made = problem(np.array([1.0]), np.array([0.5]), names=("k",), start=np.ones(1), **below)
     found = fit(lambda k: k, made, np.ones(1))
     low, high = interval(found, np.ones(1), 0.95)
-    assert low == -np.inf
+    assert found.limited() == [True]
+    assert (low, np.exp(found.point)) == (0, pytest.approx(0.01))
     upper = np.exp(found.point + high)
     fall = 2 * (norm.logcdf(1 / 0.5) - norm.logcdf((1 - upper) / 0.5))
     assert fall == pytest.approx(norm.ppf(0.975) ** 2, rel=0.01)

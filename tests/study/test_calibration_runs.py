@@ -5,11 +5,13 @@ import warnings
 import numpy as np
 import pytest
 from calibrations import cheap, on_springs
+from scipy.stats import norm
 
 from tribo.closed_forms.ball_on_track import ball_on_track
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError, NumericalError, TriboWarning
+from tribo.result.export import profile
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.bench import make_run
 from tribo.study.calibration.calibrate import calibrate, far_off
@@ -258,6 +260,34 @@ def test_what_a_coarse_grid_cannot_tell_is_left_uncertain(fine_run):
     for each in found.predictions.itertuples():
         assert each.lower < computed(fine_run, each.body, each.quantity) < each.upper
     assert any("raise grid.cells" in note for note in found.notes)
+
+
+@pytest.mark.parametrize("start", [0.1, 10.0])
+def test_a_loss_that_was_not_seen_bounds_its_coefficient_whatever_the_start(start):
+    """With a loss k F s the limit is met with the probability of the level; no χ² counts it."""
+    loss = {"body": "disk", "quantity": "mass", "value": f"< {mass(DISK)} kg"}
+    data = [measured("ball", "mass", mass(BALL)), {**loss, "uncertainty": mass(DISK) / 4}]
+    data = {"measured": data, "fit": [*fitting(BALL_K), *fitting(DISK_K, start=start * DISK)]}
+    found = calibrate(CASE, data)
+    ball, disk = found.parameters.itertuples()
+    assert (ball.limited, disk.limited, disk.lower) == (False, True, 0)
+    beyond = -norm.ppf(np.exp(-0.5 * norm.ppf(0.975) ** 2)) / 4
+    assert disk.upper == pytest.approx((1 + beyond) * DISK, rel=1e-3, abs=0)
+    assert disk.value == pytest.approx(0.01 * DISK, rel=1e-4, abs=0)
+    assert (found.degrees_of_freedom, found.chi_square) == (0, pytest.approx(0, abs=1e-6))
+    assert any(n.startswith(f"{DISK_K}: what it wears was below") for n in found.notes)
+
+
+def test_a_scar_of_another_shape_than_the_model_gives_is_noticed():
+    """A half-space wears a ball as springs do, whatever the coefficient, but for some 10 nm."""
+    at = np.linspace(-0.35e-3, 0.35e-3, 41)
+    with run_with(**{"contact.type": "dcfft"}) as other:
+        depths = np.interp(at, other.grid.y, profile(other.body("ball").wear_depth[-1], 1))
+    entry = {"body": "ball", "quantity": "profile_across", "uncertainty": "5 nm"}
+    entry |= {"position": at.tolist(), "value": depths.tolist()}
+    found = calibrate(CASE, {"measured": [entry], "fit": fitting(BALL_K)})
+    assert found.p_value < 1e-3
+    assert any("follow a pattern" in note for note in found.notes)
 
 
 def test_a_failing_run_says_with_what_and_what_may_be_off():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import shlex
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -16,10 +17,15 @@ from rich.table import Table
 from tribo.cli.console import Console, titled
 from tribo.cli.options import JSON, PATH, SET, echo_json
 from tribo.study.calibration.choice import Choice
+from tribo.study.calibration.measured import Measurements
 from tribo.study.calibration.outcome import Calibration
 from tribo.study.calibration.plan import Plan
 from tribo.study.calibration.quantities import in_si, in_words, percent
 
+FAR = 10.0
+"""Factor of an interval's end from the value above which its part in percent tells nothing."""
+PICTURE = "\0picture"
+"""Key of the picture among files by the names of tests."""
 LONGEST_NAME = 30
 """Characters of a name that a table for 80 columns has room for."""
 
@@ -40,7 +46,7 @@ LONGEST_NAME = 30
     "-o",
     "--output",
     type=PATH,
-    help="Write the fitted case to a file; of several tests, one each, named after the test.",
+    help="Write the fitted case to a file, of several tests one each, and a picture of the fit.",
 )
 @click.option("--force", is_flag=True, help="Replace existing files.")
 @click.option(
@@ -97,10 +103,16 @@ def calibrate(
         _plan(plan_tests(tables, asked, plan, level=level, on_run=_count), as_json)
         return
     files = _files(output, list(dict.fromkeys(test.name for test in asked.tests.values())), force)
-    found = calibrate(tables, asked, level=level, on_run=_tell)
-    for name, path in files.items():
-        if name in found.fitted:
-            write_whole(path, to_toml(found.fitted[name]))
+    found = calibrate(tables, asked, level=level, on_run=_Told(asked))
+    written = [files[name] for name in found.fitted if output is not None]
+    for name, path in zip(found.fitted, written, strict=False):
+        write_whole(path, to_toml(found.fitted[name]))
+    if output is not None:
+        from tribo.plotting.curves import fit_picture
+        from tribo.plotting.figures import write_figures
+
+        picture = files[PICTURE]
+        write_figures({picture.stem: lambda: fit_picture(found.data)}, picture.parent)
     if as_json:
         echo_json(found.as_json())
         return
@@ -114,8 +126,9 @@ def calibrate(
     for note in found.notes:
         console.print(f"[yellow]Note:[/] {escape(note)}")
     if output is not None:
-        for name in found.fitted:
-            click.echo(f"Run it: tribo run {shlex.quote(str(files[name]))}")
+        click.echo(f"Wrote {files[PICTURE]}")
+        for path in written:
+            click.echo(f"Run it: tribo run {shlex.quote(str(path))}")
         return
     settings = [*overrides, *(f"{path}={value:.4g}" for path, value in found.settings.items())]
     options = " ".join(f"--set {shlex.quote(setting)}" for setting in settings)
@@ -123,17 +136,17 @@ def calibrate(
 
 
 def _files(output: Path | None, names: list[str], force: bool) -> dict[str, Path]:
-    """Return the file of each test's fitted case."""
+    """Return the file of each test's fitted case, and that of the picture."""
     from tribo.core.errors import CaseError
     from tribo.study.runs import file_names
 
     if output is None:
         return {}
-    files = {"": output}
+    files = {"": output, PICTURE: output.with_name(f"{output.stem}-fit.png")}
     for name, file in zip(names, file_names(names), strict=True):
         if name:
             files[name] = output.with_name(f"{output.stem}-{Path(file).stem}.toml")
-    for path in (files[name] for name in names):
+    for path in (files[name] for name in [*names, PICTURE]):
         if path.exists() and not force:
             raise CaseError(f"{path} exists; choose another name, or replace it with --force")
     return files
@@ -196,8 +209,21 @@ def _count(run: int) -> None:
     click.echo(f"run {run}", err=True)
 
 
-def _tell(run: int, misfit: float) -> None:
-    click.echo(f"run {run}: misfit χ² {misfit:.3g}", err=True)
+class _Told:
+    """Tell of runs, and how long those that are needed at least will take."""
+
+    def __init__(self, asked: Measurements) -> None:
+        tests = asked.tests.values()
+        measured = {entry.body for test in tests for entry in test.measured}
+        self._fewest = len({repr(test.set) for test in tests}) * (
+            2 + (len(asked.fit) or len(measured))
+        )
+        self._began = time.monotonic()
+
+    def __call__(self, run: int, misfit: float) -> None:
+        left = (self._fewest - run) * (time.monotonic() - self._began) / run
+        more = f", {left:.0f} s left at least" if left >= 1 else ""
+        click.echo(f"run {run}: misfit χ² {misfit:.3g}{more}", err=True)
 
 
 def _table(title: str, names: list[str], *columns: str) -> Table:
@@ -223,9 +249,12 @@ def estimates_table(found: Calibration) -> Table:
         resolution = f"±{percent(each.resolution_limit)} %" if each.resolution_limit else ""
         if each.held:
             ends = "held by its bound"
-        if each.held or math.isinf(each.upper):
+        value = in_si(each.value, each.unit)
+        if each.limited:
+            value, ends = f"below {in_si(each.upper, each.unit)}", "upper bound"
+        if each.held or each.limited or math.isinf(each.upper):
             relative = resolution = ""
-        table.add_row(each.path, in_si(each.value, each.unit), ends, relative, resolution)
+        table.add_row(each.path, value, ends, relative, resolution)
     return table
 
 
@@ -290,5 +319,7 @@ def _interval(row: Any, low: str, high: str) -> tuple[str, str]:
     """Return the interval of a row, and the same relative to the value, if it is not open."""
     if math.isinf(row.upper):
         return f"{low} to open" if row.lower else "open", ""
+    if row.upper > FAR * row.value:
+        return f"{low} to {high}", ""
     below, above = percent(1 - row.lower / row.value), percent(row.upper / row.value - 1)
     return f"{low} to {high}", f"±{above} %" if below == above else f"−{below} +{above} %"

@@ -34,6 +34,7 @@ def read_calibration(path: Path) -> Calibration:
     """
     try:
         found = json.loads(path.read_text(encoding="utf-8"))
+        found["parameters"] = [{"limited": False, **row} for row in found["parameters"]]
         tables: dict[str, Any] = {
             name: pd.DataFrame(found.pop(name)) for name in ("parameters", "data", "predictions")
         }
@@ -87,6 +88,8 @@ def _answers(found: Calibration) -> Iterator[str]:
         words = f"{each.path} is {in_si(each.value, each.unit)}"
         if each.held:
             yield f"{words}, held by its bound."
+        elif each.limited:
+            yield f"{each.path} is below {in_si(each.upper, each.unit)}; no more was seen of it."
         elif math.isinf(each.upper):
             yield f"{words}; the data do not bound it."
         else:

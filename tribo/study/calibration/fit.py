@@ -28,6 +28,8 @@ The first is also the part of χ² that counts as a fall.
 """
 NO_EFFECT = 1e-3
 """Change of a datum, in standard deviations, per change of a parameter by e: nothing to learn."""
+UNSEEN = 0.01
+"""What is computed for a loss that was not seen, in parts of its limit."""
 NOTABLE = 0.01
 """Relative change of a datum, per change of a parameter by e, that is above rounding."""
 MOST_ROUNDS, MOST_IN_VAIN = 12, 4
@@ -65,6 +67,10 @@ def fit(model: Callable[[Array], Array], problem: Problem, start: Array) -> Line
     known = np.log(start)
     here = differenced(model, problem, known, model(np.exp(known)))
     check_effect(here)
+    if np.any(limited := here.limited()):
+        known = np.where(limited, _as_good_as_none(here), known)
+        problem = replace(problem, lower=np.where(limited, known, problem.lower))
+        here = differenced(model, problem, known, model(np.exp(known)))
     least, in_vain = np.inf, 0
     for rounds in range(1, MOST_ROUNDS + 1):  # noqa: B007
         here, point = here.best()
@@ -191,6 +197,17 @@ def differenced(
         columns.append(change / step)
     slopes = np.stack(columns, axis=1)
     return Linearised(problem, point, responses, slopes, weights=1 / problem.sigma)
+
+
+def _as_good_as_none(here: Linearised) -> Array:
+    """Return logarithms of parameters at which what was not seen is a hundredth of its limit."""
+    below = here.problem.below
+    n = len(below)
+    slopes = here.slopes[:n][below]
+    wanted = np.log(UNSEEN * here.problem.observed[below] / here.responses[:n][below])
+    moves = np.divide(wanted[:, None], slopes, out=np.full_like(slopes, np.inf), where=slopes > 0)
+    least = here.point + np.min(moves, axis=0, initial=np.inf)
+    return np.clip(least, here.problem.lower, here.problem.upper)
 
 
 def check_effect(here: Linearised) -> None:

@@ -15,6 +15,8 @@ LEAP = np.log(100.0)
 """How far a parameter may move between two runs."""
 REPEATABILITIES = 1e-3, 3.0
 """Least and largest that is estimated."""
+FAINT = 0.1
+"""Change of the data, in standard deviations, per change by e, that tells as good as nothing."""
 _PASSES, _SAME = 30, 1e-5
 _RIDGE = 1e-12
 _UNKNOWN = 10.0
@@ -151,6 +153,12 @@ class Linearised:
         met = observed[below] / self.responses[: len(below)][below]
         effects[below] *= np.maximum(met, 1.0)[:, None]
         return weigh(self.weights, effects)
+
+    def limited(self) -> Mask:
+        """Return of which parameters nothing but limits of detection tells, shape (p,)."""
+        found, below = self.sensitivity(), self.problem.below
+        told = np.sqrt(np.sum(found[~below] ** 2, axis=0))
+        return (told < FAINT) & np.any(np.abs(found[below]) > FAINT, axis=0)
 
     def bounds(self, reach: float) -> tuple[Array, Array]:
         """Return the bounds of a point no farther than `reach` from that of the run."""

@@ -19,6 +19,8 @@ HARDLY, NOT_AT_ALL = 0.2, 0.01
 """How far apart the effects of parameters are: 1 is at right angles, 0 is the same."""
 _TAKES_PART = 0.3
 _MOST = 0.5
+_ALIKE = 3.0
+"""Standard deviations by which residuals of neighbours are correlated more than noise is."""
 
 
 def notes(
@@ -39,6 +41,7 @@ def notes(
         *_on_parameters(estimates, data, jacobian),
         *_entangled(list(estimates["path"]), jacobian),
         *_on_misfit(data, spare),
+        *_on_patterns(data),
         *_on_instruments(data),
     ]
 
@@ -55,10 +58,16 @@ def _on_parameters(estimates: pd.DataFrame, data: pd.DataFrame, jacobian: Array)
                 f"{in_si(each.lower if below else each.upper, each.unit)}, and has no interval; "
                 "without the bound the data would be met better"
             )
+        elif each.limited:
+            yield (
+                f"{each.path}: what it wears was below the limit of detection, so that it is below "
+                f"{in_si(each.upper, each.unit)} and nothing more is known; the fitted case has as "
+                "good as none"
+            )
         elif any(is_open.values()):
             sides = " or ".join(side for side, so in is_open.items() if so)
             yield f"{each.path}: the data do not bound it from {sides}"
-        if not each.held and not is_open["above"] and each.resolution_share > _MOST:
+        if not (each.held or each.limited or is_open["above"]) and each.resolution_share > _MOST:
             entry = data.iloc[int(np.argmax(np.abs(effect) * parts))]
             yield (
                 f"{each.path}: the {_instrument(entry)}'s resolution dominates the uncertainty; "
@@ -96,15 +105,30 @@ def _on_misfit(data: pd.DataFrame, spare: int | None) -> Iterator[str]:
             "there are no more data than parameters, so that nothing is left to test the model with"
         )
         return
-    chi_square = float(np.sum(data["residual"] ** 2))
+    read = data[~data["below"]]
+    chi_square = float(np.sum(read["residual"] ** 2))
     if chdtrc(spare, chi_square) < UNLIKELY:
-        worst = data.loc[data["residual"].abs().idxmax()]
+        worst = read.loc[read["residual"].abs().idxmax()]
         yield (
             f"data and model disagree: χ² is {chi_square:.3g} where about {spare} is expected; the "
             f"{worst.quantity} of {worst.body!r} is off by {abs(worst.residual):.3g} times its "
             "uncertainty. The model leaves something out, or uncertainties are larger than stated; "
             "the intervals are then too narrow"
         )
+
+
+def _on_patterns(data: pd.DataFrame) -> Iterator[str]:
+    """Name profiles whose residuals are alike from place to place, as noise is not."""
+    along = data[data["position_m"].notna()].sort_values("position_m")
+    for _, rows in along.groupby("place", sort=False):
+        residuals = rows["residual"].to_numpy()
+        alike = np.sum(residuals[1:] * residuals[:-1]) / np.sum(residuals**2)
+        if alike * len(rows) ** 0.5 > _ALIKE and np.max(np.abs(residuals)) > 1:
+            yield (
+                f"the residuals of the {_named(next(rows.itertuples()))} follow a pattern: those "
+                f"of neighbours are alike, with a correlation of {alike:.2f}, so that the scar has "
+                "another shape than the model gives it"
+            )
 
 
 def _on_instruments(data: pd.DataFrame) -> Iterator[str]:

@@ -43,7 +43,8 @@ class Calibration:
         comes from instruments' resolution; `resolution_limit`, how far it may
         be off through resolution alone, in the worst case, relative to
         `value`; `held`, whether it lies on one of its bounds, so that it has no
-        interval; `lower` and `upper` are then its bounds.
+        interval; `lower` and `upper` are then its bounds; `limited`, whether only limits of
+        detection tell of it: `upper` is then all that is known, and `value` as good as none.
     data : DataFrame
         A row a measured value: `test`, empty for one of the case as it is;
         `body`, `quantity`, `time_s`, `position_m` of a
@@ -59,8 +60,8 @@ class Calibration:
         tests scatter. The interval is open, 0 to infinity,
         where it depends on a parameter that a bound holds.
     chi_square : float
-        Sum of the squared residuals, in standard deviations of what is
-        independent where tests scatter.
+        Sum of the squared residuals, limits left out, in standard deviations of
+        what is independent where tests scatter.
     degrees_of_freedom : int
         Values, limits left out, less the parameters that they depend on and no
         bound holds.
@@ -162,7 +163,7 @@ def outcome(
     root = root_covariance(jacobian)
     deviations = np.sqrt(np.sum(root**2, axis=1))
     estimates = _estimates(fitted, jacobian, parameters, data, level)
-    held = estimates["held"].to_numpy()
+    held, limited = (estimates[name].to_numpy() for name in ("held", "limited"))
     settled = {each.path: float(f"{each.value:.7g}") for each in estimates.itertuples()}
     problem, computed = fitted.problem, fitted.responses[: len(data)]
     effects = fitted.effects(fitted.point)
@@ -182,7 +183,8 @@ def outcome(
         if not np.any(np.abs(fitted.slopes[i][held]) > NOTABLE):
             below, above = value - value * np.exp(interval(fitted, fitted.slopes[i], level))
             by = math.sqrt(chdtri(1, 1 - level)) * float(read_off[i])
-            ends = max(value - math.hypot(below, by), 0.0), value + math.hypot(above, by)
+            least = 0.0 if np.any(fitted.slopes[i][limited] > NOTABLE) else value - below
+            ends = max(value - math.hypot(value - least, by), 0.0), value + math.hypot(above, by)
         rows.append((test, each.body, each.quantity, QUANTITIES[each.quantity].unit, value, *ends))
     columns = ["test", "body", "quantity", "unit", "value", "lower", "upper"]
     return Calibration(
@@ -191,7 +193,7 @@ def outcome(
         parameters=estimates,
         data=data[DATA],
         predictions=pd.DataFrame(rows, columns=columns),
-        chi_square=float(np.sum(fitted.residuals(fitted.point) ** 2)),
+        chi_square=float(np.sum(fitted.residuals(fitted.point)[~problem.below] ** 2)),
         degrees_of_freedom=spare,
         repeatability=fitted.repeatability,
         repeatability_estimated=problem.repeatability is None,
@@ -219,9 +221,10 @@ def _estimates(
     values = np.exp(fitted.point)
     lower, upper = table[["lower", "upper"]].to_numpy(float, copy=True).T
     held = (values - lower <= AT_BOUND * values) | (upper - values <= AT_BOUND * values)
+    limited = fitted.limited() & ~held
     for i in np.flatnonzero(~held):
         low, high = values[i] * np.exp(interval(fitted, np.eye(len(values))[i], level))
-        lower[i], upper[i] = max(low, lower[i]), min(high, upper[i])
+        lower[i], upper[i] = max(0.0 if limited[i] else low, lower[i]), min(high, upper[i])
     standard = np.asarray(np.linalg.pinv(jacobian), dtype=np.float64)
     effect = weigh(fitted.weights.T, standard.T).T
     deviation, most = data[["step_sigma", "step_most"]].to_numpy().T
@@ -233,4 +236,5 @@ def _estimates(
         resolution_share=share,
         resolution_limit=np.sum(np.abs(effect) * most, axis=1),
         held=held,
+        limited=limited,
     )
