@@ -1,6 +1,5 @@
 """Measured bodies in contact, and what a case is told."""
 
-import json
 import subprocess
 import sys
 from hashlib import sha256
@@ -8,9 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
 from tribo import CaseError, ContactProblem, Simulation, TriboWarning
-from tribo.cli.main import tribo
 from tribo.simulation.predict import predict
 
 from tribo_topography.export import export_xyz
@@ -99,7 +96,7 @@ def test_scale_that_nobody_confirmed_is_told_by_the_run(case):
         Simulation(unconfirmed)
 
 
-def test_what_the_file_was_read_as_is_shown_by_check_and_kept_in_the_result(case):
+def test_what_the_file_was_read_as_is_kept_in_the_result_and_what_is_worn_exported(case, tmp_path):
     data = case()
     path = data["bodies"]["ball"]["surface"]["path"]
     data["kinematics"]["duration"] = "2 s"
@@ -112,44 +109,11 @@ def test_what_the_file_was_read_as_is_shown_by_check_and_kept_in_the_result(case
     assert facts["sha256"] == sha256(Path(path).read_bytes()).hexdigest()
     with simulation.run() as result:
         assert result.provenance["components"]["bodies.ball.surface"]["facts"] == facts
-
-
-def test_check_prints_it(case, tmp_path):
-    surface = case()["bodies"]["ball"]["surface"]
-    quoted = {key: json.dumps(value, default=str) for key, value in surface.items()}
-    path = tmp_path / "case.toml"
-    text = CASE.format(surface=", ".join(f"{key} = {value}" for key, value in quoted.items()))
-    path.write_text(text)
-    done = CliRunner().invoke(tribo, ["check", str(path)])
-    assert done.exit_code == 0, done.output
-    assert "96 × 96" in done.output
-    assert sha256(Path(surface["path"]).read_bytes()).hexdigest() in done.output
-
-
-CASE = """
-[grid]
-size = "0.5 mm"
-cells = 40
-
-[load]
-normal = "40 N"
-
-[bodies.ball]
-surface = {{ {surface} }}
-material = {{ young = "207 GPa", poisson = 0.3 }}
-wear = {{ type = "archard", k = "3.11e-16 1/Pa" }}
-
-[bodies.disk]
-surface = "flat"
-material = {{ young = "207 GPa", poisson = 0.3 }}
-
-[kinematics]
-type = "reciprocating"
-stroke = "2 mm"
-frequency = "25 Hz"
-distance = "0.2 m"
-positions = "average"
-"""
+        ball, _ = export_xyz(result, tmp_path / "points")
+        x, y, height = np.loadtxt(ball).T.reshape(3, *result.grid.cells)
+        np.testing.assert_allclose(height, result.body("ball").surface(-1), rtol=1e-8, atol=1e-18)
+        np.testing.assert_allclose(x[:, 0], result.grid.x, rtol=1e-8)
+        np.testing.assert_allclose(y[0], result.grid.y, rtol=1e-8)
 
 
 def test_offering_the_surface_does_not_import_surfacetopography():
@@ -164,14 +128,3 @@ def test_readme_and_example_run(tmp_path, monkeypatch, capsys):
     assert "64 × 48 pixels on 1.24 × 0.94 mm" in capsys.readouterr().out
     EXAMPLE["main"]()
     assert capsys.readouterr().out.count("GPa") == 2
-
-
-def test_the_worn_surface_is_exported_as_points(case, tmp_path):
-    with Simulation(case()).run() as result:
-        ball, _ = export_xyz(result, tmp_path / "points")
-        x, y, height = np.loadtxt(ball).T.reshape(3, *result.grid.cells)
-        body = result.body("ball")
-        worn = body.height - body.wear_depth[-1] - body.plastic_depth[-1]
-        np.testing.assert_allclose(height, worn, rtol=1e-8, atol=1e-18)
-        np.testing.assert_allclose(x[:, 0], result.grid.x, rtol=1e-8)
-        np.testing.assert_allclose(y[0], result.grid.y, rtol=1e-8)

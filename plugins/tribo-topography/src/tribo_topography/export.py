@@ -18,14 +18,12 @@ def export_xyz(result: Result, folder: Path) -> list[Path]:
     list of Path
         NAME.xyz of each body NAME.
     """
-    grid = result.grid
-    x, y = np.meshgrid(grid.x, grid.y, indexing="ij")
+    x, y = np.broadcast_arrays(*result.grid.mesh)
     folder.mkdir(parents=True, exist_ok=True)
     paths = []
     for name in result.body_names:
-        body = result.body(name)
-        height = body.height - body.wear_depth[-1] - body.plastic_depth[-1]
         path = folder / f"{name}.xyz"
-        np.savetxt(path, np.column_stack([x.ravel(), y.ravel(), height.ravel()]), fmt="%.9e")
+        points = np.stack([x, y, result.body(name).surface(-1)], axis=-1).reshape(-1, 3)
+        np.savetxt(path, points, fmt="%.9e")
         paths.append(path)
     return paths

@@ -58,12 +58,9 @@ class Facts:
 
     def __str__(self) -> str:
         """Return the facts in one line, in the units of a lab."""
-        of = self.stated()
-        missing = f", {of['missing']} missing" if self.missing else ""
-        return (
-            f"{of['file']} ({of['read as']}): {of['pixels']} pixels on {of['size']}, heights "
-            f"{of['heights']}, Sq {of['Sq']}{missing}"
-        )
+        missing = ", {missing} missing" if self.missing else ""
+        words = "{file} ({read as}): {pixels} pixels on {size}, heights {heights}, Sq {Sq}"
+        return (words + missing).format(**self.stated())
 
     def stated(self) -> dict[str, str]:
         """Return the facts one by one, in the units of a lab."""
@@ -94,8 +91,7 @@ def describe(what: MeasuredFile | str | Path) -> Facts:
         If it cannot be read.
     """
     config = what if isinstance(what, MeasuredFile) else MeasuredFile(path=Path(what))
-    found = read(config)
-    return facts(found, config)
+    return facts(read(config), config)
 
 
 def facts(found: Map, config: MeasuredFile) -> Facts:

@@ -55,23 +55,18 @@ class Measured(Surface, MeasuredFile):
         return self._read
 
     def _tell(self, found: Facts, fewest: float, most: float) -> None:
+        told = []
         if self.expect_size is None or self.expect_range is None:
-            warnings.warn(
-                f"{found}. If that is right, say so with expect_size and expect_range",
-                TriboWarning,
-                stacklevel=3,
-            )
+            told.append(f"{found}. If that is right, say so with expect_size and expect_range")
         if most > _MUCH:
-            warnings.warn(
+            told.append(
                 f"a cell averages {most:.3g} pixels of {found.path.name} in a row, and roughness "
-                "shorter than two cells is lost; raise grid.cells to keep it",
-                TriboWarning,
-                stacklevel=3,
+                "shorter than two cells is lost; raise grid.cells to keep it"
             )
         if fewest < 1 / _MUCH:
-            warnings.warn(
+            told.append(
                 f"a pixel of {found.path.name} is {1 / fewest:.3g} cells wide: nothing was "
-                "measured between, and the contact is smoother than the body",
-                TriboWarning,
-                stacklevel=3,
+                "measured between, and the contact is smoother than the body"
             )
+        for words in told:
+            warnings.warn(words, TriboWarning, stacklevel=3)
