@@ -43,17 +43,8 @@ def base_kernel(
     (the correction near q = 0 of Liu & Wang 2002, J. Tribol. 124, 36-45, is not needed). It is
     integrated over the cell: exactly near it, by Gauss's rule further off.
 
-    Parameters
-    ----------
-    shape, spacing : tuple
-        As of `tribo.contact.love.wrapped_kernel`.
-    coatings : iterable of Coating
-        Those of both bodies.
-
-    Returns
-    -------
-    ndarray, shape `shape`
-        Displacement for p = 1, in m/Pa.
+    Shape, spacing and order are those of `tribo.contact.love.wrapped_kernel`; the displacement is
+    for p = 1, in m/Pa. `coatings` are those of both bodies.
     """
     halves = [n // 2 + 1 for n in shape]
     quarter = np.zeros(halves)
@@ -75,12 +66,7 @@ def base_kernel(
 class _PointLoad:
     """What the base adds to the displacement under a unit load, g(r), in m/N.
 
-    Parameters
-    ----------
-    coating : Coating
-        The layer.
-    reach : float
-        Distance, in thicknesses, up to which it is tabulated; or less, where it has become 1/r.
+    It is tabulated up to `reach`, in thicknesses; or less, where it has become 1/r.
     """
 
     def __init__(self, coating: Coating, reach: float) -> None:

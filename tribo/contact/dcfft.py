@@ -5,19 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
-from typing import Annotated, ClassVar
 
 import numpy as np
-from pydantic import Field
 
 from tribo.contact.bounded_cg import solve_together
 from tribo.contact.coated import surface_modulus
+from tribo.contact.elastic import ElasticSolver
 from tribo.contact.love import nyquist_compliance
 from tribo.contact.nested_start import coarsen, prolong
 from tribo.contact.operator import HalfSpace, Operator, WornOperator
 from tribo.contact.projection import CELLS, over
-from tribo.contact.residuals import check_window
-from tribo.contact.solver import ContactSolver, stacked
 from tribo.core.arrays import Array, Mask
 from tribo.core.box import Box, around, whole
 from tribo.core.contact import (
@@ -28,14 +25,13 @@ from tribo.core.contact import (
     WearCompliance,
 )
 from tribo.core.errors import NumericalError
-from tribo.core.units import Quantity
 
 _MARGIN = 2
 _COARSEST = 64
 _COARSE_TOLERANCE = 1e-3
 
 
-class DcFft(ContactSolver):
+class DcFft(ElasticSolver):
     """Contact of two elastic half-spaces, yielding where the pressure reaches the hardness.
 
     They may be coated. Each cell is under uniform pressure (Love 1929); the convolution is exact
@@ -49,44 +45,6 @@ class DcFft(ContactSolver):
     """
 
     type = "dcfft"
-
-    tolerance: Annotated[float, Quantity("1", above=1e-14, below=1e-2)] = 1e-8
-    """Largest residual of the contact conditions, relative to load and approach."""
-
-    max_iterations: int = Field(default=500, gt=0)
-    """Iterations after which a solve is given up."""
-
-    accepts_wear_compliance: ClassVar[bool] = True
-    honours_cap: ClassVar[bool] = True
-    takes_coatings: ClassVar[bool] = True
-    couples: ClassVar[bool] = True
-
-    def check(self, system: ContactSystem) -> None:
-        """Raise `CaseError` if the window cannot bear the load at the pressure cap."""
-        check_window(system.grid, system.load, system.cap)
-
-    def solve(
-        self, problem: ContactProblem, start: ContactSolution | None = None
-    ) -> ContactSolution:
-        """Solve one contact problem; see `ContactSolver.solve`.
-
-        Without `start`, grids of half the cells are solved first.
-        """
-        guess = self._nested_guess(problem) if start is None else start.pressure
-        gap, load = problem.gap, np.asarray(problem.load)
-        return self._solve(problem.system, gap, load, problem.wear, guess, self.tolerance)[0]
-
-    def solve_cycle(
-        self,
-        problems: Sequence[ContactProblem],
-        starts: Sequence[ContactSolution],
-        coupling: CycleCompliance | None = None,
-    ) -> list[ContactSolution]:
-        """Solve all positions of a cycle as one problem; see `ContactSolver.solve_cycle`."""
-        if len(problems) == 1 or any(problem.wear is not None for problem in problems):
-            return super().solve_cycle(problems, starts)
-        gap, load, guess = stacked(problems, starts)
-        return self._solve(problems[0].system, gap, load, coupling, guess, self.tolerance)
 
     def smallest_compliance(self, system: ContactSystem) -> float:
         """Return the compliance of the chequerboard mode, or the least on coatings, in m/Pa."""
@@ -103,12 +61,13 @@ class DcFft(ContactSolver):
         self,
         system: ContactSystem,
         gap: Array,
-        load: Array,
+        load: Array | float,
         wear: WearCompliance | CycleCompliance | None,
         guess: Array | None,
-        tolerance: float,
+        tolerance: float | None = None,
     ) -> list[ContactSolution]:
         """Solve one position or several on a box that grows until nothing overlaps beyond it."""
+        load = np.asarray(load)
         cap = system.cap
         box = whole(system.grid.cells)
         if guess is not None:
@@ -124,7 +83,7 @@ class DcFft(ContactSolver):
                 cap,
                 None if wear is None else wear.on(box),
                 start=None if guess is None else guess[here],
-                tolerance=tolerance,
+                tolerance=tolerance or self.tolerance,
                 max_iterations=self.max_iterations,
             )
             iterations += solutions[0].iterations
@@ -135,17 +94,16 @@ class DcFft(ContactSolver):
             guess = np.reshape([each.pressure for each in solutions], gap.shape)
             box = _grown(box, around(missed | _anywhere(guess > 0), _MARGIN))
 
-    def _nested_guess(self, problem: ContactProblem) -> Array | None:
+    def _guess(self, problem: ContactProblem) -> Array | None:
+        """Return the pressure on half of the cells, found from that on half of those."""
         cells = problem.system.grid.cells
         if min(cells) < _COARSEST:
             return None
         coarse = coarsen(problem)
-        gap, load, tolerance = coarse.gap, np.asarray(coarse.load), self.tolerance
-        guess = self._nested_guess(coarse)
+        system, tolerance = coarse.system, max(_COARSE_TOLERANCE, self.tolerance)
+        guess = self._guess(coarse)
         try:
-            (found,) = self._solve(
-                coarse.system, gap, load, coarse.wear, guess, max(_COARSE_TOLERANCE, tolerance)
-            )
+            (found,) = self._solve(system, coarse.gap, coarse.load, coarse.wear, guess, tolerance)
         except NumericalError:
             # Without a start the solve takes longer, but may succeed.
             return None

@@ -24,21 +24,8 @@ def solve_foundation(
     roots of increasing piecewise linear functions; Newton's method within a
     bracket finds them in finitely many passes.
 
-    Parameters
-    ----------
-    problem : ContactProblem
-        What to solve.
-    modulus : float
-        Foundation modulus K_w, in Pa/m.
-    cap : float or None
-        Largest pressure, in Pa.
-    guess : float, optional
-        An approach to start from, in m.
-
-    Returns
-    -------
-    ContactSolution
-        Exact to round-off.
+    Exact to round-off. `modulus` is K_w, in Pa/m, `cap` the largest pressure, in Pa, and `guess` an
+    approach to start from, in m.
 
     Raises
     ------

@@ -39,25 +39,15 @@ class Operator(Protocol):
     def apply(self, pressure: Array) -> Array:
         """Return the displacement under `pressure`.
 
-        Parameters
-        ----------
-        pressure : ndarray, shape (nx, ny)
-            In Pa. Where positions of a cycle are solved together, shape (positions, nx, ny).
-
-        Returns
-        -------
-        ndarray, of the same shape
-            In m; a new array.
+        It is in Pa and m, shape (nx, ny), or (positions, nx, ny) where positions of a cycle are
+        solved together; the displacement is a new array.
         """
         ...
 
     def symbol(self) -> Array:
         """Return positive estimates of the eigenvalues, to precondition with.
 
-        Returns
-        -------
-        ndarray, shape (nx, ny // 2 + 1)
-            For the modes of ``rfft2`` on the box, in m/Pa.
+        Shape (nx, ny // 2 + 1), for the modes of ``rfft2`` on the box, in m/Pa.
         """
         ...
 

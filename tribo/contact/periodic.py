@@ -2,32 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
-from typing import Annotated, ClassVar
+from typing import ClassVar
 
 import numpy as np
 import scipy.fft
-from pydantic import Field
 
 from tribo.contact.bounded_cg import solve_together
 from tribo.contact.coated import surface_modulus
+from tribo.contact.elastic import ElasticSolver
 from tribo.contact.operator import Operator
 from tribo.contact.projection import CELLS, over
-from tribo.contact.residuals import check_window
-from tribo.contact.solver import ContactSolver, stacked
 from tribo.core.arrays import Array, Mask
 from tribo.core.box import Box, whole
 from tribo.core.coating import Coating
 from tribo.core.contact import (
-    ContactProblem,
     ContactSolution,
     ContactSystem,
     CycleCompliance,
     WearCompliance,
 )
-from tribo.core.units import Quantity
 
 
 class PeriodicHalfSpace:
@@ -88,7 +83,7 @@ class PeriodicHalfSpace:
         return symbol
 
 
-class Periodic(ContactSolver):
+class Periodic(ElasticSolver):
     """Contact of two half-spaces that repeats with the window, for nominally flat surfaces.
 
     The window is one period along x and y, and its mean pressure the load over
@@ -100,47 +95,13 @@ class Periodic(ContactSolver):
 
     type = "periodic"
 
-    tolerance: Annotated[float, Quantity("1", above=1e-14, below=1e-2)] = 1e-8
-    """Largest residual of the contact conditions, relative to load and displacement."""
-
-    max_iterations: int = Field(default=500, gt=0)
-    """Iterations after which a solve is given up."""
-
-    accepts_wear_compliance: ClassVar[bool] = True
-    honours_cap: ClassVar[bool] = True
-    couples: ClassVar[bool] = True
-    takes_coatings: ClassVar[bool] = True
     periodic: ClassVar[bool] = True
-
-    def check(self, system: ContactSystem) -> None:
-        """Raise `CaseError` if the window cannot bear the load at the pressure cap."""
-        check_window(system.grid, system.load, system.cap)
-
-    def solve(
-        self, problem: ContactProblem, start: ContactSolution | None = None
-    ) -> ContactSolution:
-        """Solve one contact problem; see `ContactSolver.solve`."""
-        gap, load = problem.gap, np.asarray(problem.load)
-        guess = None if start is None else start.pressure
-        return self._solve(problem.system, gap, load, problem.wear, guess)[0]
-
-    def solve_cycle(
-        self,
-        problems: Sequence[ContactProblem],
-        starts: Sequence[ContactSolution],
-        coupling: CycleCompliance | None = None,
-    ) -> list[ContactSolution]:
-        """Solve all positions of a cycle as one problem; see `ContactSolver.solve_cycle`."""
-        if len(problems) == 1 or any(problem.wear is not None for problem in problems):
-            return super().solve_cycle(problems, starts)
-        gap, load, guess = stacked(problems, starts)
-        return self._solve(problems[0].system, gap, load, coupling, guess)
 
     def _solve(
         self,
         system: ContactSystem,
         gap: Array,
-        load: Array,
+        load: Array | float,
         wear: WearCompliance | CycleCompliance | None,
         guess: Array | None,
     ) -> list[ContactSolution]:
@@ -149,7 +110,7 @@ class Periodic(ContactSolver):
         solutions = solve_together(
             _half_space(system),
             gap - over(lowest),
-            load,
+            np.asarray(load),
             system.cap,
             wear,
             start=guess,

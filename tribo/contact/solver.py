@@ -6,11 +6,9 @@ from abc import abstractmethod
 from collections.abc import Sequence
 from typing import Any, ClassVar
 
-import numpy as np
-
 from tribo.component import Component
 from tribo.contact.operator import Operator
-from tribo.core.arrays import Array, Mask
+from tribo.core.arrays import Mask
 from tribo.core.box import Box
 from tribo.core.contact import (
     ContactProblem,
@@ -125,12 +123,3 @@ class ContactSolver(Component):
             The cells with pressure.
         """
         return None
-
-
-def stacked(
-    problems: Sequence[ContactProblem], starts: Sequence[ContactSolution]
-) -> tuple[Array, Array, Array]:
-    """Return gaps and loads of problems, and pressures to start from, positions first."""
-    gaps = np.stack([problem.gap for problem in problems])
-    loads = np.array([problem.load for problem in problems])
-    return gaps, loads, np.stack([start.pressure for start in starts])

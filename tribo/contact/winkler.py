@@ -141,25 +141,15 @@ class Winkler(ContactSolver):
 
 
 def matched_modulus(system: ContactSystem, match: Match) -> float:
-    """Return the foundation modulus that shares one feature with Hertz's contact.
+    """Return the foundation modulus, in Pa/m, that shares one feature with Hertz's contact.
 
     On a paraboloid of curvatures cx, cy a foundation carries F = π K_w δ²/√(cx cy)
     on an ellipse of area 2πδ/√(cx cy) with the peak K_w δ; on a cylinder of
     curvature c, F' = (4/3) K_w δ b with b = √(2δ/c).
 
-    Parameters
-    ----------
-    system : ContactSystem
-        Gives the curvatures, the load and the contact modulus; for a line
-        contact also the window, whose length along the line bears the load.
-    match : {"contact_radius", "peak_pressure", "approach"}
-        The feature; for an ellipse "contact_radius" keeps its area, for a
-        line its half-width.
-
-    Returns
-    -------
-    float
-        K_w, in Pa/m.
+    `system` gives curvatures, load and contact modulus; for a line contact also the window, whose
+    length along the line bears the load. For an ellipse "contact_radius" keeps its area, for a line
+    its half-width.
 
     Raises
     ------
