@@ -1,6 +1,7 @@
 """Imports go one way."""
 
 import ast
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,7 @@ ROOT = Path(tribo.__file__).parent
 # A package may import those of its own rank or below.
 RANK = {
     "core": 0,
+    "above": 0,
     "templates": 0,
     "closed_forms": 1,
     "component": 1,
@@ -39,47 +41,52 @@ RANK = {
 MODELS = {"contact", "wear", "motion", "surfaces", "effects", "observers"}
 
 
-# A result shows itself, and a notebook asks the object.
+# A page has the tables of the terminal.
 SHOWN = {
-    "result/read.py": {"lab", "plotting", "cli"},
-    # A page has the tables of the terminal.
     "report/result.py": {"cli"},
     "report/comparison.py": {"cli"},
     "report/calibration.py": {"cli"},
 }
 
 
-def imports(path: Path) -> list[str]:
-    """Packages of tribo that a file imports, those for type checking left out."""
+def imports(path: Path) -> set[str]:
+    """Modules of tribo that a file imports, those for type checking left out."""
     tree = ast.parse(path.read_text())
-    found = []
     skipped = {
         id(node)
         for block in ast.walk(tree)
         if isinstance(block, ast.If) and ast.unparse(block.test) == "TYPE_CHECKING"
         for node in ast.walk(block)
     }
+    found = set()
     for node in ast.walk(tree):
-        if id(node) in skipped:
-            continue
-        names = []
-        if isinstance(node, ast.ImportFrom):
-            names = [node.module or ""]
-            if node.module == "tribo":
-                names = [f"tribo.{alias.name}" for alias in node.names]
-        elif isinstance(node, ast.Import):
-            names = [alias.name for alias in node.names]
-        found += [name.split(".")[1] for name in names if name.startswith("tribo.")]
-    return found
+        if isinstance(node, ast.ImportFrom) and id(node) not in skipped:
+            names = {f"{node.module}.{alias.name}" for alias in node.names}
+            found |= names & MODULES.keys() or {node.module or ""}
+        elif isinstance(node, ast.Import) and id(node) not in skipped:
+            found |= {alias.name for alias in node.names}
+    return {name for name in found if name.startswith("tribo.")}
 
 
-FILES = sorted(p for p in ROOT.rglob("*.py") if p.parent != ROOT)
+def packages(path: Path) -> set[str]:
+    """Packages of tribo that a file imports, and modules beside them."""
+    return {name.split(".")[1] for name in imports(path)}
+
+
+MODULES = {
+    ".".join(path.relative_to(ROOT.parent).with_suffix("").parts): path
+    for path in ROOT.rglob("*.py")
+}
+FILES = sorted(p for p in ROOT.rglob("*.py") if p.parent != ROOT or p.stem in RANK)
+# Methods of cases and results that are short for functions of higher layers call it, once called.
+UPWARDS = ROOT / "above.py"
+FILES.remove(UPWARDS)
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(ROOT)))
 def test_imports_go_one_way(path):
-    package = path.relative_to(ROOT).parts[0]
-    for other in set(imports(path)) - SHOWN.get(path.relative_to(ROOT).as_posix(), set()):
+    package = path.relative_to(ROOT).parts[0].removesuffix(".py")
+    for other in packages(path) - SHOWN.get(path.relative_to(ROOT).as_posix(), set()):
         assert RANK[other] <= RANK[package], f"{package} imports {other}"
 
 
@@ -90,9 +97,15 @@ def test_imports_go_one_way(path):
 )
 def test_models_use_only_what_a_stranger_may(path):
     package = path.relative_to(ROOT).parts[0]
-    assert set(imports(path)) <= {"core", "component", "closed_forms", "result", package}
+    assert packages(path) <= {"core", "component", "closed_forms", "result", package}
 
 
 def test_every_package_has_a_rank():
-    packages = {p.name for p in ROOT.iterdir() if p.is_dir() and p.name != "__pycache__"}
-    assert packages | {"component", "case"} == set(RANK)
+    found = {p.name for p in ROOT.iterdir() if p.is_dir() and p.name != "__pycache__"}
+    assert found | {"above", "component", "case"} == set(RANK)
+
+
+def test_no_module_imports_what_imports_it():
+    # Types may name one another: what happens as modules run counts, within functions too.
+    found = {name: imports(path) for name, path in MODULES.items() if path != UPWARDS}
+    list(TopologicalSorter(found).static_order())

@@ -67,10 +67,10 @@ from tribo.motion.reciprocating import Reciprocating as Reciprocating
 from tribo.motion.rotating import Rotating as Rotating
 from tribo.motion.unidirectional import Unidirectional as Unidirectional
 from tribo.observers.observer import Observer as Observer
-from tribo.registry.contributions import CaseTemplate as CaseTemplate
-from tribo.registry.contributions import ExportFormat as ExportFormat
-from tribo.registry.contributions import HeightFormat as HeightFormat
-from tribo.registry.contributions import LabRow as LabRow
+from tribo.registry.hookspecs import CaseTemplate as CaseTemplate
+from tribo.registry.hookspecs import ExportFormat as ExportFormat
+from tribo.registry.hookspecs import HeightFormat as HeightFormat
+from tribo.registry.hookspecs import LabRow as LabRow
 from tribo.registry.hookspecs import hookimpl as hookimpl
 from tribo.registry.registry import Registry as Registry
 from tribo.report.write import write_report as write_report

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Self
 from packaging.requirements import InvalidRequirement, Requirement
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
+from tribo import above
 from tribo.component import Component
 from tribo.contact.dcfft import DcFft
 from tribo.contact.solver import ContactSolver
@@ -220,9 +221,7 @@ class Case(Table):
 
     def run(self, output: str | Path | None = None, **options: Any) -> Result:
         """Run from the beginning, as ``Simulation(case).run(output, …)``."""
-        from tribo.simulation.run import Simulation
-
-        return Simulation(self).run(output, **options)
+        return above.run(self, output, **options)
 
     def components(self) -> Iterator[tuple[str, Component]]:
         """Yield every component with its place in the case, those within others too."""

@@ -19,6 +19,7 @@ from pydantic import (
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
+from tribo import above
 from tribo.core.errors import CaseError
 from tribo.core.explain import refused_at, told
 from tribo.core.fields import check_declared
@@ -164,6 +165,4 @@ def _snake_case(name: str) -> str:
 
 
 def _registry(info: ValidationInfo) -> Registry:
-    from tribo.registry.registry import default_registry
-
-    return (info.context or {}).get("registry") or default_registry()
+    return (info.context or {}).get("registry") or above.installed()

@@ -35,7 +35,7 @@ def new(name: str, file: Path, force: bool) -> None:
     """Write a template to a file."""
     from tribo.core.errors import CaseError
     from tribo.core.files import write_whole, writing
-    from tribo.registry.contributions import choose
+    from tribo.registry.registry import choose
 
     text = template(name) if name in TEMPLATES else choose(HOOK, name, "template").text
     with writing(file):

@@ -13,7 +13,8 @@ from tribo.lab.conversion import in_mm3_per_newton_metre, mass_from_volume, spec
 from tribo.lab.first_contact import computed_pressure, first_hertz, yield_words
 from tribo.lab.inferred import InferredVolume, inferred_volumes, track_section
 from tribo.lab.scar import scar
-from tribo.registry.contributions import LabRow, from_plugins_of
+from tribo.registry.hookspecs import LabRow
+from tribo.registry.registry import from_plugins_of
 from tribo.result.read import Result
 
 HALF_SPACE = "dcfft"

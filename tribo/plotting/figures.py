@@ -21,7 +21,7 @@ from tribo.plotting.relief import height_map, material_ratio_curves
 from tribo.plotting.scars import scar_map
 from tribo.plotting.sections import number_of_saves, removed
 from tribo.plotting.style import house_style
-from tribo.registry.contributions import from_plugins_of
+from tribo.registry.registry import from_plugins_of
 from tribo.result.read import Result
 
 # No dates, so that the same result gives the same file.

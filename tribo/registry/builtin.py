@@ -12,8 +12,7 @@ from tribo.motion.rotating import Rotating
 from tribo.motion.unidirectional import Unidirectional
 from tribo.observers.progress import Progress
 from tribo.observers.recorder import Recorder
-from tribo.registry.contributions import CaseTemplate, ExportFormat
-from tribo.registry.hookspecs import hookimpl
+from tribo.registry.hookspecs import CaseTemplate, ExportFormat, hookimpl
 from tribo.result.export import export_csv
 from tribo.surfaces.cylinder import Cylinder
 from tribo.surfaces.flat import Flat

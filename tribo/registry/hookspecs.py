@@ -1,9 +1,10 @@
-"""The hooks that a plugin may implement."""
+"""The hooks that a plugin may implement, and what they return."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
 
 import pluggy
 
@@ -11,12 +12,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from tribo.component import Component
-    from tribo.registry.contributions import (
-        CaseTemplate,
-        ExportFormat,
-        HeightFormat,
-        LabRow,
-    )
+    from tribo.lab.heights import Heights
     from tribo.result.read import Result
 
 PROJECT = "tribo"
@@ -25,6 +21,38 @@ PROJECT = "tribo"
 hookspec = pluggy.HookspecMarker(PROJECT)
 hookimpl = pluggy.HookimplMarker(PROJECT)
 """Marks a function of a plugin as the implementation of the hook it is named after."""
+
+
+class LabRow(NamedTuple):
+    """A row of the table after a run: its label, its value and the unit of the value."""
+
+    label: str
+    value: float
+    unit: str
+
+
+class ExportFormat(NamedTuple):
+    """A format of `tribo export`: its name, what it holds, and a function that writes it."""
+
+    name: str
+    summary: str
+    write: Callable[[Result, Path], Iterable[Path]]
+
+
+class HeightFormat(NamedTuple):
+    """A format of measured height maps: its name, what it holds, and a function that reads it."""
+
+    name: str
+    summary: str
+    read: Callable[[Path], Heights]
+
+
+class CaseTemplate(NamedTuple):
+    """A case of `tribo new`: its name, what it is, and its text, in TOML."""
+
+    name: str
+    summary: str
+    text: str
 
 
 @hookspec

@@ -15,6 +15,7 @@ from packaging.utils import canonicalize_name
 
 from tribo.core.distributions import applies, entry_points
 from tribo.core.errors import TriboWarning
+from tribo.registry import builtin as models
 from tribo.registry.hookspecs import PROJECT
 from tribo.registry.kinds import Classes
 
@@ -85,12 +86,10 @@ class Plugin:
 
 def builtin() -> Plugin:
     """Return the plugin that offers the components of tribo itself."""
-    from tribo.registry import builtin as module
-
     version = ""
     with suppress(metadata.PackageNotFoundError):
         version = metadata.version("tribo")
-    return Plugin("tribo", version, module.__name__, "built-in", "loaded", load=lambda: module)
+    return Plugin("tribo", version, models.__name__, "built-in", "loaded", load=lambda: models)
 
 
 def given(plugin: object) -> Plugin:

@@ -11,18 +11,21 @@ from collections.abc import Iterable, Iterator
 from contextlib import ExitStack, contextmanager, redirect_stdout, suppress
 from functools import cache
 from traceback import walk_tb
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pluggy
 
 from tribo.component import Component
 from tribo.core.distributions import unmet
-from tribo.core.errors import CaseError, PluginError
+from tribo.core.errors import CaseError, PluginError, TriboWarning
 from tribo.core.words import did_you_mean, said, suggestion
 from tribo.registry import hookspecs
 from tribo.registry.kinds import Classes, offered
 from tribo.registry.plugins import Plugin, builtin, given, installed
+
+if TYPE_CHECKING:
+    from tribo.result.read import Result
 
 
 class Registry:
@@ -236,6 +239,46 @@ class Registry:
 def default_registry() -> Registry:
     """Return the registry of the built-in and the installed plugins."""
     return Registry([builtin(), *installed()])
+
+
+def choose(hook: str, name: str, words: str) -> Any:
+    """Return the format or template of this name; imports every plugin.
+
+    Parameters
+    ----------
+    hook : str
+        The hook by which plugins offer it.
+    name : str
+        Its name.
+    words : str
+        What it is, for the message: ``"format"`` or ``"template"``.
+
+    Raises
+    ------
+    CaseError
+        If no plugin offers it.
+    """
+    registry = default_registry()
+    for plugin in registry.load_all():
+        warnings.warn(f"{plugin} is left out: {plugin.reason}", TriboWarning, stacklevel=3)
+    known = {each.name: each for answer in registry.ask(hook) for each in answer}
+    if name not in known:
+        listed = "; ".join(f"{each.name} ({each.summary.rstrip('.')})" for each in known.values())
+        meant = suggestion(did_you_mean(name, known))
+        raise CaseError(f"no {words} is called {name!r}{meant} Known: {listed}")
+    return known[name]
+
+
+def from_plugins_of(result: Result, hook: str) -> list[Any]:
+    """Return the answers to a hook about a result, of the plugins whose models it names.
+
+    Those that are not installed are left out.
+    """
+    registry = default_registry()
+    for made in result.provenance["components"].values():
+        with suppress(CaseError):
+            registry.find(str(made["type"]))
+    return registry.ask(hook, result=result)
 
 
 def _place(error: BaseException, *entry_points: str) -> str:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Self
 import h5py
 import numpy as np
 
+from tribo import above
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError
@@ -329,21 +330,15 @@ class Result:
 
     def report(self) -> LabReport:
         """Return what a laboratory would measure of the result."""
-        from tribo.lab.report import lab_report
-
-        return lab_report(self)
+        return above.report(self)
 
     def plot(self, folder: str | Path, suffix: str = "png") -> list[Path]:
         """Write every picture that makes sense for the result, as ``tribo plot`` does."""
-        from tribo.plotting.figures import save_figures
-
-        return save_figures(self, Path(folder), suffix)
+        return above.plot(self, Path(folder), suffix)
 
     def _repr_html_(self) -> str:
         """Show the lab table and the pressure in a notebook."""
-        from tribo.cli.notebook import html
-
-        return html(self)
+        return above.html(self)
 
     def _saves_with_ranges(self) -> list[dict[str, Any]]:
         rows = self.saves()
