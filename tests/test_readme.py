@@ -17,8 +17,8 @@ SHOWN = [text for kind, text in BLOCKS if kind == "text"]
 WALL_TIME = re.compile(r"\d+\.\d s\.")
 RESOLVED = re.compile(r"(?<=\d) +[\d.]+$|(?<=groove )\d+(?= % too deep: docs)")
 QUICK = (
-    "kinematics.positions=33",
-    "grid.cells=32",
+    "kinematics.positions=25",
+    "grid.cells=24",
     "stepping.depth_tolerance=0.02",
     "stepping.pressure_tolerance=0.5",
     "stepping.settle=0.1",

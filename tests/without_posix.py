@@ -16,10 +16,10 @@ sys.modules["fcntl"] = sys.modules["resource"] = None
 STUDY = """
 case = "case.toml"
 [settings]
-grid.cells = 32
-grid.size = "1.3 mm"
-kinematics.duration = 20
-output.save_times = [10]
+grid.cells = 16
+grid.size = "0.7 mm"
+kinematics.duration = 10
+output.save_times = [5]
 [grid]
 load.normal = [50, 100]
 """
