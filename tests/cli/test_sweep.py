@@ -48,7 +48,7 @@ def test_json_has_the_rows_of_the_table(swept):
 @pytest.mark.slow
 def test_failed_runs_are_told_by_reason_and_exit_with_3(tmp_path):
     sweeps.study(tmp_path, sweeps.QUICK + '[grid]\ngrid.size = ["0.6 mm", "0.2 mm"]')
-    code, out, err = tribo("sweep", "study.toml", "-o", "out", cwd=tmp_path)
+    code, out, err = tribo("sweep", "study.toml", "-o", "out", "--jobs", 1, cwd=tmp_path)
     assert code == 3
     assert "\n1 of 2 runs are done.\n" in out
     told = "error: 1 of 2 runs failed; --retry runs them again:\n  run 2 (grid.size=0.2 mm): "
