@@ -55,11 +55,15 @@ def resistance(
     total = np.zeros(level.shape)
     for layer, share in ((upper, 1 - part), (upper + 1, part)):
         number = _mixed(layer, 2)
-        shift = shifts[_drawn(number)]
-        for i, share_x in _nodes(x / diameter + shift[..., 0], repeats):
-            along = number ^ _mixed(i, 0)
-            for j, share_y in _nodes(y / diameter + shift[..., 1], repeats):
-                total += share * share_x * share_y * drawn[_drawn(along ^ _mixed(j, 1))]
+        along, across = (
+            _nodes(place / diameter + shift[_drawn(number)], repeats)
+            for place, shift in zip((x, y), shifts, strict=True)
+        )
+        rows = [(_mixed(j, 1), share_y) for j, share_y in across]
+        for i, share_x in along:
+            column, shared = number ^ _mixed(i, 0), share * share_x
+            for row, share_y in rows:
+                total += shared * share_y * drawn[_drawn(column ^ row)]
     return total
 
 
@@ -69,26 +73,27 @@ def _nodes(place: Array, repeats: int | None) -> tuple[tuple[Array, Array], tupl
     part = place - below
     above = below + 1
     if repeats is not None:
-        below, above = below % repeats, above % repeats
+        # Faster than the remainder, and the same.
+        below, above = (node - repeats * np.floor(node / repeats) for node in (below, above))
     return (below, 1 - part), (above, part)
 
 
 @lru_cache(maxsize=16)
 def _draws(seed: int, spread: float) -> tuple[Array, Array]:
-    """Return resistances of mean 1, and shifts of lattices along x and y, in spacings."""
+    """Return resistances of mean 1, and shifts of lattices along x and along y, in spacings."""
     random = np.random.default_rng(seed)
     drawn = random.gamma(spread**-2, spread**2, DRAWN)
     drawn /= np.mean(drawn)
-    return drawn, random.uniform(size=(DRAWN, 2))
+    return drawn, random.uniform(size=(DRAWN, 2)).T.copy()
 
 
 def _mixed(number: Array, axis: int) -> NDArray[np.uint64]:
     """Return whole numbers spread over all bits, differently for each axis."""
-    mixed: NDArray[np.uint64] = number.astype(np.int64).astype(np.uint64) * _MIX[axis]
+    mixed: NDArray[np.uint64] = number.astype(np.int64).view(np.uint64) * _MIX[axis]
     return mixed ^ (mixed >> np.uint64(31))
 
 
-def _drawn(key: NDArray[np.uint64]) -> NDArray[np.uint64]:
+def _drawn(key: NDArray[np.uint64]) -> NDArray[np.int64]:
     """Return which draw belongs to each key."""
     key = (key ^ (key >> np.uint64(29))) * _MIX[1]
-    return (key ^ (key >> np.uint64(32))) % np.uint64(DRAWN)
+    return ((key ^ (key >> np.uint64(32))) & np.uint64(DRAWN - 1)).view(np.int64)
