@@ -36,5 +36,6 @@ def run(case: Path, output: Path | None, overrides: tuple[str, ...], force: bool
     if path.resolve() == case.resolve():
         raise CaseError(f"{path} is the case itself; choose another file with -o")
     with simulation.run(path, observers=[Progress()], overwrite=force) as result:
-        print_report(result)
+        # The choice of positions was told as the run began.
+        print_report(result, told="positions")
     click.echo(f"Saved {path}; see it with: tribo plot {path}")

@@ -52,8 +52,11 @@ SHALLOW = 1e-7
 """Depth below which the depths of a body are in nm."""
 
 
-def print_report(result: Result, console: Console | None = None) -> None:
-    """Print the saves, the worn bodies and the first contact of `result`."""
+def print_report(result: Result, console: Console | None = None, *, told: str = "") -> None:
+    """Print the saves, the worn bodies and the first contact of `result`.
+
+    A notice of the kind `told` is left out.
+    """
     console = console or Console()
     lab = lab_report(result)
     _print_saves(result, console)
@@ -95,7 +98,8 @@ def print_report(result: Result, console: Console | None = None) -> None:
         remedy = f" To go on with it: tribo resume {escape(result.name)}" if stopped else ""
         console.print(f"[yellow]This run is {result.status}, not done.{remedy}[/]")
     for notice in result.notices:
-        console.print(f"[yellow]Note:[/] {escape(notice)}")
+        if notice.partition(":")[0] != told:
+            console.print(f"[yellow]Note:[/] {escape(notice)}")
 
 
 def print_provenance(result: Result, console: Console | None = None) -> None:
