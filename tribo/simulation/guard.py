@@ -26,15 +26,7 @@ T = TypeVar("T")
 
 
 class Guard(Generic[C]):
-    """A component that is named in its errors; a subclass a kind checks the answers.
-
-    Parameters
-    ----------
-    component : Component
-        What is called.
-    body : str, optional
-        The body it belongs to, if it belongs to one.
-    """
+    """A component, that of a body if it belongs to one; a subclass a kind checks its answers."""
 
     def __init__(self, component: C, body: str | None = None) -> None:
         self.component = component
@@ -47,28 +39,14 @@ class Guard(Generic[C]):
         return f"{words} of body {self.body!r}" if self.body else words
 
     def ask(self, method: Callable[P, T], *given: P.args, **named: P.kwargs) -> T:
-        """Call a method of the component.
-
-        Raises
-        ------
-        PluginError
-            If it raises what nobody expects, or an error without a message.
-        NumericalError
-            If it raises one, or there is no more memory.
-        """
+        """Call a method of the component; what nobody expects becomes a `PluginError`."""
         try:
             return method(*given, **named)
         except BaseException as error:
             _blame(self, error)
 
     def number(self, what: str, value: object) -> float:
-        """Return `value`, which is meant to be `what` ("an approach"), as a finite float.
-
-        Raises
-        ------
-        BadValues
-            If it is anything else.
-        """
+        """Return `value`, which is meant to be `what` ("an approach"), as a finite float."""
         if type(value) is float and math.isfinite(value):
             return value
         plain = _plain(value)
@@ -77,27 +55,17 @@ class Guard(Generic[C]):
         return float(plain)
 
     def field(
-        self, what: str, values: object, shape: tuple[int, ...], *, spread: bool = False
-    ) -> tuple[Array, float, float]:
-        """Return `values` as finite floats of this shape, the smallest and the largest of them.
+        self,
+        what: str,
+        values: object,
+        shape: tuple[int, ...],
+        *,
+        spread: bool = False,
+        at_least: float = -np.inf,
+    ) -> Array:
+        """Return `values`, which are meant to be `what`, as finite floats of this shape.
 
-        The array cannot be written to any more.
-
-        Parameters
-        ----------
-        what : str
-            What they are meant to be.
-        values : object
-            What was given.
-        shape : tuple of int
-            What they must have.
-        spread : bool, optional
-            Whether they need only broadcast to it.
-
-        Raises
-        ------
-        BadValues
-            If they are anything else.
+        With `spread` they need only broadcast to it; the array cannot be written to any more.
         """
         plain = values if isinstance(values, np.ndarray) else _plain(values)
         if spread and plain.shape != shape:
@@ -109,17 +77,18 @@ class Guard(Generic[C]):
             )
         # Sums depend on the order in memory, and a checkpoint keeps but one.
         array = np.asarray(plain, dtype=np.float64, order="C")
-        low = float(np.minimum.reduce(array, axis=None))
-        high = float(np.maximum.reduce(array, axis=None))
+        low, high = np.minimum.reduce(array, axis=None), np.maximum.reduce(array, axis=None)
         # Both are NaN if any value is.
         if not -np.inf < low <= high < np.inf:
             bad = np.count_nonzero(~np.isfinite(array))
             raise BadValues(f"{self} gave {what} that is not finite in {bad} cells")
+        if low < at_least:
+            raise BadValues(f"{self} gave a negative {what.partition(' ')[2]} ({low:.3g})")
         if array.base is not None:
             # What it is a view of could still be written to.
             array = array.copy()
         array.setflags(write=False)
-        return array, low, high
+        return array
 
     def wrong(self, answer: object, instead: str) -> PluginError:
         """Return the error of an answer of the wrong type."""

@@ -24,13 +24,7 @@ class GuardedMotion(Guard[Kinematics]):
     """A motion of which every answer is checked."""
 
     def cycle(self, grid: Grid) -> tuple[Position, ...]:
-        """Return the positions of a cycle.
-
-        Raises
-        ------
-        PluginError
-            If their shares or speeds are not what they must be.
-        """
+        """Return the positions of a cycle, whose shares add up to 1."""
         answer = self.ask(lambda: tuple(self.component.cycle(grid)))
         if not answer or not all(isinstance(position, Position) for position in answer):
             raise self.wrong(answer, "as positions of its cycle")
@@ -48,18 +42,18 @@ class GuardedMotion(Guard[Kinematics]):
         if answer is None:
             return None
         what = "a sliding distance of each row"
-        reach, least, _ = self.field(what, answer, grid.cells[1:])
-        if least <= 0:
-            raise BadValues(f"{self} gave {what} of which one is not positive ({least:.3g})")
+        reach = self.field(what, answer, grid.cells[1:])
+        if np.min(reach) <= 0:
+            raise BadValues(f"{self} gave {what} of which one is not positive")
         return reach
 
     def _speeds(self, answer: Speeds | None) -> Speeds | None:
         if answer is None:
             return None
         what = "speeds of a cycle with their shares of the distance"
-        pairs, least, _ = self.field(what, answer, (self.ask(len, answer), 2))
-        if least < 0:
-            raise BadValues(f"{self} gave {what} of which one is negative ({least:.3g})")
+        pairs = self.field(what, answer, (self.ask(len, answer), 2))
+        if np.min(pairs) < 0:
+            raise BadValues(f"{self} gave {what} of which one is negative")
         total = float(sum(pairs[:, 1]))
         if abs(total - 1) > WHOLE:
             raise BadValues(
@@ -68,13 +62,7 @@ class GuardedMotion(Guard[Kinematics]):
         return [(float(speed), float(share)) for speed, share in pairs]
 
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> dict[str, GuardedExposure]:
-        """Return how each body meets the contact.
-
-        Raises
-        ------
-        PluginError
-            If there is not just one exposure for each body.
-        """
+        """Return how each body meets the contact."""
         answer = self.ask(self.component.exposures, grid, bodies)
         if not isinstance(answer, Mapping) or set(answer) != set(bodies):
             given = list(answer) if isinstance(answer, Mapping) else f"a {type(answer).__name__}"
@@ -194,25 +182,20 @@ class GuardedExposure(Guard[Kinematics]):
             # What was held to the contract as a law's answer.
             return asked
         if self.starts is not None:
-            laid = self.field("an average", answer, self._cells)[0]
-            if not np.array_equal(laid, asked):
+            if not np.array_equal(self.field("an average", answer, self._cells), asked):
                 raise PluginError(
                     f"{self} gave an average that is not the rate itself, which is laid on the "
                     "body at each of its starts"
                 )
             return asked
-        average, least, _ = self.field("an average", answer, self._own)
-        if least < 0 <= np.min(rate):
-            raise BadValues(
-                f"{self} gave a negative average ({least:.3g}) of what is nowhere negative"
-            )
-        return average
+        # Rates of a state may be negative; the mean of what is nowhere negative is not either.
+        least = 0.0 if np.min(rate) >= 0 else -np.inf
+        return self.field("an average", answer, self._own, at_least=least)
 
     def envelope(self, field: Array) -> Array:
         """Return the largest value each point of the body meets, on its own surface."""
-        return self.field(
-            "an envelope", self.ask(self._asked.envelope, readonly(field)), self._own
-        )[0]
+        answer = self.ask(self._asked.envelope, readonly(field))
+        return self.field("an envelope", answer, self._own)
 
     def volume(self, depth: Array) -> float:
         """Return the volume of a depth on the body's own surface, in m³."""
@@ -226,10 +209,8 @@ class GuardedExposure(Guard[Kinematics]):
             return None
         if not isinstance(answer, WearCompliance):
             raise self.wrong(answer, "instead of a WearCompliance")
-        local, least = answer.local, 0.0
+        local = answer.local
         if local is not asked:
-            local, least, _ = self.field("a local compliance", local, self._cells)
-        swept, lowest, _ = self.field("a swept compliance", answer.swept, self._cells[1:])
-        if min(least, lowest) < 0:
-            raise BadValues(f"{self} gave a negative compliance ({min(least, lowest):.3g})")
+            local = self.field("a local compliance", local, self._cells, at_least=0.0)
+        swept = self.field("a swept compliance", answer.swept, self._cells[1:], at_least=0.0)
         return WearCompliance(local, swept)

@@ -1,4 +1,4 @@
-"""The parts of a case, each held to its contract at every call."""
+"""The parts of a case, each held to its contract at every call: bad answers are a `BadValues`."""
 
 from __future__ import annotations
 
@@ -42,58 +42,20 @@ ABOVE_CAP = 1e-6
 
 
 class GuardedSurface(Guard[Surface]):
-    """A surface and what it answered: its height (nx, ny) in m, and its curvature in 1/m.
-
-    Raises
-    ------
-    PluginError
-        If these are not what they must be.
-    """
+    """A surface and what it answered: its height (nx, ny) in m, and its curvature in 1/m."""
 
     def __init__(self, surface: Surface, body: str, grid: Grid) -> None:
         super().__init__(surface, body)
-        height = self.ask(surface.height, grid)
-        self.height = self.field("a height map", height, grid.cells)[0]
+        self.height = self.field("a height map", self.ask(surface.height, grid), grid.cells)
         self.curvature: tuple[float, float] | None = None
         curvature: object = self.ask(getattr, surface, "curvature")
         if curvature is not None:
-            along, across = self.field("a curvature", curvature, (2,))[0]
+            along, across = self.field("a curvature", curvature, (2,))
             self.curvature = float(along), float(across)
 
 
-def _initial_state(
-    who: GuardedLaw | GuardedEffect, fields: Sequence[Field], given: object
-) -> dict[str, float]:
-    """Return the initial value of each state field, in the order in which they are declared.
-
-    Raises
-    ------
-    PluginError
-        If these are not the fields, or beyond their limits.
-    """
-    declared = {field.name: field for field in fields}
-    if not isinstance(given, Mapping) or set(given) != set(declared):
-        raise PluginError(
-            f"{who} declares the state fields {sorted(declared)}, but starts with {given!r:.80}"
-        )
-    first = {}
-    for name, field in declared.items():
-        first[name] = who.number(f"an initial {name!r}", given[name])
-        if outside := field.outside(first[name], first[name]):
-            raise BadValues(f"{who} gave an initial {name!r} that is {outside}")
-    return first
-
-
 class GuardedLaw(Guard[WearLaw]):
-    """A wear law that suits its body, and the initial values of its state fields.
-
-    Raises
-    ------
-    CaseError
-        If the law refuses the material.
-    PluginError
-        If its state is not as it declares it.
-    """
+    """A wear law that suits its body's material, and the initial values of its state fields."""
 
     bottoms: tuple[float, ...] = ()
     """Depths at which layers end, in m, where a body has any (`tribo.simulation.layers`)."""
@@ -107,40 +69,22 @@ class GuardedLaw(Guard[WearLaw]):
         self.initial_state = _initial_state(self, law.state_fields, self.ask(law.initial_state))
 
     def rate(self, local: LocalConditions) -> WearRate:
-        """Return the law's rate at the shape of the pressure, its slope not negative.
-
-        Raises
-        ------
-        BadValues
-            If an array is not finite or of another shape, or the depth is
-            negative, or not 0 where the pressure is.
-        PluginError
-            If the answer is anything else but such arrays.
-        """
+        """Return the law's rate at the shape of the pressure, its slope not negative."""
         answer, depth = self._depth(local)
         shape = local.pressure.shape
         slope = answer.depth_slope
         if slope is None:
             slope = self._slope(local, depth)
-        slope, flattest, _ = self.field("a derivative", slope, shape, spread=True)
-        rates = answer.state_rates
-        if not isinstance(rates, Mapping):
-            raise self.wrong(rates, "as rates of its state")
-        state = {}
-        for name in self.initial_state:
-            if name not in rates:
-                raise PluginError(f"{self} gave no rate for its state field {name!r}")
-            state[name] = self.field(f"a rate of {name!r}", rates[name], shape, spread=True)[0]
-        return WearRate(depth, np.maximum(slope, 0.0) if flattest < 0 else slope, state)
+        slope = self.field("a derivative", slope, shape, spread=True)
+        state = _rates(self, answer.state_rates, dict.fromkeys(self.initial_state, shape))
+        return WearRate(depth, np.maximum(slope, 0.0) if np.min(slope) < 0 else slope, state)
 
     def _depth(self, local: LocalConditions) -> tuple[WearRate, Array]:
-        answer = self.ask(self.component.rate, local)
+        answer, pressure = self.ask(self.component.rate, local), local.pressure
         if not isinstance(answer, WearRate):
             raise self.wrong(answer, "instead of a WearRate")
-        what, pressure = "a depth per metre", local.pressure
-        depth, least, _ = self.field(what, answer.depth_rate, pressure.shape, spread=True)
-        if least < 0:
-            raise BadValues(f"{self} gave a negative {what[2:]} ({least:.3g}); wear only removes")
+        what = "a depth per metre"
+        depth = self.field(what, answer.depth_rate, pressure.shape, spread=True, at_least=0.0)
         bare = np.count_nonzero((depth != 0) & (pressure == 0))
         if bare:
             raise BadValues(
@@ -164,12 +108,7 @@ class GuardedLaw(Guard[WearLaw]):
 class GuardedEffect(Guard[Effect]):
     """An effect whose fields are finite, within their limits and there for each body.
 
-    Raises
-    ------
-    CaseError
-        If none of `bodies` is the one that its state is to lie on.
-    PluginError
-        If its state is not as it declares it.
+    Its state lies on one of `bodies`, or in the contact.
     """
 
     def __init__(self, effect: Effect, bodies: Sequence[str] = ()) -> None:
@@ -186,15 +125,7 @@ class GuardedEffect(Guard[Effect]):
         self.initial_state = _initial_state(self, self.state_fields, given)
 
     def fields(self, contact: ContactConditions) -> dict[str, dict[str, Array]]:
-        """Return each provided field for each body, shape (nx, ny).
-
-        Raises
-        ------
-        BadValues
-            If one is not finite, of another shape or beyond its limits.
-        PluginError
-            If one is missing.
-        """
+        """Return each provided field for each body, shape (nx, ny)."""
         answer = self.ask(self.component.fields, contact)
         if not isinstance(answer, Mapping):
             raise self.wrong(answer, "instead of its fields")
@@ -207,34 +138,18 @@ class GuardedEffect(Guard[Effect]):
                 what = f"{field.name!r} for body {body!r}"
                 if values is None:
                     raise PluginError(f"{self} gave no {what}")
-                shape = contact.pressure.shape
-                array, low, high = self.field(what, values, shape, spread=True)
+                array = self.field(what, values, contact.pressure.shape, spread=True)
+                low, high = float(np.min(array)), float(np.max(array))
                 if outside := LIMITED.get(field.name, field).outside(low, high):
                     raise BadValues(f"{self} gave {what} that is {outside}")
                 found[field.name][body] = array
         return found
 
     def state_rates(self, contact: ContactConditions) -> dict[str, Array]:
-        """Return the change of each state field per second, (nx, ny), or (1, 1) if uniform.
-
-        Raises
-        ------
-        BadValues
-            If one is not finite, or of another shape.
-        PluginError
-            If one is missing.
-        """
-        answer = self.ask(self.component.state_rates, contact)
-        if not isinstance(answer, Mapping):
-            raise self.wrong(answer, "as rates of its state")
-        found = {}
-        for field in self.state_fields:
-            if field.name not in answer:
-                raise PluginError(f"{self} gave no rate for its state field {field.name!r}")
-            shape = (1, 1) if field.uniform else contact.pressure.shape
-            what = f"a rate of {field.name!r}"
-            found[field.name] = self.field(what, answer[field.name], shape, spread=True)[0]
-        return found
+        """Return the change of each state field per second, (nx, ny), or (1, 1) if uniform."""
+        window = contact.pressure.shape
+        shapes = {f.name: (1, 1) if f.uniform else window for f in self.state_fields}
+        return _rates(self, self.ask(self.component.state_rates, contact), shapes)
 
 
 class GuardedSolver(Guard[ContactSolver]):
@@ -248,18 +163,7 @@ class GuardedSolver(Guard[ContactSolver]):
     def solve(
         self, problem: ContactProblem, start: ContactSolution | None = None
     ) -> ContactSolution:
-        """Solve `problem`, whose arrays the solver cannot write to.
-
-        Raises
-        ------
-        BadValues
-            If the answer has a field that is not finite, negative or of another
-            shape, does not carry the load, or exceeds the cap.
-        PluginError
-            If it is not a solution at all.
-        NumericalError
-            If the solver gives up.
-        """
+        """Solve `problem`, whose arrays the solver cannot write to."""
         return self._held(problem, self.ask(self.component.solve, _unwritable(problem), start))
 
     def solve_cycle(
@@ -285,33 +189,61 @@ class GuardedSolver(Guard[ContactSolver]):
         if not isinstance(answer.residuals, Residuals):
             raise self.wrong(answer.residuals, "instead of Residuals")
         grid, cap = problem.system.grid, problem.system.cap
-        pressure, lowest, highest = self.field("a pressure", answer.pressure, grid.cells)
-        overlap, least, _ = self.field("an overlap", answer.overlap, grid.cells)
-        for what, low in (("pressure", lowest), ("overlap", least)):
-            if low < 0:
-                raise BadValues(f"{self} gave a negative {what} ({low:.3g})")
+        pressure = self.field("a pressure", answer.pressure, grid.cells, at_least=0.0)
+        overlap = self.field("an overlap", answer.overlap, grid.cells, at_least=0.0)
         carried = float(pressure.sum()) * grid.cell_area
         if not abs(carried - problem.load) <= LOAD_BALANCE * problem.load:
             raise BadValues(
                 f"{self} gave a pressure that carries {carried:.9g} N instead of "
                 f"{problem.load:.9g} N"
             )
-        if cap is not None and highest > cap * (1 + ABOVE_CAP):
+        if cap is not None and np.max(pressure) > cap * (1 + ABOVE_CAP):
             raise BadValues(
-                f"{self} gave a pressure of {highest:.9g} Pa, above the hardness of {cap:.9g} Pa "
-                "that it says it honours"
+                f"{self} gave a pressure of {np.max(pressure):.9g} Pa, above the hardness of "
+                f"{cap:.9g} Pa that it says it honours"
             )
-        _, *claimed = (
+        gap, overlapping = (
             self.number(f"a residual of {what}", getattr(answer.residuals, what))
-            for what in ("force", "complementarity", "penetration")
+            for what in ("complementarity", "penetration")
         )
         return ContactSolution(
             pressure=pressure,
             approach=self.number("an approach", answer.approach),
             overlap=overlap,
             iterations=int(self.number("a number of iterations", answer.iterations)),
-            residuals=Residuals(abs(carried / problem.load - 1), *claimed),
+            residuals=Residuals(abs(carried / problem.load - 1), gap, overlapping),
         )
+
+
+def _initial_state(
+    who: GuardedLaw | GuardedEffect, fields: Sequence[Field], given: object
+) -> dict[str, float]:
+    """Return the initial value of each state field, in the order in which they are declared."""
+    declared = {field.name: field for field in fields}
+    if not isinstance(given, Mapping) or set(given) != set(declared):
+        raise PluginError(
+            f"{who} declares the state fields {sorted(declared)}, but starts with {given!r:.80}"
+        )
+    first = {}
+    for name, field in declared.items():
+        first[name] = who.number(f"an initial {name!r}", given[name])
+        if outside := field.outside(first[name], first[name]):
+            raise BadValues(f"{who} gave an initial {name!r} that is {outside}")
+    return first
+
+
+def _rates(
+    who: GuardedLaw | GuardedEffect, answer: object, shapes: Mapping[str, tuple[int, ...]]
+) -> dict[str, Array]:
+    """Return the rate of each state field, at its shape."""
+    if not isinstance(answer, Mapping):
+        raise who.wrong(answer, "as rates of its state")
+    found = {}
+    for name, shape in shapes.items():
+        if name not in answer:
+            raise PluginError(f"{who} gave no rate for its state field {name!r}")
+        found[name] = who.field(f"a rate of {name!r}", answer[name], shape, spread=True)
+    return found
 
 
 def _unwritable(problem: ContactProblem) -> ContactProblem:
