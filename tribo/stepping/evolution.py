@@ -23,6 +23,10 @@ if TYPE_CHECKING:
     from tribo.simulation.model import Model
 
 
+COARSE = Plan(((0.25, True), (0.75, True)), np.inf)
+"""Where an increment has more parts than these, they do to find slopes."""
+
+
 @dataclass(frozen=True)
 class Course:
     """An increment under contacts that stay as they are.
@@ -85,13 +89,18 @@ def sloped(
     if not before.values:
         return known.rates
     nudged, stripes = in_stripes(contacts)
-    plan = replace(known.plan, accuracy=np.inf)
+    if len(known.plan.parts) > len(COARSE.parts):
+        same, plan = course(model, before, contacts, increment, moment, COARSE), COARSE
+    else:
+        same, plan = known, replace(known.plan, accuracy=np.inf)
     other = course(model, before, nudged, increment, moment, plan)
     laws = wear_rates(model, contacts, known.memory, moment)
     sloped = [dict(rates) for rates in known.rates]
-    for rates, higher, law, stripe in zip(sloped, other.rates, laws, stripes, strict=True):
+    for at, rates, higher, law, stripe in zip(
+        same.rates, sloped, other.rates, laws, stripes, strict=True
+    ):
         for name, rate in rates.items():
-            change = higher[name].depth_rate - rate.depth_rate
+            change = higher[name].depth_rate - at[name].depth_rate
             slope = law[name].depth_slope.copy()
             np.divide(change, stripe, out=slope, where=stripe != 0)
             rates[name] = replace(rate, depth_slope=np.maximum(slope, 0.0))

@@ -22,6 +22,9 @@ ROUGHEST = 0.05
 """Error, in the mean over those parts, up to which they are taken as they are."""
 JUMP = 0.1
 """Relative difference from a smooth rate at which one is looked at as one that jumps."""
+SAFETY, LEAST = 0.9, 0.1
+"""Of the length at which a part is as accurate as asked, what is taken; and the least that is cut
+off a part at once."""
 FINEST = 2.0**-20
 """The smallest part, where a state goes on to leave its limits."""
 PLAIN, RELAXING = (1, 2, 3), (1, 2, 3, 4)
@@ -120,7 +123,8 @@ def integrated(
             for old, new in zip(sums, best[count:], strict=True)
         ]
         held = [_held(*each) for each in zip(best, limits, strict=False)]
-        last = along(held, 1.0)
+        at_end = len(waiting) == 1 and math.isinf(plan.accuracy)
+        last = first if at_end else along(held, 1.0)
         off = max(map(_relative, best, rough, sizes), default=0.0)
         if off <= plan.accuracy < math.inf:
             off = max(off, _jump(samples, last, span, sums, count))
@@ -136,7 +140,7 @@ def integrated(
                     f"{limit.name} goes on beyond its limits of {limit.least:g} to {limit.most:g}: "
                     "let its rate vanish there"
                 )
-            waiting[:1] = [(0.5 * part, False)] * 2
+            waiting[:1] = _divided(part, 0.5 * part if left else part * _wanted(plan, off))
             if not left and len(waiting) + len(done) > MOST_PARTS:
                 # Rates that jump, at one point after the other.
                 plan = _looser(plan)
@@ -148,6 +152,9 @@ def integrated(
         sums = [old + new for old, new in zip(sums, best[count:], strict=True)]
         missed += part * off
         done.append(waiting.pop(0))
+        wanted = part * _wanted(plan, off)
+        if waiting and waiting[0][0] > 2 * wanted:
+            waiting[:1] = _divided(waiting[0][0], wanted)
     if not missed <= ROUGHEST:
         names = ", ".join(limit.name for limit in limits)
         raise BadValues(
@@ -155,6 +162,16 @@ def integrated(
             "s of a rest): shorten the steps"
         )
     return values, sums, replace(plan, parts=tuple(done))
+
+
+def _wanted(plan: Plan, off: float) -> float:
+    """Return the part of a part, or the multiple of it, that is as accurate as the plan asks."""
+    return SAFETY * (plan.accuracy / off) ** (1 / 3) if off > 0 else math.inf
+
+
+def _divided(part: float, first: float) -> list[tuple[float, bool]]:
+    first = min(max(first, LEAST * part), 0.5 * part)
+    return [(first, True), (part - first, True)]
 
 
 def _looser(plan: Plan) -> Plan:
