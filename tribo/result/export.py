@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import csv
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 import numpy as np
 
 from tribo.core.arrays import Array
-from tribo.core.errors import OutputError
+from tribo.core.files import writing
 from tribo.result.columns import labelled
 from tribo.result.layout import BETWEEN
 from tribo.result.read import Result
@@ -41,15 +40,16 @@ def export_csv(result: Result, folder: Path) -> list[Path]:
         "profiles_x": _profiles(result, 0),
         "profiles_y": _profiles(result, 1),
     }
-    paths = []
-    try:
+    paths = [folder / f"{name}.csv" for name in tables]
+    with writing(folder):
         folder.mkdir(parents=True, exist_ok=True)
-        for name, table in tables.items():
-            path = folder / f"{name}.csv"
-            _write(path, list(table), zip(*table.values(), strict=True))
-            paths.append(path)
-    except OSError as error:
-        raise OutputError(f"cannot write to {folder}: {error.strerror}") from error
+        for path, table in zip(paths, tables.values(), strict=True):
+            # Slow to import, and needed here only.
+            import pandas as pd
+
+            pd.DataFrame(table, dtype=float).to_csv(
+                path, index=False, na_rep="nan", lineterminator="\r\n"
+            )
     return paths
 
 
@@ -66,42 +66,29 @@ def _profiles(result: Result, axis: int) -> dict[str, Array]:
     grid = result.grid
     position = (grid.x, grid.y)[axis]
     times = result.times
-    columns: dict[str, Array] = {
-        "time_s": np.repeat(times, len(position)),
-        f"{'xy'[axis]}_m": np.tile(position, len(times)),
-        "pressure_Pa": _stacked(
-            profile(result.field("pressure", i), axis) for i in range(len(times))
-        ),
+    saves = range(len(times))
+    fields: dict[str, Iterable[Array]] = {
+        "pressure_Pa": [result.field("pressure", i) for i in saves]
     }
     for key, field in result.fields_of(BETWEEN).items():
-        kept = [result.field(key, i) for i in range(len(times))]
-        columns[f"{BETWEEN}.{labelled(field.name, field.unit)}"] = _stacked(
-            np.full(len(position), each) if each.ndim == 0 else profile(each, axis) for each in kept
-        )
+        kept = [result.field(key, i) for i in saves]
+        fields[f"{BETWEEN}.{labelled(field.name, field.unit)}"] = [
+            np.broadcast_to(each, grid.cells) for each in kept
+        ]
     for name in result.body_names:
-        body = result.body(name)
-        for label, fields in (
-            ("wear_depth_m", body.wear_depth),
-            ("plastic_depth_m", body.plastic_depth),
-            *((f"state.{labelled(f.name, f.unit)}", body.state[f.name]) for f in body.state_fields),
-            *(
-                (f"effects.{labelled(f.name, f.unit)}", body.effects[f.name])
-                for f in body.effect_fields
-            ),
-        ):
-            columns[f"bodies.{name}.{label}"] = _stacked(profile(f, axis) for f in fields)
-        columns[f"bodies.{name}.height_m"] = _stacked(
-            profile(body.surface(i), axis) for i in range(len(times))
-        )
-    return columns
-
-
-def _stacked(parts: Iterable[Array]) -> Array:
-    return np.concatenate(list(parts))
-
-
-def _write(path: Path, header: Sequence[str], rows: Iterable[Sequence[float]]) -> None:
-    with path.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow(header)
-        writer.writerows([repr(float(value)) for value in row] for row in rows)
+        body, of = result.body(name), f"bodies.{name}"
+        fields[f"{of}.wear_depth_m"] = body.wear_depth
+        fields[f"{of}.plastic_depth_m"] = body.plastic_depth
+        for f in body.state_fields:
+            fields[f"{of}.state.{labelled(f.name, f.unit)}"] = body.state[f.name]
+        for f in body.effect_fields:
+            fields[f"{of}.effects.{labelled(f.name, f.unit)}"] = body.effects[f.name]
+        fields[f"{of}.height_m"] = [body.surface(i) for i in saves]
+    return {
+        "time_s": np.repeat(times, len(position)),
+        f"{'xy'[axis]}_m": np.tile(position, len(times)),
+        **{
+            label: np.concatenate([profile(each, axis) for each in of_saves])
+            for label, of_saves in fields.items()
+        },
+    }

@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 
 from tribo.core.arrays import Array, middle_rows
+from tribo.core.contact import ContactSystem
+from tribo.core.grid import Grid
 from tribo.core.measures import Measures
 from tribo.core.state import RunInfo, Snapshot, State
 from tribo.result.columns import BODY_COLUMNS, COLUMNS, ROUGHNESS_COLUMNS
@@ -75,6 +77,19 @@ def attributes(run: RunInfo) -> dict[str, Any]:
         "notices": "[]",
     }
     return {name: value for name, value in values.items() if value is not None}
+
+
+def system_of(attributes: Mapping[str, Any], cells: tuple[int, int]) -> ContactSystem:
+    """Return the contact system that `attributes` of a run were written of."""
+    lx, ly = map(float, attributes["window_m"])
+    cap, curved = attributes.get("cap_Pa"), attributes.get("curvature_1_m")
+    return ContactSystem(
+        Grid((lx, ly), cells),
+        float(attributes["modulus_Pa"]),
+        float(attributes["load_N"]),
+        None if cap is None else float(cap),
+        None if curved is None else (float(curved[0]), float(curved[1])),
+    )
 
 
 def _fixed() -> dict[str, Variable]:
@@ -162,42 +177,35 @@ def step_row(measures: Measures) -> Rows:
     bodies = measures.bodies.values()
     if any(body.roughness for body in bodies):
         for part in ROUGHNESS_COLUMNS:
-            row[f"history_{part.name}"] = [float(part.read(body)) for body in bodies]
+            row[f"history_{part.name}"] = [part.read(body) for body in bodies]
     return row
 
 
 def save_row(snapshot: Snapshot, table: Mapping[str, Variable]) -> Rows:
     """Return what a save adds."""
     state, shape = snapshot.state, snapshot.state.contact.pressure.shape
-    row: Rows = {
-        **_scalars(snapshot.measures),
-        "pressure": state.contact.pressure,
-        "wear_depth": _stacked(shape, {n: b.wear for n, b in state.bodies.items()}, state.bodies),
-        "plastic_depth": _stacked(
-            shape, {n: b.plastic for n, b in state.bodies.items()}, state.bodies
-        ),
-    }
-    if TRACK in table:
-        row[TRACK] = _on_track(state, {n: b.wear for n, b in state.bodies.items()})
-    if TRACK_PLASTIC in table:
-        row[TRACK_PLASTIC] = _on_track(state, {n: b.plastic for n, b in state.bodies.items()})
+    row: Rows = {**_scalars(snapshot.measures), "pressure": state.contact.pressure}
+    wear = {name: body.wear for name, body in state.bodies.items()}
+    plastic = {name: body.plastic for name, body in state.bodies.items()}
+    own = {"wear_depth": wear, "plastic_depth": plastic, TRACK: wear, TRACK_PLASTIC: plastic}
     for name, variable in table.items():
-        if variable.kind == TRACK_STATE:
-            along = {n: state.remembered(n, variable.field) for n in variable.bodies}
-            row[name] = _on_track(state, along)
-            continue
         if variable.kind == BETWEEN:
             kept = state.between[variable.field]
             row[name] = kept if variable.dims == _ON_WINDOW else float(kept[0, 0])
             continue
-        if variable.kind == STATE:
-            of_bodies = {n: state.remembered(n, variable.field) for n in variable.bodies}
-        elif variable.kind == EFFECT:
+        if variable.kind == EFFECT:
             # An effect that has failed leaves none.
             of_bodies = dict(snapshot.effects.get(variable.field, {}))
+        elif variable.kind:
+            of_bodies = {n: state.remembered(n, variable.field) for n in variable.bodies}
+        elif name in own:
+            of_bodies = own[name]
         else:
             continue
-        row[name] = _stacked(shape, of_bodies, state.bodies)
+        on_track = variable.dims == _ON_TRACK
+        row[name] = (
+            _on_track(state, of_bodies) if on_track else _stacked(shape, of_bodies, state.bodies)
+        )
     return row
 
 
@@ -237,6 +245,6 @@ def _on_track(state: State, of_bodies: Mapping[str, Array]) -> Array:
 def _scalars(measures: Measures) -> Rows:
     bodies = measures.bodies.values()
     return {
-        **{column.name: float(column.read(measures)) for column in COLUMNS},
-        **{part.name: [float(part.read(body)) for body in bodies] for part in BODY_COLUMNS},
+        **{column.name: column.read(measures) for column in COLUMNS},
+        **{part.name: [part.read(body) for body in bodies] for part in BODY_COLUMNS},
     }

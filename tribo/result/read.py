@@ -22,7 +22,7 @@ from tribo.core.words import did_you_mean, suggestion
 from tribo.result import checks
 from tribo.result.body import BodyResult, checked_save
 from tribo.result.columns import BODY_COLUMNS, COLUMNS, INVARIANTS, ROUGHNESS_COLUMNS, labelled
-from tribo.result.layout import BETWEEN, EFFECT, STATE
+from tribo.result.layout import BETWEEN, EFFECT, STATE, system_of
 from tribo.result.opening import source_of
 from tribo.result.sealed import write_sealed
 
@@ -175,17 +175,8 @@ class Result:
     @property
     def system(self) -> ContactSystem:
         """Window, load, contact modulus, pressure cap and initial curvature."""
-        header = self._header
-        lx, ly = map(float, header["window_m"])
-        grid = Grid((lx, ly), (len(self._scalars["x"]), len(self._scalars["y"])))
-        cap, curved = header.get("cap_Pa"), header.get("curvature_1_m")
-        return ContactSystem(
-            grid,
-            float(header["modulus_Pa"]),
-            float(header["load_N"]),
-            None if cap is None else float(cap),
-            None if curved is None else (float(curved[0]), float(curved[1])),
-        )
+        cells = len(self._scalars["x"]), len(self._scalars["y"])
+        return system_of(self._header, cells)
 
     @property
     def grid(self) -> Grid:
@@ -318,6 +309,14 @@ class Result:
 
         ``tribo show --json`` prints it, with what a lab would report added.
         """
+        rows = self.saves()
+        for save, row in enumerate(rows):
+            for body in self.body_names:
+                for what, kind in (("effects", EFFECT), ("state", STATE)):
+                    if found := self._ranges(kind, save, body):
+                        row["bodies"][body][what] = found
+            if found := self._ranges(BETWEEN, save):
+                row[BETWEEN] = found
         return {
             "case": self.case,
             "status": self.status,
@@ -325,7 +324,7 @@ class Result:
             "notices": list(self.notices),
             "totals": dict(self.totals()),
             "invariants": dict(self.worst()),
-            "saves": self._saves_with_ranges(),
+            "saves": rows,
         }
 
     def report(self) -> LabReport:
@@ -340,27 +339,14 @@ class Result:
         """Show the lab table and the pressure in a notebook."""
         return above.html(self)
 
-    def _saves_with_ranges(self) -> list[dict[str, Any]]:
-        rows = self.saves()
-        for i, row in enumerate(rows):
-            for index, body in enumerate(self.body_names):
-                for what, kind in (("effects", EFFECT), ("state", STATE)):
-                    if found := self._ranges(self.fields_of(kind, body), i, index):
-                        row["bodies"][body][what] = found
-            if found := self._ranges(self.fields_of(BETWEEN), i):
-                row[BETWEEN] = found
-        return rows
-
-    def _ranges(self, fields: Mapping[str, Field], *index: int) -> dict[str, dict[str, Any]]:
+    def _ranges(self, kind: str, save: int, body: str | None = None) -> dict[str, Any]:
         """Return the least and the largest value of fields at a save; None where one failed."""
         ranges = {}
-        for key, field in fields.items():
-            values = self._read(key, *index)
-            low, high = float(np.min(values)), float(np.max(values))
-            failed = math.isnan(low)
+        for key, field in self.fields_of(kind, body).items():
+            values = self.field(key, save, body)
+            ends = {"min": float(np.min(values)), "max": float(np.max(values))}
             ranges[labelled(field.name, field.unit)] = {
-                "min": None if failed else low,
-                "max": None if failed else high,
+                name: None if math.isnan(end) else end for name, end in ends.items()
             }
         return ranges
 

@@ -202,16 +202,16 @@ class GuardedSolver(Guard[ContactSolver]):
                 f"{self} gave a pressure of {np.max(pressure):.9g} Pa, above the hardness of "
                 f"{cap:.9g} Pa that it says it honours"
             )
-        gap, overlapping = (
-            self.number(f"a residual of {what}", getattr(answer.residuals, what))
-            for what in ("complementarity", "penetration")
-        )
+        claimed = [
+            self.number(f"a residual of {what}", value)
+            for what, value in vars(answer.residuals).items()
+        ]
         return ContactSolution(
             pressure=pressure,
             approach=self.number("an approach", answer.approach),
             overlap=overlap,
             iterations=int(self.number("a number of iterations", answer.iterations)),
-            residuals=Residuals(abs(carried / problem.load - 1), gap, overlapping),
+            residuals=Residuals(abs(carried / problem.load - 1), *claimed[1:]),
         )
 
 
