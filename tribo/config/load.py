@@ -101,13 +101,7 @@ def case_tables(case: Case | Mapping[str, Any] | str | Path) -> Mapping[str, Any
 
 
 def read_toml(path: str | Path) -> dict[str, Any]:
-    """Read a TOML file.
-
-    Raises
-    ------
-    CaseError
-        If the file does not exist, is not TOML in UTF-8 or nests too deeply.
-    """
+    """Read a TOML file; CaseError if there is none, or it is not TOML in UTF-8."""
     path = Path(path)
     try:
         if path.is_dir():

@@ -58,13 +58,7 @@ def apply_settings(
 
 
 def path_keys(path: str) -> list[str]:
-    """Return the keys of a path; a key may be quoted as in TOML.
-
-    Raises
-    ------
-    CaseError
-        If `path` is not one.
-    """
+    """Return the keys of a path; a key may be quoted as in TOML."""
     try:
         table: Any = tomllib.loads(f"{path} = 0") if "\n" not in path else {}
     except ValueError:

@@ -61,20 +61,9 @@ def around(cells: Mask, margin: int) -> Box:
 def around_region(region: Region, window: tuple[int, int], margin: int) -> Box:
     """Return a box of few distinct sizes around a region of a window.
 
-    Parameters
-    ----------
-    region : tuple of slice
-        Cells to enclose; the whole window is returned for an empty region.
-    window : tuple of int
-        Cells of the window along x and y.
-    margin : int
-        Cells to add on each side, at least.
-
-    Returns
-    -------
-    Box
-        Its edge lengths are {4, 5, 6, 7}·2^k, so that transforms are fast and
-        kernels are used again, or the window's.
+    Around an empty region it is the window. It leaves `margin` cells on each side at least. Its
+    edges are {4, 5, 6, 7}·2^k cells long, so that transforms are fast and kernels are used again,
+    or the window's.
     """
     rows, columns = region
     if rows.start == rows.stop:

@@ -49,12 +49,8 @@ _PLAIN_SIGNS = str.maketrans("µμ·⋅⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "uu**012
 def scale(unit: str) -> tuple[Fraction, Dimension]:
     """Return the size in SI and the dimension of a unit such as ``mm^3/(N m)``.
 
-    The test load of a Vickers hardness, as in ``HV30``, is ignored.
-
-    Raises
-    ------
-    ValueError
-        If `unit` cannot be read.
+    The test load of a Vickers hardness, as in ``HV30``, is ignored; ValueError if it cannot be
+    read.
     """
     text = _VICKERS_WITH_LOAD.sub("HV", unit).replace("**", "^").translate(_PLAIN_SIGNS)
     size, dimension = Fraction(1), (0, 0, 0, 0, 0)

@@ -60,18 +60,9 @@ def refused_at(key: str, text: str, value: object) -> ValidationError:
 def explained(
     error: ValidationError, model: type[BaseModel], data: object, info: ValidationInfo
 ) -> ValidationError:
-    """Return the error of a table with every message in the words of a case.
+    """Return the error of a table of class `model` with its messages in the words of a case.
 
-    Parameters
-    ----------
-    error : ValidationError
-        What pydantic raised.
-    model : type
-        The class of the table.
-    data : object
-        What was given.
-    info : ValidationInfo
-        How it is validated; its context may have a ``registry``.
+    `data` is what was given; the context of its validation may have a ``registry``.
     """
     errors = error.errors(include_url=False)
     fields = {field.alias or name: field for name, field in model.model_fields.items()}

@@ -27,13 +27,7 @@ def writing(place: Path) -> Iterator[None]:
 
 
 def write_whole(path: Path, text: str) -> None:
-    """Write a text file so that whoever reads it finds the old text or the new, never a part.
-
-    Raises
-    ------
-    OutputError
-        If it cannot be written; what was there before stays.
-    """
+    """Write a text file so that whoever reads it finds the old text or the new, never a part."""
     with writing(path):
         replace_file(path, text.encode())
 
@@ -84,10 +78,7 @@ def wait_for_disk(path: Path) -> None:
 def read_numbers(file: Path) -> Array:
     """Return the numbers of a CSV file, with or without a header, of a .npy, or of an HDF5 file.
 
-    Raises
-    ------
-    ValueError
-        If there is no such file, or something else in it; the message says so.
+    ValueError if there is no such file, or something else in it; the message says so.
     """
     numbers = table_of_numbers(file)
     if not np.all(np.isfinite(numbers)):

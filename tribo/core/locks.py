@@ -22,13 +22,7 @@ class BusyError(Exception):
 
 
 def lock(handle: int) -> bool:
-    """Lock an open file; return False if the system has no locks.
-
-    Raises
-    ------
-    BusyError
-        If it is locked.
-    """
+    """Lock an open file; False if the system has no locks, `BusyError` if it is locked."""
     try:
         if sys.platform == "win32":
             os.lseek(handle, _BYTE, os.SEEK_SET)

@@ -32,15 +32,9 @@ FACTS = {
 def catalogue(registry: Registry) -> list[dict[str, str]]:
     """Return a row for every component, and for every plugin that cannot be used.
 
-    No plugin is imported: for a component of one not imported yet, the kind is
-    empty and the summary is that of its distribution. A name that several
-    plugins claim has a row for each, with the status ``conflict``.
-
-    Returns
-    -------
-    list of dict
-        With ``name``, ``kind``, ``distribution``, ``version``, ``status``,
-        ``reason`` and ``summary``.
+    No plugin is imported: for a component of one not imported yet, the kind is empty and the
+    summary is that of its distribution. A name that several plugins claim has a row for each, with
+    the status ``conflict``.
     """
     known = registry.components
     names = [name for kind in KINDS for name in registry.names(kind)] + registry.waiting
@@ -57,11 +51,6 @@ def matching(registry: Registry, name: str) -> list[str]:
     """Return the names of the component called `name`, or of those of the distribution.
 
     Names in conflict come last.
-
-    Raises
-    ------
-    CaseError
-        If there is none.
     """
     known = [*registry.components, *registry.waiting, *registry.conflicts]
     if name in known:

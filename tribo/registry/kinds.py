@@ -35,13 +35,7 @@ def check_class(cls: object) -> None:
 
 
 def offered(answers: Iterable[object]) -> Classes:
-    """Return the classes in the answers to the hook `tribo_components`, by name.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If an answer is not a list, or holds something else than components or a name twice.
-    """
+    """Return the classes in the answers to the hook `tribo_components`, by name."""
     found: Classes = {}
     for answer in answers:
         if not isinstance(answer, Iterable):

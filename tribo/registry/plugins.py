@@ -102,13 +102,10 @@ def given(plugin: object) -> Plugin:
 def installed() -> list[Plugin]:
     """Return the plugins of installed distributions, sorted; imports none.
 
-    An entry point ``acme.fretting = "acme_tribo"`` in the group ``tribo``
-    declares that the module ``acme_tribo`` offers a component of that name.
-    The entry points of one module make one plugin.
-
-    ``TRIBO_DISABLE_PLUGINS`` lists distributions, or names or prefixes of
-    components, to leave out, separated by commas; ``*`` stands for all.
-    ``TRIBO_PLUGINS`` lists the only ones that may take part.
+    An entry point ``acme.fretting = "acme_tribo"`` in the group ``tribo`` declares that the module
+    ``acme_tribo`` offers a component of that name. The environment variable TRIBO_DISABLE_PLUGINS
+    lists distributions, or names or prefixes of components, to leave out, ``*`` for all;
+    TRIBO_PLUGINS the only ones that may take part.
     """
     found: dict[tuple[str, str], Plugin] = {}
     for distribution, point in entry_points(PROJECT):

@@ -22,18 +22,8 @@ LIMIT = "TRIBO_PLUGIN_TIME_LIMIT"
 def probe(plugin: Plugin, time_limit: float | None = None) -> Plugin:
     """Return the record of an installed plugin after its import in a child process.
 
-    Parameters
-    ----------
-    plugin : Plugin
-        One with the status ``available``; any other is returned unchanged.
-    time_limit : float, optional
-        In s; that of the environment variable TRIBO_PLUGIN_TIME_LIMIT, or
-        20 s, if left out.
-
-    Raises
-    ------
-    CaseError
-        If the time limit is no number above 0.
+    It may take `time_limit` seconds; those of the environment variable TRIBO_PLUGIN_TIME_LIMIT, or
+    20, if left out. A plugin that is not ``available`` is returned unchanged.
     """
     if plugin.status != "available":
         return plugin

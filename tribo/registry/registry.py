@@ -131,13 +131,7 @@ class Registry:
         return cls
 
     def find(self, name: str, words: str = "component") -> type[Component] | None:
-        """Return the class of any kind that `name` stands for, or None.
-
-        Raises
-        ------
-        CaseError
-            If more than one plugin offers it, or the one that does cannot be used.
-        """
+        """Return the class of any kind that `name` stands for; None if no plugin offers it."""
         owners = self._owners.get(name, [])
         if len(owners) > 1:
             raise CaseError(f"{words} {self.conflicts[name]}")
@@ -168,13 +162,7 @@ class Registry:
         ]
 
     def ask(self, hook: str, **arguments: object) -> list[Any]:
-        """Return the answers of the imported plugins to a hook, in the order of the plugins.
-
-        Raises
-        ------
-        PluginError
-            If one of them raises; the message has its file and line.
-        """
+        """Return the answers of the imported plugins to a hook, in the order of the plugins."""
         try:
             with _process_kept():
                 answers: list[Any] = getattr(self._manager.hook, hook)(**arguments)
@@ -242,21 +230,9 @@ def default_registry() -> Registry:
 
 
 def choose(hook: str, name: str, words: str) -> Any:
-    """Return the format or template of this name; imports every plugin.
+    """Return the format or template of this name that a plugin offers by `hook`.
 
-    Parameters
-    ----------
-    hook : str
-        The hook by which plugins offer it.
-    name : str
-        Its name.
-    words : str
-        What it is, for the message: ``"format"`` or ``"template"``.
-
-    Raises
-    ------
-    CaseError
-        If no plugin offers it.
+    `words` is what it is, for the message: ``"format"`` or ``"template"``.
     """
     registry = default_registry()
     for plugin in registry.load_all():

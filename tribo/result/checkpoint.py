@@ -60,13 +60,7 @@ class Checkpoint:
 
 
 class RunFolder:
-    """The folder of a run that is not done.
-
-    Parameters
-    ----------
-    result : Path
-        The result file, not a link.
-    """
+    """The folder of a run that is not done, beside its result file, which is not a link."""
 
     def __init__(self, result: Path) -> None:
         self.path = result.with_name(result.name + ".run")
@@ -76,13 +70,7 @@ class RunFolder:
         self._lock: IO[bytes] | None = None
 
     def lock(self) -> None:
-        """Make the folder, and keep other processes from writing the result.
-
-        Raises
-        ------
-        CaseError
-            If another process is writing it.
-        """
+        """Make the folder, and keep other processes from writing; CaseError if one is."""
         self.path.mkdir(exist_ok=True)
         place = self.path / "lock"
         self._lock = place.open("ab")
@@ -306,13 +294,7 @@ def read_checkpoint(result: Path, case: Mapping[str, object]) -> tuple[State, fl
 
 
 def tidied(result: Path) -> bool:
-    """Remove the folder that a run left which was killed just as it ended.
-
-    Returns
-    -------
-    bool
-        Whether there was one.
-    """
+    """Remove the folder of a run that was killed just as it ended; False if there is none."""
     folder = RunFolder(result.resolve())
     if not folder.path.is_dir():
         return False

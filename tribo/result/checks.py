@@ -82,13 +82,7 @@ def interpreting(name: str) -> Iterator[None]:
 
 
 def read_attributes(attributes: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the attributes of a file with their JSON read.
-
-    Raises
-    ------
-    ValueError
-        If one is missing or wrong.
-    """
+    """Return the attributes of a file with their JSON read; ValueError if one is wrong."""
     read = dict(attributes)
     # Older files lack it.
     read.setdefault("worn_through", "[]")
@@ -122,13 +116,7 @@ def read_attributes(attributes: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def read_variables(file: h5py.File, bodies: tuple[str, ...]) -> dict[str, Variable]:
-    """Return the variables of a file by name, none of them read.
-
-    Raises
-    ------
-    ValueError, KeyError
-        If one is missing, or its type or shape does not fit the others.
-    """
+    """Return the variables of a file, none of them read; ValueError if they do not fit."""
     table = {name: v for name, v in FIXED.items() if name in file or name not in _LATER}
     if not {"track_x", TRACK} & file.keys():
         del table["track_x"], table[TRACK]

@@ -20,13 +20,7 @@ from tribo.result.sealed import open_sealed
 
 
 def source_of(path: Path) -> Path | BytesIO:
-    """Return a result file, or for a run that is not done all that it has saved so far.
-
-    Raises
-    ------
-    CaseError
-        If there is no such file, it is not a tribo result, or it is damaged.
-    """
+    """Return a result file, or for a run that is not done all that it has saved so far."""
     if not is_unfinished(path):
         return path
     folder = RunFolder(path.resolve())

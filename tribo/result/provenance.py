@@ -25,20 +25,7 @@ def provenance(
     components: Mapping[str, Mapping[str, object]],
     plugins: Iterable[Mapping[str, object]] = (),
 ) -> dict[str, object]:
-    """Return versions, and for each component where it came from and how it is configured.
-
-    Parameters
-    ----------
-    components : Mapping[str, Mapping]
-        The `origin` of each, by its place in the case.
-    plugins : iterable of Mapping
-        Every plugin that was found, loaded or not, as plain data.
-
-    Returns
-    -------
-    dict
-        Plain data, ready for JSON.
-    """
+    """Return versions, the `origin` of each component by place, and the plugins found."""
     return {
         **environment(),
         "components": {place: dict(made) for place, made in components.items()},
@@ -60,14 +47,9 @@ def changed_components(
 ) -> list[tuple[str, str, str]]:
     """Return the components that are not what they were: place, before, now.
 
-    A component is what its class, distribution, version and source code make
-    of it, and the facts it states. Whether it is installed to be edited, and
-    its configuration, which is compared with the whole case, do not count.
-
-    Parameters
-    ----------
-    before, now : Mapping
-        What `provenance` returned.
+    `before` and `now` are what `provenance` returned. A component is what its class, distribution,
+    version and source code make of it, and the facts it states; its configuration, which is
+    compared with the whole case, does not count.
     """
     old, new = before["components"], now["components"]
     changes = []
@@ -80,13 +62,7 @@ def changed_components(
 
 
 def stated_facts(component: Component) -> dict[str, str]:
-    """Return what a component states of itself.
-
-    Raises
-    ------
-    PluginError
-        If that is not text by text.
-    """
+    """Return what a component states of itself; `PluginError` if not text by text."""
     facts = component.facts()
     if not isinstance(facts, Mapping) or not all(
         isinstance(text, str) for pair in facts.items() for text in pair
@@ -110,13 +86,7 @@ def _words(origin: Mapping[str, Any], differing: Sequence[str]) -> str:
 
 
 def origin(component: Component) -> dict[str, object]:
-    """Return where a component came from and how it is configured, as plain data.
-
-    Raises
-    ------
-    PluginError
-        If the facts it states are not text by text.
-    """
+    """Return where a component came from and how it is configured, as plain data."""
     cls = type(component)
     distribution = _distribution(cls.__module__)
     made: dict[str, object] = {

@@ -29,13 +29,7 @@ def write_sealed(
 def open_sealed(path: Path) -> BinaryIO:
     """Open a file that `write_sealed` wrote, and compare it with its checksum.
 
-    Raises
-    ------
-    CaseError
-        If a byte of it is not what was written, it was cut short, or it has no
-        checksum.
-    OSError
-        If it cannot be read.
+    `CaseError` if a byte of it is not what was written, it was cut short, or it has no checksum.
     """
     file = path.open("rb")
     try:

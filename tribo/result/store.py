@@ -21,13 +21,7 @@ from tribo.result.sealed import write_sealed
 
 
 class ResultWriter:
-    """The result of a run that goes on.
-
-    Parameters
-    ----------
-    path : Path or None
-        Where to write; None keeps the result in memory.
-    """
+    """The result of a run that goes on, in a file; in memory if the path is None."""
 
     def __init__(self, path: Path | None = None) -> None:
         self._path = None if path is None else path.resolve()
@@ -45,13 +39,7 @@ class ResultWriter:
         """Steps of the history so far, the first contact counted."""
 
     def create(self, run: RunInfo) -> None:
-        """Begin a new result, in the place of what is there.
-
-        Raises
-        ------
-        CaseError
-            If another process is writing it, or it is not a file.
-        """
+        """Begin a new result, in the place of what is there."""
         self._begin(run)
         if self._path is None or self._folder is None:
             return
@@ -156,13 +144,7 @@ class ResultWriter:
 
 
 def _gone_on_with(stopped: Result, run: RunInfo) -> dict[str, Any]:
-    """Return the provenance of a stopped run, with what it goes on with.
-
-    Raises
-    ------
-    CaseError
-        If the effects provide other fields than before.
-    """
+    """Return the provenance of a stopped run, with what it goes on with."""
     provided = {field.name for field in run.effect_fields}
     kept = {field.name for field in stopped.fields_of(EFFECT).values()}
     if kept != provided:

@@ -39,13 +39,7 @@ SAME_RADIUS = 1e-2
 
 
 def assemble(case: Case) -> Model:
-    """Check that the parts of a case fit together, guard them, and derive what a run needs.
-
-    Raises
-    ------
-    CaseError
-        If parts do not fit; the message names the place, and the remedy.
-    """
+    """Check that the parts of a case fit together, guard them, and derive what a run needs."""
     check_requirements(case.requires)
     grid, bodies = case.grid, case.bodies
     motion, solver = GuardedMotion(case.kinematics), GuardedSolver(case.contact)

@@ -23,13 +23,7 @@ from tribo.simulation.guard import calling
 
 
 class Audience:
-    """The observers of a run, the recorder before all others.
-
-    Parameters
-    ----------
-    observers : sequence of Observer
-        In the order in which they are told.
-    """
+    """The observers of a run, in the order in which they are told, the recorder first."""
 
     def __init__(self, observers: Sequence[Observer]) -> None:
         self._observers = tuple(observers)
@@ -54,8 +48,7 @@ class Audience:
     def finish(self, snapshot: Snapshot, reason: str) -> None:
         """Tell those that were started of the end.
 
-        What one raises then is only warned of where the run itself did not
-        come to its end: the first cause is the one to be seen.
+        Where the run itself did not come to its end, what one raises is only warned of.
         """
         # The recorder comes last, so that nothing another one raises costs a result.
         with ExitStack() as finishing:

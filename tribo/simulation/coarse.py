@@ -16,17 +16,9 @@ LOOSE = Implicit(depth_tolerance=2e-2, pressure_tolerance=0.5, settle=0.1)
 def coarsened(case: Case, cells: int, margin: float, half_width_x: float = 0.0) -> Model:
     """Return the model of a case on a coarse grid, smooth and unworn, its steps long.
 
-    Parameters
-    ----------
-    case : Case
-        The case.
-    cells : int
-        Along the longer edge of the window.
-    margin : float
-        Edge of the window over that of the case.
-    half_width_x : float, optional
-        Half the extent of the first contact along x, in m: a short stroke keeps a few positions.
-        Every stroke is averaged if it is left out.
+    It has `cells` along the longer edge of a window `margin` times as large. With half the extent
+    of the first contact along x, in m, a short stroke keeps a few positions; every stroke is
+    averaged without.
     """
     largest = max(case.grid.size)
     nx, ny = (max(8, 2 * round(0.5 * cells * size / largest)) for size in case.grid.size)

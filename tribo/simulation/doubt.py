@@ -12,20 +12,14 @@ from tribo.config.overrides import leaves
 from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError, NumericalError, PluginError
 from tribo.core.explain import path
+from tribo.core.measures import BodyMeasures
 
 DEEP = 0.1
 """Wear depth, relative to the radius of curvature, from which on it is doubted."""
 
 
 def unusual(case: BaseModel) -> list[str]:
-    """Ask about each quantity of a case that is out of its usual range.
-
-    Returns
-    -------
-    list of str
-        As ``"bodies.ball.surface.radius is 5 m, usual are 1e-09 to 1 m: a unit
-        forgotten, as in '5 mm'?"``.
-    """
+    """Ask about each quantity of a case that is out of its usual range, by place."""
     found = []
     for place, value, mark in leaves(case):
         doubt = mark.doubt(value) if mark and isinstance(value, float) else None
@@ -52,13 +46,14 @@ def doubting(case: Case) -> Iterator[None]:
         raise
 
 
-def too_deep(system: ContactSystem, depths: Mapping[str, float]) -> list[str]:
-    """Ask about each body whose wear depth, in m, is implausible for the contact's curvature."""
+def too_deep(system: ContactSystem, bodies: Mapping[str, BodyMeasures]) -> list[str]:
+    """Ask about each body whose wear depth is implausible for the contact's curvature."""
     curvature = max(system.curvature or (0.0, 0.0))
     return [
-        f"{name} would wear about {1e3 * depth:.3g} mm deep, which is {depth * curvature:.3g} "
+        f"{name} would wear about {1e3 * worn.max_wear_depth:.3g} mm deep, which is "
+        f"{worn.max_wear_depth * curvature:.3g} "
         f"times the radius of curvature of {1e3 / curvature:.3g} mm: is its wear coefficient in "
         "the unit that was meant? A bare k is in 1/Pa; write '1e-6 mm^3/(N m)' for that unit"
-        for name, depth in depths.items()
-        if depth * curvature > DEEP
+        for name, worn in bodies.items()
+        if worn.max_wear_depth * curvature > DEEP
     ]

@@ -40,13 +40,7 @@ class Accepted:
 def begin(model: Model) -> State:
     """Return the state at t = 0.
 
-    Raises
-    ------
-    CaseError
-        If the contact does not fit the window or is too long for the stroke, or
-        a fixed time step is not stable or would never come to an end.
-    NumericalError
-        If the contact cannot be solved.
+    `CaseError` if the contact does not fit window and stroke, or a fixed time step is unstable.
     """
     with doubting(model.case):
         state = hold(model, None, first_state(model))
@@ -62,13 +56,7 @@ def begin(model: Model) -> State:
 def march(model: Model, state: State) -> Iterator[Accepted]:
     """Yield the accepted states after `state`, to the end of the run.
 
-    Raises
-    ------
-    NumericalError
-        If the contact reaches the edge of the window, or a step cannot be
-        carried out; the last state yielded stands.
-    CaseError
-        If a time step exceeds the stability limit.
+    `NumericalError` if the contact reaches the edge of the window, or a step cannot be carried out.
     """
     limit = _limit(model)
     if _depth(model, state) >= limit:

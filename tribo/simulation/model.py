@@ -103,7 +103,7 @@ class Model:
         """The window."""
         return self.case.grid
 
-    @property
+    @cached_property
     def gap(self) -> Array:
         """Initial gap in the middle of the cycle, shape (nx, ny), in m."""
         return self.gaps[len(self.gaps) // 2]
@@ -134,12 +134,12 @@ class Model:
         """Normal load of the first contact, in N."""
         return self.system.load
 
-    @property
+    @cached_property
     def bodies(self) -> Mapping[str, Body]:
         """The bodies, by name."""
         return self.case.bodies
 
-    @property
+    @cached_property
     def contact(self) -> ContactSolver:
         """How the contact is solved, unguarded."""
         return self.case.contact

@@ -99,15 +99,7 @@ class CoarseRun:
 
 
 def predict(model: Model) -> Prediction:
-    """Estimate what `model` will do, in about a second.
-
-    Raises
-    ------
-    CaseError
-        If the first contact does not fit the window, or is too long for the stroke.
-    NumericalError
-        If it cannot be solved.
-    """
+    """Estimate what `model` will do, in about a second."""
     with doubting(model.case):
         state = first_state(model)
         check_stroke(model, state)
@@ -125,7 +117,10 @@ def predict(model: Model) -> Prediction:
         (NumericalError.exit_code, _unsettled(model, state)),
         (NumericalError.exit_code, _outgrown(model, coarse) if holds is False else None),
         # What a coarse grid alone cannot carry through, a finer one may.
-        (coarse.error.exit_code if isinstance(coarse.error, PluginError) else 0, _failed(coarse)),
+        (
+            coarse.error.exit_code if isinstance(coarse.error, PluginError) else 0,
+            f"a trial run on a coarse grid failed: {coarse.error}" if coarse.error else None,
+        ),
     ]
     problems = (
         *unusual(model.case),
@@ -134,7 +129,7 @@ def predict(model: Model) -> Prediction:
         *(text for _, text in stopping),
         warned,
         *(too_wide(model, first) or too_wide(model, last or first)),
-        *_deep(model, last),
+        *(too_deep(model.system, last.bodies) if last else ()),
         coarse.limitation,
         short_of_a_lap(model),
     )
@@ -157,10 +152,6 @@ def predict(model: Model) -> Prediction:
         problems=tuple(problem for problem in problems if problem is not None),
         exit_code=next((code for code, text in stopping if text is not None and code), 0),
     )
-
-
-def _failed(coarse: CoarseRun) -> str | None:
-    return f"a trial run on a coarse grid failed: {coarse.error}" if coarse.error else None
 
 
 def _unsettled(model: Model, state: State) -> str | None:
@@ -186,12 +177,6 @@ def _outgrown(model: Model, coarse: CoarseRun) -> str:
         f"the contact outgrows the window of {1e3 * lx:.4g} × {1e3 * ly:.4g} mm, and the run would "
         f"stop there{when}: make grid.size larger (and grid.cells with it)"
     )
-
-
-def _deep(model: Model, last: Measures | None) -> list[str]:
-    if last is None:
-        return []
-    return too_deep(model.system, {n: body.max_wear_depth for n, body in last.bodies.items()})
 
 
 def _inside(model: Model, measures: Measures) -> bool:

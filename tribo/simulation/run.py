@@ -181,8 +181,8 @@ class Simulation:
     def changed_since(self, result: Result) -> list[tuple[str, str, str]]:
         """Return the place of each component that is not the one a result was made with.
 
-        With it, in words, which it was and which it is now. The result that a run begins with
-        counts too, if it is still there.
+        With it, in words, which it was and which it is now; the result that a run begins with
+        counts too.
         """
         changes = changed_components(result.provenance, self._provenance())
         begun, begin = result.provenance.get("begun_with"), self.model.case.begin
