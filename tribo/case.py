@@ -69,12 +69,6 @@ class Body(Table):
                 "layers are worn through: give wear for what lies below them, as "
                 "{ type = 'archard', k = 0 } if that does not wear"
             )
-        for law in self.laws() if self.layers else ():
-            if law.state_fields:
-                raise ValueError(
-                    f"{law.type!r} keeps a state of its own, which a body with layers cannot; give "
-                    "its layers and the body laws without one"
-                )
         return self
 
     def laws(self) -> tuple[WearLaw, ...]:

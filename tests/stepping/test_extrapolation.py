@@ -14,7 +14,7 @@ def turning(period):
     """A state that oscillates undamped, a' = 2π b / λ and b' = −2π a / λ, from 1 and 0."""
     turns = 2 * np.pi / period
 
-    def rates(values, passed):
+    def rates(values, passed, _):
         return [turns * values[1], -turns * values[0]]
 
     return rates
@@ -32,7 +32,7 @@ def test_an_oscillation_over_some_periods_is_followed():
 
 
 def test_a_rate_that_is_zero_at_both_ends_is_integrated():
-    def rates(values, passed):
+    def rates(values, passed, _):
         return [ONE, passed * (1 - passed) * (1 + 1e-4 * passed**2) * ONE]
 
     _, (total,), _ = integrated(rates, [0 * ONE], 1.0, [ANY])

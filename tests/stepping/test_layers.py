@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
 
 from tribo import (
     Archard,
@@ -18,6 +20,7 @@ from tribo import (
     Simulation,
 )
 from tribo.core.errors import Interrupted
+from tribo.core.fields import LOAD_SHARE
 from tribo.stepping.layers import over_increment
 
 K, PRESSURE, COATING = 1e-15, 10e6, 2e-6
@@ -25,6 +28,7 @@ STEEL = {"young": "207 GPa", "poisson": 0.3}
 SLOW, FAST = ({"type": "archard", "k": k} for k in (K, 10 * K))
 # 20 m at the rate of the coating, on the body that stays in contact.
 THROUGH = COATING / (K * PRESSURE)
+FACTOR = {"factor": 2, "law": SLOW}
 SHARE = 0.1
 """Of the track, what is under the pin."""
 
@@ -57,7 +61,14 @@ def ended(case, **options):
         return result.saves()[-1], result.notices, result.totals()
 
 
+def passed(case):
+    """Return the last save, and the distances at which layers were worn through, in m."""
+    with Simulation(case).run() as result:
+        return result.saves()[-1], [each["distance_m"] for each in result.worn_through]
+
+
 EXPLICIT = {"type": "explicit", "time_step": "170 s"}
+SHORTER = {"type": "explicit", "time_step": "75 s"}
 
 
 @pytest.mark.parametrize("stepping", [{"type": "implicit"}, EXPLICIT])
@@ -69,7 +80,7 @@ def test_an_even_pressure_wears_through_at_the_exact_distance(stepping, name, sh
     assert last["bodies"][name]["max_wear_depth_m"] == pytest.approx(exact, rel=1e-9, abs=0)
     (told,) = notices
     assert told.startswith(f"layer: at {10 * THROUGH / share:g} s ({THROUGH / share:g} m) layer 1 ")
-    assert f"layer 1 of {name}, down to 2 µm, is worn through" in told
+    assert told.endswith(f"layer 1 of {name}, down to 2 µm, is worn through at its deepest point")
 
 
 def test_layers_in_one_step_each_wear_at_their_own_rate():
@@ -85,8 +96,8 @@ def test_layers_in_one_step_each_wear_at_their_own_rate():
     last, notices, totals = ended(flat(pin=three, distance=distance, stepping=long))
     exact = 3.5e-6 + 10 * K * PRESSURE * (distance - at[-1])
     assert last["bodies"]["pin"]["max_wear_depth_m"] == pytest.approx(exact, rel=1e-9, abs=0)
-    assert [notice.split("after ")[1] for notice in notices] == [
-        f"{each:.6g} m, {10 * each:.6g} s" for each in at
+    assert [notice.split(") ")[0] for notice in notices] == [
+        f"layer: at {10 * each:.4g} s ({each:.4g} m" for each in at
     ]
     assert totals["steps"] < 20
 
@@ -147,9 +158,7 @@ def ball(cells, distance="6 m"):
 def test_a_ball_wears_through_at_a_distance_that_converges_with_the_grid():
     found = []
     for cells in (24, 48):
-        _, notices, _ = ended(ball(cells))
-        (told,) = (notice for notice in notices if notice.startswith("layer"))
-        found.append(float(told.split("after ")[1].split()[0]))
+        found += passed(ball(cells))[1]
     # 3.64 m by extrapolation from 32, 48 and 64 cells.
     assert found[1] == pytest.approx(3.64, rel=0.02)
     assert abs(found[1] - 3.64) < abs(found[0] - 3.64)
@@ -206,8 +215,17 @@ def test_a_run_that_ends_at_a_depth_tells_only_of_layers_passed_by_then():
     [
         ({**coated(), "wear": None}, "pin: layers are worn through: give wear for what lies below"),
         (
-            {**coated(), "wear": {"type": "running_in", "factor": 2, "over": 1e9, "law": FAST}},
-            "pin: 'running_in' keeps a state of its own, which a body with layers cannot",
+            coated(wear={"type": "archard", "K": 1e-6}),
+            r"pin\.layers\[0\]\.wear: K needs a hardness",
+        ),
+        (
+            {**coated(thickness="5 mm"), "surface": {"type": "sphere", "radius": "4 mm"}},
+            r"pin\.layers: layers of 0\.005 m in all are as thick as the body, whose radius",
+        ),
+        (
+            coated(wear={"type": "smoothing", "roughness": 1e-6, "depth": 1e-6, **FACTOR})
+            | {"wear": {"type": "smoothing", "roughness": 2e-6, "depth": 1e-6, **FACTOR}},
+            r"pin\.layers: laws of the layers begin with different values of 'roughness'",
         ),
         (coated(young="400 GPa", thickness=-1), r"pin\.layers\[0\]\.thickness: "),
         (
@@ -227,35 +245,63 @@ def test_hardness_below_a_limited_pressure_is_refused():
         Simulation(case)
 
 
-class Counts(Effect):
-    type = "test.counts"
-    state_fields = (Field("slid", "m", "Distance slid."),)
+class Debris(Effect):
+    """What is worn stays for a metre, and bears a part of the load that grows with it."""
+
+    type = "test.debris"
+    state_fields = (Field("lies", "m", "Depth worn that still lies there."),)
+    provides = (LOAD_SHARE,)
 
     def initial_state(self):
-        return {"slid": 0.0}
+        return {"lies": 0.0}
 
     def state_rates(self, contact):
-        return {"slid": np.full((1, 1), contact.speed)}
-
-
-class Reads(Effect):
-    type = "test.reads_pressure_distance"
-    requires = ("pressure_distance",)
-    provides = (Field("read", "Pa m", "What it has read."),)
+        worn = sum(contact.wear_rates.values())
+        return {"lies": contact.speed * (worn - contact.state["lies"])}
 
     def fields(self, contact):
-        return {"read": dict.fromkeys(contact.materials, contact.pressure)}
+        share = 1 - np.exp(-contact.state["lies"] / 0.5e-6)
+        return {LOAD_SHARE.name: dict.fromkeys(contact.materials, share)}
 
 
-@pytest.mark.parametrize(
-    ("effect", "words"), [(Counts(), "'slid' of .*"), (Reads(), "'pressure_distance' of .*")]
-)
-def test_layers_along_with_what_changes_along_a_step_are_refused(effect, words):
-    law = {"type": "running_in", "factor": 2, "over": 1e9, "law": SLOW}
-    kinds = {"surface": "flat", "material": STEEL, "wear": law if "press" in words else FAST}
-    case = Case.model_validate(flat(pin=coated(), disk=kinds))
-    with pytest.raises(CaseError, match=rf"^bodies\.pin\.layers: layers cannot .*\({words}\): "):
-        Simulation(case.model_copy(update={"effects": (effect,)}))
+@pytest.mark.slow
+def test_with_an_effect_that_remembers_it_is_worn_through_at_the_exact_distance():
+    rate, end = K * PRESSURE, 16.0
+
+    def rates(_, y, k):
+        worn = k * rate * np.exp(-y[0] / 0.5e-6)
+        return [worn - y[0], worn]
+
+    def bottom(_, y, k):
+        return y[1] - 0.1e-6
+
+    bottom.terminal = True
+    tight = {"rtol": 1e-9, "atol": 1e-15, "method": "LSODA"}
+    above = solve_ivp(rates, (0, end), [0, 0], args=(1.0,), events=bottom, **tight)
+    (through,) = above.t_events[0]
+    below = solve_ivp(rates, (through, end), above.y[:, -1], args=(10.0,), **tight)
+    case = Case.model_validate(flat(pin=coated(thickness=0.1e-6), distance=end))
+    last, found = passed(case.model_copy(update={"effects": (Debris(),)}))
+    depth = last["bodies"]["pin"]["max_wear_depth_m"]
+    assert depth == pytest.approx(below.y[1, -1], rel=1e-4, abs=0)
+    assert found == [pytest.approx(through, rel=1e-4)]
+
+
+@pytest.mark.parametrize("stepping", [{"type": "implicit"}, SHORTER])
+def test_what_laws_of_layers_remember_goes_on_from_one_to_the_next(stepping):
+    over, factor, distance = 100e6, 4.0, 30.0
+    slow, fast = ({"type": "running_in", "factor": 4, "over": over, "law": k} for k in (SLOW, FAST))
+    pin = {**coated(thickness="0.35 um"), "wear": fast}
+    pin["layers"][0]["wear"] = slow
+
+    def depth(s):
+        return K * PRESSURE * s + (factor - 1) * K * over * (1 - np.exp(-PRESSURE * s / over))
+
+    through = brentq(lambda s: depth(s) - 0.35e-6, 0, distance)
+    last, found = passed(flat(pin=pin, distance=distance, stepping=stepping))
+    exact = 0.35e-6 + 10 * (depth(distance) - 0.35e-6)
+    assert last["bodies"]["pin"]["max_wear_depth_m"] == pytest.approx(exact, rel=1e-4, abs=0)
+    assert found == [pytest.approx(through, rel=1e-4)]
 
 
 def test_layers_are_written_in_python():

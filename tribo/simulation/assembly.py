@@ -60,11 +60,8 @@ def assemble(case: Case) -> Model:
             if isinstance(case.kinematics, Unidirectional) and case.kinematics.turns:
                 _check_ring(surfaces[name], exposures[name], case.kinematics.lap, grid)
         if body.wear is not None:
-            with located(f"bodies.{name}.wear"):
-                laws[name] = _law(body, name)
-                for law in body.laws():
-                    laws[name].ask(law.check_cells, grid.spacing)
-                _check_places(laws[name], exposures[name])
+            laws[name] = _law(body, name, grid, exposures[name])
+            _check_thickness(body, name, surfaces[name])
     if case.load.along and case.contact.periodic:
         raise CaseError(
             f"contact.type = {case.contact.type!r} repeats with the window, so that it is at many "
@@ -110,29 +107,10 @@ def assemble(case: Case) -> Model:
         end_time=end,
     )
     _check_ends(model)
-    _check_layers(model)
     for effect in effects:
         with located("effects"):
             effect.ask(effect.component.check, dict(system.materials), model.swept)
     return model
-
-
-def _check_layers(model: Model) -> None:
-    """Check that nothing else that steps integrate changes the rates at which layers wear."""
-    for name, law in model.laws.items():
-        if not law.bottoms:
-            continue
-        kept = [f"{field.name!r} of {effect}" for effect, field in model.between.values()]
-        for law_of in model.laws.values():
-            read = (field for field in law_of.state_fields if field.name in model.required)
-            kept += [f"{field.name!r} of {law_of}" for field in read]
-        if kept:
-            raise CaseError(
-                f"layers cannot go together with what changes along a step ({', '.join(kept)}): "
-                "when a point wears through would be wrong; leave out the layers, or the effect or "
-                "law that keeps that state",
-                f"bodies.{name}.layers",
-            )
 
 
 def as_it_repeats(grid: Grid, contact: ContactSolver) -> Grid:
@@ -174,14 +152,32 @@ def _plastic(
     return cap, {name: (1 / len(soft) if name in soft else 0.0) for name in bodies}
 
 
-def _law(body: Body, name: str) -> GuardedLaw:
+def _law(body: Body, name: str, grid: Grid, exposure: GuardedExposure) -> GuardedLaw:
     """Return the law of a body that wears, or those of its layers."""
-    materials = [*(layer.material(body.material) for layer in body.layers), body.material]
-    laws = [
-        GuardedLaw(law, name, material)
-        for law, material in zip(body.laws(), materials, strict=True)
-    ]
-    return LayeredLaw(laws, [layer.thickness for layer in body.layers]) if body.layers else laws[0]
+    laws = []
+    own = (*((f"layers[{i}].wear", layer) for i, layer in enumerate(body.layers)), ("wear", None))
+    for law, (place, layer) in zip(body.laws(), own, strict=True):
+        place = "wear" if layer is None or layer.wear is None else place
+        material = body.material if layer is None else layer.material(body.material)
+        with located(f"bodies.{name}.{place}"):
+            laws.append(GuardedLaw(law, name, material))
+            laws[-1].ask(law.check_cells, grid.spacing)
+            _check_places(laws[-1], exposure)
+    if not body.layers:
+        return laws[0]
+    with located(f"bodies.{name}.layers"):
+        return LayeredLaw(laws, [layer.thickness for layer in body.layers])
+
+
+def _check_thickness(body: Body, name: str, surface: GuardedSurface) -> None:
+    """Raise `CaseError` if layers are as thick as a round body."""
+    total, curvature = sum(layer.thickness for layer in body.layers), surface.curvature
+    if curvature is not None and total * max(curvature) >= 1:
+        raise CaseError(
+            f"layers of {total:.4g} m in all are as thick as the body, whose radius is "
+            f"{1 / max(curvature):.4g} m; make them thinner, or give the body their material",
+            f"bodies.{name}.layers",
+        )
 
 
 def _coatings(bodies: Mapping[str, Body], contact: ContactSolver) -> dict[str, Coating]:

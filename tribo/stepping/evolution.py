@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import TYPE_CHECKING
@@ -39,11 +39,14 @@ class Course:
         What is remembered at its end.
     plan : Plan
         How the increment is divided for that to be accurate.
+    begun : callable or None
+        The course over the first metres of it; None where no body has layers.
     """
 
     rates: CycleRates
     memory: Memory
     plan: Plan = field(default_factory=Plan)
+    begun: Callable[[float], Course] | None = None
 
 
 def course(
@@ -57,21 +60,32 @@ def course(
     """Return what an increment (m) comes to, from what is remembered before it.
 
     `moment` is its end. It is divided as in `plan`, or finer. Without anything to remember, rates
-    are those of `moment` throughout, but where a body wears through a layer.
+    are those of `moment` throughout, but where a body wears through a layer. With it, the depths
+    worn of bodies in layers are integrated as well.
     """
-    before = in_layers(model, before, contacts, increment, moment)
+    layered = {name: before.worn[name] for name, law in model.laws.items() if law.bottoms}
+
+    def begun(first: float) -> Course:
+        end = moment.back(increment - first) if before.values else moment
+        return course(model, before, contacts, first, end)
+
     if not before.values:
-        return Course(wear_rates(model, contacts, before, moment), before)
-    of_model = partial(_rates, model, before, contacts, increment, moment)
+        shared = in_layers(model, before, contacts, increment, moment)
+        rates = wear_rates(model, contacts, shared, moment)
+        return Course(rates, shared, begun=begun if layered else None)
+    of_model = partial(_rates, model, before, list(layered), contacts, increment, moment)
+    start = [*before.values, *layered.values()]
+    limits = _limits(model, before)
+    limits += [Limits(-np.inf, np.inf, f"the depth of {name!r}", relaxes=False) for name in layered]
     values, depths, taken = integrated(
-        of_model, before.values, increment, _limits(model, before), plan
+        of_model, start, increment, limits, plan, of_steps=bool(layered)
     )
     each = iter(depths)
     mean = [
         {name: WearRate(np.maximum(next(each), 0.0) / increment) for name in model.laws}
         for _ in contacts
     ]
-    return Course(mean, before.with_values(iter(values)), taken)
+    return Course(mean, before.with_values(iter(values)), taken, begun if layered else None)
 
 
 def sloped(
@@ -114,7 +128,7 @@ def rested_memory(model: Model, state: State, time: float) -> Memory:
         return before
     rest = time - state.time
 
-    def rates(values: Sequence[Array], passed: float) -> Values:
+    def rates(values: Sequence[Array], passed: float, _: float) -> Values:
         between = dict(zip(before.between, values, strict=True))
         now = Moment(time - (1 - passed) * rest, state.distance, 0.0)
         changes = resting_rates(model, state.contacts, replace(before, between=between), now)
@@ -128,15 +142,25 @@ def rested_memory(model: Model, state: State, time: float) -> Memory:
 def _rates(
     model: Model,
     before: Memory,
+    layered: Sequence[str],
     contacts: Sequence[ContactSolution],
     increment: float,
     end: Moment,
     values: Sequence[Array],
     passed: float,
+    step: float,
 ) -> Values:
-    """Return the rates of what is remembered, where it lies, and the depths in the contact."""
+    """Return the rates of what is remembered, where it lies, and the depths in the contact.
+
+    Those of the depths of bodies in layers, which follow what is remembered, are means over a step.
+    """
     moment = end.back((1 - passed) * increment)
-    found = rates_at_each(model, contacts, before.with_values(iter(values)), moment)
+    each = iter(values)
+    now = before.with_values(each)
+    if layered:
+        now = replace(now, worn={**now.worn, **dict(zip(layered, each, strict=True))})
+        now = in_layers(model, now, contacts, step * increment, moment)
+    found = rates_at_each(model, contacts, now, moment)
     total: Values = [np.zeros_like(value) for value in values]
     for position, rates in enumerate(found):
         share = model.cycle[position].share
@@ -146,8 +170,9 @@ def _rates(
             for key in of_law
         )
         effects = (laid(model, key, rates.between[key], position) for key in before.between)
-        each = zip(total, (*laws, *effects), strict=True)
-        total = [value + share * rate for value, rate in each]
+        depths = (model.average(name, rates.wear[name].depth_rate, position) for name in layered)
+        pairs = zip(total, (*laws, *effects, *depths), strict=True)
+        total = [value + share * rate for value, rate in pairs]
     return total + [rate.depth_rate for rates in found for rate in rates.wear.values()]
 
 

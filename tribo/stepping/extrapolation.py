@@ -33,16 +33,17 @@ NUDGE = 1e-6
 """Part of a state by which it is moved to find how fast it relaxes."""
 
 Values = list[Array]
-Rates = Callable[[Sequence[Array], float], Values]
+Rates = Callable[[Sequence[Array], float, float], Values]
 
 
 @dataclass(frozen=True)
 class Limits:
-    """What one state may be, at the least and at the most, and what messages call it."""
+    """What one state may be, what messages call it, and whether it may relax within a step."""
 
     least: float
     most: float
     name: str
+    relaxes: bool = True
 
 
 @dataclass(frozen=True)
@@ -67,6 +68,8 @@ def integrated(
     length: float,
     limits: Sequence[Limits],
     plan: Plan | None = None,
+    *,
+    of_steps: bool = False,
 ) -> tuple[Values, Values, Plan]:
     """Return states after an increment, what other rates come to over it, and how it was divided.
 
@@ -78,8 +81,8 @@ def integrated(
     Parameters
     ----------
     rates : callable
-        The rates of the states, and after them those that are only integrated, at given states and
-        a part of the increment that has passed.
+        The rates of the states, and after them those that are only integrated, at given states, a
+        part of the increment that has passed, and the part over which they are taken as constant.
     start : sequence of ndarray
         The states at the beginning.
     length : float
@@ -89,6 +92,9 @@ def integrated(
     plan : Plan, optional
         Parts to begin with; they are divided, but never joined, so that the answer follows
         smoothly from the rates.
+    of_steps : bool, optional
+        Whether rates are the means over the part that they are told of, as where points pass from
+        layer to layer within it: they are asked anew for each length, and have no jumps.
 
     Raises
     ------
@@ -104,7 +110,7 @@ def integrated(
     """
     plan = plan or Plan()
     count, values = len(start), list(start)
-    first = rates(values, 0.0)
+    first = rates(values, 0.0, 1.0)
     begin, passed, missed = first, 0.0, 0.0
     sums = [np.zeros_like(rate) for rate in first[count:]]
     waiting, done = list(plan.parts), list[tuple[float, bool]]()
@@ -112,9 +118,12 @@ def integrated(
         part, relaxes = waiting[0]
         span = part * length
         along = partial(_along, rates, passed, part)
+        if of_steps:
+            first = along(values, 0.0, 1.0)
         slopes = _relaxing(along, values, first, span, limits) if relaxes else [0.0] * count
         stages = RELAXING if relaxes else PLAIN
-        best, rough, samples = _extrapolated(along, values, first, slopes, span, stages, limits)
+        found = _extrapolated(along, values, first, slopes, span, stages, limits, of_steps)
+        best, rough, samples = found
         sizes = [
             np.maximum(np.abs(old), np.abs(new)) for old, new in zip(values, best, strict=False)
         ]
@@ -124,9 +133,9 @@ def integrated(
         ]
         held = [_held(*each) for each in zip(best, limits, strict=False)]
         at_end = len(waiting) == 1 and math.isinf(plan.accuracy)
-        last = first if at_end else along(held, 1.0)
+        last = first if at_end or of_steps else along(held, 1.0, part)
         off = max(map(_relative, best, rough, sizes), default=0.0)
-        if off <= plan.accuracy < math.inf:
+        if off <= plan.accuracy < math.inf and not of_steps:
             off = max(off, _jump(samples, last, span, sums, count))
         beyond = [_beyond(*each) for each in zip(best, sizes, limits, strict=False)]
         left = max(beyond, default=0.0) > ACCURACY
@@ -181,10 +190,10 @@ def _looser(plan: Plan) -> Plan:
 
 
 def _along(
-    rates: Rates, passed: float, part: float, values: Sequence[Array], within: float
+    rates: Rates, passed: float, part: float, values: Sequence[Array], within: float, step: float
 ) -> Values:
-    """Return the rates at a place within a part of the increment, 0 to 1."""
-    return rates(values, passed + within * part)
+    """Return the rates at a place within a part of the increment, 0 to 1, over a step of it."""
+    return rates(values, passed + within * part, step * part)
 
 
 def _extrapolated(
@@ -195,6 +204,7 @@ def _extrapolated(
     length: float,
     stages: Sequence[int],
     limits: Sequence[Limits],
+    of_steps: bool,
 ) -> tuple[Values, Values, list[Sequence[Array]]]:
     """Return the last two columns of Neville's table: ends of the states, integrals of the rest.
 
@@ -204,12 +214,13 @@ def _extrapolated(
     samples: list[Sequence[Array]] = [first]
     for stage, steps in enumerate(stages):
         step = length / steps
-        states, found = list(start), first
+        states = list(start)
+        found = rates(start, 0.0, 1 / steps) if of_steps and steps > 1 else first
         sums = [np.zeros_like(rate) for rate in first[len(start) :]]
         for taken in range(steps):
             if taken:
                 trial = [_held(*each) for each in zip(states, limits, strict=True)]
-                found = rates(trial, taken / steps)
+                found = rates(trial, taken / steps, 1 / steps)
                 samples.append(found)
             sums = [
                 total + step * rate for total, rate in zip(sums, found[len(start) :], strict=True)
@@ -259,12 +270,12 @@ def _relaxing(
     found: list[Array | float] = []
     for index, (state, rate, limit) in enumerate(zip(states, first, limits, strict=False)):
         largest = max(float(np.max(np.abs(state))), length * float(np.max(np.abs(rate))))
-        if largest == 0:
+        if largest == 0 or not limit.relaxes:
             found.append(0.0)
             continue
         moved = state + NUDGE * largest
         moved = np.where(moved > limit.most, state - NUDGE * largest, moved)
-        nudged = rates([*states[:index], moved, *states[index + 1 :]], 0.0)[index]
+        nudged = rates([*states[:index], moved, *states[index + 1 :]], 0.0, 1.0)[index]
         found.append(np.minimum((nudged - rate) / (moved - state), 0.0))
     return found
 

@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.optimize import brentq
 
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
 from tribo.core.notices import Notice
 from tribo.core.state import BodyState, State
-from tribo.stepping.memory import Memory
+from tribo.stepping.memory import Memory, at_surface
 from tribo.stepping.rates import Moment, wear_rates
 
 if TYPE_CHECKING:
     from tribo.simulation.model import Model
 
-REACHED = 1e-9
+REACHED = 1e-10
 """Part of a layer that may be left where it counts as worn through: rounding."""
 
 
@@ -38,24 +40,47 @@ def in_layers(
     layered = {name: law.bottoms for name, law in model.laws.items() if law.bottoms}
     if not layered:
         return before
+    alone = partial(_alone, model, before, contacts, moment)
+    surface = {name: at_surface(bottoms, before.worn[name]) for name, bottoms in layered.items()}
+    at_once = alone(surface)
+    if all(_stays(layered[name], before.worn[name], at_once[name] * increment) for name in layered):
+        return replace(before, shares=surface)
     found: dict[str, list[Array]] = {name: [] for name in layered}
     for layer in range(1 + max(map(len, layered.values()))):
         everywhere = {
             name: only(min(layer, len(bottoms)), before.worn[name])
             for name, bottoms in layered.items()
         }
-        alone = wear_rates(model, contacts, replace(before, shares=everywhere), moment)
-        for name, rates in found.items():
-            total = np.zeros_like(before.worn[name])
-            for position, (place, of_bodies) in enumerate(zip(model.cycle, alone, strict=True)):
-                depth = model.average(name, of_bodies[name].depth_rate, position)
-                total = total + place.share * depth
-            rates.append(total)
+        for name, rate in alone(everywhere).items():
+            found[name].append(rate)
     shares = {
         name: over_increment(bottoms, before.worn[name], found[name], increment)
         for name, bottoms in layered.items()
     }
     return replace(before, shares=shares)
+
+
+def _alone(
+    model: Model,
+    before: Memory,
+    contacts: Sequence[ContactSolution],
+    moment: Moment,
+    shares: Mapping[str, Mapping[str, Array]],
+) -> dict[str, Array]:
+    """Return the depth per metre on each body in layers, were `shares` those of its layers."""
+    rates = wear_rates(model, contacts, replace(before, shares=shares), moment)
+    total = {name: np.zeros_like(before.worn[name]) for name in shares}
+    for position, (place, of_bodies) in enumerate(zip(model.cycle, rates, strict=True)):
+        for name in shares:
+            depth = model.average(name, of_bodies[name].depth_rate, position)
+            total[name] = total[name] + place.share * depth
+    return total
+
+
+def _stays(bottoms: Sequence[float], worn: Array, lost: Array) -> bool:
+    """Whether no point passes from a layer to the next."""
+    after = worn + lost
+    return all(not np.any((worn < bottom) & (after >= bottom)) for bottom in bottoms)
 
 
 def only(layer: int, worn: Array) -> dict[str, Array]:
@@ -110,30 +135,35 @@ def worn_through(
     model: Model,
     before: State,
     after: Mapping[str, BodyState],
-    memory: Memory,
     increment: float,
+    depths: Callable[[float], Mapping[str, Array]],
 ) -> Iterator[Notice]:
     """Yield a notice for each layer that a body's deepest point passes in a step.
 
-    It has the time and distance at which that is, under the pressures of the step.
+    It has the time and distance at which that is, under the pressures of the step: `depths` are
+    those that bodies lose over its first metres, in m.
     """
-    for name, shares in memory.shares.items():
-        bottoms = model.laws[name].bottoms
+    for name, law in model.laws.items():
         was, worn = before.bodies[name].wear, after[name].wear
-        spent = np.zeros_like(worn)
-        for layer, bottom in enumerate(bottoms):
-            spent = spent + shares[f"rate {layer}"]
+        for layer, bottom in enumerate(law.bottoms, start=1):
             reached = bottom * (1 - REACHED)
             if not np.max(was) < reached <= np.max(worn):
                 continue
-            distance = before.distance + increment * float(np.min(spent[worn >= reached]))
-            time = model.motion.time_at(distance)
+
+            def beyond(first: float, name: str = name, reached: float = reached) -> float:
+                lost = depths(first)[name] if first > 0 else 0.0
+                return float(np.max(before.bodies[name].wear + lost)) - reached
+
+            first = increment
+            if beyond(increment) > 0:
+                first = float(brentq(beyond, 0.0, increment, xtol=REACHED * increment))
+            distance = before.distance + first
             yield Notice(
                 "layer",
-                f"layer {layer + 1} of {name}, down to {1e6 * bottom:.4g} µm, is worn through at "
-                f"its deepest point after {distance:.6g} m, {time:.6g} s",
-                time,
+                f"layer {layer} of {name}, down to {1e6 * bottom:.4g} µm, is worn through at its "
+                "deepest point",
+                model.motion.time_at(distance),
                 distance,
                 name,
-                layer + 1,
+                layer,
             )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from dataclasses import field as in_dataclass
 from typing import TYPE_CHECKING
@@ -98,11 +98,16 @@ def state_of(model: Model, memory: Memory, name: str) -> dict[str, Array]:
     """
     shares = memory.shares.get(name, {})
     if not shares and model.laws[name].bottoms:
-        here = np.searchsorted(model.laws[name].bottoms, memory.worn[name], side="right")
-        for layer in range(1 + len(model.laws[name].bottoms)):
-            at_surface = np.asarray(here == layer, dtype=float)
-            shares = {**shares, f"rate {layer}": at_surface, f"slope {layer}": at_surface}
+        shares = at_surface(model.laws[name].bottoms, memory.worn[name])
     return {**memory.laws.get(name, {}), **shares}
+
+
+def at_surface(bottoms: Sequence[float], worn: Array) -> dict[str, Array]:
+    """Return the shares of each layer where points stay in the layer that is at the surface."""
+    here = np.searchsorted(bottoms, worn, side="right")
+    layers = {layer: np.asarray(here == layer, dtype=float) for layer in range(1 + len(bottoms))}
+    rates = {f"rate {layer}": share for layer, share in layers.items()}
+    return rates | {f"slope {layer}": share for layer, share in layers.items()}
 
 
 def laid(model: Model, key: str, rate: Array, position: int) -> Array:

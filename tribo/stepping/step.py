@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import reduce
 from typing import TYPE_CHECKING
@@ -14,6 +14,7 @@ from tribo.core.contact import ContactSolution
 from tribo.core.errors import CaseError, NumericalError, PluginError
 from tribo.core.loads import ByPosition
 from tribo.core.measures import Invariants, reaches_border
+from tribo.core.notices import Notice
 from tribo.core.state import BodyState, State
 from tribo.stepping.contacts import solve, solve_cycle, solved
 from tribo.stepping.events import Drawn, Solved, Worn, Yielded
@@ -207,7 +208,11 @@ def worn_by(model: Model, before: State, slid: Course, increment: float, moment:
             missed = between[name] if body.missed is None else body.missed + between[name]
             bodies[name] = replace(body, missed=missed)
     mean = model.loads.over_cycle(model.loads.mean(before.time, moment.time))
-    passed = worn_through(model, before, bodies, slid.memory, increment)
+    passed: Iterable[Notice] = ()
+    if (begun := slid.begun) is not None:
+        passed = worn_through(
+            model, before, bodies, increment, lambda m: worn_depths(model, begun(m).rates, m)
+        )
     return replace(
         before,
         time=moment.time,
