@@ -11,7 +11,7 @@ from tribo.core.contact import WearCompliance
 from tribo.core.errors import BadValues, PluginError
 from tribo.core.grid import Grid
 from tribo.motion.cycle import Position, Speeds
-from tribo.motion.exposure import Exposure
+from tribo.motion.exposure import Exposure, Passing, Stationary, Track
 from tribo.motion.kinematics import Kinematics
 from tribo.simulation.guard import Guard
 
@@ -132,7 +132,10 @@ class GuardedMotion(Guard[Kinematics]):
 
 
 class GuardedExposure(Guard[Kinematics]):
-    """An exposure of which every answer is checked; what is wrong names the motion it is from."""
+    """An exposure of which every answer is checked; what is wrong names the motion it is from.
+
+    Tribo's own are linear in finite rates, and so are asked themselves.
+    """
 
     def __init__(self, exposure: Exposure, motion: Kinematics, body: str, grid: Grid) -> None:
         super().__init__(motion)
@@ -146,6 +149,12 @@ class GuardedExposure(Guard[Kinematics]):
         self.averaged = exposure.averaged
         self.rows = exposure.rows or grid.cells[0]
         self._own = (self.rows, grid.cells[1])
+        if type(exposure) in (Stationary, Track, Passing):
+            lengths = np.asarray(getattr(exposure, "length", 1.0))
+            if not np.all((lengths > 0) & np.isfinite(lengths)):
+                raise BadValues(f"{self} has a track of length {lengths!s:.60} m")
+            for name in ("average", "envelope", "volume", "compliance"):
+                setattr(self, name, getattr(exposure, name))
 
     def __str__(self) -> str:
         """Return what messages call it."""

@@ -165,6 +165,12 @@ class Model:
         return frozenset(name for name, exposure in self.exposures.items() if exposure.swept)
 
     @cached_property
+    def changing(self) -> tuple[str, ...]:
+        """Names of the swept bodies that change their shape."""
+        alter = {*self.laws, *(name for name, share in self.plastic_share.items() if share > 0)}
+        return tuple(name for name in self.bodies if name in self.swept & alter)
+
+    @cached_property
     def couples(self) -> bool:
         """Whether the positions of the cycle are solved together, with the wear they share."""
         along = self.grid.cells[0]

@@ -117,7 +117,7 @@ def _track_length(model: Model, name: str) -> float:
 
 def check_stroke(model: Model, state: State) -> None:
     """Raise `CaseError` if averaging makes no sense for the first contact, in `state`."""
-    if not _changing(model):
+    if not model.changing:
         return
     half_width = half_widths(state.contact, model.grid)[0]
     with located("kinematics"):
@@ -132,8 +132,7 @@ def check_stroke(model: Model, state: State) -> None:
 def limitation(model: Model, state: State) -> str | None:
     """Return why the track average does not hold in `state`, if so."""
     seen = half_width, *_ = track_average(model, state)
-    words = model.motion.limitation(*seen)
-    return words if average_matters(model, half_width) else None
+    return model.motion.limitation(*seen) if average_matters(model, half_width) else None
 
 
 def track_average(model: Model, state: State) -> tuple[float, float, float, float]:
@@ -142,7 +141,7 @@ def track_average(model: Model, state: State) -> tuple[float, float, float, floa
     The contact's half-width along x, the depth of the track and the approach of the first contact,
     in m, and the ratio of the volumes lost.
     """
-    depths = [float(np.max(state.bodies[name].wear)) for name in _changing(model)]
+    depths = [float(np.max(state.bodies[name].wear)) for name in model.changing]
     half_width = half_widths(state.contact, model.grid)[0]
     ratio = _volume_ratio(model, state)
     return half_width, max(depths, default=0.0), state.reference_depth, ratio
@@ -150,7 +149,7 @@ def track_average(model: Model, state: State) -> tuple[float, float, float, floa
 
 def average_matters(model: Model, half_width: float) -> bool:
     """Whether a swept body changes its shape, in a contact that has ends."""
-    return bool(_changing(model)) and not _is_endless(model, half_width)
+    return bool(model.changing) and not _is_endless(model, half_width)
 
 
 def _is_endless(model: Model, half_width: float) -> bool:
@@ -193,12 +192,3 @@ def positions_for(model: Model, first: ContactSolution) -> int | None:
     path = max(starts[0]) - min(starts[0])
     spacing = spacing_for(first.pressure, FINE, repeats=model.contact.periodic)
     return 2 * math.ceil(0.5 * path / spacing) + 1
-
-
-def _changing(model: Model) -> list[str]:
-    """Return the names of the swept bodies that change their shape."""
-    return [
-        name
-        for name in model.bodies
-        if name in model.swept and (name in model.laws or model.plastic_share[name] > 0)
-    ]
