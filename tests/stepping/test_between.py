@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from paper_models import K, archard, flat, foundation, motion, named, small, sphere, states, steel
-from strangers.debris import Covered, Debris
+from strangers.debris import Covered, Debris, Filling
 
 from tribo import (
     CaseError,
@@ -125,9 +125,12 @@ class Kill(Observer):
             raise KeyboardInterrupt
 
 
-@pytest.mark.parametrize("on", [None, "disk"])
-def test_a_resumed_run_has_the_same_bits(tmp_path, on):
-    case = model(effects=[Debris(length="0.5 m", on=on), Bath()], save_times=(2,)).case
+LYING = [Filling(length="0.5 m"), Debris(length="0.5 m", on="disk")]
+
+
+@pytest.mark.parametrize("debris", LYING)
+def test_a_resumed_run_has_the_same_bits(tmp_path, debris):
+    case = model(effects=[debris, Bath()], save_times=(2,)).case
     with Simulation(case).run() as whole:
         expected = whole.dataset.load()
     path = tmp_path / "run.h5"
@@ -157,9 +160,9 @@ def test_the_result_has_it_without_being_asked(tmp_path):
     assert "between the bodies warm_K" in shown
 
 
-@pytest.mark.parametrize("on", [None, "disk"])
-def test_a_run_that_begins_worn_goes_on_with_it(tmp_path, on):
-    effects = [Debris(length="0.5 m", on=on), Bath()]
+@pytest.mark.parametrize("debris", LYING)
+def test_a_run_that_begins_worn_goes_on_with_it(tmp_path, debris):
+    effects = [debris, Bath()]
     case = model(effects=effects, kinematics=motion(duration=0.5)).case
     with Simulation(case).run(tmp_path / "worn.h5"):
         pass
@@ -168,6 +171,8 @@ def test_a_run_that_begins_worn_goes_on_with_it(tmp_path, on):
     first = begin(assemble(begun))
     for name, values in last.between.items():
         np.testing.assert_array_equal(first.between[name], values)
+    pressure = last.contact.pressure
+    np.testing.assert_allclose(first.contact.pressure, pressure, atol=1e-6 * pressure.max())
 
 
 class Runaway(Effect):

@@ -130,6 +130,30 @@ def test_what_it_carries_does_not_wear(law):
     assert lost[1] == pytest.approx(0.75**power * lost[0], rel=1e-9, abs=0)
 
 
+class Above(Effect):
+    """A film on all others: it carries as much as these do."""
+
+    type = "test.above"
+    requires = ("load_share",)
+    provides = (LOAD_SHARE,)
+
+    def fields(self, contact):
+        return {"load_share": contact.fields["load_share"]}
+
+
+def test_each_of_several_takes_its_part_of_what_the_others_leave():
+    shape = pin(archard())
+    effects = [Above(), Film(share=0.5), Film(share=0.2)]
+    with run(**shape) as dry, run(effects=effects, **shape) as wet:
+        lost = [r.saves()[-1]["bodies"]["pin"]["wear_volume_m3"] for r in (dry, wet)]
+        share = wet.body("pin").effects["load_share"][-1]
+    left = 0.5 * 0.8 * (1 - 0.6)
+    assert lost[1] == pytest.approx(left * lost[0], rel=1e-9, abs=0)
+    np.testing.assert_allclose(share, 1 - left, rtol=1e-12)
+    with pytest.raises(CaseError, match=r"needs load_share.*these effects wait for one another"):
+        run(effects=[Above(), Above()])
+
+
 def test_more_than_the_load_is_refused():
     with pytest.raises(PluginError, match="'load_share' for body 'ball' that is above 1"):
         run(effects=[Film(share=1.5)])

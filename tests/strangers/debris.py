@@ -1,6 +1,7 @@
 """A stranger's third body: debris that wear feeds, sliding ejects, and that protects."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Annotated
 
 import numpy as np
@@ -39,6 +40,14 @@ class Debris(Effect):
         source = self.caught * sum(contact.wear_rates.values())
         leaving = np.where(contact.pressure > 0, contact.state[THICKNESS.name] / self.length, 0.0)
         return {THICKNESS.name: contact.speed * (source - leaving)}
+
+
+class Filling(Debris):
+    """Debris on which the bodies meet."""
+
+    type = "stranger.filling"
+
+    state_fields = (replace(THICKNESS, fills=True),)
 
 
 class Covered(WearLaw):

@@ -29,6 +29,9 @@ class Field:
     uniform : bool, optional
         Whether the state of an effect is one number, as the temperature of a bath, and not one at
         each point.
+    fills : bool, optional
+        Whether a state is a height, in m, that fills the gap: the bodies meet on it, as on debris
+        or on a film that has grown.
     """
 
     name: str
@@ -38,6 +41,7 @@ class Field:
     at_most: float | None = None
     typical: float | None = None
     uniform: bool = False
+    fills: bool = False
 
     def __str__(self) -> str:
         return f"{self.name} [{self.unit}] {self.description}"
@@ -84,6 +88,12 @@ def check_declared(owner: object, who: str) -> None:
                 )
             if names.count(name) > 1:
                 raise TypeError(f"{where}: the field {name!r} is declared twice")
+        for each in fields:
+            if each.fills and (each.unit != "m" or attribute == "provides"):
+                raise TypeError(
+                    f"{where}: {each.name!r} cannot fill the gap: only a height that is kept as "
+                    "state (state_fields) can, in m"
+                )
     required = getattr(owner, "requires", ())
     named = isinstance(required, tuple | list) and all(isinstance(n, str) for n in required)
     if not (named or isinstance(required, property)):

@@ -56,13 +56,13 @@ def first_state(model: Model) -> State:
         bodies[name] = replace(body, law={k: found.get((name, k), v) for k, v in body.law.items()})
     # Older files lack it; their load was constant.
     load_distance = result.system.load * carried["distance_m"]
+    places = {key: _place(model, key) for key in model.between}
+    between = {key: found[at, key] for key, at in places.items() if (at, key) in found}
     state = replace(
-        first_contact(model, bodies),
+        first_contact(model, bodies, between),
         load_distance=carried.get("load_distance_N_m", load_distance),
         friction_energy=carried.get("friction_energy_J", 0.0),
     )
-    between = {key: found.get((_place(model, key), key), v) for key, v in state.between.items()}
-    state = replace(state, between=between)
     return state.with_notice(
         "begin",
         f"the bodies begin as worn as in {begin.result} at {carried['time_s']:g} s; wear depths, "

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from tribo.case import Case
 from tribo.core.errors import CaseError
-from tribo.core.fields import FRICTION_COEFFICIENT, PLACE_X, PLACE_Y, Field
+from tribo.core.fields import FRICTION_COEFFICIENT, LOAD_SHARE, PLACE_X, PLACE_Y, Field
 from tribo.effects.effect import Effect
 
 
@@ -18,7 +18,8 @@ def in_order(case: Case) -> tuple[Effect, ...]:
     MissingFieldError
         If an effect or a wear law requires what nothing provides.
     CaseError
-        If a field is provided twice, or has the name of what a wear law remembers.
+        If a field but the share of the load is provided twice, or has the name of what a wear law
+        remembers.
     """
     known = {PLACE_X.name, PLACE_Y.name}
     of_laws = {f.name for b in case.bodies.values() if b.wear for f in b.wear.state_fields}
@@ -32,16 +33,29 @@ def in_order(case: Case) -> tuple[Effect, ...]:
     ordered: list[Effect] = []
     waiting = list(case.effects)
     while waiting:
-        ready = next((e for e in waiting if set(e.requires) <= known | of_laws), None)
+        # What several provide is known once all have.
+        sharing = [e for e in waiting if LOAD_SHARE.name in _provided(e)]
+        ready = next(
+            (
+                e
+                for e in waiting
+                if set(e.requires) <= known | of_laws
+                and (LOAD_SHARE.name not in e.requires or sharing in ([], [e]))
+            ),
+            None,
+        )
         if ready is None:
             first = waiting[0]
-            missing = sorted(set(first.requires) - known - of_laws)
+            missing = sorted(set(first.requires) - known - of_laws) or [LOAD_SHARE.name]
             text = _missing(f"effect {first.type!r}", missing, waiting)
             raise MissingFieldError(text, "effects", missing)
+        shared = (
+            {LOAD_SHARE.name} if any(LOAD_SHARE.name in _provided(e) for e in ordered) else set()
+        )
         waiting.remove(ready)
         ordered.append(ready)
         for field in ready.provides:
-            if field.name in known | of_laws:
+            if field.name in (known | of_laws) - shared:
                 raise _twice(field, ready)
             known.add(field.name)
     for name, body in case.bodies.items():
@@ -50,6 +64,10 @@ def in_order(case: Case) -> tuple[Effect, ...]:
                 text = _missing(f"wear law {law.type!r}", missing, [])
                 raise MissingFieldError(text, f"bodies.{name}.wear", missing)
     return tuple(ordered)
+
+
+def _provided(effect: Effect) -> set[str]:
+    return {field.name for field in effect.provides}
 
 
 def _twice(field: Field, effect: Effect) -> CaseError:
@@ -68,9 +86,7 @@ class MissingFieldError(CaseError):
 def _missing(who: str, missing: Sequence[str], waiting: Sequence[Effect]) -> str:
     if list(missing) == [FRICTION_COEFFICIENT.name]:
         return f"{who} needs a coefficient of friction: add [friction] coefficient = …"
-    in_circle = [
-        effect.type for effect in waiting if any(field.name in missing for field in effect.provides)
-    ]
+    in_circle = [effect.type for effect in waiting if _provided(effect) & set(missing)]
     if in_circle:
         return (
             f"{who} needs {', '.join(missing)}, which {', '.join(in_circle)} provides, but these "

@@ -114,6 +114,13 @@ class Model:
         return {f.name: (effect, f) for effect in self.effects for f in effect.state_fields}
 
     @cached_property
+    def filling(self) -> tuple[tuple[str | None, str], ...]:
+        """The state fields that fill the gap, with the body whose law has them; None of effects."""
+        of_laws = ((name, f) for name, law in self.laws.items() for f in law.state_fields)
+        of_effects = ((None, f) for effect in self.effects for f in effect.state_fields)
+        return tuple((body, f.name) for body, f in (*of_laws, *of_effects) if f.fills)
+
+    @cached_property
     def required(self) -> frozenset[str]:
         """Names of the fields that laws and effects need."""
         of_laws = (name for law in self.laws.values() for name in law.requires)

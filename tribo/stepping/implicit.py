@@ -19,7 +19,7 @@ from tribo.core.units import Quantity
 from tribo.stepping.contacts import solve_cycle
 from tribo.stepping.evolution import Course, course, sloped
 from tribo.stepping.linear_wear import linear_wear
-from tribo.stepping.memory import remembered
+from tribo.stepping.memory import Memory, filling, remembered
 from tribo.stepping.rates import Moment, wear_rates
 from tribo.stepping.repeated import check_repeatable
 from tribo.stepping.scheme import Scheme
@@ -95,13 +95,14 @@ class Guess:
     """What a step would wear if its contacts were these.
 
     `worn` has the depth by body, on the body's surface; `depths` what it adds to the gap at each
-    position, shape (positions, nx, ny), in m.
+    position, and `filled` what fills it, of the shape (positions, nx, ny), in m.
     """
 
     contacts: Sequence[ContactSolution]
     course: Course
     worn: Mapping[str, Array]
     depths: Array
+    filled: Array
 
 
 class Implicit(Scheme):
@@ -219,7 +220,7 @@ class Implicit(Scheme):
             if state.rates
             else slide(contacts=state.contacts, moment=begin)
         )
-        guess = _guess(model, state.contacts, slid, increment)
+        guess = _guess(model, before, state.contacts, slid, increment)
         loads = model.loads.mean(state.time, time)
         heavier = loads[0] / model.loads.after(state.time)[0]
         forward = {name: heavier * depth for name, depth in guess.worn.items()}
@@ -227,8 +228,8 @@ class Implicit(Scheme):
         while True:
             rates = sloped(model, before, guess.contacts, increment, moment, guess.course)
             wear = linear_wear(model, rates, guess.contacts, increment)
-            # Of what is worn, the part that is not linear in the pressures.
-            beyond = guess.depths - wear.depths(guess.contacts, dx)
+            # Of what changes the gap, the part that is not linear in the pressures.
+            beyond = guess.depths - guess.filled - wear.depths(guess.contacts, dx)
             try:
                 contacts = solve_cycle(model, base + beyond, loads, guess.contacts, wear)
             except PluginError:
@@ -238,10 +239,10 @@ class Implicit(Scheme):
             implied = beyond + wear.depths(contacts, dx)
             solved, passes = counted(solved, contacts), passes + 1
             slid = slide(contacts=contacts, moment=moment, plan=guess.course.plan)
-            guess = _guess(model, contacts, slid, increment)
-            off = np.abs(guess.depths - implied)
+            guess = _guess(model, before, contacts, slid, increment)
+            off = np.abs(guess.depths - guess.filled - implied)
             mismatch = _loaded_mean(model, contacts, off) if resolved else _largest(off)
-            if mismatch <= tolerance * _largest(guess.depths):
+            if mismatch <= tolerance * max(_largest(guess.depths), _largest(guess.filled)):
                 break
             if passes == self.max_passes:
                 raise StepRejected(
@@ -316,14 +317,19 @@ def _fitted(natural: float, remaining: float, last: float) -> float:
 
 
 def _guess(
-    model: Model, contacts: Sequence[ContactSolution], slid: Course, increment: float
+    model: Model,
+    before: Memory,
+    contacts: Sequence[ContactSolution],
+    slid: Course,
+    increment: float,
 ) -> Guess:
     worn = worn_depths(model, slid.rates, increment)
     depths = np.zeros((len(contacts), *model.grid.cells))
     for position, depth in enumerate(depths):
         for name, of_body in worn.items():
             depth += model.under(name, of_body, position)
-    return Guess(contacts, slid, worn, depths)
+    filled = filling(model, slid.memory) - filling(model, before)
+    return Guess(contacts, slid, worn, depths, filled)
 
 
 def _first_increment(model: Model, state: State, remaining: float) -> float:

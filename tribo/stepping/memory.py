@@ -91,6 +91,16 @@ def under(model: Model, memory: Memory, position: int) -> Memory:
     return Memory(laws, between, worn, shares)
 
 
+def filling(model: Model, memory: Memory) -> Array:
+    """Return the height of what fills the gap at each position, (positions, nx, ny), in m."""
+    heights = np.zeros((len(model.cycle), *model.grid.cells))
+    for position, height in enumerate(heights if model.filling else ()):
+        here = under(model, memory, position)
+        for body, key in model.filling:
+            height += here.between[key] if body is None else here.laws[body][key]
+    return heights
+
+
 def state_of(model: Model, memory: Memory, name: str) -> dict[str, Array]:
     """Return what the law of a body is told of its state where the window is, at a position.
 

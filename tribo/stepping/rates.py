@@ -253,7 +253,16 @@ def local_fields(
     for effect in model.effects:
         if effect.provides:
             conditions = _conditions(model, pressure, moment, fields, effect, memory)
-            fields |= effect.fields(conditions)
+            found, before = effect.fields(conditions), fields.get(LOAD_SHARE.name)
+            if before is not None and LOAD_SHARE.name in found:
+                # It takes its part of what those before it leave.
+                left = {
+                    name: (1 - before[name]) * (1 - s) for name, s in found[LOAD_SHARE.name].items()
+                }
+                found[LOAD_SHARE.name] = {
+                    name: readonly(1 - values) for name, values in left.items()
+                }
+            fields |= found
     return fields
 
 

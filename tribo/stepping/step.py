@@ -22,7 +22,7 @@ from tribo.stepping.evolution import Course, rested_memory
 from tribo.stepping.friction import friction_work
 from tribo.stepping.invariants import ONE_LOAD, wear_balance
 from tribo.stepping.layers import worn_through
-from tribo.stepping.memory import first_memory
+from tribo.stepping.memory import filling, first_memory, remembered
 from tribo.stepping.rates import CycleRates, Moment
 
 if TYPE_CHECKING:
@@ -35,7 +35,11 @@ SMALLEST = 1e-12
 """Of the distance until the next stop: a shorter step would drown in rounding."""
 
 
-def first_contact(model: Model, worn: Mapping[str, BodyState] | None = None) -> State:
+def first_contact(
+    model: Model,
+    worn: Mapping[str, BodyState] | None = None,
+    between: Mapping[str, Array] | None = None,
+) -> State:
     """Solve the contact before any sliding, plastic flow included.
 
     Parameters
@@ -44,6 +48,8 @@ def first_contact(model: Model, worn: Mapping[str, BodyState] | None = None) -> 
         The composed case.
     worn : Mapping[str, BodyState], optional
         The bodies, by name, if they are worn already.
+    between : Mapping[str, ndarray], optional
+        State fields of effects, by name, that do not start at their initial values.
 
     Raises
     ------
@@ -60,9 +66,9 @@ def first_contact(model: Model, worn: Mapping[str, BodyState] | None = None) -> 
         increment=0.0,
         reference_depth=0.0,
         load_distance=0.0,
-        between=first_memory(model),
+        between={**first_memory(model), **(between or {})},
     )
-    gaps = model.gaps if worn is None else undeformed(model, state)
+    gaps = undeformed(model, state) if worn is not None or model.filling else model.gaps
     solutions: dict[tuple[int, float], ContactSolution] = {}
     asked = [(id(gap), load) for gap, load in zip(gaps, model.loads.after(0.0), strict=True)]
     for gap, key in zip(gaps, asked, strict=True):
@@ -104,8 +110,11 @@ def _unworn(model: Model) -> dict[str, BodyState]:
 
 
 def undeformed(model: Model, state: State) -> Array:
-    """Return the gap at each position, worn and plastically deformed, (positions, nx, ny), in m."""
-    gaps = np.stack(model.gaps)
+    """Return the gap at each position, worn, plastically deformed and filled, in m.
+
+    Shape (positions, nx, ny).
+    """
+    gaps = np.stack(model.gaps) - filling(model, remembered(state))
     for position, gap in enumerate(gaps):
         for name, body in state.bodies.items():
             gap += model.under(name, body.wear, position)
