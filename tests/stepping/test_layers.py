@@ -21,6 +21,7 @@ from tribo import (
 )
 from tribo.core.errors import Interrupted
 from tribo.core.fields import LOAD_SHARE
+from tribo.simulation.predict import predict
 from tribo.stepping.layers import over_increment
 
 K, PRESSURE, COATING = 1e-15, 10e6, 2e-6
@@ -162,6 +163,8 @@ def test_a_ball_wears_through_at_a_distance_that_converges_with_the_grid():
     # 3.64 m by extrapolation from 32, 48 and 64 cells.
     assert found[1] == pytest.approx(3.64, rel=0.02)
     assert abs(found[1] - 3.64) < abs(found[0] - 3.64)
+    (foreseen,) = predict(Simulation(ball(48)).model).worn_through
+    assert foreseen["distance_m"] == pytest.approx(found[1], rel=0.03)
 
 
 def test_the_elasticity_of_a_layer_reaches_the_contact():
@@ -174,6 +177,9 @@ def test_the_elasticity_of_a_layer_reaches_the_contact():
             peaks.append(result.saves()[0]["max_pressure_Pa"])
             assert result.report().first_contact.hertz_peak_pressure_Pa is None
     assert 1.1 * peaks[0] < peaks[1] < 2 * peaks[0]
+    below, above = predict(Simulation(case).model).hertz_bounds
+    assert below.peak_pressure == pytest.approx(peaks[0], rel=0.02)
+    assert peaks[1] < above.peak_pressure
 
 
 class Stop(Observer):

@@ -14,7 +14,7 @@ from rich.text import Text
 from tribo.cli.console import Console
 from tribo.cli.options import CASE, JSON, SET, echo_json
 from tribo.core.errors import CaseError, NumericalError
-from tribo.lab.first_contact import computed_pressure, yield_words
+from tribo.lab.first_contact import HertzContact, computed_pressure, yield_words
 from tribo.simulation.model import Model
 from tribo.simulation.predict import Prediction
 
@@ -71,6 +71,13 @@ def _rows(rows: Iterable[tuple[str, str]]) -> Table:
     return table
 
 
+def _widths(hertz: HertzContact) -> str:
+    a, b = 1e6 * hertz.half_width_x, 1e6 * hertz.half_width_y
+    if hertz.is_line:
+        return f"{min(a, b):.4g} µm of a line contact"
+    return f"{a:.4g} × {b:.4g} µm along × across"
+
+
 def _facts(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
     """Yield the first contact, the end and the size of the run, each with its name."""
     hertz, first, last = prediction.hertz, prediction.first, prediction.last
@@ -80,14 +87,18 @@ def _facts(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
     if begin := model.case.begin:
         most = f"p max {1e-6 * first.max_pressure:.1f} MPa"
         yield "first contact", f"of the bodies as worn in {begin.result}: {most}"
+    elif prediction.hertz_bounds:
+        below, above = prediction.hertz_bounds
+        said = "{} without the layer, {} of the layer throughout"
+        yield "Hertz half-widths", said.format(_widths(below), _widths(above))
+        peaks = (f"{1e-6 * each.peak_pressure:.1f} MPa" for each in (below, above))
+        _, computed = computed_pressure(model.system, first.max_pressure, first.centre_pressure)
+        yield "Hertz peak pressure p0", f"{said.format(*peaks)}, computed {computed}"
     elif hertz is None or prediction.cells_across is None:
         yield "first contact", "no Hertz solution for these surfaces"
     else:
-        a, b, p0 = hertz.half_width_x, hertz.half_width_y, hertz.peak_pressure
-        widths = f"{1e6 * a:.4g} × {1e6 * b:.4g} µm along × across"
-        if hertz.is_line:
-            widths = f"{1e6 * min(a, b):.4g} µm of a line contact"
-        yield "Hertz half-widths", widths
+        p0 = hertz.peak_pressure
+        yield "Hertz half-widths", _widths(hertz)
         pressure, computed = computed_pressure(
             model.system, first.max_pressure, first.centre_pressure
         )
@@ -113,5 +124,10 @@ def _facts(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
         for name, body in last.bodies.items():
             worn = f"{1e6 * body.max_wear_depth:.3g} µm, {1e9 * body.wear_volume:.3g} mm³"
             yield f"wear of {name}, about", worn
+        for passed in prediction.worn_through:
+            when = f"{passed['distance_m']:.3g} m, {passed['time_s']:.3g} s"
+            yield f"layer {passed['layer']} of {passed['body']} worn through, about", when
+        if any(body.layers for body in model.case.bodies.values()) and not prediction.worn_through:
+            yield "layers", "none is worn through"
     yield "memory, at most", f"{prediction.memory / 2**20:.0f} MiB"
     yield "result file, at most", f"{prediction.file_size / 2**20:.1f} MiB"

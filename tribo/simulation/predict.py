@@ -7,8 +7,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from tribo.contact.coated import surface_modulus
+from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError, NumericalError, PluginError
 from tribo.core.measures import Measures
+from tribo.core.notices import worn_through
 from tribo.core.state import State
 from tribo.lab.first_contact import HertzContact, hertz_contact
 from tribo.result.provenance import stated_facts
@@ -45,11 +48,16 @@ class Prediction:
         The first contact.
     hertz : HertzContact or None
         The same by Hertz's theory.
+    hertz_bounds : tuple of HertzContact or None
+        Where a body has an elastic layer, those of the bodies without it, and of bodies that are
+        of the layer throughout: the first contact lies between the two.
     cells_across : tuple of float or None
         Cells across Hertz's contact along x and y.
     last : Measures or None
         The end of a run on a coarse grid in a wider window, good to some
         percent; None where that could not be computed.
+    worn_through : tuple of Mapping[str, object]
+        Layers that it wears through, as in a result: body, layer, distance (m) and time (s).
     window_holds : bool or None
         Whether the contact stays inside the window; None where unknown.
     limitation : str or None
@@ -71,8 +79,10 @@ class Prediction:
 
     first: Measures
     hertz: HertzContact | None
+    hertz_bounds: tuple[HertzContact, HertzContact] | None
     cells_across: tuple[float, float] | None
     last: Measures | None
+    worn_through: tuple[Mapping[str, object], ...]
     window_holds: bool | None
     limitation: str | None
     positions: int
@@ -89,12 +99,13 @@ class CoarseRun:
     """The end of a coarse run, and when its contact outgrew the case's window.
 
     `outgrown` is in s; None if it did not. `limitation` is what the motion says of its averaging at
-    the end. `error` is why there is no end.
+    the end, and `worn_through` which layers were by then. `error` is why there is no end.
     """
 
     last: Measures | None
     outgrown: float | None = None
     limitation: str | None = None
+    worn_through: tuple[Mapping[str, object], ...] = ()
     error: CaseError | NumericalError | None = None
 
 
@@ -140,8 +151,10 @@ def predict(model: Model) -> Prediction:
     return Prediction(
         first=first,
         hertz=hertz,
+        hertz_bounds=_bounds(model.system) if hertz is None and not model.case.begin else None,
         cells_across=across,
         last=last,
+        worn_through=coarse.worn_through,
         window_holds=holds,
         limitation=coarse.limitation,
         positions=len(model.cycle),
@@ -152,6 +165,18 @@ def predict(model: Model) -> Prediction:
         problems=tuple(problem for problem in problems if problem is not None),
         exit_code=next((code for code, text in stopping if text is not None and code), 0),
     )
+
+
+def _bounds(system: ContactSystem) -> tuple[HertzContact, HertzContact] | None:
+    """Return Hertz's contacts of coated bodies without the layers, and of the layers throughout."""
+    if not system.coatings:
+        return None
+    bare = replace(system, coatings={})
+    below, above = (
+        hertz_contact(bare),
+        hertz_contact(replace(bare, modulus=surface_modulus(system))),
+    )
+    return None if below is None or above is None else (below, above)
 
 
 def _unsettled(model: Model, state: State) -> str | None:
@@ -208,5 +233,6 @@ def _coarse_run(model: Model, first: Measures) -> CoarseRun:
             measure(coarse, state),
             outgrown,
             limitation(replace(coarse, motion=model.motion), state),
+            tuple(worn_through(state.notices)),
         )
     return CoarseRun(None, error=failed)
