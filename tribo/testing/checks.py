@@ -15,9 +15,11 @@ import numpy as np
 from tribo.component import Component
 from tribo.core.arrays import Array
 from tribo.core.dimensions import scale
+from tribo.core.errors import CaseError
 from tribo.testing.child import Lost, Unknown, child
 from tribo.testing.compare import (
     CheckFailed,
+    NotApplicable,
     expect_close,
     first_difference,
     locked,
@@ -26,6 +28,8 @@ from tribo.testing.compare import (
 )
 from tribo.testing.rescaling import UNITS, in_other_units, rescaled
 
+BODIES = ("ball", "disk")
+"""Names of the bodies that components are tried with."""
 FieldValue = float | Callable[[Array], Array]
 """The value of a local field, or how it follows from the pressure."""
 
@@ -86,6 +90,12 @@ class Checks(ABC):
 
     def _answers(self, component: Any, number: int = 0) -> Mapping[str, Any]:
         return self._call(component, locked(self._inputs(component, number)))
+
+    def _refused(self, error: CaseError) -> Exception:
+        """Return what bodies of other names come to, which a component refused."""
+        if any(f'"{name}"' in self._config.model_dump_json() for name in BODIES):
+            return NotApplicable(f"its configuration names the bodies: {error}")
+        return CheckFailed(f"its configuration names no body, but it refuses other names: {error}")
 
     def objects_are_frozen_and_know_their_keys(self) -> None:
         """An object cannot be changed, and a key that it does not have is an error."""

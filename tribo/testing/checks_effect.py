@@ -14,10 +14,9 @@ from tribo.core.fields import ContactConditions, LocalConditions, WearRate
 from tribo.core.grid import Grid
 from tribo.simulation.guards import GuardedEffect
 from tribo.testing import samples
-from tribo.testing.ageing import aged
+from tribo.testing.checks import BODIES
 from tribo.testing.checks_local import LocalChecks
 from tribo.testing.compare import (
-    NotApplicable,
     apply_if,
     expect_close,
     first_difference,
@@ -30,6 +29,7 @@ from tribo.wear.law import WearLaw
 
 _LONGEST = 60.0
 """Time for which a state has been there at most, in s."""
+_FAR = 100.0
 
 
 class EffectChecks(LocalChecks):
@@ -39,34 +39,37 @@ class EffectChecks(LocalChecks):
     _per = "s"
 
     def _inputs(self, component: Any, number: int) -> ContactConditions:
-        return self._remembering(samples.contact_conditions(component, self._fields, number))
+        return self._lasting(samples.contact_conditions(component, self._fields, number))
 
-    def _remembering(self, given: ContactConditions) -> ContactConditions:
+    def _lasting(self, given: ContactConditions) -> ContactConditions:
         """Return conditions with a state that each point has had for a time of its own."""
-        effect = self._make()
-
-        def rates(state: Mapping[str, Array]) -> Mapping[str, Array]:
-            found: Mapping[str, Array] = effect.state_rates(replace(given, state=state))
-            return found
-
         if not given.state:
             return given
-        time = _LONGEST * samples.pattern(GRID.cells) ** 3
-        return replace(given, state=aged(effect.state_fields, rates, given.state, time))
+        lasting: ContactConditions = self._remembering(
+            given, _LONGEST * samples.pattern(GRID.cells) ** 3
+        )
+        return lasting
+
+    def _rates(self, component: Any, given: Any) -> Mapping[str, Array]:
+        rates: Mapping[str, Array] = component.state_rates(given)
+        return rates
 
     def _call(self, component: Any, inputs: Any) -> Mapping[str, Any]:
         fields = component.fields(replace(inputs, wear_rates={}))
+        provided = {name: dict(values) for name, values in fields.items()}
         rates = component.state_rates(inputs) if inputs.state else {}
-        return {name: dict(values) for name, values in fields.items()} | {
-            f"the rate of {name!r}": values for name, values in rates.items()
-        }
+        return {**provided, **self._state_answers(component, rates)}
 
     def answers_fit_a_run(self) -> None:
-        """Each declared field comes for each body, finite, within its limits, on the window."""
-        effect = GuardedEffect(self._make(), samples.BODIES)
+        """Each declared field comes for each body, finite, within its limits, on the window.
+
+        At rest too, and however far its state has gone.
+        """
+        effect = GuardedEffect(self._make(), BODIES)
         for given in self._samples(effect.component):
-            effect.fields(replace(given, wear_rates={}))
-            effect.state_rates(given)
+            for at in (given, replace(given, speed=0.0), _gone_far(effect, given)):
+                effect.fields(replace(at, wear_rates={}))
+                effect.state_rates(at)
 
     def bodies_may_have_any_names(self) -> None:
         """Nothing depends on names and order of the bodies, unless its configuration has names."""
@@ -78,10 +81,15 @@ class EffectChecks(LocalChecks):
             GuardedEffect(effect, names)
             effect.check(given.materials, given.swept)
         except CaseError as error:
-            raise NotApplicable(f"its configuration names the bodies: {error}") from error
-        given = self._remembering(given)
-        turned = replace(given, materials=dict(reversed([*given.materials.items()])))
-        back = dict(zip(names, samples.BODIES, strict=True))
+            raise self._refused(error) from error
+        given = self._lasting(given)
+        turned = replace(
+            given,
+            materials=_turned(given.materials),
+            wear_rates=_turned(given.wear_rates),
+            fields={name: _turned(values) for name, values in given.fields.items()},
+        )
+        back = dict(zip(names, BODIES, strict=True))
         for asked, how in ((given, f"are called {names}"), (turned, "change places")):
             answers = {
                 field: {back.get(n, n): v for n, v in of.items()} if isinstance(of, dict) else of
@@ -120,24 +128,39 @@ class EffectChecks(LocalChecks):
                     needed = 0.5 * (np.asarray(more[name][body]) - np.asarray(less[name][body]))
                     expect_close(f"change of {name!r} by its slope", found, needed, 1e-4)
 
-    def only_declared_fields_are_asked_for(self) -> None:
-        """It asks for no field but those in `requires`."""
+    def fields_follow_no_wear(self) -> None:
+        """Fields are the same with wear rates and without: wear follows from them."""
         effect = self._make()
-        conditions = locked(self._inputs(effect, 0))
-        fields = samples.Asked(conditions.fields)
-        try:
-            effect.fields(replace(conditions, fields=fields))
-        except KeyError:
-            if not fields.missed:
-                raise
-        missed = ", ".join(sorted(map(str, fields.missed)))
-        require(not missed, f"it asked for the field {missed}; add that to requires")
+        apply_if(effect.provides, "it provides no field")
+        for given in self._samples(effect):
+            where = first_difference(
+                effect.fields(given), effect.fields(replace(given, wear_rates={}))
+            )
+            require(
+                where is None,
+                f"{where} follows contact.wear_rates, which a run does not know yet; let a state "
+                "follow them",
+            )
 
     def runs_in_a_case(self) -> None:
         """In a small case a law gets the fields it requires in every step."""
         effect = self._make()
         law = _reads([field.name for field in effect.provides])
         samples.run(self._fields, law=law, effects=[effect])
+
+
+def _turned(of_bodies: Mapping[str, Any]) -> dict[str, Any]:
+    return dict(reversed([*of_bodies.items()]))
+
+
+def _gone_far(effect: GuardedEffect, given: ContactConditions) -> ContactConditions:
+    """Return conditions with a state a hundred times as far from its start, within its limits."""
+    state = {}
+    for field in effect.state_fields:
+        start = effect.initial_state[field.name]
+        far = start + _FAR * (given.state[field.name] - start)
+        state[field.name] = np.clip(far, field.at_least, field.at_most)
+    return locked(replace(given, state=state))
 
 
 def _widened(given: ContactConditions) -> ContactConditions:

@@ -13,9 +13,9 @@ from tribo.core.errors import CaseError
 from tribo.core.grid import Grid, RepeatingGrid
 from tribo.simulation.guarded_motion import GuardedExposure, GuardedMotion
 from tribo.testing import samples
-from tribo.testing.checks import Checks
-from tribo.testing.compare import NotApplicable, apply_if, expect_close, require
-from tribo.testing.samples import BODIES, GRID
+from tribo.testing.checks import BODIES, Checks
+from tribo.testing.compare import apply_if, expect_close, require
+from tribo.testing.samples import GRID
 
 _PARTS = np.linspace(0.0, 1.0, 201)
 _TIMES = 0.999 * samples.pattern((2000,))
@@ -195,7 +195,7 @@ class KinematicsChecks(Checks):
         try:
             renamed = GuardedMotion(self._make()).exposures(GRID, names)
         except CaseError as error:
-            raise NotApplicable(f"its configuration names the bodies: {error}") from error
+            raise self._refused(error) from error
         for name, usual in zip(names, self._exposures().values(), strict=True):
             found = renamed[name].average(rate)
             expect_close(f"average of a body called {name!r}", found, usual.average(rate), 0.0)

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any, ClassVar
 
 import numpy as np
 
+from tribo.core.arrays import Array
 from tribo.core.units import quantities
 from tribo.testing import samples
+from tribo.testing.ageing import aged
 from tribo.testing.checks import Checks
 from tribo.testing.compare import apply_if, first_difference, locked, require
 from tribo.testing.rescaling import UNITS, factor, renewed
@@ -26,8 +29,29 @@ class LocalChecks(Checks):
         units = dict(UNITS)
         for field in (*required, *component.state_fields, *getattr(component, "provides", ())):
             units[field.name] = factor(field.unit)
+            units[f"the initial {field.name!r}"] = factor(field.unit)
             units[f"the rate of {field.name!r}"] = factor(field.unit) / factor(self._per)
         return units
+
+    @abstractmethod
+    def _rates(self, component: Any, given: Any) -> Mapping[str, Array]:
+        """Return the rates of the state."""
+
+    def _remembering(self, given: Any, far: Array) -> Any:
+        """Return conditions with a state that each point has had as `far` as that."""
+        component = self._make()
+
+        def rates(state: Mapping[str, Array]) -> Mapping[str, Array]:
+            return self._rates(component, locked(replace(given, state=state)))
+
+        return replace(given, state=aged(component.state_fields, rates, given.state, far))
+
+    def _state_answers(self, component: Any, rates: Mapping[str, Array]) -> dict[str, Any]:
+        """Return what a component answers of its state, by what that is called."""
+        starts = component.initial_state().items()
+        return {f"the rate of {name!r}": values for name, values in rates.items()} | {
+            f"the initial {name!r}": value for name, value in starts
+        }
 
     def _samples(self, component: Any) -> list[Any]:
         return [locked(self._inputs(component, number)) for number in self._numbers]
@@ -65,8 +89,7 @@ class LocalChecks(Checks):
                 for name in names:
                     if np.any(answers.get(f"the rate of {name!r}", 0.0)):
                         still.discard(name)
-                    fresh = np.full_like(given.state[name], component.initial_state()[name])
-                    other = locked(replace(given, state={**given.state, name: fresh}))
+                    other = _at(given, name, component.initial_state()[name])
                     own = {f"the rate of {name!r}": None}
                     if first_difference(answers | own, {**self._call(component, other), **own}):
                         idle.discard(name)
@@ -85,14 +108,55 @@ class LocalChecks(Checks):
         apply_if(limited, "no state field has a limit")
         for given in self._samples(component):
             for field, limit, sign in limited:
-                at = {**given.state, field.name: np.full_like(given.state[field.name], limit)}
-                answers = self._call(component, locked(replace(given, state=at)))
-                beyond = float(np.max(sign * np.asarray(answers[f"the rate of {field.name!r}"])))
+                rates = self._rates(component, _at(given, field.name, limit))
+                beyond = float(np.max(sign * np.asarray(rates[field.name])))
                 require(
                     beyond <= 0,
                     f"{field.name!r} at its limit of {limit:g} {field.unit} changes by "
                     f"{sign * beyond:.3g} per {self._per}",
                 )
+
+    def states_do_not_run_away(self) -> None:
+        """A state without a limit does not grow the faster the more there is of it."""
+        component = self._make()
+        free = [
+            (field.name, sign)
+            for field in component.state_fields
+            for limit, sign in ((field.at_least, -1.0), (field.at_most, 1.0))
+            if limit is None
+        ]
+        apply_if(free, "each state field has limits, or there is none")
+        for given in self._samples(component):
+            for name, sign in free:
+                most = sign * max(float(np.max(np.abs(given.state[name]))), 1e-300)
+                with np.errstate(all="ignore"):
+                    slow, fast = (
+                        sign * self._rates(component, _at(given, name, times * most))[name]
+                        for times in (1e3, 1e6)
+                    )
+                away = (slow > 0) & (fast > 100 * slow) & np.isfinite(fast)
+                require(
+                    not np.any(away),
+                    f"{name!r} changes the faster the further it has gone, without end: is the "
+                    "sign of its rate right? A limit that it keeps is declared with its field",
+                )
+
+    def only_declared_fields_are_asked_for(self) -> None:
+        """It asks for no field but those in `requires`, and for no state but its own."""
+        component = self._make()
+        given = locked(self._inputs(component, 0))
+        fields, state = samples.Asked(given.fields), samples.Asked(given.state)
+        missed = {"requires": fields.missed}
+        try:
+            self._call(component, replace(given, fields=fields, state=state))
+        except KeyError:
+            if not (fields.missed or state.missed):
+                raise
+            # Whether it has a state, which its configuration says, it may look.
+            missed["state_fields"] = state.missed
+        for declared, names in missed.items():
+            told = ", ".join(sorted(map(str, names)))
+            require(not told, f"it asked for {told}; add that to {declared}")
 
     def required_fields_matter(self) -> None:
         """Each field that it requires changes an answer, in one configuration at least."""
@@ -108,6 +172,12 @@ class LocalChecks(Checks):
                     if first_difference(answers, self._call(component, other)):
                         idle = idle - {name}
         require(not idle, f"{', '.join(sorted(idle))}: no answer changes by 1 % more of it")
+
+
+def _at(given: Any, name: str, value: float) -> Any:
+    """Return conditions in which one state field has one value."""
+    state = {**given.state, name: np.full_like(given.state[name], value)}
+    return locked(replace(given, state=state))
 
 
 def _is_given(config: Any, name: str) -> bool:

@@ -16,7 +16,7 @@ from tribo.case import Output
 from tribo.core.state import RunInfo, Snapshot
 from tribo.observers.observer import Observer
 from tribo.testing import samples
-from tribo.testing.checks import Checks
+from tribo.testing.checks import BODIES, Checks
 from tribo.testing.compare import NotApplicable, first_difference, locked, require
 
 
@@ -73,7 +73,7 @@ class ObserverChecks(Checks):
 
 def _renamed(run: RunInfo, snapshots: Sequence[Snapshot]) -> Any:
     """Return a run and what it showed with bodies of other names."""
-    names = dict(zip(samples.BODIES, ("upper", "lower"), strict=True))
+    names = dict(zip(BODIES, ("upper", "lower"), strict=True))
 
     def renamed(value: Any) -> Any:
         if isinstance(value, Mapping):

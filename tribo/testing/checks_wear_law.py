@@ -15,7 +15,7 @@ from tribo.core.errors import CaseError
 from tribo.core.fields import LocalConditions, WearRate
 from tribo.simulation.guards import GuardedLaw
 from tribo.testing import samples
-from tribo.testing.ageing import aged
+from tribo.testing.checks import BODIES
 from tribo.testing.checks_local import LocalChecks
 from tribo.testing.compare import apply_if, expect_close, locked, require
 from tribo.testing.rescaling import factor
@@ -44,7 +44,8 @@ class WearLawChecks(LocalChecks):
         local = LocalConditions(pressure, speed, samples.STEEL, fields, state)
         if number < 3 and state:
             if number not in self._aged:
-                self._aged[number] = self._slid(local, samples.pattern(_SHAPE, number))
+                far = _FARTHEST * samples.pattern(_SHAPE, number) ** 3
+                self._aged[number] = self._remembering(deepcopy(local), far).state
             local = replace(local, state={n: v.copy() for n, v in self._aged[number].items()})
         # In every third point there is no pressure any more.
         touching = (np.arange(pressure.size) % 3 > 0).reshape(_SHAPE)
@@ -54,17 +55,13 @@ class WearLawChecks(LocalChecks):
     def _aged(self) -> dict[int, dict[str, Array]]:
         return {}
 
-    def _slid(self, local: LocalConditions, part: Array) -> dict[str, Array]:
-        law, at = self._make(), locked(deepcopy(local))
-
-        def rates(state: Mapping[str, Array]) -> Mapping[str, Array]:
-            found: WearRate = law.rate(locked(replace(at, state=state)))
-            return found.state_rates
-
-        return aged(law.state_fields, rates, local.state, _FARTHEST * part**3)
+    def _rates(self, component: Any, given: Any) -> Mapping[str, Array]:
+        rates: Mapping[str, Array] = component.rate(given).state_rates
+        return rates
 
     def _call(self, component: Any, inputs: Any) -> Mapping[str, Any]:
-        return dict(_parts(component.rate(inputs)))
+        rate = component.rate(inputs)
+        return {**_parts(rate), **self._state_answers(component, rate.state_rates)}
 
     def _units(self, component: Any) -> Mapping[str, float]:
         return {**super()._units(component), "depth": 1.0, "derivative": factor("1/Pa")}
@@ -73,7 +70,7 @@ class WearLawChecks(LocalChecks):
         """Rates are finite and not negative, 0 where the pressure is, one for each state field."""
         for material in (samples.STEEL, samples.BARE):
             try:
-                guarded = GuardedLaw(self._make(), samples.BODIES[0], material)
+                guarded = GuardedLaw(self._make(), BODIES[0], material)
             except CaseError:
                 if material is samples.BARE:
                     return
@@ -167,24 +164,6 @@ class WearLawChecks(LocalChecks):
                     f"{name!r} changes by {worst:.3g} per metre where the pressure is 0; what a "
                     "track has of that would depend on the size of the window",
                 )
-
-    def only_declared_fields_are_asked_for(self) -> None:
-        """It asks for no local field but those in `requires`, and no state but its own."""
-        law = self._make()
-        local = locked(self._inputs(law, 0))
-        asked = {
-            "requires": samples.Asked(local.fields),
-            "state_fields": samples.Asked(local.state),
-        }
-        fields, state = asked.values()
-        try:
-            law.rate(replace(local, fields=fields, state=state))
-        except KeyError:
-            if not (fields.missed or state.missed):
-                raise
-        for declared, mapping in asked.items():
-            missed = ", ".join(sorted(map(str, mapping.missed)))
-            require(not missed, f"it asked for {missed}; add that to {declared}")
 
     def runs_under_implicit_stepping(self) -> None:
         """Under implicit steps and stroke averaging each body loses just what the law says."""

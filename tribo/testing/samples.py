@@ -24,14 +24,13 @@ from tribo.simulation.run import Simulation
 from tribo.surfaces.cylinder import Cylinder
 from tribo.surfaces.flat import Flat
 from tribo.surfaces.sphere import Sphere
-from tribo.testing.checks import FieldValue
+from tribo.testing.checks import BODIES, FieldValue
 from tribo.testing.compare import NotApplicable, locked, require
 from tribo.wear.archard import Archard
 from tribo.wear.law import WearLaw
 
 # Neither square nor of square cells, so that swapped axes are noticed.
 GRID = Grid((0.72e-3, 0.8e-3), (24, 20))
-BODIES = ("ball", "disk")
 LOAD = 100.0
 RADIUS = 5e-3
 STEPS = 2000
@@ -191,7 +190,7 @@ def contact_conditions(
         swept=frozenset(names[1:]),
         fields={name: {body: values.copy() for body in names} for name, values in known.items()},
         state=state,
-        wear_rates=dict.fromkeys(names, 1e-16 * pressure),
+        wear_rates={name: 1e-16 * (1 + n) * pressure for n, name in enumerate(names)},
     )
 
 

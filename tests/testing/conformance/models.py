@@ -5,6 +5,8 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 
 from tribo import (
+    FRICTION_COEFFICIENT,
+    LOAD_SHARE,
     ContactSolver,
     Effect,
     Field,
@@ -130,6 +132,108 @@ class Heating(Effect):
         return {"temperature": hot, "friction_heat": heat, "friction_heat_slope": steep}
 
 
+class Debris(Effect):
+    """dt/ds = c (r1 + r2) - t/length; debris carries the part 1 - exp(-t/cover)."""
+
+    type = "honest.debris"
+    caught: Annotated[float, Quantity("1", at_least=0)] = 0.8
+    """Part c of what is worn that becomes debris."""
+    length: Annotated[float, Quantity("m", above=0)] = 0.5
+    """Distance over which debris leaves."""
+    cover: Annotated[float, Quantity("m", above=0)] = 1e-6
+    """Thickness that leaves 1/e of the pressure to the bodies."""
+
+    state_fields = (Field("debris", "m", "Thickness of debris.", at_least=0.0),)
+    provides = (LOAD_SHARE,)
+
+    def source(self, contact):
+        return self.caught * sum(contact.wear_rates.values())
+
+    def leaving(self, contact):
+        return np.where(contact.pressure > 0, contact.state["debris"] / self.length, 0.0)
+
+    def share(self, contact):
+        return -np.expm1(-contact.state["debris"] / self.cover)
+
+    def fields(self, contact):
+        return {"load_share": dict.fromkeys(contact.materials, self.share(contact))}
+
+    def state_rates(self, contact):
+        return {"debris": contact.speed * (self.source(contact) - self.leaving(contact))}
+
+
+class Bath(Effect):
+    """C dT/dt = friction's power - G (T - T0): one temperature of the oil, which thins it."""
+
+    type = "honest.bath"
+    ambient: Annotated[float, Quantity("K", above=0)] = 300.0
+    """Temperature T0 far away, and at first."""
+    capacity: Annotated[float, Quantity("J/K", above=0)] = 50.0
+    """Capacity C for heat."""
+    conductance: Annotated[float, Quantity("W/K", above=0)] = 2.0
+    """Heat G lost per kelvin."""
+    thinning: Annotated[float, Quantity("K", above=0)] = 30.0
+    """Rise of temperature that thins the oil to 1/e."""
+
+    requires = ("friction_coefficient",)
+    state_fields = (
+        Field("bath_temperature", "K", "Temperature of the oil.", at_least=0.0, uniform=True),
+    )
+    provides = (Field("oil_share", "1", "Viscosity over that at first.", at_least=0.0),)
+
+    def initial_state(self):
+        return {"bath_temperature": self.ambient}
+
+    def power(self, contact):
+        friction = next(iter(contact.fields["friction_coefficient"].values()))
+        return np.sum(friction * contact.pressure) * contact.grid.cell_area * contact.speed
+
+    def lost(self, contact):
+        return self.conductance * (contact.state["bath_temperature"] - self.ambient)
+
+    def fields(self, contact):
+        warmer = contact.state["bath_temperature"] - self.ambient
+        thin = np.exp(-warmer / self.thinning)
+        return {"oil_share": dict.fromkeys(contact.materials, thin)}
+
+    def state_rates(self, contact):
+        return {"bath_temperature": (self.power(contact) - self.lost(contact)) / self.capacity}
+
+
+class Tribofilm(Effect):
+    """dc/dt = v (1 - c)/length under pressure, less c/life; the film has a friction of its own."""
+
+    type = "honest.tribofilm"
+    dry: Annotated[float, Quantity("1", at_least=0)] = 0.5
+    """Coefficient of friction of bare metal."""
+    filmed: Annotated[float, Quantity("1", at_least=0)] = 0.1
+    """That of the film."""
+    length: Annotated[float, Quantity("m", above=0)] = 2.0
+    """Distance over which it forms."""
+    life: Annotated[float, Quantity("s", above=0)] = 50.0
+    """Time over which it fades."""
+
+    state_fields = (Field("film", "1", "Part under film.", at_least=0.0, at_most=1.0),)
+    provides = (FRICTION_COEFFICIENT,)
+
+    def formed(self, contact):
+        bare = (contact.pressure > 0) * (1 - contact.state["film"])
+        return contact.speed * bare / self.length
+
+    def faded(self, contact):
+        return contact.state["film"] / self.life
+
+    def friction(self, contact):
+        return self.dry + (self.filmed - self.dry) * contact.state["film"]
+
+    def fields(self, contact):
+        friction = self.friction(contact)
+        return {"friction_coefficient": dict.fromkeys(contact.materials, friction)}
+
+    def state_rates(self, contact):
+        return {"film": self.formed(contact) - self.faded(contact)}
+
+
 class Ramp(Kinematics):
     """The second body is drawn along a track, ever faster until it has its speed."""
 
@@ -216,4 +320,4 @@ class Pad(ContactSolver):
         )
 
 
-MODELS = (RunningIn, Oxide, Heating, Ramp, Wavy, Pad)
+MODELS = (RunningIn, Oxide, Heating, Debris, Bath, Tribofilm, Ramp, Wavy, Pad)
