@@ -3,6 +3,7 @@
 import numpy as np
 
 from tribo.core.contact import ContactSolution, ContactSystem, Residuals
+from tribo.core.fields import Field
 from tribo.core.grid import Grid
 from tribo.core.measures import (
     BodyMeasures,
@@ -20,6 +21,8 @@ from tribo.result.store import ResultWriter
 GRID = Grid((2e-3, 1.6e-3), (50, 40))
 RADIUS = 5e-3
 TIMES = (0.0, 200.0, 500.0, 1500.0, 3600.0)
+FILM = (Field("film", "m", "Thickness of a film."),)
+SHARE = (Field("load_share", "1", "Share of the load that the film bears."),)
 SETTLED = Residuals(0.0, 0.0, 0.0)
 ENDLESS = 1e9
 SHAPES = {
@@ -49,12 +52,14 @@ def made(
     grid=GRID,
     texture=0.0,
     relief=0.0,
+    film=0.0,
 ):
     """Return a result in which the contact grows as that of a ball worn flat.
 
     The pressure goes as ``(1 - r²/a²)**power``; `shape` are the half-widths along x and y in
     parts of a, `texture` the part of the pressure that comes and goes from cell to cell, `relief`
-    the amplitude in m of waves on the first body.
+    the amplitude in m of waves on the first body. A `film`, in m/s, grows between the bodies and
+    takes a share of the load that all of them see.
     """
     bodies = tuple(zip(names, swept, worn, densities, strict=True))
     writer = ResultWriter()
@@ -76,9 +81,11 @@ def made(
             end_distance=360.0,
             case={"grid": grid.model_dump(), "bodies": {name: {} for name in names}},
             provenance=provenance({}),
+            between_fields=FILM if film else (),
+            effect_fields=SHARE if film else (),
         )
     )
-    looks = bodies, plastic, power, shape, grid, texture, cap, relief
+    looks = bodies, plastic, power, shape, grid, texture, cap, relief, film
     for before, time in zip((0.0, *times), times, strict=False):
         snapshot = _snapshot(time, *looks)
         # Two steps to each save.
@@ -108,7 +115,7 @@ def _height(grid, body, relief):
     return waves - (x**2 + y**2) / (2 * RADIUS) if body == 0 else np.zeros(grid.cells)
 
 
-def _snapshot(time, bodies, plastic, power, shape, grid, texture, cap, relief):
+def _snapshot(time, bodies, plastic, power, shape, grid, texture, cap, relief, film):
     x, y = grid.mesh
     a = half_width(time)
     inside = np.maximum(1 - ((x / shape[0]) ** 2 + (y / shape[1]) ** 2) / a**2, 0.0)
@@ -137,6 +144,7 @@ def _snapshot(time, bodies, plastic, power, shape, grid, texture, cap, relief):
         increment=1.0,
         reference_depth=1e-6,
         load_distance=10.0 * time,
+        between={"film": film * time * inside} if film else {},
     )
     width, breadth = half_widths(state.contact, grid)
     return Snapshot(
@@ -158,4 +166,5 @@ def _snapshot(time, bodies, plastic, power, shape, grid, texture, cap, relief):
             solver_iterations=1,
             bodies=measures,
         ),
+        {"load_share": dict.fromkeys(states, film * 1e5 * inside * time)} if film else {},
     )

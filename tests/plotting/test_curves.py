@@ -7,6 +7,8 @@ from made_results import made
 
 from tribo.core.errors import CaseError
 from tribo.plotting.curves import fit_picture, history_curves, sweep_curves
+from tribo.plotting.history import fields_history
+from tribo.plotting.kept import field_map, kept_fields
 
 
 def test_columns_of_the_history_are_drawn_over_the_path():
@@ -60,3 +62,18 @@ def test_a_fit_stands_over_what_was_measured():
     np.testing.assert_allclose(fitted.get_xdata(), [1.1, 1.0])
     labels = [text.get_text() for text in figure.axes[0].get_yticklabels()]
     assert labels == ["ball: scar across", "disk: mass"]
+
+
+def test_a_field_of_the_models_is_drawn_from_above_and_over_time():
+    result = made(film=1e-11)
+    film, share = kept_fields(result)
+    assert (film.name, film.key, share.name) == ("film", "film", "load share")
+    (axes,) = field_map(result, film).axes
+    shown = np.asarray(axes.images[0].get_array()).T
+    np.testing.assert_allclose(shown, 1e9 * result.field("film", -1))
+    assert axes.child_axes[0].get_ylabel() == "Film (nm)"
+    above, _ = fields_history(result).axes
+    largest, mean = (line.get_ydata() for line in above.lines)
+    np.testing.assert_allclose(largest, [1e9 * np.max(each) for each in film.values])
+    touched = result.field("pressure", -1) > 0
+    assert mean[-1] == pytest.approx(1e9 * np.mean(film.values[-1][touched]))

@@ -19,6 +19,7 @@ RUNNING_IN = ["real_contact", "roughness_history"]
 WORN = ["disk_scar", "disk_groove", "worn_section"]
 BALL = ["ball_scar", "ball_profiles"]
 RELIEF = ["ball_height_map", "ball_material_ratio"]
+KEPT = ["film_map", "load_share_map", "fields_history"]
 ROUGH = {"relief": 2e-7, "cap": 4e8}
 COARSE = {**ROUGH, "grid": Grid((2e-3, 1.6e-3), (10, 8)), "times": (0.0, 200.0)}
 EARLY = [CONTACT[0], CONTACT[2]]
@@ -62,6 +63,7 @@ def test_the_pictures_are_images_of_the_width_of_a_column(tmp_path):
             [*CONTACT, *BALL, "disk_scar", "disk_profiles", "worn_section", *OVER_TIME],
         ),
         (INDENTED, [*EARLY, *BALL, *WORN]),
+        ({"film": 1e-11, "worn": (False, False)}, [*CONTACT, "contact_history", *KEPT]),
         (COARSE, [*EARLY, *BALL, *WORN, *OVER_TIME]),
         (ROUGH, [*CONTACT, *BALL, *WORN[:2], *RELIEF, WORN[2], *OVER_TIME, *RUNNING_IN]),
     ],

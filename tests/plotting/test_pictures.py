@@ -226,9 +226,9 @@ def test_contact_history_is_the_history(result):
     np.testing.assert_allclose(pressures["largest"][1], 1e-6 * history["max_pressure_Pa"])
     np.testing.assert_allclose(pressures["centre"][1], 1e-6 * history["centre_pressure_Pa"])
     for axis, label in enumerate(("along sliding", "across sliding")):
-        width = 1e3 * history[f"contact_half_width_{'xy'[axis]}_m"]
+        width = 1e6 * history[f"contact_half_width_{'xy'[axis]}_m"]
         shown = np.interp(history["time_s"], *widths[label])
-        assert np.max(np.abs(shown - width)) <= 1e3 * GRID.spacing[axis] * (1 + 1e-9)
+        assert np.max(np.abs(shown - width)) <= 1e6 * GRID.spacing[axis] * (1 + 1e-9)
         assert shown[[0, -1]] == pytest.approx(width[[0, -1]])
     assert lower.get_title(loc="right") == "± 1 cell, 40 µm"
     assert all(axes.get_legend() for axes in (upper, lower))

@@ -32,6 +32,16 @@ def test_it_says_how_far_the_second_is_off_the_first(ran):
     assert f"is worn {1e6 * a['max_wear_depth_m']:.3g} µm (b: {off + 0.0:+.1f} %) deep" in answer
 
 
+def test_the_files_of_a_folder_go_by_what_varies(tmp_path):
+    for load in ("50_N", "100_N"):
+        written(tmp_path / f"load.normal={load}.h5", times=(0.0, 500.0))
+    path = tribo.write_report(tmp_path, tmp_path / "report.html")
+    page = path.read_text(encoding="utf-8")
+    assert "<h1>100 N and 50 N</h1>" in page
+    assert "Varied: load.normal." in page
+    assert "with 100 N and is worn" in page
+
+
 def test_a_study_of_one_case_does_not_go_with_several_results(ran):
     done = command("report", "a.h5", "b.h5", "--verified", "study.json", cwd=ran[0])
     assert done.returncode == 2

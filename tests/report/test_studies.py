@@ -79,7 +79,7 @@ def test_a_sweep_tells_the_least_and_the_most_wear(tmp_path):
     assert f"The ball lost {volumes[0]} mm³" in ball
     assert f"to {volumes[1]} mm³" in ball
     assert "(run 3: load normal 50 N, kinematics type b)" in ball
-    assert "runs 4: too steep" in (tmp_path / "study-sweep-report.html").read_text()
+    assert "run 4: too steep" in (tmp_path / "study-sweep-report.html").read_text()
 
 
 def test_a_sweep_without_a_run_that_is_done_has_no_report(tmp_path):

@@ -14,7 +14,14 @@ from matplotlib.figure import Figure
 from tribo.core.errors import CaseError
 from tribo.core.files import writing
 from tribo.lab.running_in import reliefs, rough_bodies
-from tribo.plotting.history import contact_history, real_contact, roughness_history, wear_history
+from tribo.plotting.history import (
+    contact_history,
+    fields_history,
+    real_contact,
+    roughness_history,
+    wear_history,
+)
+from tribo.plotting.kept import field_map, kept_fields
 from tribo.plotting.pressure import pressure_map, pressure_sections
 from tribo.plotting.profiles import along_track, body_profiles, groove, worn_section
 from tribo.plotting.relief import height_map, material_ratio_curves
@@ -52,8 +59,9 @@ def save_figures(result: Result, folder: Path, suffix: str = "png") -> list[Path
         swept one and ``NAME_along_track`` where the cycle is resolved,
         ``NAME_height_map`` and ``NAME_material_ratio`` of each rough one,
         ``worn_section``, ``wear_history``, ``contact_history`` and, of rough
-        bodies, ``real_contact`` and ``roughness_history``; besides those of the plugins of the
-        result's models.
+        bodies, ``real_contact`` and ``roughness_history``; ``FIELD_map`` of each field that
+        effects and laws keep or provide, and ``fields_history``; besides those of the plugins
+        of the result's models.
 
     Raises
     ------
@@ -118,6 +126,12 @@ def result_pictures(result: Result) -> dict[str, Callable[[], Figure]]:
             pictures["real_contact"] = partial(real_contact, result)
         if any(label.endswith(".Sq_m") for label in history):
             pictures["roughness_history"] = partial(roughness_history, result)
+    kept = kept_fields(result)
+    for field in kept:
+        if field.varies:
+            pictures[f"{field.key}_map"] = partial(field_map, result, field)
+    if kept and count > 1:
+        pictures["fields_history"] = partial(fields_history, result)
     for more in from_plugins_of(result, "tribo_figures"):
         pictures |= more
     return pictures

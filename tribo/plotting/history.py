@@ -1,9 +1,11 @@
-"""Pictures of what changes with time: wear, pressure and the size of the contact.
+"""Pictures of what changes with time: wear, pressure, the size of the contact, fields of models.
 
 Each raises CaseError if the result holds no save.
 """
 
 from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,9 +14,10 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter
 
 from tribo.core.arrays import Array, Mask
+from tribo.plotting.kept import kept_fields
 from tribo.plotting.sections import number_of_saves
 from tribo.plotting.style import OVER, UNDER, Look, house_style, legend_below, new_figure, ticks
-from tribo.plotting.units import fitting, height_unit, size, time_unit
+from tribo.plotting.units import height_unit, shown_in, size, time_unit
 from tribo.result.read import Result
 
 BODIES: tuple[Look, Look] = (
@@ -24,6 +27,9 @@ BODIES: tuple[Look, Look] = (
 LARGEST: Look = {**UNDER, "color": "#e69f00"}
 _DECADE = 10.0
 """Values that span more than this factor are drawn on a logarithmic scale."""
+
+Curves = Mapping[str, tuple[Array, Array]]
+"""Times and values, in SI units, by label."""
 
 
 def wear_history(result: Result) -> Figure:
@@ -85,75 +91,98 @@ def contact_history(result: Result) -> Figure:
     from step to step.
     """
     number_of_saves(result)
-    history, unit = result.table("history"), time_unit(result.times)
-    time, spacing = history["time_s"], result.grid.spacing
-    every = np.ones(time.shape, dtype=bool)
-    pressures = [(history[f"{name}_pressure_Pa"], every) for name in ("max", "centre")]
-    widths = [history[f"contact_half_width_{axis}_m"] for axis in "xy"]
-    steps = [(width, _steps(width, cell)) for width, cell in zip(widths, spacing, strict=True)]
-    drawn = (
-        ("Pressure", "Pa", pressures, ("largest", "centre"), (LARGEST, OVER)),
-        ("Contact half-width", "m", steps, ("along sliding", "across sliding"), (UNDER, OVER)),
-    )
-    marker = "o" if len(time) == 1 else "none"
+    history, spacing = result.table("history"), result.grid.spacing
+    time = history["time_s"]
+    pressures = {
+        label: (time, history[f"{name}_pressure_Pa"])
+        for label, name in (("largest", "max"), ("centre", "centre"))
+    }
+    widths = {}
+    for axis, cell, label in zip("xy", spacing, ("along", "across"), strict=True):
+        width = history[f"contact_half_width_{axis}_m"]
+        kept = _steps(width, cell)
+        widths[f"{label} sliding"] = time[kept], width[kept]
     with house_style():
         figure = new_figure(88.0)
-        panels = figure.subplots(2, 1, sharex=True)
-        for axes, (what, si, curves, labels, looks) in zip(panels, drawn, strict=True):
-            values = np.concatenate([curve for curve, _ in curves])
-            shown = fitting(si, float(np.max(values)))
-            for (curve, kept), label, look in zip(curves, labels, looks, strict=True):
-                x, y = time[kept] / size(unit), curve[kept] / size(shown)
-                axes.plot(x, y, marker=marker, label=label, **look)
-            axes.set_ylabel(f"{what} ({shown})")
-            axes.legend(loc="best")
-            _fit_scale(axes, values)
+        upper, lower = figure.subplots(2, 1, sharex=True)
+        _draw(upper, result, "Pressure", "Pa", pressures, (LARGEST, OVER))
+        upper.set_xlabel("")
+        _draw(lower, result, "Contact half-width", "m", widths)
         cell_unit = height_unit(max(spacing))
         cells = dict.fromkeys(f"{cell / size(cell_unit):.3g}" for cell in spacing)
         cells_words = f"± 1 cell, {' × '.join(cells)} {cell_unit}"
-        panels[1].set_title(cells_words, loc="right", fontsize=7.0)
-        panels[1].set_xlim(left=0.0)
-        panels[1].set_xlabel(f"Time ({unit})")
+        lower.set_title(cells_words, loc="right", fontsize=7.0)
     return figure
 
 
 def real_contact(result: Result) -> Figure:
     """Draw the real contact area against time, and the part of it at the hardness."""
     number_of_saves(result)
-    history, unit = result.table("history"), time_unit(result.times)
+    history = result.table("history")
     areas = {"all": history["contact_area_m2"], "at the hardness": history["plastic_area_m2"]}
+    curves = {label: (history["time_s"], area) for label, area in areas.items() if np.any(area > 0)}
     with house_style():
         figure = new_figure(55.0)
-        axes = figure.subplots()
-        for (label, area), look in zip(areas.items(), (UNDER, OVER), strict=True):
-            if np.any(area > 0):
-                axes.plot(history["time_s"] / size(unit), area / size("mm²"), label=label, **look)
-        axes.set_ylabel("Real contact area (mm²)")
-        axes.set_xlabel(f"Time ({unit})")
-        _from_zero(axes)
-        axes.legend(loc="best")
+        _draw(figure.subplots(), result, "Real contact area", "m^2", curves, scale=_from_zero)
     return figure
 
 
 def roughness_history(result: Result) -> Figure:
     """Draw the root mean square height Sq of rough bodies within the contact against time."""
     number_of_saves(result)
-    history, unit = result.table("history"), time_unit(result.times)
+    history = result.table("history")
     labels = {name: f"bodies.{name}.Sq_m" for name in result.body_names}
-    drawn = {name: history[label] for name, label in labels.items() if label in history}
-    values = np.concatenate(list(drawn.values()))
-    shown = height_unit(float(np.nanmax(values)))
+    curves = {
+        name: (history["time_s"], history[label])
+        for name, label in labels.items()
+        if label in history
+    }
     with house_style():
         figure = new_figure(55.0)
-        axes = figure.subplots()
-        for (name, heights), look in zip(drawn.items(), (UNDER, OVER), strict=False):
-            axes.plot(history["time_s"] / size(unit), heights / size(shown), label=name, **look)
-        axes.set_ylabel(f"Sq in the contact ({shown})")
-        axes.set_xlabel(f"Time ({unit})")
-        axes.set_xlim(left=0.0)
-        _fit_scale(axes, values)
-        axes.legend(loc="best")
+        _draw(figure.subplots(), result, "Sq in the contact", "m", curves)
     return figure
+
+
+def fields_history(result: Result) -> Figure:
+    """Draw what the effects provide and what models keep against time, a panel for each.
+
+    Of a field it is the largest value and the mean in the contact, at each save.
+    """
+    kept = kept_fields(result)
+    looks = LARGEST, OVER
+    with house_style():
+        figure = new_figure(12.0 + 40.0 * len(kept))
+        panels = figure.subplots(len(kept), 1, sharex=True, squeeze=False)[:, 0]
+        for axes, field in zip(panels, kept, strict=True):
+            found = field.over_time(result)
+            curves = {label: (result.times, values) for label, values in found.items()}
+            _draw(axes, result, field.name.capitalize(), field.unit, curves, looks, _around)
+            axes.label_outer()
+    return figure
+
+
+def _draw(
+    axes: Axes,
+    result: Result,
+    what: str,
+    unit: str,
+    curves: Curves,
+    looks: Sequence[Look] = (UNDER, OVER),
+    scale: Callable[[Axes, Array], None] | None = None,
+) -> None:
+    """Draw curves over time, in a fitting unit where `unit` is of SI."""
+    every = np.concatenate([values for _, values in curves.values()])
+    shown, factor = shown_in(unit, every)
+    time = time_unit(result.times)
+    for (label, (x, values)), look in zip(curves.items(), looks, strict=False):
+        marker = "o" if len(x) == 1 else "none"
+        axes.plot(x / size(time), values / factor, marker=marker, label=label, **look)
+    axes.set_ylabel(f"{what} ({shown})" if shown else what)
+    axes.set_xlabel(f"Time ({time})")
+    axes.set_xlim(left=0.0)
+    if len(curves) > 1 or next(iter(curves)):
+        axes.legend(loc="best")
+    (scale or _fit_scale)(axes, every)
 
 
 def _steps(width: Array, cell: float) -> Mask:
@@ -168,10 +197,16 @@ def _steps(width: Array, cell: float) -> Mask:
     return kept
 
 
-def _from_zero(axes: Axes) -> None:
+def _from_zero(axes: Axes, _: Array | None = None) -> None:
     axes.set_ylim(bottom=0.0)
     axes.yaxis.set_major_locator(ticks(6))
     axes.set_xlim(left=0.0)
+
+
+def _around(axes: Axes, values: Array) -> None:
+    """Take a scale from zero but for values that are far from it, as a temperature."""
+    if np.min(values) < 0.5 * np.max(values):
+        _from_zero(axes)
 
 
 def _fit_scale(axes: Axes, values: Array) -> None:

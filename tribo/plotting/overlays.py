@@ -12,14 +12,19 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
+from tribo.core.arrays import Array, Mask
+from tribo.core.grid import Grid
 from tribo.plotting.difference import difference_map
 from tribo.plotting.figures import write_figures
 from tribo.plotting.sections import draw_profiles, removed, scar_mask, through_centre
 from tribo.plotting.style import WIDE, house_style, legend_below, new_figure, overlay_looks
-from tribo.plotting.units import fitting, height_unit, size
+from tribo.plotting.units import fitting, height_unit
 from tribo.result.read import Result
 
 Results = Mapping[str, Result]
+Saves = Sequence[tuple[Result, int]]
+Fields = Sequence[tuple[Grid, Array, Mask]]
+"""What is drawn of each result: its grid, a field, and which cells are to be seen."""
 
 
 def pressure_overlay(results: Results, time: float) -> Figure:
@@ -27,22 +32,7 @@ def pressure_overlay(results: Results, time: float) -> Figure:
 
     The sections go through the windows' centres.
     """
-    pressures = [result.field("pressure", result.save_at(time)) for result in results.values()]
-    grids = [result.grid for result in results.values()]
-    fields = [(grid, field, field > 0) for grid, field in zip(grids, pressures, strict=True)]
-    highest = max(float(np.max(field)) for field in pressures)
-    unit = fitting("Pa", highest)
-    up = (0.0, 1.05 * highest or size(unit))
-    with house_style():
-        figure = new_figure(54.0, WIDE)
-        panels = figure.subplots(1, 2, sharey=True)
-        for axis, axes in enumerate(panels):
-            section = through_centre(axis, fields)
-            curves = section.draw(axes, unit, overlay_looks(len(fields)), list(results), up)
-        panels[0].set_ylabel(f"Pressure ({unit})")
-        panels[0].set_title(f"t = {time:g} s", loc="left")
-        legend_below(figure, curves)
-    return figure
+    return _rows(results, time, [""])
 
 
 def profile_overlay(results: Results, name: str, time: float) -> Figure:
@@ -52,10 +42,7 @@ def profile_overlay(results: Results, name: str, time: float) -> Figure:
     """
     saves = [(result, result.save_at(time)) for result in results.values()]
     swept = all(result.body(name).swept for result, _ in saves)
-    fields = [
-        (result.grid, result.body(name).surface(i), scar_mask(removed(result, name)[i]))
-        for result, i in saves
-    ]
+    fields = _surfaces(saves, name)
     return draw_profiles(
         [through_centre(axis, fields) for axis in ((1,) if swept else (0, 1))],
         overlay_looks(len(results)),
@@ -66,24 +53,18 @@ def profile_overlay(results: Results, name: str, time: float) -> Figure:
 
 def comparison_picture(results: Results, time: float) -> Figure:
     """Draw several results as one figure: pressure and each worn body, along and across."""
-    worn = _worn_in_all(results, time)
+    return _rows(results, time, ["", *_worn_in_all(results, time)])
+
+
+def _rows(results: Results, time: float, names: Sequence[str]) -> Figure:
+    """Draw a row of sections for each body, or the pressure where the name is empty."""
     looks, labels = overlay_looks(len(results)), list(results)
     saves = [(result, result.save_at(time)) for result in results.values()]
     with house_style():
-        figure = new_figure(16.0 + 40.0 * (1 + len(worn)), WIDE)
-        rows = figure.subplots(1 + len(worn), 2, sharey="row", squeeze=False)
-        for row, name in zip(rows, ("", *worn), strict=True):
-            fields = [
-                (result.grid, field, field > 0)
-                if not name
-                else (
-                    result.grid,
-                    result.body(name).surface(i),
-                    scar_mask(removed(result, name)[i]),
-                )
-                for result, i in saves
-                for field in (result.field("pressure", i),)
-            ]
+        figure = new_figure(16.0 + 40.0 * len(names), WIDE)
+        rows = figure.subplots(len(names), 2, sharey="row", squeeze=False)
+        for row, name in zip(rows, names, strict=True):
+            fields = _surfaces(saves, name) if name else _pressures(saves)
             sections = [through_centre(axis, fields) for axis in (0, 1)]
             parts = [line for section in sections for line in section.in_sight()]
             low, high = float(min(map(np.min, parts))), float(max(map(np.max, parts)))
@@ -97,6 +78,18 @@ def comparison_picture(results: Results, time: float) -> Figure:
         rows[0, 0].set_title(f"t = {time:g} s", loc="left")
         legend_below(figure, curves)
     return figure
+
+
+def _pressures(saves: Saves) -> Fields:
+    fields = [(result.grid, result.field("pressure", i)) for result, i in saves]
+    return [(grid, field, field > 0) for grid, field in fields]
+
+
+def _surfaces(saves: Saves, name: str) -> Fields:
+    return [
+        (result.grid, result.body(name).surface(i), scar_mask(removed(result, name)[i]))
+        for result, i in saves
+    ]
 
 
 def save_overlays(

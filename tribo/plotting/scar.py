@@ -17,12 +17,12 @@ def scar_map(found: MeasuredScar) -> Figure:
     unit = height_unit(found.depth)
     with style.house_style():
         figure, (shown,) = new_maps(np.isfinite(found.depths), found.after.grid)
-        look = {"cmap": style.PRESSURES, "interpolation": "nearest", "vmin": 0.0}
+        look = {"cmap": style.DEPTHS, "interpolation": "nearest", "vmin": 0.0}
         most = float(np.max(smoothed(found.depths)[found.scar])) / size(unit)
         shown.image(found.depths / size(unit), f"Depth ({unit})", vmax=most, **look)
         x, y = shown.positions()
         outline = found.scar.T.astype(float)
-        shown.axes.contour(x, y, outline, [0.5], colors="white", linewidths=0.8)
+        shown.axes.contour(x, y, outline, [0.5], colors="black", linewidths=0.8)
         volume, sure = 1e9 * found.volume, 1e9 * found.volume_uncertainty
         shown.axes.set_title(f"{volume:.4g} ± {sure:.1g} mm³", loc="left")
     return figure

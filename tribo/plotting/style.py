@@ -18,6 +18,10 @@ SINGLE_COLUMN = 85.0
 """Width of a picture in one column, in mm."""
 WIDE = 130.0
 """Width of a picture in one and a half columns, in mm."""
+LETTER = 1.25
+"""Width of a letter of a legend, in mm."""
+HANDLE = 8
+"""Room for the line of a legend's entry and the gap before it, in letters."""
 LEGEND_ROWS = 4
 """Most rows of a legend of saves; with more saves only some are named."""
 
@@ -101,6 +105,9 @@ def legend_below(
     Where there are too many curves for it, some are left out evenly; `marks`
     are all named.
     """
+    longest = max((len(str(curve.get_label())) for curve in (*curves, *marks)), default=0)
+    room = figure.get_figwidth() * 25.4 / (LETTER * (longest + HANDLE))
+    columns = min(columns, max(1, int(room)))
     most = LEGEND_ROWS * columns - len(marks)
     if len(curves) > most:
         chosen = np.unique(np.linspace(0, len(curves) - 1, most).round().astype(int))

@@ -8,6 +8,7 @@ from tribo.core.arrays import Array
 from tribo.core.dimensions import scale
 
 _UNITS = {"m": ("mm", "µm", "nm", "pm"), "Pa": ("MPa", "kPa", "Pa")}
+_FIXED = {"m^2": "mm²", "m^3": "mm³"}
 
 
 def size(unit: str) -> float:
@@ -26,6 +27,17 @@ def fitting(si: str, largest: float, least: float = 0.1) -> str:
 def height_unit(largest: float) -> str:
     """Return the unit for heights and depths up to `largest`, in m: µm from 1 µm to 1 mm."""
     return fitting("m", largest, least=1.0)
+
+
+def shown_in(unit: str, values: Array) -> tuple[str, float]:
+    """Return the unit in which values in an SI unit are shown, "" for none, and its size in SI."""
+    if unit in _UNITS:
+        largest = float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values)))
+        unit = height_unit(largest) if unit == "m" else fitting(unit, largest)
+        return unit, size(unit)
+    if unit in _FIXED:
+        return _FIXED[unit], size(_FIXED[unit])
+    return ("" if unit == "1" else unit.replace("^2", "²").replace("^3", "³")), 1.0
 
 
 def time_unit(times: Array) -> str:

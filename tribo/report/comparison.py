@@ -17,6 +17,22 @@ from tribo.report.result import cited
 from tribo.report.sentence import DEPTHS, VOLUMES, quoted
 from tribo.report.tables import for_page
 from tribo.study.comparison import Comparison
+from tribo.study.variation import short_labels
+
+
+def readable(comparison: Comparison) -> Comparison:
+    """Return a comparison of the files of ``tribo compare`` by what varied, not by file names."""
+    stems = [label.split(",_") for label in comparison.results]
+    points = [dict(part.partition("=")[::2] for part in parts) for parts in stems]
+    if comparison.settings or not all("=" in part for parts in stems for part in parts):
+        return comparison
+    points = [{path: value.replace("_", " ") for path, value in p.items()} for p in points]
+    names = dict(zip(comparison.results, short_labels(points), strict=True))
+    return Comparison(
+        {names[label]: result for label, result in comparison.results.items()},
+        {names[label]: point for label, point in zip(names, points, strict=True)},
+        {names[label]: own for label, own in comparison.own_names.items()},
+    )
 
 
 def comparison_page(comparison: Comparison) -> str:
@@ -42,7 +58,7 @@ def comparison_page(comparison: Comparison) -> str:
         answers=_answers(comparison),
         tables_title="Side by side",
         tables=[replace(table, title="At the first and the last common save")],
-        remarks=[how_compared(comparison)],
+        remarks=[*_varied(comparison), how_compared(comparison)],
         notes=comparison.notes,
         has_moments=True,
         curves_title="History",
@@ -66,6 +82,10 @@ def _answers(comparison: Comparison) -> list[str]:
     first, last = comparison.reference, comparison.times[-1]
     saves = {label: comparison.save(label, last) for label in comparison.results}
     time = time_labels(comparison.results[first].times)[comparison.results[first].save_at(last)]
+    # Values stand for a variant, file names for a place.
+    where = f"{'with' if comparison.settings else 'in'} {first}"
+    # Values stand for a variant, file names for a place.
+    where = f"{'with' if comparison.settings else 'in'} {first}"
     answers = []
     for body in comparison.bodies:
         worn = {label: save["bodies"][body] for label, save in saves.items()}
@@ -75,10 +95,13 @@ def _answers(comparison: Comparison) -> list[str]:
             f"{quoted(worn[first][key], units)} ({_others(worn, key, first)})"
             for key, units in (("wear_volume_m3", VOLUMES), ("max_wear_depth_m", DEPTHS))
         )
-        answers.append(
-            f"After {time} the {body} has lost {lost} in {first} and is worn {deep} deep."
-        )
+        answers.append(f"After {time} the {body} has lost {lost} {where} and is worn {deep} deep.")
     return answers
+
+
+def _varied(comparison: Comparison) -> list[str]:
+    paths = dict.fromkeys(path for point in comparison.settings.values() for path in point)
+    return [f"Varied: {', '.join(paths)}."] if paths else []
 
 
 def _others(worn: dict[str, dict[str, float]], key: str, first: str) -> str:

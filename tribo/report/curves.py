@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 
 from tribo.core.arrays import Array, Mask
+from tribo.plotting.kept import kept_fields
 from tribo.plotting.sections import limits, removed, scar_mask
-from tribo.plotting.units import fitting, height_unit, size, time_labels, time_unit
+from tribo.plotting.units import fitting, shown_in, size, time_labels, time_unit
 from tribo.report.reduced import Blocks, block_words, plain
 from tribo.result.export import profile
 from tribo.result.read import Result
@@ -24,6 +25,8 @@ Results = Mapping[str, Result]
 """By label; that of a single one is empty."""
 Curves = Mapping[str, tuple[Result, list[Array]]]
 """Fields of a result, one for each time, by what their curve is called."""
+Panel = tuple[str, str, dict[str, list[Array]]]
+"""Name, SI unit, and curves by what they are called: distance, time and values."""
 
 
 def thinned(count: int, most: int = MOST_SAVES) -> list[int]:
@@ -114,7 +117,7 @@ def _section(
         values = [blocks.mean(profile(field, axis)[inside], 0) for field in fields]
         largest = max([largest, *(float(np.max(np.abs(value))) for value in values)])
         lines[label] = blocks.centres, values
-    unit = height_unit(largest) if si == "m" else fitting(si, largest)
+    unit, factor = shown_in(si, np.array([largest]))
     return {
         "name": name,
         "axis": axis,
@@ -122,7 +125,7 @@ def _section(
         "along": along,
         "down": si == "m",
         "curves": {
-            label: {"x": plain(x / size(along)), "values": [plain(v / size(unit)) for v in values]}
+            label: {"x": plain(x / size(along)), "values": [plain(v / factor) for v in values]}
             for label, (x, values) in lines.items()
         },
         "note": block_words(sizes[:1]),
@@ -133,62 +136,70 @@ def history(results: Results) -> dict[str, Any]:
     """Return what changes over the steps: panels of curves against the distance, and the time."""
     tables = {label: result.table("history") for label, result in results.items()}
     kept = {label: thinned(len(table["time_s"]), LONGEST) for label, table in tables.items()}
+    left_out = sum(len(table["time_s"]) - len(kept[label]) for label, table in tables.items())
+    note = f"{left_out} further steps are left out of the curves." if left_out else ""
+    names = next(iter(results.values())).body_names
+    panels = [(*p, note or "Every step is shown.") for p in _panels(tables, kept, names)]
+    panels += [(*p, "A mark for each save.") for p in _of_models(results)]
     unit = time_unit(max((result.times for result in results.values()), key=lambda t: t[-1]))
     axes = []
-    for words, shown, column in (
-        ("Sliding distance", "m", "distance_m"),
-        ("Time", unit, "time_s"),
-    ):
-        x = {label: plain(tables[label][column][kept[label]] / size(shown)) for label in tables}
-        panels = [
-            {"name": name, "unit": fit, "log": log, "curves": list(_drawn(curves, x, kept, fit))}
-            for name, fit, log, curves in _panels(tables, next(iter(results.values())).body_names)
-        ]
-        axes.append({"name": words.lower(), "label": f"{words} ({shown})", "panels": panels})
-    left_out = sum(len(table["time_s"]) - len(kept[label]) for label, table in tables.items())
-    note = (
-        f"{left_out} further steps are left out of the curves."
-        if left_out
-        else "Every step is shown."
-    )
-    return {"axes": axes, "note": note}
-
-
-def _drawn(
-    curves: Mapping[tuple[str, str], Array],
-    x: Mapping[str, list[float | None]],
-    kept: Mapping[str, list[int]],
-    unit: str,
-) -> Iterator[dict[str, Any]]:
-    for (label, called), values in curves.items():
-        name = ", ".join(part for part in (label, called) if part)
-        yield {"name": name, "x": x[label], "y": plain(values[kept[label]] / size(unit))}
+    for across, (words, shown) in enumerate((("Sliding distance", "m"), ("Time", unit))):
+        drawn = []
+        for name, si, curves, note in panels:
+            fit, factor = shown_in(si, np.concatenate([y for *_, y in curves.values()]))
+            drawn.append(
+                {
+                    "name": name,
+                    "unit": fit,
+                    "log": si == "Pa",
+                    "note": note,
+                    "curves": [
+                        {"name": called, "x": plain(x / size(shown)), "y": plain(y / factor)}
+                        for called, (*xs, y) in curves.items()
+                        for x in xs[across : across + 1]
+                    ],
+                }
+            )
+        axes.append({"name": words.lower(), "label": f"{words} ({shown})", "panels": drawn})
+    return {"axes": axes}
 
 
 def _panels(
-    tables: Mapping[str, Mapping[str, Array]], bodies: Sequence[str]
-) -> Iterator[tuple[str, str, bool, dict[tuple[str, str], Array]]]:
-    """Yield what there is to show: name, unit, whether logarithmic, and curves by result."""
+    tables: Mapping[str, Mapping[str, Array]],
+    kept: Mapping[str, list[int]],
+    bodies: Sequence[str],
+) -> Iterator[Panel]:
+    """Yield what there is to show of the steps that are kept."""
     for name, si, columns in _columns(bodies):
         curves = {
-            (label, called): table[column]
+            ", ".join(part for part in (label, called) if part): [
+                table[each][kept[label]] for each in ("distance_m", "time_s", column)
+            ]
             for label, table in tables.items()
             for called, column in columns.items()
-            if column in table and len(table["time_s"]) > 1 and np.any(table[column])
+            if column in table and len(table["time_s"]) > 1 and np.nansum(np.abs(table[column])) > 0
         }
-        if not curves or (si == "N" and all(np.ptp(values) == 0 for values in curves.values())):
-            continue
-        largest = max(float(np.nanmax(np.abs(values))) for values in curves.values())
-        unit = fitting(si, largest) if si in ("Pa", "m") else si
-        if si == "m" and "half-width" not in name:
-            unit = height_unit(largest)
-        yield name, unit, si == "Pa", curves
+        if curves and not (si == "N" and all(np.ptp(y) == 0 for *_, y in curves.values())):
+            yield name, si, curves
+
+
+def _of_models(results: Results) -> Iterator[Panel]:
+    """Yield what effects provide and what models keep, at the saves."""
+    found: dict[tuple[str, str], dict[str, list[Array]]] = {}
+    for label, result in results.items():
+        for field in kept_fields(result) if len(result.times) > 1 else ():
+            curves = found.setdefault((field.name.capitalize(), field.unit), {})
+            for called, values in field.over_time(result).items():
+                name = ", ".join(part for part in (label, called) if part)
+                curves[name or field.name] = [result.distances, result.times, values]
+    for (name, unit), curves in found.items():
+        yield name, unit, curves
 
 
 def _columns(bodies: Sequence[str]) -> Iterator[tuple[str, str, dict[str, str]]]:
     """Yield what there may be to show: its name, unit, and columns by what a curve is called."""
     for name, si, column in (
-        ("Volume worn", "mm³", "wear_volume_m3"),
+        ("Volume worn", "m^3", "wear_volume_m3"),
         ("Largest wear depth", "m", "max_wear_depth_m"),
         ("Roughness Sq in the contact", "m", "Sq_m"),
     ):
@@ -198,3 +209,4 @@ def _columns(bodies: Sequence[str]) -> Iterator[tuple[str, str, dict[str, str]]]
     widths = {"along": "contact_half_width_x_m", "across": "contact_half_width_y_m"}
     yield "Contact half-width", "m", widths
     yield "Normal load", "N", {"load": "load_N"}
+    yield "Friction force", "N", {"friction": "friction_force_N"}

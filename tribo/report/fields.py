@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from tribo.core.arrays import Array
+from tribo.plotting.kept import kept_fields
 from tribo.plotting.sections import limits, number_of_saves
-from tribo.plotting.units import fitting, height_unit, size
+from tribo.plotting.units import fitting, shown_in, size
 from tribo.report.curves import history, moments, sections, thinned, touched
 from tribo.report.reduced import Blocks, block_means, block_words, plain
 from tribo.result.body import BodyResult
@@ -81,7 +82,8 @@ def charts(result: Result) -> dict[str, Any]:
     bodies = [result.body(name) for name in result.body_names]
     pressures = [result.field("pressure", i) for i in saves]
     worn = [body for body in bodies if np.any(_depth(body)[saves] != 0)]
-    count = 1 + len(worn) + sum(len(body.effects) for body in bodies)
+    kept = [field for field in kept_fields(result) if field.varies]
+    count = 1 + len(worn) + len(kept)
     most = int(np.clip(np.sqrt(NUMBERS / (count * len(saves))), FEWEST_CELLS, MOST_CELLS))
     window = _window(result, saves, most)
     maps = [_map("Contact pressure", "Pa", "", pressures, window)]
@@ -94,11 +96,9 @@ def charts(result: Result) -> dict[str, Any]:
         maps.append(_map(_called(body), "m", body.name, depths, part))
         height = None if part is not window else window.means(body.height)
         surfaces.append(_surface(body.name, len(maps) - 1, height, maps[-1]["unit"]))
-    for body in bodies:
-        for field in body.effect_fields:
-            values = [body.effects[field.name][i] for i in saves]
-            name = f"{field.name}, {body.name}"
-            maps.append(_map(name, field.unit, body.name, values, window))
+    for field in kept:
+        values = [field.values[i] for i in saves]
+        maps.append(_map(field.name.capitalize(), field.unit, "models", values, window))
     return {
         "saves": moments(result, saves),
         "left_out": len(result.times) - len(saves),
@@ -112,12 +112,16 @@ def charts(result: Result) -> dict[str, Any]:
 def pressure_maps(results: Mapping[str, Result], times: Sequence[float]) -> list[dict[str, Any]]:
     """Return a map of the pressure of each result, by label, at times that all have saved, in s."""
     most = int(np.sqrt(NUMBERS / (len(results) * len(times))))
-    maps = []
+    maps: list[dict[str, Any]] = []
+    shown: dict[str, tuple[list[Array], Part]] = {}
     for label, result in results.items():
         saves = [result.save_at(time) for time in times]
         window = _window(result, saves, min(max(most, FEWEST_CELLS), MOST_CELLS))
-        pressures = [result.field("pressure", i) for i in saves]
-        maps.append(_map(f"Contact pressure, {label}", "Pa", "", pressures, window))
+        shown[label] = [result.field("pressure", i) for i in saves], window
+    highest = max(float(np.max(field)) for fields, _ in shown.values() for field in fields)
+    for label, (pressures, window) in shown.items():
+        name = f"Contact pressure, {label}"
+        maps.append(_map(name, "Pa", "", pressures, window, highest))
     return maps
 
 
@@ -160,15 +164,15 @@ def _whole_track(result: Result, depths: Sequence[Array], window: Part, most: in
     return Part(along, window.y, (Blocks.of(x[along], most), window.blocks[1]))
 
 
-def _map(name: str, unit: str, body: str, fields: Sequence[Array], part: Part) -> dict[str, Any]:
-    """Return a map at each save, with the largest value of all its cells."""
+def _map(
+    name: str, unit: str, body: str, fields: Sequence[Array], part: Part, highest: float = 0.0
+) -> dict[str, Any]:
+    """Return a map at each save, with the largest value of all its cells.
+
+    Its unit suits a value that is the `highest` of several maps, too.
+    """
     largest = [float(np.max(part.of(field))) for field in fields]
-    shown = unit
-    if unit == "m":
-        shown = height_unit(float(np.nanmax(np.abs(largest))))
-    elif unit == "Pa":
-        shown = fitting(unit, float(np.nanmax(largest)))
-    factor = size(shown) if unit in ("m", "Pa") else 1.0
+    shown, factor = shown_in(unit, np.array([*largest, highest]))
     return {
         "name": name,
         "body": body,

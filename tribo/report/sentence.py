@@ -18,12 +18,13 @@ AGREES = 0.02
 
 EXACT = 1e-6
 """Relative uncertainty up to which none is quoted: Archard's law fixes the volume."""
-LEAST = 0.9999e-4
-"""Part of a unit from which a value is given in it, as a lab does."""
-VOLUMES = {"mm³": 1e-9, "µm³": 1e-18}
-MASSES = {"mg": 1e-6, "ng": 1e-12}
+LEAST = 0.1
+"""Part of a unit from which a value is given in it, as in the tables."""
+VOLUMES = {"mm³": 1e-9}
+MASSES = {"mg": 1e-6}
 DEPTHS = {"µm": 1e-6, "nm": 1e-9}
 """Sizes of the units in SI, largest first."""
+RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 
 Estimate = Mapping[str, Any]
 """A row of ``tribo verify CASE --json``: name, unit, value and uncertainty."""
@@ -83,13 +84,17 @@ def sentence(result: Result, lab: LabReport, verified: Sequence[Estimate]) -> st
 def quoted(value: float, units: Mapping[str, float], study: Estimate | None = None) -> str:
     """Return a value with three digits, and its uncertainty where it has one."""
     unit = next((each for each, least in units.items() if value >= least * LEAST), [*units][-1])
-    number = value / units[unit]
-    # Three digits without a power of ten.
+    scale, power = units[unit], 0
+    # Three digits, with a power of ten where zeros would hide them.
+    if value and not 1e-4 <= value / scale < 1e5:
+        power = math.floor(math.log10(value / scale))
+    number = value / scale / 10.0**power
     words = f"{number:.3g}" if number < 1e3 else f"{float(f'{number:.3g}'):,.0f}"
     uncertain = None if study is None else study["uncertainty"]
     if uncertain and uncertain > EXACT * value:
-        words += f" ± {uncertain / units[unit]:.1g}"
-    return f"{words} {unit}"
+        words += f" ± {uncertain / scale / 10.0**power:.1g}"
+        words = f"({words})" if power else words
+    return f"{words} × 10{str(power).translate(RAISED)} {unit}" if power else f"{words} {unit}"
 
 
 def trust(verified: Sequence[Estimate]) -> str:

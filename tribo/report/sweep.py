@@ -41,7 +41,10 @@ def sweep_page(folder: Path) -> str:
         done = runs[runs["status"] == "done"]
         if done.empty:
             raise CaseError(f"no run of {folder} is done; there is nothing to report")
-        varied = list(runs.columns[2 : runs.columns.get_loc("time_s")])
+        # What is a number first: it makes the better axis.
+        varied = sorted(
+            runs.columns[2 : runs.columns.get_loc("time_s")], key=partial(_is_text, done)
+        )
         first = done.iloc[0]["file"]
     except (OSError, ValueError, KeyError) as error:
         raise CaseError(f"{folder / RUNS} is not the table of a sweep: {error}") from error
@@ -53,7 +56,6 @@ def sweep_page(folder: Path) -> str:
         for column in (*(f"bodies.{b}.{m}" for m in MEASURES for b in bodies), "max_pressure_Pa")
         if column in done and np.any(done[column] != 0)
     ]
-    messages = runs[runs["message"].notna()].groupby("message", sort=False)["run"]
     return render(
         "study.html.j2",
         kind="Sweep",
@@ -62,7 +64,7 @@ def sweep_page(folder: Path) -> str:
         tables_title="The runs",
         tables=[_table(runs, varied, measures)],
         remarks=[],
-        notes=[f"runs {', '.join(map(str, rows))}: {text}" for text, rows in messages],
+        notes=list(_notes(runs)),
         has_moments=False,
         curves_title="What varies, and what comes of it",
         stills=stills(_pictures(done, varied, measures)),
@@ -96,13 +98,27 @@ def _answers(
         yield f"The {body} lost {' to '.join(dict.fromkeys(ends))}."
 
 
+def _notes(runs: pd.DataFrame) -> Iterator[str]:
+    """Say once what several runs tell with other numbers."""
+    told = runs[runs["message"].notna()]
+    alike = told["message"].str.replace(r"[\d.]+", "", regex=True)
+    for _, rows in told.groupby(alike, sort=False):
+        numbers, text = list(map(str, rows["run"])), rows["message"].iloc[0]
+        more = f"; {', '.join(numbers[1:])} likewise" if len(numbers) > 1 else ""
+        yield f"run {numbers[0]}{more}: {text}"
+
+
+def _is_text(runs: pd.DataFrame, name: str) -> bool:
+    return not pd.api.types.is_numeric_dtype(runs[name])
+
+
 def _words(name: str, runs: pd.DataFrame) -> str:
     return _labelled(name, runs)[0].partition(" (")[0]
 
 
 def _labelled(name: str, runs: pd.DataFrame) -> tuple[str, float]:
     """Return what is said of a column, with its unit, and the unit's size."""
-    if not pd.api.types.is_numeric_dtype(runs[name]):
+    if _is_text(runs, name):
         return name.replace("_", " ").replace(".", " "), 1.0
     return column_label(name, runs[name].to_numpy(float))
 
@@ -120,15 +136,13 @@ def _cell(name: str, runs: pd.DataFrame, index: Any) -> str:
 
 
 def _table(runs: pd.DataFrame, varied: list[str], measures: list[str]) -> PageTable:
-    shown = [*varied, *measures]
-    head = ["run", "status", *(_labelled(name, runs)[0] for name in shown)]
-    rows = []
-    for index, run in runs.iterrows():
-        cells = [_cell(name, runs, index) for name in shown]
+    shown = ["run", *(["status"] if (runs["status"] != "done").any() else []), *varied, *measures]
+    rows = [
         # The heading has the unit.
-        cells = [cell.split(" ")[0] for cell in cells]
-        rows.append([str(run["run"]), str(run["status"]), *cells])
-    return PageTable("Each run at its end", head, rows, True)
+        [_cell(name, runs, index).split(" ")[0] for name in shown]
+        for index in runs.index
+    ]
+    return PageTable("Each run at its end", [_labelled(n, runs)[0] for n in shown], rows, True)
 
 
 def _curves(done: pd.DataFrame, varied: list[str], measures: list[str]) -> dict[str, Any]:
@@ -136,8 +150,10 @@ def _curves(done: pd.DataFrame, varied: list[str], measures: list[str]) -> dict[
     axes = []
     for across in varied:
         label, factor = _labelled(across, done)
-        groups = _groups(done.sort_values(across), [name for name in varied if name != across])
-        is_text = not pd.api.types.is_numeric_dtype(done[across])
+        groups, apart = _groups(
+            done.sort_values(across), [name for name in varied if name != across]
+        )
+        is_text = _is_text(done, across)
         low, high = (0.0, 0.0) if is_text else (done[across].min(), done[across].max())
         panels = []
         for name in measures:
@@ -148,32 +164,43 @@ def _curves(done: pd.DataFrame, varied: list[str], measures: list[str]) -> dict[
                     "name": called,
                     "x": list(rows[across]) if is_text else plain(rows[across] / factor),
                     "y": plain(rows[name] / size),
+                    "apart": apart,
                 }
                 for called, rows in groups.items()
             ]
-            panels.append({"name": what, "unit": unit.rstrip(")"), "log": False, "curves": curves})
+            panel = {"name": what, "unit": unit.rstrip(")"), "log": False, "curves": curves}
+            panels.append(panel | {"note": "A mark for each run that is done, at its end."})
         log = bool(low > 0 and high >= DECADE * low)
         axes.append({"name": _words(across, done), "label": label, "log": log, "panels": panels})
-    return {"axes": axes, "note": "A mark for each run that is done, at its end."}
+    return {"axes": axes}
 
 
 def _pictures(
     done: pd.DataFrame, varied: list[str], measures: list[str]
 ) -> dict[str, Callable[[], Figure]]:
     """Return how to draw the first measures over the first number that varies, for paper."""
-    numbers = [name for name in varied if pd.api.types.is_numeric_dtype(done[name])]
+    numbers = [name for name in varied if not _is_text(done, name)]
     others = [name for name in varied if name not in numbers[:1]]
-    by = others if len(_groups(done, others)) > 1 else []
+    groups, apart = _groups(done, others)
+    by = [name for name in others if len(groups) > 1 and (_is_text(done, name) or not apart)]
     return {
         _words(name, done): partial(sweep_curves, done, numbers[0], name, by)
         for name in measures[: MOST_PICTURES if numbers else 0]
     }
 
 
-def _groups(runs: pd.DataFrame, others: list[str]) -> dict[str, pd.DataFrame]:
-    """Return the runs of each curve by name; all in one if there would be too many."""
-    parts = {
-        ", ".join(f"{_words(n, runs)} {_cell(n, runs, rows.index[0])}" for n in others): rows
-        for _, rows in (runs.groupby(others, sort=True) if others else [])
-    }
-    return parts if 0 < len(parts) <= MOST_CURVES else {"runs": runs}
+def _groups(runs: pd.DataFrame, others: list[str]) -> tuple[dict[str, pd.DataFrame], bool]:
+    """Return the runs of each curve by name, and whether their marks stand apart.
+
+    Where other quantities vary along, as in a random sample, no line joins the runs; only text
+    tells them apart then.
+    """
+    texts = [name for name in others if _is_text(runs, name)]
+    for names, apart in ((others, False), (texts, True)):
+        parts = {
+            ", ".join(f"{_words(n, runs)} {_cell(n, runs, rows.index[0])}" for n in names): rows
+            for _, rows in (runs.groupby(names, sort=True) if names else [("", runs)])
+        }
+        if len(parts) <= MOST_CURVES and (apart or len(runs) >= 2 * len(parts)):
+            return parts, apart
+    return {"": runs}, True

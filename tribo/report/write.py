@@ -7,7 +7,7 @@ from pathlib import Path
 
 from tribo.core.errors import CaseError
 from tribo.report.calibration import calibration_page, read_calibration
-from tribo.report.comparison import comparison_page
+from tribo.report.comparison import comparison_page, readable
 from tribo.report.page import write_page
 from tribo.report.result import result_page
 from tribo.report.sweep import RUNS, sweep_page
@@ -83,7 +83,7 @@ def _page(what: What, verified: Path | None) -> str:
     if isinstance(found, Comparison):
         return comparison_page(found)
     with compare(found) as comparison:
-        return comparison_page(comparison)
+        return comparison_page(readable(comparison))
 
 
 def _found(what: str | Path) -> Calibration | Path | Sequence[Path]:

@@ -15,9 +15,14 @@ const LINES = [
   { color: "#8a4b9e", width: 2.5, dash: "longdash" },
   { color: "#6b6b6b", width: 2.5, dash: "longdashdot" },
 ];
+/** Seen where they coincide. */
+const MARKS = ["circle", "square-open", "diamond-open", "x-open", "triangle-up-open", "cross-open"];
 const FONT = { family: "system-ui, sans-serif", size: 13, color: "#1b1f24" };
 const CONFIG = { displayModeBar: false, responsive: true, displaylogo: false };
 const AXIS = { showline: true, ticks: "outside", zeroline: false, linecolor: "#4d5660", gridcolor: "#e3e7ea", automargin: true, exponentformat: "power" };
+/** Deeper is darker, as in the pictures of `tribo plot`. */
+const DEPTHS = ["#f7fbff", "#d0e1f2", "#94c4df", "#4a98c9", "#1764ab", "#08306b"].map((color, i) => [i / 5, color]);
+const ON_WHITE = [[0, "#dccfb4"], ...DEPTHS.slice(2)];
 const ALONG = ["Along sliding, x", "Across sliding, y"];
 
 /** Return a place for a chart, with its title and its note; the text stands for the picture. */
@@ -40,6 +45,16 @@ function layout(title, more) {
     paper_bgcolor: "#fff", plot_bgcolor: "#fff",
     legend: { orientation: "h", x: 0, xanchor: "left", y: 1.01, yanchor: "bottom" }, ...more,
   };
+}
+
+/** Return words in lines of about so many letters. */
+function wrapped(text, room) {
+  const lines = [""];
+  text.split(" ").forEach((word) => {
+    if (lines.at(-1) && `${lines.at(-1)} ${word}`.length > room) lines.push("");
+    lines.push(`${lines.pop()} ${word}`.trim());
+  });
+  return lines.join("<br>");
 }
 
 /** Return an axis from 0, or a logarithmic one whose marks are whole numbers. */
@@ -79,24 +94,26 @@ function rows(map, values, hidden = () => false) {
 const extreme = (lists, best, start) =>
   lists.reduce((a, list) => list.reduce((b, v) => (v === null ? b : best(b, v)), a), start);
 
-function drawMap(plot, map, save, moment, fixed) {
+/** Draw a map; it and its `peers` of other results have one scale. */
+function drawMap(plot, map, peers, save, moment, fixed) {
   const isPressure = map.body === "";
+  const isDepth = !isPressure && map.body !== "models";
   const values = map.values[save];
   // Depths keep their scale, so that one sees them grow; temperatures do not begin at 0.
-  const steady = fixed || map.unit.endsWith("m");
-  const lists = steady ? map.values : [values];
+  const steady = fixed || isDepth;
+  const lists = peers.flatMap((each) => (steady ? each.values : [each.values[save]]));
   const high = extreme(lists, Math.max, -Infinity);
   const low = isPressure || steady ? Math.min(0, extreme(lists, Math.min, 0)) : extreme(lists, Math.min, Infinity);
   const [ux, uy] = map.units;
   const trace = {
     type: "heatmap", x: map.x, y: map.y, z: rows(map, values, (v) => isPressure && v === 0),
-    zmin: low, zmax: high > low ? high : low + 1, colorscale: "Viridis", reversescale: !isPressure,
+    zmin: low, zmax: high > low ? high : low + 1, colorscale: isDepth ? DEPTHS : "Viridis",
     colorbar: { title: { text: map.unit, side: "right" }, thickness: 14, outlinewidth: 0 },
     hovertemplate: `x %{x:.3~f} ${ux}, y %{y:.3~f} ${uy}<br>%{z:.4~g} ${map.unit}<extra></extra>`,
   };
   const largest = `largest ${map.largest[save]} ${map.unit}`;
   plot.setAttribute("aria-label", `${map.name}, map seen from above at ${moment}: ${largest}.`);
-  return Plotly.react(plot, [trace], layout(`${map.name}<br><span style="font-size:12px">${largest}</span>`, {
+  return Plotly.react(plot, [trace], layout(`${wrapped(map.name, 40)}<br><span style="font-size:12px">${largest}</span>`, {
     plot_bgcolor: isPressure ? "#eceff1" : "#fff",
     xaxis: axis(`${ALONG[0]} (${ux})`, {
       showgrid: false, constrain: "domain", constraintoward: "right",
@@ -104,13 +121,14 @@ function drawMap(plot, map, save, moment, fixed) {
     yaxis: axis(`${ALONG[1]} (${uy})`, {
       showgrid: false, constrain: "domain", ...(map.alike ? { scaleanchor: "x" } : {}),
     }),
-    margin: { l: 60, r: 10, t: 58, b: 48 },
+    margin: { l: 60, r: 10, t: 58 + 18 * Math.floor(map.name.length / 40), b: 48 },
   }), CONFIG);
 }
 
 /** Return curves, each with a look that differs in grey too. */
-const lines = (curves) => curves.map(({ name, x, y }, i) => ({
-  type: "scatter", mode: x.length > 30 ? "lines" : "lines+markers", x, y, name, line: LINES[i % LINES.length],
+const lines = (curves) => curves.map(({ name, x, y, apart }, i) => ({
+  type: "scatter", x, y, name: wrapped(name, 60), line: LINES[i % LINES.length], marker: apart ? { size: 10, symbol: MARKS[i % MARKS.length] } : { size: 6 },
+  mode: apart ? "markers" : x.length > 30 ? "lines" : "lines+markers",
 }));
 
 function drawSection(plot, section, save, moment, fixed) {
@@ -139,7 +157,7 @@ function drawSurface(plot, data, surface, save, moment, camera) {
   const ratio = map.alike ? Math.min(Math.max(span(map.y) / span(map.x), 0.4), 2.5) : 0.6;
   const trace = {
     type: "surface", x: map.x, y: map.y, z: rows(map, height), surfacecolor: rows(map, depth),
-    cmin: Math.min(0, extreme(map.values, Math.min, 0)), cmax: deepest || 1, colorscale: "Viridis", reversescale: true,
+    cmin: Math.min(0, extreme(map.values, Math.min, 0)), cmax: deepest || 1, colorscale: ON_WHITE,
     colorbar: { title: { text: `depth, ${map.unit}`, side: "right" }, thickness: 14, outlinewidth: 0 },
     hovertemplate: `x %{x:.3~f} ${ux}, y %{y:.3~f} ${uy}<br>height %{z:.4~g} ${map.unit}<extra></extra>`,
   };
@@ -182,6 +200,8 @@ function turned(camera, turn, tilt) {
 async function showMoments(data) {
   const [slider, fixed] = [at("save"), at("fixed")];
   const maps = data.maps.map((map) => place(at("maps"), map.name, map.note));
+  const pressures = data.maps.filter(({ body }) => body === "");
+  const peers = data.maps.map((map) => (map.body === "" ? pressures : [map]));
   const sections = data.sections.map((section) => place(at("sections"), section.name, section.note));
   const surfaces = hasWebGL() ? data.surfaces : [];
   const surfacePlot = surfaces.length ? place(at("surface"), "surface", data.maps[surfaces[0].map].note) : null;
@@ -207,7 +227,7 @@ async function showMoments(data) {
     at("said").textContent = moment;
     slider.setAttribute("aria-valuetext", moment);
     const drawn = [
-      ...maps.map((plot, i) => drawMap(plot, data.maps[i], save, moment, fixed.checked)),
+      ...maps.map((plot, i) => drawMap(plot, data.maps[i], peers[i], save, moment, fixed.checked)),
       ...sections.map((plot, i) => drawSection(plot, data.sections[i], save, moment, fixed.checked)),
     ];
     if (surfacePlot) {
@@ -250,7 +270,7 @@ async function showHistory(history) {
     at("past").remove();
     return;
   }
-  const plots = panels.map((panel) => place(at("history"), panel.name, history.note));
+  const plots = panels.map((panel) => place(at("history"), panel.name, panel.note));
   const draw = (chosen) => {
     const { label, log, panels: drawn } = history.axes[chosen];
     return Promise.all(plots.map((plot, i) => drawHistory(plot, drawn[i], label, log)));

@@ -1,0 +1,82 @@
+"""Fields that effects provide and that models keep: at each save, and seen from above."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from tribo.core.arrays import Array
+from tribo.plotting import style
+from tribo.plotting.maps import new_maps
+from tribo.plotting.units import shown_in, time_labels
+from tribo.result.layout import BETWEEN, EFFECT, STATE
+from tribo.result.read import Result
+
+
+@dataclass(frozen=True)
+class KeptField:
+    """A field at every save, shape (saves, nx, ny), or a number at each, shape (saves,)."""
+
+    key: str
+    name: str
+    unit: str
+    values: Array
+
+    @property
+    def varies(self) -> bool:
+        """Whether it differs from place to place at any save."""
+        return any(np.ptp(values) > 0 for values in self.values)
+
+    def over_time(self, result: Result) -> dict[str, Array]:
+        """Return the largest value at each save and, where it differs, the mean in the contact."""
+        if not self.varies:
+            return {"": self.values.reshape(len(self.values), -1)[:, 0]}
+        means = [
+            float(np.mean(values[result.field("pressure", save) > 0]))
+            for save, values in enumerate(self.values)
+        ]
+        return {"largest": self.values.max(axis=(1, 2)), "mean in the contact": np.array(means)}
+
+
+def kept_fields(result: Result) -> list[KeptField]:
+    """Return the fields that a result has of its models.
+
+    One that all bodies have alike is there once; one that an effect failed to give is left out.
+    """
+    return [each for each in _fields(result) if np.isfinite(each.values).all()]
+
+
+def _fields(result: Result) -> Iterator[KeptField]:
+    every = range(len(result.times))
+    for key, field in result.fields_of(BETWEEN).items():
+        values = np.array([result.field(key, save) for save in every])
+        yield KeptField(key, field.name.replace("_", " "), field.unit, values)
+    for kind in (EFFECT, STATE):
+        for key, field in result.fields_of(kind).items():
+            of_bodies = {
+                body: np.array([result.field(key, save, body) for save in every])
+                for body in result.body_names
+                if key in result.fields_of(kind, body)
+            }
+            first, *others = of_bodies.values()
+            alike = bool(others) and all(np.array_equal(first, other) for other in others)
+            for body, values in [*of_bodies.items()][: 1 if alike else None]:
+                name = field.name.replace("_", " ")
+                own = (key, name) if alike else (f"{body}_{key}", f"{name}, {body}")
+                yield KeptField(*own, field.unit, values)
+
+
+def field_map(result: Result, kept: KeptField) -> Figure:
+    """Draw such a field from above at the last save."""
+    values = kept.values[-1]
+    unit, factor = shown_in(kept.unit, values)
+    with style.house_style():
+        figure, (shown,) = new_maps(result.field("pressure", -1) > 0, result.grid)
+        name = kept.name.capitalize()
+        label = f"{name} ({unit})" if unit else name
+        shown.image(values / factor, label, cmap=style.PRESSURES, interpolation="nearest")
+        shown.axes.set_title(f"t = {time_labels(result.times)[-1]}", loc="left")
+    return figure
