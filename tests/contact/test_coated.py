@@ -7,6 +7,7 @@ import pytest
 from scipy.special import j1
 
 from tribo import CaseError, HalfSpace, Periodic, Winkler, residuals
+from tribo.closed_forms import hertz
 from tribo.contact.coated import base_kernel, surface_modulus
 from tribo.contact.dcfft import DcFft
 from tribo.contact.periodic import PeriodicHalfSpace
@@ -153,7 +154,7 @@ def published(depth):
     return sum(c * root**n for n, c in enumerate(terms))
 
 
-@pytest.mark.parametrize("depth", [0.01, 0.16, 1.0, 4.0])
+@pytest.mark.parametrize("depth", [0.01, 1.0])
 def test_hertz_on_a_layer_is_the_published_one(depth):
     # Hermanowicz (2021), Int. J. Mech. Sci. 193, 106138: F R (1 − ν²)/(E t³) by δ R/t².
     rubber = Material(young=1e6, poisson=0.5 - 1e-6)
@@ -163,6 +164,55 @@ def test_hertz_on_a_layer_is_the_published_one(depth):
     found = (solution.approach + between_cells(-problem.gap)) * 1e-3 / H**2
     # 0.05 % on 128² cells.
     assert published(found) == pytest.approx(published(depth), rel=5e-3)
+
+
+def sphere(coating, a, radius=1e-3):
+    """Load, approach and peak pressure of a rigid sphere that touches over a radius.
+
+    With the Hankel transform ∫ g(t) cos(qt) dt of the pressure, Abel's transform of the
+    displacement is, for the influence I of the base, an equation of Fredholm's second kind::
+
+        π g(s)/2 + ∫ g(t) ∫ I(q) cos(qt) cos(qs) dq dt = E′ (δ − s²/R)/2,  0 < s < a
+
+    with g(a) = 0, F = 2π ∫ g dt and p(0) = −∫ g′/t dt (Perriot & Barthel 2004, J. Mater. Res. 19,
+    600-608). I is from plane strain, wave by wave.
+    """
+    nodes, weights = np.polynomial.legendre.leggauss(40)
+    t, dt = 0.5 * a * (nodes + 1), 0.5 * a * weights
+    ends = np.append(t, a)
+    panel = (np.arange(60)[:, None] + 0.5 * (nodes + 1)) / 3
+    xi, dxi = panel.ravel(), np.tile(0.5 * weights / 3, 60)
+    influence = np.array([wave(x, coating.layer, coating.base) - 1 for x in xi])
+    cosines = np.cos(np.outer(ends / coating.thickness, xi))
+    kernel = (cosines * influence * dxi) @ cosines[:-1].T / coating.thickness
+    matrix = np.hstack([kernel * dt, np.zeros((41, 1))]) + np.pi / 2 * np.eye(41)
+    even, square = np.linalg.solve(matrix, np.array([np.ones(41), ends**2 / radius]).T).T
+    half = 0.5 * coating.modulus
+    approach = square[-1] / even[-1]
+    g = half * (approach * even - square)
+    # Even in t, so that g′/t is smooth.
+    fit = np.polynomial.chebyshev.Chebyshev.fit(ends**2, g, 20)
+    return 2 * np.pi * np.sum(g[:-1] * dt), approach, -2 * np.sum(fit.deriv()(t**2) * dt)
+
+
+def test_a_sphere_on_the_layer_alone_is_that_of_hertz():
+    load, approach, peak = sphere(Coating(H, SOFT, SOFT), 30e-6)
+    exact = hertz.point(modulus(SOFT), load, 1e3, 1e3)
+    assert exact.semi_axes[0] == pytest.approx(30e-6, rel=1e-6, abs=0)
+    assert exact.approach == pytest.approx(approach, rel=1e-6, abs=0)
+    assert exact.peak_pressure == pytest.approx(peak, rel=1e-6)
+
+
+@pytest.mark.parametrize(("layer", "base"), PAIRS)
+@pytest.mark.parametrize("width", [0.5, 2.0])
+def test_a_sphere_on_a_coated_base_is_that_of_an_integral_equation(layer, base, width):
+    coating = Coating(H, layer, base)
+    load, approach, peak = sphere(coating, width * H)
+    problem = ball(coating, load, 2.6 * width * H, cells=96)
+    solution = DcFft().solve(problem)
+    found = solution.approach + between_cells(-problem.gap)
+    assert found == pytest.approx(approach, rel=3e-4, abs=0)
+    assert solution.pressure.max() == pytest.approx(peak, rel=3e-4)
 
 
 def test_a_thick_layer_is_a_half_space_of_the_layer():
