@@ -1,4 +1,4 @@
-"""Joining the parts of a case: everything checked, nothing solved yet."""
+"""Check that the parts of a case fit together, and derive what a run needs; nothing is solved."""
 
 from __future__ import annotations
 

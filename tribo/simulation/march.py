@@ -61,17 +61,13 @@ def march(model: Model, state: State) -> Iterator[Accepted]:
     limit = _limit(model)
     if _depth(model, state) >= limit:
         return
-    with doubting(model.case):
-        yield from _march(model, state, limit)
-
-
-def _march(model: Model, state: State, limit: float) -> Iterator[Accepted]:
     # Which stops are left follows from the time alone, so a resumed run sees the same.
     both = *model.loads.edges, *model.motion.edges()
     edges = {time for time in both if 0 < time < model.end_time}
     for until in sorted(model.saves | edges):
         while state.time < until:
-            state = _advanced(model, state, until, limit)
+            with doubting(model.case):
+                state = _advanced(model, state, until, limit)
             worn_out = _depth(model, state) >= limit
             last = worn_out or state.time >= model.end_time
             if last:

@@ -1,4 +1,4 @@
-"""A case with what follows from it: everything checked, nothing solved yet."""
+"""What a run needs of a case, derived from it once: arrays, exposures, guards."""
 
 from __future__ import annotations
 
@@ -231,10 +231,6 @@ class Model:
             with calling(component):
                 component.model_dump(mode="json")
         return self.case.model_dump(mode="json")
-
-    def is_swept(self, name: str) -> bool:
-        """Whether the body's points pass through the contact."""
-        return name in self.swept
 
     def average(self, name: str, rate: Array, position: int) -> Array:
         """Return what the rate (nx, ny) at a position adds, by its share, to a body's mean rate."""

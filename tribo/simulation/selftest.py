@@ -1,4 +1,4 @@
-"""Does this installation compute what it should? A few seconds' worth of checks."""
+"""A few seconds' check of this installation: a short run against closed forms, and itself."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where a case leaves what its models hold for."""
+"""Notices of where a case leaves the range in which its models hold."""
 
 from __future__ import annotations
 

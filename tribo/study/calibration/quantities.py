@@ -120,7 +120,7 @@ def _crown(result: Result, body: BodyResult, save: int) -> tuple[float, float]:
 
 def unavailable(model: Model, body: str, name: str) -> str:
     """Return why runs of a model do not give a quantity of a body; nothing if they do."""
-    found, swept, of = model.bodies[body], model.is_swept(body), QUANTITIES[name].of
+    found, swept, of = model.bodies[body], body in model.swept, QUANTITIES[name].of
     if found.wear is None:
         return f"body {body!r} does not wear in this case; give it a wear law, bodies.{body}.wear"
     if name == "mass" and found.material.density is None:
