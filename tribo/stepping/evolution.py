@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tribo.core.arrays import Array
+from tribo.core.arrays import Array, readonly
 from tribo.core.contact import ContactSolution
 from tribo.core.fields import WearRate
 from tribo.core.state import State
@@ -155,6 +155,7 @@ def _rates(
     Those of the depths of bodies in layers, which follow what is remembered, are means over a step.
     """
     moment = end.back((1 - passed) * increment)
+    contacts = _loaded(model, contacts, increment, end, passed)
     each = iter(values)
     now = before.with_values(each)
     if layered:
@@ -174,6 +175,27 @@ def _rates(
         pairs = zip(total, (*laws, *effects, *depths), strict=True)
         total = [value + share * rate for value, rate in pairs]
     return total + [rate.depth_rate for rates in found for rate in rates.wear.values()]
+
+
+def _loaded(
+    model: Model,
+    contacts: Sequence[ContactSolution],
+    increment: float,
+    end: Moment,
+    passed: float,
+) -> Sequence[ContactSolution]:
+    """Return contacts with pressures in proportion to the load where a part has passed."""
+    # A load that jumps as the increment begins is told apart in its middle.
+    middle = model.loads.before(end.back(0.5 * increment).time)
+    last = model.loads.before(end.time)
+    if middle == last:
+        return contacts
+    cell, loaded = model.grid.cell_area, []
+    for contact, half, whole in zip(contacts, middle, last, strict=True):
+        load = whole + 2 * (1 - passed) * (half - whole)
+        share = load / (float(np.sum(contact.pressure)) * cell)
+        loaded.append(replace(contact, pressure=readonly(share * contact.pressure)))
+    return loaded
 
 
 def _limits(model: Model, memory: Memory) -> list[Limits]:

@@ -222,7 +222,8 @@ class Implicit(Scheme):
         )
         guess = _guess(model, before, state.contacts, slid, increment)
         loads = model.loads.mean(state.time, time)
-        heavier = loads[0] / model.loads.after(state.time)[0]
+        # What is remembered is integrated under the loads of the step already.
+        heavier = 1.0 if before.values else loads[0] / model.loads.after(state.time)[0]
         forward = {name: heavier * depth for name, depth in guess.worn.items()}
         solved, passes = state, 0
         while True:

@@ -52,6 +52,19 @@ def test_the_bulk_warms_and_cools_as_the_balance_says():
     assert ball[1].max() - bulk[1] > 5
 
 
+@pytest.mark.parametrize("stepping", [{"type": "implicit"}, {"type": "explicit", "time_step": 2}])
+def test_the_bulk_follows_a_load_that_rises_within_a_step(stepping):
+    ramp = [{"at": 0, "normal": 100}, {"at": 40, "normal": 200}]
+    given = {**case(0.1, heat_fraction={"ball": 1, "disk": 0}), "stepping": stepping}
+    with Simulation({**given, "load": {"normal": ramp}}).run() as result:
+        bulk = float(result.bulk_rise_ball[-1])
+    # C dB/dt = P + P't − B/R, from B = 0.
+    power, slope = POWER, POWER / 40
+    lagging = power - slope * TIME
+    exact = RESISTANCE * (lagging + slope * 40 - lagging * math.exp(-40 / TIME))
+    assert bulk == pytest.approx(exact, rel=1e-5)
+
+
 def test_shared_heat_makes_both_surfaces_equally_hot_while_one_bulk_warms():
     with Simulation(case(0.1)).run() as result:
         ball, disk = (result.body(name).effects["temperature"] for name in ("ball", "disk"))

@@ -106,6 +106,12 @@ class Flash(Effect):
     requires = ("friction_coefficient",)
 
     @property
+    def _warming(self) -> dict[str, HeatPath]:
+        """Paths of the bodies that warm in time."""
+        paths = (self.heat_paths or {}).items()
+        return {name: path for name, path in paths if path.capacity is not None}
+
+    @property
     def state_fields(self) -> tuple[Field, ...]:  # type: ignore[override]
         """The bulk of each body that warms in time."""
         return tuple(
@@ -117,29 +123,30 @@ class Flash(Effect):
                 typical=10.0,
                 uniform=True,
             )
-            for name, path in (self.heat_paths or {}).items()
-            if path.capacity is not None
+            for name in self._warming
         )
 
     def check(self, materials: Mapping[str, Material], swept: frozenset[str]) -> None:
         """Require thermal properties, bodies that exist, and one that stays in contact."""
         bodies = set(materials)
-        fractions = self.heat_fraction
-        paths = self.heat_paths or {}
-        if not set(paths) <= bodies:
-            raise CaseError(_which("heat_paths", paths, bodies))
-        if fractions is not None and set(fractions) != bodies:
-            raise CaseError(_which("heat_fraction", fractions, bodies))
+        for key, wrong in (
+            ("heat_paths", set(self.heat_paths or {}) - bodies),
+            ("heat_fraction", bodies ^ set(self.heat_fraction or bodies)),
+        ):
+            if wrong:
+                raise CaseError(
+                    f"'thermal.flash' has {key} for {', '.join(getattr(self, key))}; the bodies "
+                    f"are {', '.join(sorted(bodies))}"
+                )
         if swept >= bodies:
             raise CaseError(
                 "'thermal.flash' needs a body that stays in the contact; here all are swept, at "
                 "speeds it does not know"
             )
         for name, material in materials.items():
-            _needed(name, material, "conductivity")
-            if name in swept:
-                _needed(name, material, "density")
-                _needed(name, material, "heat_capacity")
+            moving = ("density", "heat_capacity") if name in swept else ()
+            for key in ("conductivity", *moving):
+                _needed(name, material, key)
 
     def fields(self, contact: ContactConditions) -> Mapping[str, Mapping[str, Array]]:
         """Return the temperature of each body and its rise, uniform over the contact."""
@@ -153,13 +160,10 @@ class Flash(Effect):
     def state_rates(self, contact: ContactConditions) -> Mapping[str, Array]:
         """Return by how much the bulk of each body that warms in time does so per second."""
         flows, rates = self._flows(contact), {}
-        for name, path in (self.heat_paths or {}).items():
-            if path.capacity is not None:
-                kept = contact.state[bulk(name)]
-                away = kept / path.resistance(
-                    _needed(name, contact.materials[name], "conductivity")
-                )
-                rates[bulk(name)] = (flows[name] - away) / path.capacity
+        for name, path in self._warming.items():
+            conductivity = _needed(name, contact.materials[name], "conductivity")
+            away = contact.state[bulk(name)] / path.resistance(conductivity)
+            rates[bulk(name)] = (flows[name] - away) / path.capacity
         return rates
 
     def rises(self, contact: ContactConditions) -> dict[str, float]:
@@ -219,10 +223,3 @@ def _needed(name: str, material: Material, key: str) -> float:
             f"bodies.{name}.material.{key}",
         )
     return float(value)
-
-
-def _which(key: str, given: Mapping[str, object], bodies: set[str]) -> str:
-    return (
-        f"'thermal.flash' has {key} for {', '.join(given)}; the bodies are "
-        f"{', '.join(sorted(bodies))}"
-    )
