@@ -102,28 +102,21 @@ class ClosedTrack(Kinematics):
         CaseError
             If the stages of the speed end before.
         """
+        far = self.distance if self.revolutions is None else self.revolutions * self.lap
         if not isinstance(self.speed, float):
-            self._check_lasts()
+            times, slid = self._course
+            left = (slid[-1] - (far or 0.0)) / slid[-1], 1 - (self.duration or 0.0) / times[-1]
+            if min(left) < -ROUNDING:
+                end = f"{self.duration:g} s" if far is None else f"{far:g} m"
+                raise CaseError(
+                    f"the speed ends at {times[-1]:g} s, after {slid[-1]:g} m, before the run does "
+                    f"at {end}; give it up to then",
+                    "kinematics.speed",
+                )
         if self.duration is not None:
             return self.duration
-        assert self._distance is not None
-        return self.time_at(self._distance)
-
-    def _check_lasts(self) -> None:
-        times, slid = self._course
-        far, long = self._distance or 0.0, self.duration or 0.0
-        if far > slid[-1] * (1 + ROUNDING) or long > times[-1] * (1 + ROUNDING):
-            end = f"{long:g} s" if self._distance is None else f"{far:g} m"
-            raise CaseError(
-                f"the speed ends at {times[-1]:g} s, after {slid[-1]:g} m, before the run does at "
-                f"{end}; give it up to then",
-                "kinematics.speed",
-            )
-
-    @property
-    def _distance(self) -> float | None:
-        """How far it slides, if that is given, in m."""
-        return self.distance if self.revolutions is None else self.revolutions * self.lap
+        assert far is not None
+        return self.time_at(far)
 
     def distance_at(self, time: float) -> float:
         """Return the sliding distance until `time`, in m."""

@@ -46,33 +46,17 @@ class Exposure(ABC):
 
     @abstractmethod
     def average(self, rate: Array) -> Array:
-        """Return the rate each point of the body sees per metre of sliding.
+        """Return the rate each point of the body sees per metre of sliding, on its surface.
 
-        Parameters
-        ----------
-        rate : ndarray, shape (nx, ny)
-            Rate per metre of sliding in the contact frame.
-
-        Returns
-        -------
-        ndarray
-            Its mean over a whole motion, on the body's surface. Where `starts` are given: `rate`
-            itself, which is laid on the body's surface at each position of the cycle.
+        It is the mean over a whole motion of a rate in the contact frame, shape (nx, ny). Where
+        `starts` are given: `rate` itself, which is laid on the body at each position of the cycle.
         """
 
     @abstractmethod
     def envelope(self, field: Array) -> Array:
-        """Return the largest value of `field` that each point of the body meets.
+        """Return the largest value of a field that each point of the body meets, on its surface.
 
-        Parameters
-        ----------
-        field : ndarray
-            On the body's surface; where every point of a track sees the same, in the contact frame.
-
-        Returns
-        -------
-        ndarray
-            On the body's surface.
+        The field lies there; where every point of a track sees the same, in the contact frame.
         """
 
     @abstractmethod
@@ -96,13 +80,7 @@ class Exposure(ABC):
 
 
 class Stationary(Exposure):
-    """The same material points stay in contact.
-
-    Parameters
-    ----------
-    grid : Grid
-        The window.
-    """
+    """The same material points stay in contact."""
 
     def __init__(self, grid: Grid) -> None:
         self._cell_area = grid.cell_area
@@ -151,18 +129,13 @@ class Track(Exposure):
     def __init__(self, grid: Grid, length: float | Array, *, shape_stays: bool = False) -> None:
         self._rows = grid.cells[1]
         self._dx, self._dy = grid.spacing
-        self._length = length
+        self.length = length
         self.shape_stays = shape_stays
-
-    @property
-    def length(self) -> float | Array:
-        """Track length ℓ, in m, of each row where they differ."""
-        return self._length
 
     def average(self, rate: Array) -> Array:
         """Return the track average, shape (1, ny)."""
         line = np.sum(rate, axis=0, keepdims=True)
-        return np.asarray(line * (self._dx / self._length))
+        return np.asarray(line * (self._dx / self.length))
 
     def envelope(self, field: Array) -> Array:
         """Return the maximum along the track, shape (1, ny)."""
@@ -171,7 +144,7 @@ class Track(Exposure):
     def volume(self, depth: Array) -> float:
         """Return the area of the track's cross-section times its length, row by row, in m³."""
         section = np.max(np.broadcast_to(depth, (depth.shape[0], self._rows)), axis=0)
-        return float(np.sum(section * self._length)) * self._dy
+        return float(np.sum(section * self.length)) * self._dy
 
     def compliance(self, derivative: Array, pressure: Array) -> WearCompliance:
         """Return the load-weighted mean derivative of each row as a swept compliance."""
@@ -180,7 +153,7 @@ class Track(Exposure):
         weighted = np.sum(derivative * pressure, axis=0) / np.where(loaded, line_load, 1.0)
         # A row that is yet to be touched has the derivative that its law gives nearby.
         mean = np.where(loaded, weighted, np.max(derivative, axis=0))
-        return WearCompliance(np.zeros_like(derivative), mean / self._length)
+        return WearCompliance(np.zeros_like(derivative), mean / self.length)
 
 
 class Passing(Stationary):

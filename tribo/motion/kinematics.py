@@ -73,25 +73,13 @@ class Kinematics(Component):
     def coarsened(self, half_width_x: float) -> Kinematics:
         """Return the motion to estimate with: few positions, or an average in place of them.
 
-        Itself, unless overridden.
-
-        Parameters
-        ----------
-        half_width_x : float
-            Half the extent of the first contact along x, in m.
+        Itself, unless overridden. `half_width_x` is that of the first contact, in m.
         """
         return self
 
     @abstractmethod
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
-        """Return how each body, by name, meets the contact.
-
-        Parameters
-        ----------
-        grid : Grid
-            The window.
-        bodies : sequence of str
-            Names of the bodies, in the order of the case.
+        """Return how each body meets the contact, by name, in the order of the case.
 
         Raises
         ------

@@ -187,12 +187,9 @@ class Reciprocating(Kinematics):
 
         The average of a short stroke is taken where the case allows it.
         """
-        if self._averages:
-            self._check_average(half_width_x)
-        else:
+        if not self._averages:
             check_spacing(self.stroke, self.positions, half_width_x)
-
-    def _check_average(self, half_width_x: float) -> None:
+            return
         if self.stroke >= half_width_x or self.allow_short_stroke:
             return
         excess = groove_excess(self.stroke, half_width_x, 0.0, 0.0)

@@ -12,23 +12,9 @@ from tribo.motion.exposure import Exposure, Stationary
 def one_swept_body(
     grid: Grid, bodies: Sequence[str], swept: str | None, exposure: Exposure
 ) -> dict[str, Exposure]:
-    """Return `exposure` for the swept body and `Stationary` for the others.
+    """Return `exposure` for the swept body, the last if it has no name, `Stationary` for others.
 
-    Parameters
-    ----------
-    grid : Grid
-        The window.
-    bodies : sequence of str
-        Names of the bodies.
-    swept : str or None
-        Name of the swept body; the last body if None.
-    exposure : Exposure
-        How the swept body meets the contact.
-
-    Raises
-    ------
-    CaseError
-        If there is no body of that name.
+    Raises `CaseError` if there is no body of that name.
     """
     name = bodies[-1] if swept is None else swept
     if name not in bodies:
