@@ -21,6 +21,7 @@ from tribo.effects.effect import Effect
 from tribo.motion.reciprocating import Reciprocating
 from tribo.observers.observer import Observer
 from tribo.simulation.run import Simulation
+from tribo.stepping.implicit import Implicit
 from tribo.surfaces.cylinder import Cylinder
 from tribo.surfaces.flat import Flat
 from tribo.surfaces.sphere import Sphere
@@ -35,6 +36,8 @@ LOAD = 100.0
 RADIUS = 5e-3
 STEPS = 2000
 """Of a run, at most; most take fewer than a hundred."""
+LONG_STEPS = Implicit(depth_tolerance=0.01, pressure_tolerance=0.3)
+"""Few of them in a run, for what a run tries is not how exact it is."""
 SPEED = 0.1
 SPEEDS = (SPEED, 3e-3, 2.0)
 PEAK = 2e9
@@ -254,6 +257,7 @@ def run(
         },
         contact=Winkler(),
         kinematics=kinematics,
+        stepping=LONG_STEPS,
         friction=None if FRICTION_COEFFICIENT.name in provided else _friction(given),
         effects=[*([_providing(needed, given)] if needed else []), *effects],
         observers=observers,
