@@ -1,4 +1,4 @@
-"""How a body's material points meet the contact: staying in it, or passing through."""
+"""How a body's points meet the contact: staying in it, or passing through; the track average."""
 
 from __future__ import annotations
 
@@ -106,7 +106,7 @@ class Track(Exposure):
     """Points pass through the contact along x, all over a track of given length.
 
     The mean over the track is (J r)(y) = (Δx/ℓ) Σₓ r(x, y), whatever the
-    window: equation 5 of Andersson, Almqvist & Larsson with N = L. Fields on
+    window: equations 4 and 5 of Andersson, Almqvist & Larsson (2010) with N = L. Fields on
     the body have shape (1, ny).
 
     Valid on a closed track. Where the contact reverses inside the track it is

@@ -1,4 +1,4 @@
-"""How far has it slid at time t, and which points of which body see the contact?"""
+"""The interface of motions: how far it has slid at a time, and which points see the contact."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Who watches the run?"""
+"""The interface of observers, which watch a run."""
 
 from __future__ import annotations
 

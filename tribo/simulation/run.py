@@ -28,7 +28,7 @@ from tribo.simulation.beginning import checksum
 from tribo.simulation.doubt import doubting
 from tribo.simulation.effects import MissingFieldError
 from tribo.simulation.guard import calling
-from tribo.simulation.interrupt import InterruptGuard
+from tribo.simulation.interrupt import interrupts_held
 from tribo.simulation.march import begin, march
 from tribo.simulation.measure import measure
 from tribo.simulation.model import Model
@@ -209,7 +209,7 @@ class Simulation:
         info = self._info(snapshot if resumed else None, wall_time)
         reason = "failed"
         try:
-            with InterruptGuard() as guard:
+            with interrupts_held() as requested:
                 audience.start(info)
                 if not resumed:
                     _announce((), state.notices)
@@ -221,7 +221,7 @@ class Simulation:
                     if accepted.save:
                         snapshot = self._with_effects(snapshot)
                     audience.step(snapshot, save=accepted.save)
-                    if guard.requested and not accepted.last:
+                    if requested.is_set() and not accepted.last:
                         raise KeyboardInterrupt
             reason = "done"
         except TriboError as error:

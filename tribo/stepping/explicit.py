@@ -1,4 +1,4 @@
-"""Forward Euler with a fixed time step, and the limit of its stability."""
+"""Forward Euler with a fixed time step, equation 3 of the paper, and the limit of its stability."""
 
 from __future__ import annotations
 

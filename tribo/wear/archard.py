@@ -15,7 +15,7 @@ from tribo.wear.law import WearLaw
 
 
 class Archard(WearLaw):
-    """dh/ds = k p, with k = K/H.
+    """dh/ds = k p, with k = K/H: equations 1 and 2 of Andersson, Almqvist & Larsson (2010).
 
     Valid for mild sliding wear in a steady regime: k independent of pressure,
     speed and history.

@@ -15,7 +15,7 @@ from concurrent.futures import (
 from pathlib import Path
 
 from tribo.core.errors import Interrupted, OutputError
-from tribo.simulation.interrupt import InterruptGuard
+from tribo.simulation.interrupt import interrupts_held
 from tribo.study.sweeping.runs_table import Run
 from tribo.study.sweeping.worker import carry_out
 
@@ -59,12 +59,12 @@ def carry(
                 f"the executor takes no more runs ({type(error).__name__}: {error}); {_GOES_ON}"
             ) from error
 
-    with InterruptGuard() as guard:
+    with interrupts_held() as requested:
         for run in runs:
             submit(run)
         while futures:
             done, _ = wait(futures, TICK, FIRST_COMPLETED)
-            if guard.requested:
+            if requested.is_set():
                 # Cancelling would lose track of runs that dask has started.
                 stop.touch()
                 try:
