@@ -53,13 +53,15 @@ def made(
     texture=0.0,
     relief=0.0,
     film=0.0,
+    layers=(),
 ):
     """Return a result in which the contact grows as that of a ball worn flat.
 
     The pressure goes as ``(1 - r²/a²)**power``; `shape` are the half-widths along x and y in
     parts of a, `texture` the part of the pressure that comes and goes from cell to cell, `relief`
     the amplitude in m of waves on the first body. A `film`, in m/s, grows between the bodies and
-    takes a share of the load that all of them see.
+    takes a share of the load that all of them see. `layers` are the tables of those of the first
+    body, of which none is worn through.
     """
     bodies = tuple(zip(names, swept, worn, densities, strict=True))
     writer = ResultWriter()
@@ -79,7 +81,12 @@ def made(
             ),
             end_time=3600.0,
             end_distance=360.0,
-            case={"grid": grid.model_dump(), "bodies": {name: {} for name in names}},
+            case={
+                "grid": grid.model_dump(),
+                "bodies": {
+                    name: {"layers": list(layers) if name == names[0] else []} for name in names
+                },
+            },
             provenance=provenance({}),
             between_fields=FILM if film else (),
             effect_fields=SHARE if film else (),

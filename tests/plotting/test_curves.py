@@ -50,9 +50,12 @@ def test_runs_of_a_sweep_are_curves_in_the_order_of_what_varies():
 def test_a_fit_stands_over_what_was_measured():
     data = pd.DataFrame(
         {
+            "test": ["", "long"],
             "body": ["ball", "disk"],
             "quantity": ["scar_across", "mass"],
+            "time_s": [np.nan, 60.0],
             "measured": [1e-3, 2e-7],
+            "below": [False, True],
             "sigma": [1e-5, 1e-7],
             "computed": [1.1e-3, 2e-7],
         }
@@ -61,7 +64,9 @@ def test_a_fit_stands_over_what_was_measured():
     fitted = next(line for line in figure.axes[0].lines if line.get_label() == "fitted")
     np.testing.assert_allclose(fitted.get_xdata(), [1.1, 1.0])
     labels = [text.get_text() for text in figure.axes[0].get_yticklabels()]
-    assert labels == ["ball: scar across", "disk: mass"]
+    assert labels == ["ball: scar across", "long, disk: mass, 60 s"]
+    (limit,) = [each for each in figure.axes[0].lines if "below this limit" in each.get_label()]
+    assert limit.get_xydata().tolist() == [[1.0, 0.0]]
 
 
 def test_a_field_of_the_models_is_drawn_from_above_and_over_time():

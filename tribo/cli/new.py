@@ -28,11 +28,14 @@ Example:
 
 
 @click.command(help=HELP)
-@click.argument("name", metavar="TEMPLATE")
-@click.argument("file", type=PATH)
+@click.argument("name", metavar="TEMPLATE", required=False)
+@click.argument("file", type=PATH, required=False)
 @click.option("--force", is_flag=True, help="Replace an existing file.")
-def new(name: str, file: Path, force: bool) -> None:
+def new(name: str | None, file: Path | None, force: bool) -> None:
     """Write a template to a file."""
+    if name is None or file is None:
+        missing = "TEMPLATE" if name is None else "FILE"
+        raise click.UsageError(f"Missing argument '{missing}'. Templates:\n{_LISTED}")
     from tribo.core.errors import CaseError
     from tribo.core.files import write_whole, writing
     from tribo.registry.registry import choose

@@ -43,7 +43,7 @@ def list_(as_json: bool) -> None:
     cells = [
         (
             row["name"] or "-",
-            row["kind"] or "-",
+            row["kind"] or "when imported",
             f"{row['distribution']} {row['version']}",
             row["status"],
             row["reason"] or row["summary"],

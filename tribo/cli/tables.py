@@ -131,7 +131,8 @@ def print_provenance(result: Result, console: Console | None = None) -> None:
 
 
 def _origin(place: str, origin: Mapping[str, Any]) -> Iterator[str]:
-    where = f"{origin['class']} of {origin['distribution']} {origin['version']}".rstrip()
+    whose = f"{origin['distribution']} {origin['version']}".strip()
+    where = f"{origin['class']} of {whose}" if whose else origin["class"]
     editable = ", editable" if origin["editable"] else ""
     code = f", source code {origin['code'][:10]}" if origin["code"] else ", source not available"
     yield f"  {place}: {origin['type']}, {where}{editable}{code}"

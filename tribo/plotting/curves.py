@@ -15,7 +15,14 @@ from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.words import did_you_mean, suggestion
 from tribo.plotting.sections import number_of_saves
-from tribo.plotting.style import house_style, legend_below, new_figure, save_looks, ticks
+from tribo.plotting.style import (
+    SINGLE_COLUMN,
+    house_style,
+    legend_below,
+    new_figure,
+    save_looks,
+    ticks,
+)
 from tribo.plotting.units import fitting, size
 from tribo.result.read import Result
 
@@ -35,6 +42,8 @@ OTHERS = (
 """Ends of other names, and their unit; the longer first, as the inverse of a pressure."""
 FIT = 4.0
 """Height of a measured value in the picture of a fit, in mm."""
+NAME = 1.25
+"""Width of a letter of its name, in mm."""
 
 
 def history_curves(result: Result, columns: Sequence[str], against: str = "distance_m") -> Figure:
@@ -116,38 +125,57 @@ def sweep_curves(runs: pd.DataFrame, x: str, y: str, by: Sequence[str] = ()) -> 
 def fit_picture(data: pd.DataFrame) -> Figure:
     """Draw what a calibration computes over what was measured, with its standard deviation.
 
+    Of a value below a limit of detection the limit stands for it, as an arrow that points down.
+
     Parameters
     ----------
     data : DataFrame
-        A row for each measured value, as `data` of a calibration: at least ``body``,
-        ``quantity``, ``measured``, ``sigma`` and ``computed``.
+        A row for each measured value, as `data` of a calibration: ``body``,
+        ``quantity``, ``measured``, ``sigma`` and ``computed``; ``test``,
+        ``time_s``, ``position_m`` and ``below`` where it has them.
     """
     measured, computed = data["measured"].to_numpy(float), data["computed"].to_numpy(float)
+    below = data.get("below", pd.Series(False, index=data.index)).to_numpy(bool)
     rows = np.arange(len(data))[::-1]
+    names = list(map(_measured_name, data.to_dict("records")))
     with house_style():
-        figure = new_figure(18.0 + FIT * max(len(data), 3))
+        # Long names make the picture wider, not its axes narrower.
+        room = NAME * max(map(len, names), default=0)
+        figure = new_figure(18.0 + FIT * max(len(data), 3), max(SINGLE_COLUMN, 45.0 + room))
         axes = figure.subplots()
         axes.axvline(1.0, color="black", linewidth=0.5)
-        axes.errorbar(
-            np.ones(len(data)),
-            rows,
-            xerr=data["sigma"] / np.abs(measured),
-            fmt="none",
-            ecolor="#56b4e9",
-            elinewidth=2.4,
-            label="measured, ± its standard deviation",
-        )
+        told: dict[str, Any] = {"fmt": "none", "ecolor": "#56b4e9", "elinewidth": 2.4}
+        if not below.all():
+            axes.errorbar(
+                np.ones(np.sum(~below)),
+                rows[~below],
+                xerr=(data["sigma"] / np.abs(measured))[~below],
+                label="measured, ± its standard deviation",
+                **told,
+            )
+        if below.any():
+            axes.plot(np.ones(np.sum(below)), rows[below], "<", color="#0072b2", markersize=6.0)
+            axes.lines[-1].set_label("measured: below this limit")
         axes.plot(computed / measured, rows, "s", color="#202020", markersize=3.0, label="fitted")
-        names = [
-            f"{body}: {str(what).replace('_', ' ')}"
-            for body, what in zip(data["body"], data["quantity"], strict=True)
-        ]
         axes.set_yticks(rows, names)
         axes.set_ylim(-0.7, len(data) - 0.3)
         axes.set_xlabel("Over what was measured")
         axes.xaxis.set_major_locator(ticks(5))
         legend_below(figure, axes.get_legend_handles_labels()[0], columns=2)
     return figure
+
+
+def _measured_name(row: dict[str, Any]) -> str:
+    """Return which test, body and quantity a measured value is of, when and where."""
+    test = row.get("test")
+    time, place = (float(row.get(key) or np.nan) for key in ("time_s", "position_m"))
+    words = f"{row['body']}: {str(row['quantity']).replace('_', ' ')}"
+    return (
+        (f"{test}, " if test else "")
+        + words
+        + (f", {time:g} s" if not np.isnan(time) else "")
+        + (f", {1e3 * place:g} mm" if not np.isnan(place) else "")
+    )
 
 
 def _draw(

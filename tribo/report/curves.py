@@ -79,6 +79,8 @@ def sections(results: Results, times: Sequence[float]) -> list[dict[str, Any]]:
     }
     if worn and len(results) == 1:
         curves = {name: (first, depths["", name]) for name in worn}
+        for name in worn:
+            curves |= _layers(first, name, len(times), float(np.max(depths["", name])))
         shown["Wear depth"] = "m", curves
     elif worn:
         for name in worn:
@@ -97,6 +99,17 @@ def sections(results: Results, times: Sequence[float]) -> list[dict[str, Any]]:
         for low, high in (zip(*ends[axis], strict=True),)
         for name, (si, curves) in shown.items()
     ]
+
+
+def _layers(result: Result, name: str, count: int, deepest: float) -> dict[str, Any]:
+    """Return the depths at which layers of a body end, as curves, down to twice the deepest."""
+    layers = result.case["bodies"][name].get("layers") or ()
+    ends = np.cumsum([float(layer["thickness"]) for layer in layers])
+    return {
+        f"{name}: end of layer {number}": (result, [np.full(result.grid.cells, end)] * count)
+        for number, end in enumerate(ends, start=1)
+        if end <= 2 * deepest
+    }
 
 
 def _section(

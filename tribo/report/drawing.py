@@ -20,13 +20,15 @@ def drawing(case: Mapping[str, Any], swept: str | None) -> str:
     lower = list(bodies)[-1] if swept is None else swept
     upper = next(name for name in bodies if name != lower)
     shapes = {name: _shape(body.get("surface") or {}) for name, body in bodies.items()}
+    coated = {name: bool(body.get("layers")) for name, body in bodies.items()}
+    called = {name: f"coated {name}" if coated[name] else name for name in bodies}
     motion = _motion(case.get("kinematics") or {})
     load = load_words(case.get("load") or {})
     parts = [
-        *_body(shapes[lower], up=False),
-        *_body(shapes[upper], up=True),
-        _text(MIDDLE, CONTACT - 40, upper),
-        _text(MIDDLE, CONTACT + 46, lower),
+        *_body(shapes[lower], coated[lower], up=False),
+        *_body(shapes[upper], coated[upper], up=True),
+        _text(MIDDLE, CONTACT - 40, called[upper]),
+        _text(MIDDLE, CONTACT + 46, called[lower]),
         # The load from above, the motion of what lies below.
         _arrow(MIDDLE, 16, MIDDLE, 76, both=False),
         _text(MIDDLE + 12, 40, load, "start"),
@@ -34,8 +36,8 @@ def drawing(case: Mapping[str, Any], swept: str | None) -> str:
         *(_text(MIDDLE, HEIGHT - 34 + 22 * i, line) for i, line in enumerate(motion[0])),
     ]
     words = (
-        f"Drawing of the case, not to scale: {upper} on {lower}, pressed by {load}; "
-        f"{', '.join(motion[0])}"
+        f"Drawing of the case, not to scale: {called[upper]} on {called[lower]}, pressed by "
+        f"{load}; {', '.join(motion[0])}"
     )
     return (
         f'<svg class="case" viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="{escape(words)}">'
@@ -56,7 +58,7 @@ def _shape(surface: Mapping[str, Any]) -> tuple[str, bool]:
     return ("pin" if name == "pin" else "flat"), rough
 
 
-def _body(shape: tuple[str, bool], *, up: bool) -> Iterator[str]:
+def _body(shape: tuple[str, bool], coated: bool, *, up: bool) -> Iterator[str]:
     """Draw a body above the contact or, mirrored, below it."""
     kind, rough = shape
     top, name, mirror = CONTACT - 80, "upper", ""
@@ -70,6 +72,8 @@ def _body(shape: tuple[str, bool], *, up: bool) -> Iterator[str]:
     if kind == "round":
         face = f"A130 130 0 0 0 {right} {top}"
     yield f'<g{mirror}><path class="{name}" d="M{left} {top}{face}Z"/>'
+    if coated:
+        yield f'<path class="coat" d="M{left} {top}{face}"/>'
     if rough:
         yield f'<path class="rough" d="M{left} {top}{face}"/>'
     yield "</g>"

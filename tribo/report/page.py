@@ -33,8 +33,7 @@ def check_installed() -> None:
         import plotly.offline  # noqa: F401
     except ImportError as error:
         raise CaseError(
-            f"a report needs {error.name}, which is not installed; install it with: pip install "
-            "'tribo[report]'"
+            f"a report needs {error.name}, which is not installed: pip install jinja2 plotly"
         ) from error
 
 

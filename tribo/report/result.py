@@ -145,7 +145,8 @@ def _provenance(result: Result) -> list[tuple[str, str]]:
         rows.append(("begun with", f"{begun['result']}, SHA-256 {begun['sha256']}"))
     for place, origin in made["components"].items():
         code = f", source code {origin['code'][:10]}" if origin["code"] else ""
-        of = f"{origin['class']} of {origin['distribution']} {origin['version']}".rstrip()
+        whose = f"{origin['distribution']} {origin['version']}".strip()
+        of = f"{origin['class']} of {whose}" if whose else origin["class"]
         facts = "".join(f"; {name}: {text}" for name, text in origin["facts"].items())
         rows.append((place, f"{origin['type']}, {of}{code}{facts}"))
     return rows

@@ -76,9 +76,27 @@ def sentence(result: Result, lab: LabReport, verified: Sequence[Estimate]) -> st
         deepest = quoted(depth, DEPTHS, _of(verified, f"{name}: largest depth"))
         losses.append(f"{words} and is worn {deepest} deep")
     text = f"Over {last['distance_m']:.4g} m of sliding under {_range(result)} {', '.join(losses)}."
+    for name, body in result.case["bodies"].items():
+        text += _coating(result, name, len(body.get("layers") or ()))
     if result.status != "done":
         text += f" The run is {result.status}; this is its save at {last['time_s']:.4g} s."
     return text
+
+
+def _coating(result: Result, name: str, layers: int) -> str:
+    """Say of a body's layers which was worn through, and when."""
+    if not layers:
+        return ""
+    passed = [each for each in result.worn_through if each["body"] == name]
+    what = "coating" if layers == 1 else f"coating ({layers} layers)"
+    if not passed:
+        return f" The {what} of the {name} is nowhere worn through."
+    last = passed[-1]
+    which = "" if layers == 1 else f" down to layer {last['layer']}"
+    return (
+        f" The {what} of the {name} is worn through{which} at its deepest point since "
+        f"{last['distance_m']:.4g} m."
+    )
 
 
 def quoted(value: float, units: Mapping[str, float], study: Estimate | None = None) -> str:

@@ -49,7 +49,7 @@ def write_report(
     Raises
     ------
     CaseError
-        If what a report needs is not installed (``pip install 'tribo[report]'``),
+        If what a report needs is not installed (``pip install jinja2 plotly``),
         there is no such result or it holds no save, or `verified` is of another
         case.
     OutputError
