@@ -1,11 +1,16 @@
 """Small models of the paper's test, made from objects."""
 
+import pytest
+
+from tribo import Interrupted, Simulation
 from tribo.case import Body, Case, Output
 from tribo.contact.dcfft import DcFft
 from tribo.contact.winkler import Winkler
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.motion.reciprocating import Reciprocating
+from tribo.motion.unidirectional import Unidirectional
+from tribo.observers.observer import Observer
 from tribo.simulation.assembly import assemble
 from tribo.simulation.march import begin, march
 from tribo.stepping.implicit import Implicit
@@ -92,3 +97,39 @@ def states(model):
 
 def last(model):
     return states(model)[-1]
+
+
+def pin(law=None, **changes):
+    """A square pin under 10 MPa that slides 1 m: its pressure is even, and it alone wears."""
+    parts = {
+        "grid": Grid((2e-3, 2e-3), (8, 8)),
+        "ends_at_window": True,
+        "load": 40.0,
+        "bodies": [named("pin", flat(), steel(), law), named("disk", flat(), steel())],
+        "contact": foundation(modulus=1e15),
+        "kinematics": Unidirectional(speed="0.1 m/s", track_length="8 mm", distance="1 m"),
+    }
+    return small(**{**parts, **changes})
+
+
+class StopAfter(Observer):
+    """Stops a run after some steps."""
+
+    steps: int = 5
+
+    def on_step(self, snapshot):
+        if snapshot.state.steps == self.steps:
+            raise KeyboardInterrupt
+
+
+def goes_on(case, folder, *after):
+    """The result of a run, once it is the same to the bit after a stop at some steps."""
+    simulation = Simulation(case)
+    whole = simulation.run()
+    for steps in after:
+        path = folder / f"{steps}.h5"
+        with pytest.raises(Interrupted):
+            simulation.run(path, observers=[StopAfter(steps=steps)])
+        with simulation.resume(path) as resumed:
+            assert resumed.dataset.equals(whole.dataset)
+    return whole

@@ -6,7 +6,20 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from paper_models import K, archard, flat, foundation, motion, named, small, sphere, states, steel
+from paper_models import (
+    K,
+    archard,
+    flat,
+    foundation,
+    goes_on,
+    motion,
+    named,
+    pin,
+    small,
+    sphere,
+    states,
+    steel,
+)
 from strangers.debris import Covered, Debris, Filling
 
 from tribo import (
@@ -25,7 +38,6 @@ from tribo.cli.show import show
 from tribo.core.errors import PluginError
 from tribo.core.fields import LOAD_SHARE
 from tribo.motion.unidirectional import Unidirectional
-from tribo.observers.observer import Observer
 from tribo.simulation.assembly import assemble
 from tribo.simulation.march import begin
 from tribo.stepping.explicit import Explicit
@@ -116,29 +128,13 @@ def test_on_a_body_that_passes_it_moves_with_it():
     assert np.count_nonzero(debris) == np.count_nonzero(wear)
 
 
-class Kill(Observer):
-    type = "test.kill"
-    after: int = 3
-
-    def on_step(self, snapshot):
-        if snapshot.state.steps == self.after:
-            raise KeyboardInterrupt
-
-
 LYING = [Filling(length="0.5 m"), Debris(length="0.5 m", on="disk")]
 
 
 @pytest.mark.parametrize("debris", LYING)
 def test_a_resumed_run_has_the_same_bits(tmp_path, debris):
     case = model(effects=[debris, Bath()], save_times=(2,)).case
-    with Simulation(case).run() as whole:
-        expected = whole.dataset.load()
-    path = tmp_path / "run.h5"
-    with pytest.raises(BaseException, match="stopped"):
-        Simulation(case).run(path, observers=[Kill()])
-    with Simulation(case).resume(path) as resumed:
-        for name, values in resumed.dataset.data_vars.items():
-            np.testing.assert_array_equal(values, expected[name], err_msg=name)
+    goes_on(case, tmp_path, 3).close()
 
 
 def test_the_result_has_it_without_being_asked(tmp_path):
@@ -288,25 +284,8 @@ class Fades(Effect):
         return {"clock": np.full((1, 1), contact.speed)} if self.keeps else {}
 
 
-def pin(effects, cells=4, **changes):
-    """A square pin of which alone the wear is even, under 10 MPa."""
-    return model(
-        effects=effects,
-        **{
-            "grid": Grid((2e-3, 2e-3), (cells, cells)),
-            "ends_at_window": True,
-            "load": 40.0,
-            "bodies": [named("pin", flat(), steel(), archard()), named("disk", flat(), steel())],
-            "contact": foundation(modulus=1e15),
-            "kinematics": Unidirectional(speed="0.1 m/s", track_length="8 mm", distance="1 m"),
-            **changes,
-        },
-    )
-
-
 @pytest.mark.parametrize("law", [archard(), RunningIn(law=archard(), factor=1, over=1e7)])
 @pytest.mark.parametrize("keeps", [False, True])
 def test_what_follows_the_distance_is_taken_along_the_step(keeps, law):
-    bodies = [named("pin", flat(), steel(), law), named("disk", flat(), steel())]
-    last = states(pin([Fades(keeps=keeps)], bodies=bodies))[-1]
+    last = states(pin(law, effects=[Fades(keeps=keeps)]))[-1]
     assert np.max(last.bodies["pin"].wear) == pytest.approx(0.5 * K * 10e6, rel=6e-3, abs=0)

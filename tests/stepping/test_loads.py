@@ -11,6 +11,7 @@ from paper_models import (
     case,
     flat,
     foundation,
+    goes_on,
     half_space,
     last,
     motion,
@@ -26,14 +27,12 @@ from tribo import (
     Explicit,
     Grid,
     Implicit,
-    Interrupted,
     Load,
     Measured,
     Simulation,
     Stage,
     load_case,
 )
-from tribo.observers.observer import Observer
 
 GRID = Grid((0.7e-3, 0.7e-3), (32, 32))
 SPEED = 0.1
@@ -188,25 +187,11 @@ def test_a_load_that_changes_while_the_motion_rests_presses_without_wear(steppin
         assert worn[5].max() > worn[4].max() > 0
 
 
-class StopAfter(Observer):
-    steps: int = 5
-
-    def on_step(self, snapshot):
-        if snapshot.state.steps == self.steps:
-            raise KeyboardInterrupt
-
-
 @pytest.mark.slow
 def test_a_run_that_is_stopped_at_a_jump_or_after_it_goes_on_to_the_same_bits(tmp_path):
     found = states(loaded(BLOCKS))
     at_jump = next(state.steps for state in found if state.time == 6)
-    simulation = Simulation(loaded(BLOCKS))
-    with simulation.run() as whole:
-        for steps in (at_jump, at_jump + 2):
-            with pytest.raises(Interrupted):
-                simulation.run(tmp_path / f"{steps}.h5", observers=[StopAfter(steps=steps)])
-            with simulation.resume(tmp_path / f"{steps}.h5") as resumed:
-                assert resumed.dataset.equals(whole.dataset)
+    goes_on(loaded(BLOCKS), tmp_path, at_jump, at_jump + 2).close()
 
 
 def test_an_estimate_takes_few_stages_that_carry_as_much():

@@ -10,6 +10,7 @@ from paper_models import (
     K,
     archard,
     flat,
+    goes_on,
     last,
     motion,
     named,
@@ -24,29 +25,20 @@ from tribo import (
     DcFft,
     Grid,
     Implicit,
-    Interrupted,
     Measured,
     Periodic,
     Rough,
-    Simulation,
     Stop,
     Unidirectional,
     Waves,
     Winkler,
 )
-from tribo.observers.observer import Observer
 from tribo.simulation.march import begin
 from tribo.simulation.predict import predict
 from tribo.stepping.step import first_contact
 
 GRID = Grid((0.32e-3, 0.32e-3), (16, 16))
 (DX, DY), LOAD = GRID.spacing, 20.0
-
-
-class StopAfter(Observer):
-    def on_step(self, snapshot):
-        if snapshot.state.steps == 5:
-            raise KeyboardInterrupt
 
 
 class Repeats(Winkler):
@@ -221,11 +213,7 @@ def test_waves_that_slide_over_a_flat_wear_off_evenly():
 
 @pytest.mark.slow
 def test_a_stopped_run_goes_on_to_the_same_bits(tmp_path):
-    simulation = Simulation(repeating(strokes(40, positions=5), stepping=Implicit()))
-    with pytest.raises(Interrupted):
-        simulation.run(tmp_path / "run.h5", observers=[StopAfter()])
-    with simulation.resume(tmp_path / "run.h5") as resumed, simulation.run() as whole:
-        assert resumed.dataset.equals(whole.dataset)
+    goes_on(repeating(strokes(40, positions=5), stepping=Implicit()), tmp_path, 5).close()
 
 
 @pytest.mark.parametrize(

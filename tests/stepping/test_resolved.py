@@ -9,6 +9,7 @@ from paper_models import (
     archard,
     case,
     foundation,
+    goes_on,
     half_space,
     last,
     motion,
@@ -24,7 +25,6 @@ from tribo import (
     Explicit,
     Grid,
     Implicit,
-    Interrupted,
     NumericalError,
     Passing,
     Position,
@@ -35,7 +35,6 @@ from tribo.core.contact import ContactProblem
 from tribo.core.errors import PluginError
 from tribo.lab.inferred import track_section
 from tribo.motion.exposure import Stationary
-from tribo.observers.observer import Observer
 from tribo.plotting.profiles import along_track
 from tribo.stepping.step import first_contact, undeformed
 
@@ -255,27 +254,15 @@ def test_the_section_of_the_track_is_that_at_mid_stroke():
     assert section == pytest.approx(np.sum(depth) * GRID.spacing[1], rel=1e-9, abs=0)
 
 
-class StopAfter(Observer):
-    steps: int = 5
-
-    def on_step(self, snapshot):
-        if snapshot.state.steps == self.steps:
-            raise KeyboardInterrupt
-
-
 @pytest.mark.slow
 def test_a_stopped_run_goes_on_to_the_same_bits_with_the_groove_along_its_track(tmp_path):
     kinematics = motion(stroke=STROKE, duration=20, positions=7)
-    simulation = Simulation(case(grid=GRID, contact=foundation(), kinematics=kinematics))
-    with pytest.raises(Interrupted):
-        simulation.run(tmp_path / "run.h5", observers=[StopAfter()])
-    with simulation.resume(tmp_path / "run.h5") as resumed, simulation.run() as whole:
-        assert resumed.dataset.equals(whole.dataset)
-        track = resumed.track_depth.sel(body="disk").isel(time=-1)
+    with goes_on(resolved(kinematics=kinematics), tmp_path, 5) as whole:
+        track = whole.track_depth.sel(body="disk").isel(time=-1)
         assert track.sizes["track_x"] == 44
-        window = resumed.wear_depth.sel(body="disk").isel(time=-1)
+        window = whole.wear_depth.sel(body="disk").isel(time=-1)
         np.testing.assert_array_equal(track.values[6:-6], window.values)
-        assert np.all(np.isnan(resumed.track_depth.sel(body="ball")))
+        assert np.all(np.isnan(whole.track_depth.sel(body="ball")))
         line = along_track(whole, "disk").axes[0].lines[-1]
         depth = -1e9 * track.values[:, 9:11].mean(axis=1)
         np.testing.assert_allclose(line.get_ydata(), depth, atol=1e-9 * np.ptp(depth))
