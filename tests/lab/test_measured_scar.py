@@ -164,8 +164,10 @@ def test_maps_that_do_not_fit_are_refused(standard):
         Heights(np.full((32, 32), np.nan), (PITCH, PITCH))
     with pytest.raises(CaseError, match=r"shape \(4, 32\) are no map: 16 × 16 at least"):
         Heights(np.zeros((4, 32)), (PITCH, PITCH))
-    with pytest.raises(CaseError, match=r"nothing is worn .* nm deep, 4 times the noise"):
+    with pytest.raises(CaseError, match=r"nothing is worn .* nm deep, 4 times .*it fills the map"):
         measured_scar(*pair(depth=0)[:2])
+    with pytest.raises(CaseError, match=r"nothing is worn .*is the map after the test given first"):
+        measured_scar(after, before)
     with pytest.raises(CaseError, match=r"what differs covers|if there is a scar it fills the map"):
         measured_scar(*track(wide=29 * PITCH)[:2])
     with pytest.raises(CaseError, match=r"radius: a scar .* mm wide is none of a ball of 0\.01 mm"):

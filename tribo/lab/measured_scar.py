@@ -164,9 +164,12 @@ def measured_scar(
     noise = max(float(np.std(smooth[sides])), 1e-300) if sides.any() else found.noise
     core = _largest(smooth, smooth > DEEP * noise)
     if not core.any():
+        why = "if there is a scar it fills the map, or the map before is another's"
+        if _largest(-smooth, -smooth > DEEP * noise).any():
+            why = "but some of it stands up; is the map after the test given first?"
         raise CaseError(
             f"nothing is worn {1e9 * DEEP * noise:.3g} nm deep, {DEEP:g} times the noise of means "
-            "over some pixels; if there is a scar it fills the map, or the map before is another's"
+            f"over some pixels; {why}"
         )
     scar = ndimage.binary_dilation(core, iterations=BESIDE)
     holes = interpolated(np.where(known, smooth, np.nan), ~known & scar)
