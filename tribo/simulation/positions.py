@@ -11,7 +11,6 @@ from typing import Any
 from tribo.case import Begin, Case
 from tribo.core.errors import CaseError, NumericalError
 from tribo.core.measures import half_widths
-from tribo.core.state import State
 from tribo.motion.averaging import groove_excess, too_deep
 from tribo.motion.cycle import Stroke, least_positions
 from tribo.motion.reciprocating import Reciprocating
@@ -62,7 +61,8 @@ def composed(case: Case) -> Model:
     try:
         averaged = assemble(_fixed(even, "average"))
     except CaseError:
-        return _at_each_cell(case, motion.stroke)
+        model = assemble(_fixed(case, _cells(case, motion.stroke)))
+        return replace(model, chosen=_told(model, "what passes is not the same all along"))
     must = bool(case.load.along)
     if not _resolvable(case) and not must:
         return averaged
@@ -70,7 +70,9 @@ def composed(case: Case) -> Model:
     words = "the load changes along the stroke" if must else _costly(averaged, motion.stroke)
     if half_width is None or words is None:
         return assemble(_fixed(case, FEWEST)) if must else averaged
-    count = _needed(case, motion.stroke, half_width)
+    cells = _cells(case, motion.stroke)
+    count = max(FEWEST, least_positions(motion.stroke, SPARE * half_width))
+    count = cells if NEARLY * cells < count <= MOST else count
     try:
         if count > MOST:
             raise CaseError(f"it would take {count} positions")
@@ -161,22 +163,10 @@ def _as_begun(case: Case, begin: Begin) -> Case:
     return _fixed(case, positions)
 
 
-def _needed(case: Case, stroke: float, half_width: float) -> int:
-    """Return how many positions the first contact needs, all cells where it needs most of them."""
-    count = max(FEWEST, least_positions(stroke, SPARE * half_width))
-    cells = _cells(case, stroke)
-    return cells if NEARLY * cells < count <= MOST else count
-
-
 def _told(model: Model, words: str) -> str:
     remedy = 'kinematics.positions = "average" is faster, and makes that error'
     told = f"the cycle is resolved at {len(model.cycle)} positions, as {words}"
     return f"{told}; {remedy}" if "average" in words else told
-
-
-def _at_each_cell(case: Case, stroke: float) -> Model:
-    model = assemble(_fixed(case, _cells(case, stroke)))
-    return replace(model, chosen=_told(model, "what passes is not the same all along"))
 
 
 def _cells(case: Case, stroke: float) -> int:
@@ -202,17 +192,13 @@ def _costly(model: Model, stroke: float) -> str | None:
                 state = accepted.state
         except (CaseError, NumericalError):
             continue
-        return _cost(coarse, state, stroke)
+        seen = half_width, *_ = track_average(coarse, state)
+        excess = groove_excess(stroke, *seen)
+        if excess < WORTH or not average_matters(coarse, half_width):
+            return None
+        widths = f"{stroke / half_width:.2g}"
+        return (
+            f"the stroke of {1e3 * stroke:.3g} mm is {widths} half-width{'s' * (widths != '1')} of "
+            f"the contact, for which the average would make the groove {too_deep(excess)}"
+        )
     return None
-
-
-def _cost(model: Model, state: State, stroke: float) -> str | None:
-    seen = half_width, *_ = track_average(model, state)
-    excess = groove_excess(stroke, *seen)
-    if excess < WORTH or not average_matters(model, half_width):
-        return None
-    widths = f"{stroke / half_width:.2g}"
-    return (
-        f"the stroke of {1e3 * stroke:.3g} mm is {widths} half-width{'s' * (widths != '1')} of the "
-        f"contact, for which the average would make the groove {too_deep(excess)}"
-    )
