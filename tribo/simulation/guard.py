@@ -47,8 +47,8 @@ class Guard(Generic[C]):
 
     def number(self, what: str, value: object) -> float:
         """Return `value`, which is meant to be `what` ("an approach"), as a finite float."""
-        if type(value) is float and math.isfinite(value):
-            return value
+        if isinstance(value, float | int) and math.isfinite(value):
+            return float(value)
         plain = _plain(value)
         if plain.shape != () or not np.isfinite(plain):
             raise BadValues(f"{self} gave {what} that is not a finite number: {_shown(value)}")

@@ -64,22 +64,22 @@ def march(model: Model, state: State) -> Iterator[Accepted]:
     # Which stops are left follows from the time alone, so a resumed run sees the same.
     both = *model.loads.edges, *model.motion.edges()
     edges = {time for time in both if 0 < time < model.end_time}
-    for until in sorted(model.saves | edges):
-        while state.time < until:
-            with doubting(model.case):
+    with doubting(model.case):
+        for until in sorted(model.saves | edges):
+            while state.time < until:
                 state = _advanced(model, state, until, limit)
-            worn_out = _depth(model, state) >= limit
-            last = worn_out or state.time >= model.end_time
-            if last:
-                state = _concluded(model, state)
-            if worn_out and state.time < model.end_time:
-                state = _stopped(model, state)
-            save = last or (state.time >= until and until in model.saves)
-            if save:
-                state = replace(state, saves=state.saves + 1)
-            yield Accepted(state, save, last)
-            if last:
-                return
+                worn_out = _depth(model, state) >= limit
+                last = worn_out or state.time >= model.end_time
+                if last:
+                    state = _concluded(model, state)
+                if worn_out and state.time < model.end_time:
+                    state = _stopped(model, state)
+                save = last or (state.time >= until and until in model.saves)
+                if save:
+                    state = replace(state, saves=state.saves + 1)
+                yield Accepted(state, save, last)
+                if last:
+                    return
 
 
 def _advanced(model: Model, state: State, until: float, limit: float) -> State:

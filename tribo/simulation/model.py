@@ -234,7 +234,9 @@ class Model:
 
     def average(self, name: str, rate: Array, position: int) -> Array:
         """Return what the rate (nx, ny) at a position adds, by its share, to a body's mean rate."""
-        return self.spread(name, self.exposures[name].average(rate), position)
+        exposure = self.exposures[name]
+        mean = exposure.average(rate)
+        return mean if exposure.starts is None else self.spread(name, mean, position)
 
     def under(self, name: str, field: Array, position: int) -> Array:
         """Return what lies in the window of a field on a body's own surface, at a position.
