@@ -6,7 +6,6 @@ import numpy as np
 
 from tribo import (
     ContactSolver,
-    Effect,
     Field,
     HalfSpace,
     Kinematics,
@@ -121,19 +120,6 @@ class Hill(Surface):
         return 1 / self.radius, 0.5 / self.radius
 
 
-class Traction(Effect):
-    """Friction."""
-
-    type = "honest.traction"
-
-    provides = (Field("traction", "Pa", "Friction force per area."),)
-    requires = ("friction_coefficient",)
-
-    def fields(self, contact):
-        mu = contact.fields["friction_coefficient"]
-        return {"traction": {name: mu[name] * contact.pressure for name in contact.materials}}
-
-
 class Counts(Observer):
     """Counts the steps."""
 
@@ -148,4 +134,4 @@ class Counts(Observer):
         self._steps += 1
 
 
-HONEST = (Law, Solver, Motion, Hill, Traction, Counts)
+HONEST = (Law, Solver, Motion, Hill, Counts)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from pydantic import ConfigDict
 from testing.conformance.honest import Counts, Hill, Law
-from testing.conformance.mutants import InwardHeight
+from testing.conformance.mistakes import MISTAKES
 
 from tribo import Grid, Quantity, Surface, WearRate
 from tribo.testing import check, example_configs, parametrize_checks
@@ -17,6 +17,7 @@ from tribo.testing.compare import CheckFailed
 from tribo.testing.kit import suites
 from tribo.wear.archard import Archard
 
+InwardHeight = MISTAKES["Its height is that of the gap"]
 CURVATURE = "curvature_is_that_of_the_heights"
 
 

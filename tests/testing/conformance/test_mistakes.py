@@ -4,6 +4,7 @@ import json
 from pathlib import Path
 
 import pytest
+from testing.conformance.honest import HONEST
 from testing.conformance.mistakes import MISTAKES, configuration
 from testing.conformance.models import MODELS
 
@@ -13,7 +14,7 @@ from tribo.testing.kit import _outcome, outcome_of, suites
 FOUND = json.loads((Path(__file__).parents[3] / "docs/_data/mistakes.json").read_text("utf-8"))
 ENDS = ("crashed the process", "did not end")
 
-for model in MODELS:
+for model in (*HONEST, *MODELS):
     globals()[f"test_{model.__name__}_conforms"] = parametrize_checks(model, [configuration(model)])
 
 

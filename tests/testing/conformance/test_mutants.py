@@ -1,16 +1,12 @@
 """Every wrong implementation is caught, by the check that says what is wrong."""
 
 import pytest
-from testing.conformance.honest import HONEST
 from testing.conformance.mutants import MUTANTS
 from testing.conformance.test_mistakes import FOUND
 
 from tribo.registry.kinds import KINDS
-from tribo.testing import parametrize_checks, samples
+from tribo.testing import samples
 from tribo.testing.kit import SUITES, names_of, perform, suites
-
-for honest in HONEST:
-    globals()[f"test_{honest.__name__}_conforms"] = parametrize_checks(honest, configs=[{}])
 
 
 @pytest.mark.parametrize(("name", "mutant", "raising"), MUTANTS)
