@@ -22,23 +22,12 @@ def aged(
     """Return a state after each point has gone as far as `far` at its rates, within its limits.
 
     Exponential Euler steps that grow; what relaxes does not pass where it tends to.
-
-    Parameters
-    ----------
-    fields : iterable of Field
-        Declarations of the states.
-    rates : callable
-        Change of each state, by name, per metre or per second, at given states.
-    state : Mapping[str, ndarray]
-        Where they begin.
-    far : ndarray
-        Distance or time of each point.
     """
     limits = {field.name: (field.at_least, field.at_most) for field in fields}
     now = dict(state)
     for share in np.diff(np.geomspace(1e-8, 1.0, 40), prepend=0.0):
         stride = share * far
-        at = _of_shapes(rates(_copies(now)), now)
+        at = _of_shapes(rates({name: values.copy() for name, values in now.items()}), now)
         strides = {n: stride if at[n].shape == far.shape else np.mean(stride) for n in now}
         nudged = {n: now[n] + _NUDGE * strides[n] * at[n] for n in now}
         later = _of_shapes(rates(nudged), now)
@@ -50,10 +39,6 @@ def aged(
             require(np.all(np.isfinite(moved)), f"the state {name!r} grows beyond all numbers")
             now[name] = moved if least is most is None else np.clip(moved, least, most)
     return now
-
-
-def _copies(state: Mapping[str, Array]) -> dict[str, Array]:
-    return {name: values.copy() for name, values in state.items()}
 
 
 def _of_shapes(rates: Mapping[str, Array], state: Mapping[str, Array]) -> dict[str, Array]:

@@ -81,30 +81,21 @@ class KinematicsChecks(Checks):
 
         Where the window repeats, it has those of the window, counted round.
         """
-        self._windows_lie_on_the_body(GRID)
-        self._windows_lie_on_the_body(RepeatingGrid(size=GRID.size, cells=GRID.cells))
-
-    def _windows_lie_on_the_body(self, grid: Grid) -> None:
         motion = GuardedMotion(self._make())
-        positions, exposures = len(motion.cycle(grid)), motion.exposures(grid, BODIES)
-        starts = {name: e.starts for name, e in exposures.items() if e.starts is not None}
-        apply_if(starts, "its bodies have no rows of their own")
-        for name, rows in starts.items():
-            require(
-                len(rows) == positions,
-                f"{name!r} has {len(rows)} starts, but the cycle has {positions} positions",
-            )
-            last, whole = max(rows) + GRID.cells[0], exposures[name].rows
-            if grid.period is not None:
+        for grid in (GRID, RepeatingGrid(size=GRID.size, cells=GRID.cells)):
+            positions, exposures = len(motion.cycle(grid)), motion.exposures(grid, BODIES)
+            starts = {name: e.starts for name, e in exposures.items() if e.starts is not None}
+            apply_if(starts, "its bodies have no rows of their own")
+            for name, rows in starts.items():
+                first, last = min(rows), max(rows) + GRID.cells[0]
+                whole, period = exposures[name].rows, grid.period
+                told = len(rows) == positions
+                require(told, f"{name!r} has {len(rows)} starts for {positions} positions")
                 require(
-                    whole == grid.period,
-                    f"{name!r} has {whole} rows in a window of {grid.period} that repeats",
+                    first >= 0 and last <= whole if period is None else whole == period,
+                    f"the window, of period {period}, covers rows {first} to {last} of {name!r}, "
+                    f"which has {whole}",
                 )
-                continue
-            require(
-                min(rows) >= 0 and last <= whole,
-                f"the window covers rows {min(rows)} to {last} of {name!r}, which has {whole}",
-            )
 
     def path_never_shrinks(self) -> None:
         """The sliding distance never decreases, also where the motion turns round."""

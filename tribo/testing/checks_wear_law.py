@@ -132,11 +132,11 @@ class WearLawChecks(LocalChecks):
             apply_if(not falls, "its derivative is negative somewhere, or not stated")
             depth = rate.depth_rate
             at, point = np.unravel_index(int(np.argmin(np.diff(depth, axis=0))), depth[1:].shape)
+            (low, high), (p, more) = depth[at : at + 2, point], _LADDER[at : at + 2, 0]
             require(
-                depth[at + 1, point] >= depth[at, point] * (1 - 1e-12),
-                f"the depth per metre falls from {depth[at, point]:.6g} to "
-                f"{depth[at + 1, point]:.6g} as the pressure rises from {_LADDER[at, 0]:.3g} to "
-                f"{_LADDER[at + 1, 0]:.3g} Pa{self._when(number)}",
+                high >= low * (1 - 1e-12),
+                f"the depth per metre falls from {low:.6g} to {high:.6g} as the pressure rises "
+                f"from {p:.3g} to {more:.3g} Pa{self._when(number)}",
             )
 
     def points_are_independent(self) -> None:

@@ -341,11 +341,7 @@ def _outcome(checks: Checks, name: str) -> Outcome:
 
 
 def _came(checks: Checks, name: str, status: Any, message: str = "") -> Outcome:
-    return Outcome(name, _fact(checks, name), _label(checks), status, message)
-
-
-def _fact(checks: Checks, name: str) -> str:
-    return str(getattr(checks, name).__doc__)
+    return Outcome(name, str(getattr(checks, name).__doc__), _label(checks), status, message)
 
 
 def _label(checks: Checks) -> str:

@@ -23,7 +23,15 @@ def test_the_table_has_them_all_and_95_percent_are_found():
     assert sum(bool(row["found_by"]) for row in FOUND) >= 0.95 * len(FOUND) >= 0.95 * 40
 
 
-@pytest.mark.parametrize("row", FOUND, ids=lambda row: row["mistake"])
+@pytest.mark.parametrize(
+    "row",
+    [
+        pytest.param(
+            row, id=row["mistake"], marks=pytest.mark.slow if row["ends_the_process"] else ()
+        )
+        for row in FOUND
+    ],
+)
 @pytest.mark.filterwarnings("ignore")
 def test_a_mistake_is_found(row, monkeypatch):
     cls = MISTAKES[row["mistake"]]
