@@ -143,14 +143,14 @@ def integrated(
             if not relaxes:
                 waiting[0] = part, True
                 continue
-            if part <= FINEST:
+            if left and part <= FINEST:
                 limit = limits[int(np.argmax(beyond))]
                 raise BadValues(
                     f"{limit.name} goes on beyond its limits of {limit.least:g} to {limit.most:g}: "
                     "let its rate vanish there"
                 )
             waiting[:1] = _divided(part, 0.5 * part if left else part * _wanted(plan, off))
-            if not left and len(waiting) + len(done) > MOST_PARTS:
+            if not left and (part <= FINEST or len(waiting) + len(done) > MOST_PARTS):
                 # Rates that jump, at one point after the other.
                 plan = _looser(plan)
                 values, first, waiting, done = list(start), begin, list(plan.parts), []

@@ -48,34 +48,15 @@ def wear_balance(
 ) -> Invariants:
     """Hold what a step wears away against what the laws ask for.
 
-    The volume that leaves a body is the integral over the contact of the depth
-    per metre times the increment, however the body meets the contact.
-
-    Parameters
-    ----------
-    model : Model
-        The composed case.
-    worn : Mapping[str, ndarray]
-        Depth that each body loses in the step, on its surface, in m.
-    rates : sequence of Mapping[str, WearRate]
-        What its law asks for at each position.
-    increment : float
-        Sliding increment, in m.
-    before : State
-        Where the step begins.
+    The volume that a body loses, of which `worn` has the depth by body in m, is the integral over
+    the contact of the depth per metre times the increment, however the body meets the contact.
     """
     volumes, regrowths = [0.0], [0.0]
-    cell_area = model.grid.cell_area
     for name, depth in worn.items():
         exposure = model.exposures[name]
-        asked = (
-            increment
-            * cell_area
-            * sum(
-                position.share * float(np.sum(of_bodies[name].depth_rate))
-                for position, of_bodies in zip(model.cycle, rates, strict=True)
-            )
-        )
+        each = zip(model.cycle, rates, strict=True)
+        mean = sum(place.share * float(np.sum(of[name].depth_rate)) for place, of in each)
+        asked = increment * model.grid.cell_area * mean
         error = abs(exposure.volume(depth) - asked)
         if not error <= VOLUME * asked:
             asked = max(asked, SMALL * exposure.volume(before.bodies[name].wear))
@@ -86,14 +67,7 @@ def wear_balance(
 
 
 def hold(model: Model, before: State | None, after: State) -> State:
-    """Return `after` with how well the invariants hold.
-
-    Parameters
-    ----------
-    model : Model
-        The composed case.
-    before, after : State
-        The accepted states at both ends of a step; none is before the first contact.
+    """Return `after` with how well the invariants hold; there is no `before` of the first contact.
 
     Raises
     ------
@@ -142,12 +116,8 @@ def broken_by(state: State) -> str | None:
 def handed_back(first: Array, second: Array, third: Array) -> float:
     """Return the share of the load that goes to other cells in one step and back in the next.
 
-    An unstable mode changes its sign at every step; roughness, however fine, wears off one way.
-
-    Parameters
-    ----------
-    first, second, third : ndarray, shape (nx, ny)
-        Pressures one step apart, under one load.
+    The pressures are one step apart, under one load. An unstable mode changes its sign at every
+    step; roughness, however fine, wears off one way.
     """
     low, high = np.minimum(first, third), np.maximum(first, third)
     # What `second` lies outside the range of the two others; each share leaves one cell for

@@ -70,19 +70,7 @@ class Rates:
 def wear_rates(
     model: Model, contacts: Sequence[ContactSolution], memory: Memory, moment: Moment
 ) -> CycleRates:
-    """Return the rate of every body that wears, in the contact frame, at each position.
-
-    Parameters
-    ----------
-    model : Model
-        The composed case.
-    contacts : sequence of ContactSolution
-        The contact at each position of a cycle.
-    memory : Memory
-        What laws and effects remember.
-    moment : Moment
-        When.
-    """
+    """Return the rate of every body that wears, in the contact frame, at each position."""
     return tuple(rates.wear for rates in rates_at_each(model, contacts, memory, moment))
 
 
