@@ -15,9 +15,8 @@ from tribo.registry.plugins import Plugin
 def check_requirements(requires: Iterable[str], plugins: Iterable[Plugin] = ()) -> None:
     """Raise `CaseError` unless every requirement, as ``"acme-tribo>=1.2"``, is met.
 
-    One whose marker does not hold here, as ``; python_version < "3.12"``, is
-    skipped. A distribution whose plugins are all disabled, broken or
-    incompatible does not meet a requirement.
+    One whose marker does not hold here is skipped. A distribution whose plugins are all disabled,
+    broken or incompatible does not meet a requirement.
     """
     known = list(plugins)
     for text in filter(applies, requires):

@@ -14,17 +14,7 @@ _SMALLEST = 8
 
 @dataclass(frozen=True)
 class Box:
-    """A rectangle of cells within a window.
-
-    Parameters
-    ----------
-    first : tuple of int
-        Its first cell along x and y.
-    shape : tuple of int
-        Its cells along x and y.
-    window : tuple of int
-        Cells of the window along x and y.
-    """
+    """A rectangle of cells: its first cell, its cells, and those of the window, by axis."""
 
     first: tuple[int, int]
     shape: tuple[int, int]

@@ -200,15 +200,7 @@ class Load(Table):
 
 @dataclass(frozen=True)
 class Piece:
-    """A stretch of time over which the load goes in a straight line.
-
-    Parameters
-    ----------
-    end : float
-        When it ends, in s.
-    first, last : float
-        Load at its beginning and end, in N.
-    """
+    """A stretch of time, to `end` (s), with a load straight from `first` to `last` (N)."""
 
     end: float
     first: float
@@ -219,16 +211,9 @@ class Piece:
 class Loads:
     """The normal load over time, at each position of a cycle.
 
-    Where one piece ends at another load than the next begins with, the load jumps.
-
-    Parameters
-    ----------
-    pieces : tuple of Piece
-        One after the other, from t = 0 on.
-    shares : tuple of float
-        Load at each position, as a multiple of that of the piece.
-    weights : tuple of float
-        Part of the path of a cycle at each position.
+    Its pieces follow one another from t = 0 on; where one ends at another load than the next begins
+    with, the load jumps. `shares` has the load at each position as a multiple of that of the piece,
+    `weights` the part of the path of a cycle there.
     """
 
     pieces: tuple[Piece, ...]

@@ -24,20 +24,11 @@ Kind = Literal[
 
 @dataclass(frozen=True)
 class Notice:
-    """A message about a run.
+    """A message about a run: what is to be known, and what to do.
 
-    Parameters
-    ----------
-    kind : str
-        What it is about; ``"begin"`` says what a run began with, ``"stop"`` and ``"failed"`` why
-        it ended.
-    text : str
-        What is to be known, and what to do.
-    time, distance : float or None
-        From when on it holds, in s, and the sliding distance by then, in m; None
-        for what holds of the whole run.
-    body, layer : str and int, or None
-        The body and its layer, counted from 1, that a notice of the kind ``"layer"`` is about.
+    The kind ``"begin"`` says what a run began with, ``"stop"`` and ``"failed"`` why it ended. It
+    holds from a time (s) and sliding distance (m) on; of the whole run where these are None. One of
+    the kind ``"layer"`` is about a body and its layer, counted from 1.
     """
 
     kind: Kind

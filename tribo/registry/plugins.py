@@ -29,27 +29,13 @@ Status = Literal["available", "loaded", "disabled", "broken", "incompatible", "c
 class Plugin:
     """The record of a plugin: where it is from, its status and its components.
 
-    Parameters
-    ----------
-    distribution, version : str
-        The distribution it came with, and its version; empty if it states none.
-    entry_point : str
-        The module it lies in, as ``"acme_tribo.plugin"``.
-    origin : str
-        How it was found: ``"built-in"``, ``"installed"`` or ``"given"``.
-    status : str
-        ``available`` (not imported yet), ``loaded``, ``disabled`` by the user,
-        ``broken`` (it raised, or breaks the contract of plugins) or
-        ``incompatible`` (a requirement of its distribution is not met); in
-        lists, a name that two plugins declare is in ``conflict``.
-    reason : str
-        Why it cannot be used; empty if it can.
-    names : tuple of str
-        The names of its components: those that its entry points declare.
-    load : callable
-        Imports it and returns the object that carries the hooks.
-    classes : dict
-        Its components by name; empty until it is imported.
+    It came with a version of a distribution, or none, and lies in the module `entry_point`. Its
+    status is ``available`` (not imported yet), ``loaded``, ``disabled`` by the user, ``broken`` (it
+    raised, or breaks the contract of plugins) or ``incompatible`` (a requirement of its
+    distribution is not met), the `reason` why it cannot be used; in lists, a name that two plugins
+    declare is in ``conflict``. `names` are those that its entry points declare, `classes` the
+    components by name once `load`, which returns the object that carries the hooks, has imported
+    it.
     """
 
     distribution: str

@@ -37,18 +37,10 @@ _ARRAY = "array number"
 
 @dataclass(frozen=True)
 class Checkpoint:
-    """Where a run can go on.
+    """Where a run can go on: its state, with the `fingerprint` of its case.
 
-    Parameters
-    ----------
-    case : str
-        The `fingerprint` of its case.
-    state : State
-        The whole state.
-    wall_time : float
-        Time spent until then, in s.
-    parts, saves, rows : int
-        Parts that belong to it, and saves and steps in these.
+    `wall_time` is the time spent until then, in s; `parts` belong to it, with so many `saves` and
+    `rows` of the history in them.
     """
 
     case: str

@@ -26,23 +26,11 @@ Rows = dict[str, Any]
 
 @dataclass(frozen=True)
 class Variable:
-    """A variable of the dataset.
+    """A variable of the dataset; it has no values yet where it grows with the run.
 
-    Parameters
-    ----------
-    dims : tuple of str
-        Its dimensions.
-    unit, meaning : str
-        Unit, and what it means.
-    values : ndarray, optional
-        Its values; None of one that grows with the run.
-    kind : str, optional
-        ``"state"`` for a field kept on a body, ``"track_state"`` for that along the whole
-        track, ``"effect"`` for one that an effect provides, ``"between"`` for one that it keeps.
-    field : str, optional
-        The name that such a field has in its model.
-    bodies : tuple of str, optional
-        The bodies that have such a field; NaN for the others.
+    A field of a model has a `kind`, the name that it has in the model, and the bodies that have it
+    (NaN for the others): ``"state"`` is kept on a body, ``"track_state"`` along its whole track,
+    ``"effect"`` provided by an effect, ``"between"`` kept by one.
     """
 
     dims: tuple[str, ...]

@@ -96,10 +96,9 @@ class Prediction:
 
 @dataclass(frozen=True)
 class CoarseRun:
-    """The end of a coarse run, and when its contact outgrew the case's window.
+    """The end of a coarse run, why its average fails then, and why it has no end.
 
-    `outgrown` is in s; None if it did not. `limitation` is what the motion says of its averaging at
-    the end, and `worn_through` which layers were by then. `error` is why there is no end.
+    Its contact outgrew the case's window at `outgrown`, in s; None if it did not.
     """
 
     last: Measures | None

@@ -136,11 +136,7 @@ def limitation(model: Model, state: State) -> str | None:
 
 
 def track_average(model: Model, state: State) -> tuple[float, float, float, float]:
-    """Return what a track average is taken of, as `Kinematics.limitation` gets it.
-
-    The contact's half-width along x, the depth of the track and the approach of the first contact,
-    in m, and the ratio of the volumes lost.
-    """
+    """Return half-width, depth, approach (m), ratio of volumes for `Kinematics.limitation`."""
     depths = [float(np.max(state.bodies[name].wear)) for name in model.changing]
     half_width = half_widths(state.contact, model.grid)[0]
     ratio = _volume_ratio(model, state)
