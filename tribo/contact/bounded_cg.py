@@ -6,7 +6,7 @@ import numpy as np
 import scipy.fft
 
 from tribo.contact.operator import Operator, WornOperator
-from tribo.contact.projection import CELLS, balance, over, project
+from tribo.contact.projection import CELLS, balance, limits, over, project
 from tribo.contact.residuals import check_bearable, check_finite, dots, judged
 from tribo.core.arrays import Array, Mask
 from tribo.core.contact import ContactSolution, CycleCompliance, Residuals, WearCompliance
@@ -23,7 +23,7 @@ def solve_bounded(
     operator: Operator,
     gap: Array,
     load: float,
-    cap: float | None = None,
+    cap: Array | float | None = None,
     compliance: WearCompliance | None = None,
     *,
     start: Array | None = None,
@@ -47,7 +47,7 @@ def solve_together(
     operator: Operator,
     gap: Array,
     load: Array,
-    cap: float | None = None,
+    cap: Array | float | None = None,
     compliance: WearCompliance | CycleCompliance | None = None,
     *,
     start: Array | None = None,
@@ -70,7 +70,7 @@ def solve_together(
         Undeformed gap, up to a constant at each position, in m.
     load : ndarray, shape () or (positions,)
         Normal load, in N; positive.
-    cap : float, optional
+    cap : float or ndarray, of the shape of the gap, optional
         Largest pressure, in Pa; unlimited when None.
     compliance : WearCompliance or CycleCompliance, optional
         Added to K, on the same box. Where it couples the positions of a cycle they are
@@ -107,10 +107,11 @@ def solve_together(
     """
     if compliance is not None:
         operator = WornOperator(operator, compliance)
-    limit = np.inf if cap is None else cap
+    limit = np.inf if cap is None else cap if isinstance(cap, np.ndarray) else float(cap)
     cell_area = operator.spacing[0] * operator.spacing[1]
-    for of_position in np.ravel(load):
-        check_bearable(float(of_position), cell_area * gap.shape[-2] * gap.shape[-1], limit)
+    for place in np.ndindex(gap.shape[:-2]):
+        area = cell_area * gap.shape[-2] * gap.shape[-1]
+        check_bearable(float(load[place]), area, at(limit, place))
     check_finite(gap)
     total = np.asarray(load / cell_area)
     shares = compliance.shares if isinstance(compliance, CycleCompliance) else None
@@ -147,7 +148,7 @@ class _Iterate:
         operator: Operator,
         gap: Array,
         total: Array,
-        limit: float,
+        limit: Array | float,
         start: Array | None,
         shares: Array | None,
     ) -> None:
@@ -176,7 +177,7 @@ class _Iterate:
         p = self.pressure
         self.free = p > 0
         self.zero = ~self.free
-        if self.limit < np.inf:
+        if limits(self.limit):
             self.full = p >= self.limit
             self.free &= ~self.full
         self.deformed = self.displacement + self.gap
@@ -188,7 +189,7 @@ class _Iterate:
         """Move along a conjugate direction on the face; False if that does not lower the energy."""
         g = self.deformed
         face = self.free | (self.zero & (g < 0))
-        if self.limit < np.inf:
+        if limits(self.limit):
             face |= self.full & (g > 0)
         share = 1.0 / np.maximum(face.sum(CELLS), 1)
         residual = _centred(g, face, share)
@@ -213,7 +214,10 @@ class _Iterate:
         meets_bound = self._leaves(ahead)
         if meets_bound.any():
             ahead[meets_bound] = project(
-                ahead[meets_bound], self.total[meets_bound], self.limit, face[meets_bound]
+                ahead[meets_bound],
+                self.total[meets_bound],
+                at(self.limit, meets_bound),
+                face[meets_bound],
             )
             change[meets_bound] = ahead[meets_bound] - self.pressure[meets_bound]
         slope = self.dot(change, g)
@@ -237,7 +241,7 @@ class _Iterate:
 
     def _leaves(self, pressure: Array) -> Mask:
         """Find the positions at which a pressure leaves the bounds."""
-        return np.asarray((pressure.min(CELLS) < 0) | (pressure.max(CELLS) > self.limit))
+        return np.asarray((pressure.min(CELLS) < 0) | (pressure > self.limit).any(CELLS))
 
     def spectral_step(self) -> None:
         """Move along the gradient by an inverse Rayleigh quotient and project."""
@@ -303,26 +307,35 @@ def _centred(values: Array, face: Mask, share: Array) -> Array:
     return kept
 
 
-def _feasible(start: Array | None, shape: tuple[int, ...], total: Array, limit: float) -> Array:
+def at(limit: Array | float, place: tuple[int, ...] | Mask) -> Array | float:
+    """Return a largest pressure at some of the positions."""
+    return limit if isinstance(limit, float) else np.asarray(limit[place])
+
+
+def _feasible(
+    start: Array | None, shape: tuple[int, ...], total: Array, limit: Array | float
+) -> Array:
     """Return a pressure within the bounds that carries the load, as near to `start` as it may."""
     pressure = np.empty(shape)
     for place in np.ndindex(shape[:-2]):
         given = None if start is None else start[place]
-        pressure[place] = _feasible_at(given, shape[-2:], float(total[place]), limit)
+        pressure[place] = _feasible_at(given, shape[-2:], float(total[place]), at(limit, place))
     return pressure
 
 
-def _feasible_at(start: Array | None, shape: tuple[int, ...], total: float, limit: float) -> Array:
+def _feasible_at(
+    start: Array | None, shape: tuple[int, ...], total: float, limit: Array | float
+) -> Array:
     loaded = np.ones(shape, dtype=bool)
     guess = np.full(shape, total / loaded.size)
     given = 0.0 if start is None else float(start.sum())
     if start is not None and given > 0:
         guess = np.maximum(start, 0.0)
         guess *= total / float(guess.sum())
-        if float(guess.max()) <= limit:
+        if (guess <= limit).all():
             return balance(guess, np.asarray(total), limit)
         np.minimum(guess, limit, out=guess)
         support = guess > 0
-        if int(np.count_nonzero(support)) * limit > total:
+        if float(np.sum(np.broadcast_to(limit, shape)[support])) > total:
             loaded = support
     return project(guess, np.asarray(total), limit, loaded)

@@ -63,15 +63,16 @@ class DcFft(ElasticSolver):
         gap: Array,
         load: Array | float,
         wear: WearCompliance | CycleCompliance | None,
+        cap: Array | float | None,
         guess: Array | None,
         tolerance: float | None = None,
     ) -> list[ContactSolution]:
         """Solve one position or several on a box that grows until nothing overlaps beyond it."""
         load = np.asarray(load)
-        cap = system.cap
         box = whole(system.grid.cells)
         if guess is not None:
-            needed = 0.0 if cap is None else float(load.max()) / cap / system.grid.cell_area
+            softest = np.inf if cap is None else float(np.min(cap))
+            needed = float(load.max()) / softest / system.grid.cell_area
             box = _wide_enough(around(_anywhere(guess > 0), _MARGIN), needed)
         iterations = 0
         while True:
@@ -80,7 +81,7 @@ class DcFft(ElasticSolver):
                 _half_space(box.shape, system),
                 gap[here],
                 load,
-                cap,
+                cap[here] if isinstance(cap, np.ndarray) else cap,
                 None if wear is None else wear.on(box),
                 start=None if guess is None else guess[here],
                 tolerance=tolerance or self.tolerance,
@@ -103,7 +104,9 @@ class DcFft(ElasticSolver):
         system, tolerance = coarse.system, max(_COARSE_TOLERANCE, self.tolerance)
         guess = self._guess(coarse)
         try:
-            (found,) = self._solve(system, coarse.gap, coarse.load, coarse.wear, guess, tolerance)
+            cap = system.cap if coarse.cap is None else coarse.cap
+            given = coarse.gap, coarse.load, coarse.wear
+            (found,) = self._solve(system, *given, cap, guess, tolerance)
         except NumericalError:
             # Without a start the solve takes longer, but may succeed.
             return None

@@ -33,6 +33,7 @@ class ElasticSolver(ContactSolver):
 
     accepts_wear_compliance: ClassVar[bool] = True
     honours_cap: ClassVar[bool] = True
+    takes_cap_map: ClassVar[bool] = True
     takes_coatings: ClassVar[bool] = True
     couples: ClassVar[bool] = True
 
@@ -45,7 +46,9 @@ class ElasticSolver(ContactSolver):
     ) -> ContactSolution:
         """Solve one contact problem; see `ContactSolver.solve`."""
         guess = self._guess(problem) if start is None else start.pressure
-        return self._solve(problem.system, problem.gap, problem.load, problem.wear, guess)[0]
+        system = problem.system
+        cap = system.cap if problem.cap is None else problem.cap
+        return self._solve(system, problem.gap, problem.load, problem.wear, cap, guess)[0]
 
     def solve_cycle(
         self,
@@ -59,7 +62,9 @@ class ElasticSolver(ContactSolver):
         gaps = np.stack([problem.gap for problem in problems])
         loads = np.array([problem.load for problem in problems])
         guess = np.stack([start.pressure for start in starts])
-        return self._solve(problems[0].system, gaps, loads, coupling, guess)
+        caps = [problem.cap for problem in problems if problem.cap is not None]
+        cap = np.stack(caps) if caps else problems[0].system.cap
+        return self._solve(problems[0].system, gaps, loads, coupling, cap, guess)
 
     def _guess(self, problem: ContactProblem) -> Array | None:
         """Return a pressure to start from where none is known, in Pa."""
@@ -72,6 +77,7 @@ class ElasticSolver(ContactSolver):
         gap: Array,
         load: Array | float,
         wear: WearCompliance | CycleCompliance | None,
+        cap: Array | float | None,
         guess: Array | None,
     ) -> list[ContactSolution]:
         """Solve one position, or several whose gaps, loads and starts are stacked."""

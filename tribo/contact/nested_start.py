@@ -30,6 +30,7 @@ def coarsen(problem: ContactProblem) -> ContactProblem:
         problem,
         system=replace(problem.system, grid=Grid(size=size, cells=cells)),
         gap=_halve(_halve(problem.gap, 0), 1),
+        cap=None if problem.cap is None else _halve(_halve(problem.cap, 0), 1),
         wear=wear,
     )
 

@@ -103,6 +103,7 @@ class Periodic(ElasticSolver):
         gap: Array,
         load: Array | float,
         wear: WearCompliance | CycleCompliance | None,
+        cap: Array | float | None,
         guess: Array | None,
     ) -> list[ContactSolution]:
         # The digits of a deep uniform wear would be lost to a contact that hardly displaces.
@@ -111,7 +112,7 @@ class Periodic(ElasticSolver):
             _half_space(system),
             gap - over(lowest),
             np.asarray(load),
-            system.cap,
+            cap,
             wear,
             start=guess,
             tolerance=self.tolerance,

@@ -18,7 +18,7 @@ def over(values: Array) -> Array:
     return values[..., None, None]
 
 
-def project(pressure: Array, total: Array, limit: float, cells: Mask) -> Array:
+def project(pressure: Array, total: Array, limit: Array | float, cells: Mask) -> Array:
     """Return the nearest pressure within [0, limit] whose sum is `total`.
 
     That is clip(p + μ, 0, limit) with the μ that carries the load.
@@ -29,7 +29,7 @@ def project(pressure: Array, total: Array, limit: float, cells: Mask) -> Array:
         Any values, in Pa.
     total : ndarray, shape () or (positions,)
         Wanted sum over the box, in Pa.
-    limit : float
+    limit : float or ndarray, of the shape of the pressure
         Largest pressure, in Pa; may be infinite.
     cells : ndarray of bool, of the shape of the pressure
         Cells that may change; the others must lie within the bounds already
@@ -46,11 +46,12 @@ def project(pressure: Array, total: Array, limit: float, cells: Mask) -> Array:
         moved[place] = np.where(here, 0.0, pressure[place])
         values = pressure[place][here]
         target = float(total[place] - moved[place].sum())
-        moved[place][here] = np.clip(values + _shift(values, target, limit), 0.0, limit)
+        most = limit if isinstance(limit, float) else limit[place][here]
+        moved[place][here] = np.clip(values + _shift(values, target, most), 0.0, most)
     return balance(moved, total, limit)
 
 
-def balance(pressure: Array, total: Array, limit: float) -> Array:
+def balance(pressure: Array, total: Array, limit: Array | float) -> Array:
     """Remove the round-off in the sum of `pressure`, in place, and return it.
 
     Only cells strictly within the bounds change, all of a position by the same amount.
@@ -68,11 +69,11 @@ def balance(pressure: Array, total: Array, limit: float) -> Array:
     return pressure
 
 
-def _shift(values: Array, target: float, limit: float) -> float:
+def _shift(values: Array, target: float, limit: Array | float) -> float:
     # Σ clip(v + μ) grows piecewise linearly in μ: Newton's method, kept inside
     # a bracket, ends at the root after finitely many steps.
     low = -float(values.max())
-    high = (limit if np.isfinite(limit) else target) - float(values.min())
+    high = float(np.max((limit if np.all(np.isfinite(limit)) else target) - values))
     shift = 0.0 if low < 0.0 < high else 0.5 * (low + high)
     moved = np.empty_like(values)
     for _ in range(200):
@@ -94,9 +95,14 @@ def _shift(values: Array, target: float, limit: float) -> float:
     return shift
 
 
-def _inner(pressure: Array, limit: float) -> Mask:
+def _inner(pressure: Array, limit: Array | float) -> Mask:
     """Find the cells strictly within the bounds."""
     inner: Mask = pressure > 0
-    if limit < np.inf:
+    if limits(limit):
         inner &= pressure < limit
     return inner
+
+
+def limits(limit: Array | float) -> bool:
+    """Whether a largest pressure, throughout or of each cell, is one."""
+    return not isinstance(limit, float) or limit < np.inf

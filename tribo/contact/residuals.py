@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tribo.contact.projection import CELLS, over
+from tribo.contact.projection import CELLS, limits, over
 from tribo.core.arrays import Array
 from tribo.core.contact import Residuals
 from tribo.core.errors import CaseError, NumericalError
@@ -14,7 +14,7 @@ LEAST_LOAD = 1e-100
 """In N; with much less, products with pressures and lengths underflow."""
 
 
-def check_bearable(load: float, area: float, limit: float) -> None:
+def check_bearable(load: float, area: float, limit: Array | float) -> None:
     """Raise `CaseError` unless `load` is positive, not lost in rounding, and `area` can bear it.
 
     `area` is that of the window, in m², and `limit` the largest pressure, in Pa; may be infinite.
@@ -25,6 +25,7 @@ def check_bearable(load: float, area: float, limit: float) -> None:
         raise CaseError(
             f"the load is {load:g} N; less than {LEAST_LOAD:g} N is lost in rounding; raise it"
         )
+    limit = float(np.mean(limit))
     if load > limit * area:
         raise CaseError(
             f"the load is {load:g} N, but with pressure limited to {limit:g} Pa the window bears "
@@ -51,7 +52,12 @@ def residuals(
 
 
 def judged(
-    pressure: Array, gap: Array, displacement: Array, approach: Array, total: Array, limit: float
+    pressure: Array,
+    gap: Array,
+    displacement: Array,
+    approach: Array,
+    total: Array,
+    limit: Array | float,
 ) -> list[Residuals]:
     """Judge a pressure against the conditions of contact, at one position or several.
 
@@ -67,7 +73,7 @@ def judged(
         In m.
     total : ndarray, shape () or (positions,)
         Wanted sum of the pressure, in Pa.
-    limit : float
+    limit : float or ndarray, of the same shape
         Largest pressure, in Pa; may be infinite.
 
     Returns
@@ -87,7 +93,7 @@ def judged(
     # 1 for two periodic flats, which do not displace.
     scale = np.where(scale == 0, 1.0, scale)
     deepest = np.minimum(np.where(touching, 0.0, deformed).min(CELLS), 0.0)
-    if limit < np.inf:
+    if limits(limit):
         np.maximum(deformed, 0.0, out=deformed, where=pressure >= limit)
     np.abs(deformed, out=deformed)
     open_ = dots(pressure, deformed) / (total * scale)

@@ -30,6 +30,9 @@ class ContactSolver(Component):
     takes_coatings: ClassVar[bool] = False
     """Whether `solve` honours ``problem.system.coatings``, the elastic layers on the bodies."""
 
+    takes_cap_map: ClassVar[bool] = False
+    """Whether `solve` limits the pressure to ``problem.cap`` where that is given."""
+
     periodic: ClassVar[bool] = False
     """Whether the contact repeats with the window, so that it may reach the window's edge."""
 

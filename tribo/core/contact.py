@@ -188,12 +188,16 @@ class ContactProblem:
         Normal load, in N; positive.
     wear : WearCompliance, optional
         Wear of the step that this solve is part of.
+    cap : ndarray, shape (nx, ny), optional
+        Largest pressure at each point, in Pa, in place of the system's: where a layer is worn
+        through it is another. Given only to solvers with `takes_cap_map`.
     """
 
     system: ContactSystem
     gap: Array
     load: float
     wear: WearCompliance | None = None
+    cap: Array | None = None
 
 
 @dataclass(frozen=True)

@@ -91,7 +91,7 @@ def contact_area(pressure: Array, grid: Grid) -> float:
     return int(np.count_nonzero(pressure > 0)) * grid.cell_area
 
 
-def plastic_area(pressure: Array, cap: float | None, grid: Grid) -> float:
+def plastic_area(pressure: Array, cap: Array | float | None, grid: Grid) -> float:
     """Area of the cells whose pressure is at the cap, in m²."""
     return 0.0 if cap is None else int(np.count_nonzero(pressure >= cap)) * grid.cell_area
 

@@ -23,6 +23,7 @@ FACTS = {
     "state_fields": "Keeps per point",
     "accepts_wear_compliance": "Takes a wear compliance (implicit steps)",
     "honours_cap": "Limits the pressure to a hardness",
+    "takes_cap_map": "Limits it to that of the layer at the surface",
     "takes_coatings": "Takes elastic layers on the bodies",
     "periodic": "Repeats with the window",
 }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from itertools import pairwise
+from itertools import pairwise, zip_longest
 from typing import Any
 
 import numpy as np
@@ -49,7 +49,7 @@ def assemble(case: Case) -> Model:
         cycle = motion.cycle(window)
         for exposure in exposures.values():
             exposure.check_starts(len(cycle))
-    cap, share = _plastic(bodies, case.contact)
+    cap, share, hardness = _plastic(bodies, case.contact)
     # Before the first array is made.
     check_memory(grid, memory_needed(case, exposures, plastic=cap is not None))
     surfaces, laws = {}, {}
@@ -100,6 +100,7 @@ def assemble(case: Case) -> Model:
         effects=effects,
         exposures=exposures,
         plastic_share=share,
+        hardness=hardness,
         system=system,
         loads=loads,
         cycle=cycle,
@@ -125,31 +126,47 @@ def varied(case: Case, **changes: Any) -> Case:
 
 def _plastic(
     bodies: Mapping[str, Body], contact: ContactSolver
-) -> tuple[float | None, dict[str, float]]:
-    """Return the largest pressure that is borne, in Pa, and each body's part of what yields."""
-    for name, body in bodies.items():
-        if contact.plasticity and any(layer.hardness is not None for layer in body.layers):
-            raise CaseError(
-                "the limit of the pressure is the hardness of the body throughout; set "
-                "contact.plasticity = false where its layers have one of their own",
-                f"bodies.{name}.layers",
+) -> tuple[float | None, dict[str, float], dict[str, tuple[float, ...]]]:
+    """Return the largest pressure at first, in Pa, who yields, and hardnesses that change.
+
+    Where a layer has a hardness of its own, each body yields where it is the softer one; elsewhere
+    it takes its part of what yields.
+    """
+    found = {
+        name: tuple(
+            material.hardness or np.inf
+            for material in (
+                *(layer.material(body.material) for layer in body.layers),
+                body.material,
             )
-    hardness = {
-        name: body.material.hardness
+        )
         for name, body in bodies.items()
-        if body.material.hardness is not None
     }
-    if not hardness or not contact.plasticity:
-        return None, dict.fromkeys(bodies, 0.0)
+    if not contact.plasticity or not np.isfinite([min(each) for each in found.values()]).any():
+        return None, dict.fromkeys(bodies, 0.0), {}
     if not contact.honours_cap:
         raise CaseError(
             f"contact.type = {contact.type!r} cannot limit the pressure to a hardness; "
             "set contact.plasticity = false, or leave hardness out",
             "contact.plasticity",
         )
-    cap = min(hardness.values())
-    soft = [name for name, value in hardness.items() if value == cap]
-    return cap, {name: (1 / len(soft) if name in soft else 0.0) for name in bodies}
+    for name, each in found.items():
+        if len(set(each)) > 1 and not contact.takes_cap_map:
+            raise CaseError(
+                f"contact.type = {contact.type!r} limits the pressure to one hardness throughout; "
+                "set contact.plasticity = false where layers have one of their own, or take "
+                "'dcfft' or 'periodic'",
+                f"bodies.{name}.layers",
+            )
+    if any(len(set(each)) > 1 for each in found.values()):
+        # Below layers without a hardness another may be the first that limits.
+        depths = zip_longest(*found.values(), fillvalue=np.inf)
+        first = next(cap for cap in map(min, depths) if np.isfinite(cap))
+        yields = {name: float(np.isfinite(min(each))) for name, each in found.items()}
+        return first, yields, found
+    cap = min(each[0] for each in found.values())
+    soft = [name for name, each in found.items() if each[0] == cap]
+    return cap, {name: (1 / len(soft) if name in soft else 0.0) for name in bodies}, {}
 
 
 def _law(body: Body, name: str, grid: Grid, exposure: GuardedExposure) -> GuardedLaw:

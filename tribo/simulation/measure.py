@@ -16,13 +16,17 @@ from tribo.core.state import State
 from tribo.lab.running_in import contact_roughness
 from tribo.simulation.model import Model
 from tribo.stepping.friction import mean_friction
+from tribo.stepping.layers import caps
 from tribo.stepping.quadrature import cycle_error
 
 
 def measure(model: Model, state: State) -> Measures:
     """Return the scalars of `state` that are recorded at every step."""
     pressure = state.contact.pressure
-    touched = pressure[state.contact.extent]
+    extent = state.contact.extent
+    touched = pressure[extent]
+    own = caps(model, state.bodies)[len(model.cycle) // 2]
+    cap = model.system.cap if own is None else own[extent]
     load = model.loads.over_cycle(model.loads.before(state.time))
     friction = mean_friction(model, state)
     width, breadth = half_widths(state.contact, model.grid)
@@ -48,7 +52,7 @@ def measure(model: Model, state: State) -> Measures:
         half_width_x=width,
         half_width_y=breadth,
         area=contact_area(touched, model.grid),
-        plastic_area=plastic_area(touched, model.system.cap, model.grid),
+        plastic_area=plastic_area(touched, cap, model.grid),
         approach=state.contact.approach - model.closest,
         residuals=state.contact.residuals,
         contact_solves=state.contact_solves,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -68,6 +68,9 @@ class Model:
         for all where it is the same.
     end_time : float
         When the run ends if no depth stops it earlier, in s.
+    hardness : Mapping[str, tuple of float], optional
+        Hardness of the layers of each body and of what lies below, in Pa, where it limits the
+        pressure and changes with the depth worn; empty where it does not change.
     chosen : str or None, optional
         Which positions were taken where the case left them open, and why, if that is to be told.
     tell : callable, optional
@@ -87,6 +90,7 @@ class Model:
     cycle: tuple[Position, ...]
     gaps: tuple[Array, ...]
     end_time: float
+    hardness: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     chosen: str | None = None
     tell: Listener = unheard
 

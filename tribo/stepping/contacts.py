@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tribo.core.arrays import Array, readonly
-from tribo.core.contact import ContactProblem, ContactSolution, CycleCompliance, WearCompliance
+from tribo.core.contact import ContactProblem, ContactSolution, CycleCompliance
 from tribo.core.loads import ByPosition
+from tribo.core.state import BodyState
+from tribo.stepping.layers import caps
 from tribo.stepping.linear_wear import LinearWear
 
 if TYPE_CHECKING:
@@ -26,11 +28,11 @@ def solve(
     model: Model,
     gap: Array,
     load: float,
-    wear: WearCompliance | None = None,
     start: ContactSolution | None = None,
+    cap: Array | None = None,
 ) -> ContactSolution:
     """Solve the contact of the case at a gap, shape (nx, ny), in m, under a load, in N."""
-    return model.solver.solve(ContactProblem(model.system, gap, load, wear), start)
+    return model.solver.solve(ContactProblem(model.system, gap, load, None, cap), start)
 
 
 def solve_cycle(
@@ -38,17 +40,20 @@ def solve_cycle(
     gaps: Iterable[Array],
     loads: ByPosition,
     starts: Sequence[ContactSolution],
+    bodies: Mapping[str, BodyState],
     wear: LinearWear | None = None,
 ) -> list[ContactSolution]:
     """Solve the contact at each position of a cycle, from gaps of shape (nx, ny), in m.
 
-    `loads` are in N. Where the positions are solved together and each mirrors another along x, as
-    on a stroke of smooth bodies, half of them are solved.
+    `loads` are in N; the layers that `bodies` are worn down to limit the pressure. Where the
+    positions are solved together and each mirrors another along x, as on a stroke of smooth bodies,
+    half of them are solved.
     """
     alone = [None] * len(loads) if wear is None else wear.alone
     coupling = None if wear is None else wear.coupling
     problems = [
-        ContactProblem(model.system, *given) for given in zip(gaps, loads, alone, strict=True)
+        ContactProblem(model.system, *given)
+        for given in zip(gaps, loads, alone, caps(model, bodies), strict=True)
     ]
     if not (model.couples and _all_mirror(problems, coupling)):
         return model.solver.solve_cycle(problems, starts, coupling)
@@ -83,7 +88,9 @@ def solved(contacts: Sequence[ContactSolution]) -> int:
 def _all_mirror(problems: Sequence[ContactProblem], coupling: CycleCompliance | None) -> bool:
     """Whether each position mirrors another along x, and the middle one itself."""
     mirrored = len(problems) % 2 == 1 and all(
-        abs(one.load - other.load) <= MIRRORED * one.load and _mirrors(one.gap, other.gap)
+        abs(one.load - other.load) <= MIRRORED * one.load
+        and _mirrors(one.gap, other.gap)
+        and (one.cap is None or other.cap is None or _mirrors(one.cap, other.cap))
         for one, other in zip(problems, reversed(problems), strict=True)
     )
     return mirrored and (coupling is None or _bodies_mirror(coupling))

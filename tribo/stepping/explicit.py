@@ -105,7 +105,9 @@ class Explicit(Scheme):
             slid = Course(rated(model, state, moment).rates, memory)
         after = worn_by(model, state, slid, increment, moment)
         loads = model.loads.before(time)
-        contacts = solve_cycle(model, undeformed(model, after), loads, _extrapolated(state))
+        contacts = solve_cycle(
+            model, undeformed(model, after), loads, _extrapolated(state), after.bodies
+        )
         return accepted(model, state, counted(after, contacts), contacts, loads)
 
     def _instability(self, model: Model, state: State, moment: Moment) -> str | None:

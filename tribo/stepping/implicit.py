@@ -232,7 +232,9 @@ class Implicit(Scheme):
             # Of what changes the gap, the part that is not linear in the pressures.
             beyond = guess.depths - guess.filled - wear.depths(guess.contacts, dx)
             try:
-                contacts = solve_cycle(model, base + beyond, loads, guess.contacts, wear)
+                contacts = solve_cycle(
+                    model, base + beyond, loads, guess.contacts, state.bodies, wear
+                )
             except PluginError:
                 raise
             except NumericalError as error:

@@ -131,6 +131,36 @@ def over_increment(
     return shares
 
 
+def caps(model: Model, bodies: Mapping[str, BodyState]) -> Sequence[Array | None]:
+    """Return the largest pressure at each point, in Pa, at each position; None where it is one."""
+    if not model.hardness:
+        return [None] * len(model.cycle)
+    each = [_hardness(model, bodies, position) for position in range(len(model.cycle))]
+    return [np.minimum(*found.values()) for found in each]
+
+
+def plastic_share(
+    model: Model, bodies: Mapping[str, BodyState], name: str, position: int
+) -> Array | float:
+    """Return a body's part of what yields at a position: all where it is the softer one."""
+    if not model.hardness:
+        return model.plastic_share[name]
+    found = _hardness(model, bodies, position)
+    softest = np.minimum(*found.values())
+    yielding = sum(np.asarray(each == softest, dtype=float) for each in found.values())
+    return np.asarray((found[name] == softest) / yielding)
+
+
+def _hardness(model: Model, bodies: Mapping[str, BodyState], position: int) -> dict[str, Array]:
+    """Return the hardness of what is at each body's surface, shape (nx, ny), in Pa."""
+    found = {}
+    for name, hardness in model.hardness.items():
+        bottoms = model.laws[name].bottoms if name in model.laws else ()
+        worn = np.broadcast_to(model.under(name, bodies[name].wear, position), model.grid.cells)
+        found[name] = np.array(hardness)[np.searchsorted(bottoms, worn, side="right")]
+    return found
+
+
 def worn_through(
     model: Model,
     before: State,

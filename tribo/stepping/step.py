@@ -21,7 +21,7 @@ from tribo.stepping.events import Drawn, Solved, Worn, Yielded
 from tribo.stepping.evolution import Course, rested_memory
 from tribo.stepping.friction import friction_work
 from tribo.stepping.invariants import ONE_LOAD, wear_balance
-from tribo.stepping.layers import worn_through
+from tribo.stepping.layers import caps, plastic_share, worn_through
 from tribo.stepping.memory import filling, first_memory, remembered
 from tribo.stepping.rates import CycleRates, Moment
 
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 # Each pass is one warm solve; a groove in a much softer body takes over a thousand.
 SETTLE_PASSES = 5000
 SETTLED = 1e-6
+ROUNDING = 1e-9
 SMALLEST = 1e-12
 """Of the distance until the next stop: a shorter step would drown in rounding."""
 
@@ -71,10 +72,12 @@ def first_contact(
     gaps = undeformed(model, state) if worn is not None or model.filling else model.gaps
     solutions: dict[tuple[int, float], ContactSolution] = {}
     asked = [(id(gap), load) for gap, load in zip(gaps, model.loads.after(0.0), strict=True)]
-    for gap, key in zip(gaps, asked, strict=True):
+    for gap, key, cap in zip(gaps, asked, caps(model, state.bodies), strict=True):
         # Where nothing varies along the path, one solve serves all positions.
         if key not in solutions:
-            solutions[key] = solve(model, gap, key[1], None, *list(solutions.values())[-1:])
+            solutions[key] = solve(
+                model, gap, key[1], next(reversed(solutions.values()), None), cap
+            )
     contacts = tuple(solutions[key] for key in asked)
     if any(reaches_border(each.pressure) for each in contacts) and not model.may_reach_edge:
         raise CaseError(
@@ -177,13 +180,24 @@ def start_sliding(model: Model, state: State) -> State:
     """Return `state` as a step begins: under the load after a jump, its indentation drawn out.
 
     At s = 0 plastic displacement is local; once a body slides, its groove is
-    the envelope along the track, and the contact in it is solved anew.
+    the envelope along the track, and the contact in it is solved anew. So is one in which points
+    have been worn down to a softer layer.
     """
     loads = model.loads.after(state.time)
     if loads != model.loads.before(state.time):
         # How far a step may go under the load before says little.
         state = replace(_under(model, state, loads), increment=0.0)
+    elif _too_soft(model, state):
+        state = _under(model, state, loads)
     return _settle(model, state, loads) if state.distance == 0 else state
+
+
+def _too_soft(model: Model, state: State) -> bool:
+    """Whether points bear more than the layer that they have been worn down to does."""
+    return any(
+        cap is not None and np.any(contact.pressure > cap * (1 + ROUNDING))
+        for contact, cap in zip(state.contacts, caps(model, state.bodies), strict=True)
+    )
 
 
 def worn_depths(
@@ -263,7 +277,8 @@ def _under(model: Model, state: State, loads: ByPosition) -> State:
 
 
 def _solved_anew(model: Model, state: State, loads: ByPosition) -> State:
-    contacts = solve_cycle(model, undeformed(model, state), loads, state.contacts)
+    gaps = undeformed(model, state)
+    contacts = solve_cycle(model, gaps, loads, state.contacts, state.bodies)
     model.tell(Solved(contacts))
     return replace(counted(state, contacts), contacts=tuple(contacts), rates=())
 
@@ -295,9 +310,12 @@ def _yielded(
     model.tell(Yielded(places))
     yielded = {}
     for name, body in bodies.items():
-        overlaps = [model.spread(name, contacts[position].overlap, position) for position in places]
-        deepest = reduce(np.maximum, overlaps)
-        yielded[name] = replace(body, plastic=body.plastic + model.plastic_share[name] * deepest)
+        overlaps = (
+            plastic_share(model, bodies, name, position) * contacts[position].overlap
+            for position in places
+        )
+        own = (model.spread(name, *each) for each in zip(overlaps, places, strict=True))
+        yielded[name] = replace(body, plastic=body.plastic + reduce(np.maximum, own))
     return yielded
 
 
