@@ -99,6 +99,9 @@ def calibrate(
         _choice(choose_case(alternatives, asked, level=level, on_run=_tell_of), as_json)
         return
     case, tables = cases[0], alternatives[cases[0].stem]
+    if asked.map:
+        _maps(tables, asked, level, output, force, as_json)
+        return
     if plan is not None:
         _plan(plan_tests(tables, asked, plan, level=level, on_run=_count), as_json)
         return
@@ -133,6 +136,29 @@ def calibrate(
     settings = [*overrides, *(f"{path}={value:.4g}" for path, value in found.settings.items())]
     options = " ".join(f"--set {shlex.quote(setting)}" for setting in settings)
     click.echo(f"Run it: tribo run {shlex.quote(str(case))} {options}")
+
+
+def _maps(
+    tables: dict[str, Any],
+    asked: Measurements,
+    level: float,
+    output: Path | None,
+    force: bool,
+    as_json: bool,
+) -> None:
+    """Fit local coefficients to depth maps."""
+    from tribo.cli.fitted_maps import check_free, maps_json, print_maps, write_maps
+    from tribo.study.calibration.mapped import calibrate_maps
+
+    check_free(output, force)
+    mapped = {f"map[{i}]": entry for i, entry in enumerate(asked.map)}
+    found = calibrate_maps(tables, mapped, on_run=_count_misfit)
+    if as_json:
+        echo_json(maps_json(found, level))
+    else:
+        print_maps(found, level)
+    if output is not None:
+        write_maps(found, level, output)
 
 
 def _files(output: Path | None, names: list[str], force: bool) -> dict[str, Path]:
@@ -203,6 +229,11 @@ def _choice(found: Choice, as_json: bool) -> None:
 
 def _tell_of(name: str, run: int, misfit: float) -> None:
     click.echo(f"{name}, run {run}: misfit χ² {misfit:.3g}", err=True)
+
+
+def _count_misfit(run: int, misfit: float) -> None:
+    told = "" if math.isnan(misfit) else f": misfit χ² {misfit:.4g}"
+    click.echo(f"run and pass back {run}{told}", err=True)
 
 
 def _count(run: int) -> None:

@@ -207,7 +207,7 @@ def _as_good_as_none(here: Linearised) -> Array:
     wanted = np.log(UNSEEN * here.problem.observed[below] / here.responses[:n][below])
     moves = np.divide(wanted[:, None], slopes, out=np.full_like(slopes, np.inf), where=slopes > 0)
     least = here.point + np.min(moves, axis=0, initial=np.inf)
-    return np.clip(least, here.problem.lower, here.problem.upper)
+    return np.asarray(np.clip(least, here.problem.lower, here.problem.upper))
 
 
 def check_effect(here: Linearised) -> None:

@@ -158,7 +158,7 @@ class Linearised:
         """Return of which parameters nothing but limits of detection tells, shape (p,)."""
         found, below = self.sensitivity(), self.problem.below
         told = np.sqrt(np.sum(found[~below] ** 2, axis=0))
-        return (told < FAINT) & np.any(np.abs(found[below]) > FAINT, axis=0)
+        return np.asarray((told < FAINT) & np.any(np.abs(found[below]) > FAINT, axis=0))
 
     def bounds(self, reach: float) -> tuple[Array, Array]:
         """Return the bounds of a point no farther than `reach` from that of the run."""

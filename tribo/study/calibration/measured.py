@@ -16,6 +16,7 @@ from tribo.core.errors import CaseError
 from tribo.core.explain import case_error
 from tribo.core.table import Table
 from tribo.core.units import Quantity
+from tribo.study.calibration.mapped import Mapped
 from tribo.study.calibration.quantities import PROFILES, QUANTITIES, in_words
 from tribo.study.sweeping.study_file import by_path
 
@@ -243,6 +244,8 @@ class Measurements(Table):
     """What was measured in a test of the case as it is."""
     test: tuple[Tested, ...] = ()
     """What was measured in tests that differ from it."""
+    map: tuple[Mapped, ...] = ()
+    """Depth maps, instead, to which local coefficients are fitted."""
     repeatability: Annotated[float, Quantity("1", at_least=0, below=3)] | None = None
     """Relative standard deviation of the fitted parameters from test to test.
 
@@ -279,6 +282,12 @@ class Measurements(Table):
 
     @model_validator(mode="after")
     def _some(self) -> Self:
+        if self.map and (self.tests or self.fit or self.repeatability is not None):
+            raise ValueError(
+                "local coefficients are fitted to maps alone: give [[map]] in a file of its own"
+            )
+        if self.map:
+            return self
         if not self.tests or not all(test.measured for test in self.tests.values()):
             raise ValueError(
                 "nothing is measured; give each value as [[measured]], or as [[test.measured]] of "

@@ -60,6 +60,8 @@ class Posed:
     ) -> Posed:
         """Read a case and measured values; CaseError if they are wrong or do not fit together."""
         tables, asked = case_tables(case), read_measurements(measured)
+        if asked.map:
+            raise CaseError("asks for local coefficients; see calibrate_maps", "map")
         base = validate_case(tables, registry=registry)
         data = asked.table()
         tested = benches(tables, asked.tests, data, registry)

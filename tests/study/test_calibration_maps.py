@@ -1,0 +1,140 @@
+"""A local coefficient is found where the depth tells it, and left to the prior elsewhere."""
+
+import json
+
+import numpy as np
+import pytest
+from calibrations import cheap
+from click.testing import CliRunner
+from scipy.special import kv
+
+from tribo.cli.main import tribo
+from tribo.config.load import validate_case
+from tribo.config.overrides import apply_settings
+from tribo.config.write import to_toml
+from tribo.core.errors import CaseError
+from tribo.lab.heights import Heights
+from tribo.simulation.march import begin, march
+from tribo.simulation.run import Simulation
+from tribo.study.calibration.mapped import on_cells
+from tribo.study.calibration.maps import Prior, fit_maps
+from tribo.study.calibration.measured import read_measurements
+from tribo.study.gradient.local import localised
+from tribo.study.gradient.objective import View
+
+CASE = apply_settings(
+    cheap(20),
+    {"grid.cells": 16, "stepping.depth_tolerance": 0.1, "bodies.disk.wear.k": 9e-15},
+)
+NOISE = 10e-9
+
+
+def worn(factor):
+    """The depth of the groove, with a factor on the disk's coefficient across it."""
+    model = Simulation(validate_case(CASE)).model
+    *_, last = march(made := localised(model, {"disk": factor}), begin(made))
+    return View(made, last.state).wear("disk")
+
+
+@pytest.fixture(scope="module")
+def truth():
+    y = Simulation(validate_case(CASE)).model.grid.y
+    return np.exp(-0.5 * np.exp(-(((y - 60e-6) / 150e-6) ** 2)))[None]
+
+
+@pytest.fixture(scope="module")
+def depth(truth):
+    clean = worn(truth)
+    return clean + NOISE * np.random.default_rng(4).standard_normal(clean.shape)
+
+
+@pytest.fixture(scope="module")
+def done(depth, tmp_path_factory):
+    """What the command prints and writes of pixels, two by twenty a cell."""
+    folder = tmp_path_factory.mktemp("map")
+    (folder / "case.toml").write_text(to_toml(CASE))
+    np.save(folder / "depth.npy", np.repeat(np.repeat(depth, 20, axis=0), 2, axis=1))
+    table = {"body": "disk", "depth": str(folder / "depth.npy"), "pitch": 1e-3 / 32}
+    table |= {"uncertainty": "10 nm", "spread": 0.4, "length": "0.1 mm"}
+    (folder / "mapped.toml").write_text(to_toml({"map": [table]}))
+    command = ["calibrate", folder / "case.toml", "--measured", folder / "mapped.toml", "--json"]
+    ended = CliRunner().invoke(tribo, [*map(str, command), "-o", str(folder / "found.npz")])
+    assert ended.exit_code == 0, ended.output
+    return json.loads(ended.stdout[: ended.stdout.rindex("}") + 1]), folder
+
+
+def test_the_prior_is_the_field_that_it_says():
+    """Whittle's covariance, s² r K₁(r) with r in lengths, in the plane and along a line."""
+    n, h = 64, 5e-6
+    for shape in ((n, n), (1, n)):
+        prior = Prior(0.4, 4 * h)
+        variance = prior.amplitudes(shape, (h, h)) ** 2
+        # Away from the ends a wave's covariance is its cosine, and the mean counts half.
+        counted = np.where(np.arange(n) == 0, 0.5, 1.0)
+        across = counted if shape[0] > 1 else np.ones(1)
+        far = np.arange(16)
+        waves = np.cos(np.pi * far[:, None] * np.arange(n) / n)
+        spectrum = counted * np.sum(across[:, None] * variance, axis=0)
+        along = np.sum(spectrum * waves, axis=1) / variance.size
+        assert along[0] == pytest.approx(0.16)
+        assert along[1:] == pytest.approx(0.16 * far[1:] / 4 * kv(1, far[1:] / 4), abs=4e-3)
+
+
+@pytest.mark.slow
+def test_a_dip_of_a_coefficient_is_found_where_the_depth_tells_it(done, truth, depth):
+    told, folder = done
+    names = ("factor", "lower", "upper", "deviation", "told")
+    factor, lower, upper, deviation, known = (np.array(told["maps"]["disk"][n]) for n in names)
+    deep = depth > 0.3 * depth.max()
+    assert factor[deep] == pytest.approx(truth[deep], abs=0.1)
+    assert np.mean(((lower < truth) & (truth < upper))[deep]) > 0.8
+    assert told["p_value"] > 0.01
+    # Where nothing was worn it is as uncertain as before.
+    assert np.all(known[deep])
+    assert not np.any(known[:, [0, -1]])
+    assert deviation[0, 0] > 0.9 * 0.4
+    assert any("say nothing of" in note for note in told["notes"])
+    with np.load(folder / "found.npz") as arrays:
+        assert arrays["disk_factor"] == pytest.approx(factor)
+    assert (folder / "found-disk.png").stat().st_size > 5000
+
+
+@pytest.mark.slow
+def test_depths_that_no_smooth_map_explains_are_noticed(depth):
+    stripes = depth + 15 * NOISE * (-1.0) ** np.arange(depth.size)
+    found = fit_maps(CASE, {"disk": (stripes, NOISE)}, {"disk": Prior(0.1, 300e-6)})
+    assert found.p_value < 1e-6
+    assert any("no map that varies so smoothly" in note for note in found.notes)
+
+
+def test_pixels_are_averaged_over_cells_and_missing_ones_left_out():
+    pixels = np.arange(32.0 * 32).reshape(32, 32)
+    pixels[:2, :2] = np.nan
+    found = on_cells(Heights(pixels, (1e-6, 1e-6)), (16, 16), (2e-6, 2e-6))
+    assert np.isnan(found[0, 0])
+    assert found[3, 5] == pixels[6:8, 10:12].mean()
+    wider = on_cells(Heights(pixels, (1e-6, 1e-6)), (18, 18), (2e-6, 2e-6))
+    assert np.all(np.isnan(wider[0]))
+    assert wider[4, 6] == found[3, 5]
+
+
+@pytest.mark.parametrize(
+    ("data", "words"),
+    [
+        ({"map": [{"body": "disk", "depth": "no.npy"}]}, "map[0].uncertainty: "),
+        (
+            {"map": [{"body": "disk", "depth": "a", "uncertainty": 1e-9, "length": 1e-4}]}
+            | {"fit": [{"path": "load.normal"}]},
+            "local coefficients are fitted to maps alone",
+        ),
+    ],
+)
+def test_wrong_maps_are_told(data, words):
+    with pytest.raises(CaseError) as caught:
+        read_measurements(data)
+    assert str(caught.value).startswith(words)
+
+
+def test_maps_coarser_than_the_grid_are_refused():
+    with pytest.raises(CaseError, match=r"larger than cells, 1 × 1 µm; lower grid\.cells"):
+        on_cells(Heights(np.zeros((16, 16)), (3e-6, 3e-6)), (16, 16), (1e-6, 1e-6))

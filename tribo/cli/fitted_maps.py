@@ -1,0 +1,100 @@
+"""What `tribo calibrate` prints and writes of local coefficients."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import click
+import numpy as np
+from rich.table import Table
+
+from tribo.cli.console import Console, titled
+from tribo.core.errors import CaseError
+from tribo.study.calibration.maps import FittedMaps, LocalMap
+
+
+def maps_json(found: FittedMaps, level: float) -> dict[str, Any]:
+    """Return fitted maps as plain data, in SI units."""
+    return {
+        "level": level,
+        "gradients": found.gradients,
+        "products": found.products,
+        "chi_square": found.chi_square,
+        "degrees_of_freedom": found.degrees_of_freedom,
+        "p_value": found.p_value,
+        "notes": found.notes,
+        "maps": {
+            name: {key: value.tolist() for key, value in _arrays(each, level).items()}
+            for name, each in found.maps.items()
+        },
+    }
+
+
+def _arrays(each: LocalMap, level: float) -> dict[str, Any]:
+    lower, upper = each.interval(level)
+    return {
+        "spacing_m": np.array(each.spacing),
+        "factor": each.factor,
+        "lower": lower,
+        "upper": upper,
+        "deviation": each.deviation,
+        "told": each.told,
+    }
+
+
+def print_maps(found: FittedMaps, level: float) -> None:
+    """Print where coefficients differ, and where the data say nothing."""
+    table = titled(f"Local coefficients, {found.gradients + found.products} runs and passes back")
+    table.add_column("")
+    for column in ("told", "factor there", f"below 1 at {100 * level:g} %", "above 1"):
+        table.add_column(column, justify="right")
+    for name, each in found.maps.items():
+        _row(table, name, each, level)
+    console = Console()
+    console.print(table)
+    console.print(
+        f"χ² {found.chi_square:.4g} with {found.degrees_of_freedom:.4g} to spare, "
+        f"p = {found.p_value:.2g}. Slopes are exact: passes back through each run.",
+        markup=False,
+    )
+    for note in found.notes:
+        console.print(f"Note: {note}", markup=False)
+
+
+def _row(table: Table, name: str, each: LocalMap, level: float) -> None:
+    told, (lower, upper) = each.told, each.interval(level)
+    ends = each.factor[told] if np.any(told) else np.ones(1)
+    counts = [np.sum(told), np.sum(told & (upper < 1)), np.sum(told & (lower > 1))]
+    cells = [f"{count} cells" for count in counts]
+    table.add_row(
+        name, f"{cells[0]} of {told.size}", f"{ends.min():.2f} to {ends.max():.2f}", *cells[1:]
+    )
+
+
+def check_free(output: Path | None, force: bool) -> None:
+    """Check that an output is a NumPy file that is not there yet; CaseError if it is not."""
+    if output is not None and output.suffix != ".npz":
+        raise CaseError(f"{output}: maps are written as a NumPy archive; name it {output.stem}.npz")
+    if output is not None and output.exists() and not force:
+        raise CaseError(f"{output} exists; choose another name, or replace it with --force")
+
+
+def write_maps(found: FittedMaps, level: float, output: Path) -> None:
+    """Write the maps as a NumPy archive, and a picture of each beside it."""
+    from tribo.plotting.coefficients import coefficient_map
+    from tribo.plotting.figures import write_figures
+
+    arrays: dict[str, Any] = {}
+    pictures = {}
+    for name, each in found.maps.items():
+        arrays |= {f"{name}_{key}": value for key, value in _arrays(each, level).items()}
+        part = each.deviation / each.prior
+        pictures[f"{output.stem}-{name}"] = partial(
+            coefficient_map, each.factor, part, each.spacing, name
+        )
+    np.savez_compressed(output, **arrays)
+    click.echo(f"Wrote {output}")
+    for path in write_figures(pictures, output.parent):
+        click.echo(f"Wrote {path}")

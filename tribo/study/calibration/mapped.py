@@ -1,0 +1,116 @@
+"""Depth maps, in the file of measured values, that local wear coefficients are fitted to."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+from scipy.stats import binned_statistic_2d
+
+from tribo.case import Case
+from tribo.config.load import case_tables, validate_case
+from tribo.core.arrays import Array
+from tribo.core.errors import CaseError, located
+from tribo.core.table import Table
+from tribo.core.units import Quantity
+from tribo.lab.heights import Heights, read_heights
+from tribo.registry.registry import Registry
+from tribo.simulation.run import Simulation
+from tribo.study.calibration.maps import FittedMaps, Prior, fit_maps
+from tribo.study.variation import unknown_body
+
+FINER = 1e-6
+
+
+class Mapped(Table):
+    """The depth worn off a body, measured all over it, and how its coefficient may vary."""
+
+    body: str
+    """Name of the body in the case."""
+    depth: str
+    """File of a height map: depths in m, positive where material is gone, NaN where missing."""
+    pitch: Annotated[float, Quantity("m", above=0)] | None = None
+    """Distance between its pixels; that of the file if left out."""
+    uncertainty: Annotated[float, Quantity("m", above=0)]
+    """Standard deviation of the depth of a cell of the grid."""
+    spread: Annotated[float, Quantity("1", above=0, below=3)] = 0.5
+    """Relative standard deviation of the coefficient from place to place: that of its logarithm."""
+    length: Annotated[float, Quantity("m", above=0)]
+    """Correlation length: the distance at which coefficients are still much alike."""
+
+    def heights(self) -> Heights:
+        """Read the map; CaseError if it cannot be."""
+        return read_heights(self.depth, None if self.pitch is None else (self.pitch, self.pitch))
+
+
+def calibrate_maps(
+    case: Case | Mapping[str, Any] | str | Path,
+    mapped: Mapping[str, Mapped],
+    *,
+    registry: Registry | None = None,
+    on_run: Callable[[int, float], None] = lambda count, misfit: None,
+) -> FittedMaps:
+    """Find where the wear coefficients of bodies differ from those of a case, from depth maps.
+
+    Parameters
+    ----------
+    case : Case, Mapping, str or Path
+        A case, its tables, or its TOML file.
+    mapped : Mapping
+        The maps by their place in the file, for messages.
+    registry, on_run
+        As for `fit_maps`.
+
+    Raises
+    ------
+    CaseError
+        If the case or a map is wrong, or no gradient goes through the case.
+    NumericalError
+        If a run fails.
+    """
+    model = Simulation(
+        validate_case(case_tables(case), registry=registry).model_copy(update={"observers": ()}),
+        registry,
+    ).model
+    depths: dict[str, tuple[Array, float]] = {}
+    priors = {}
+    for place, entry in mapped.items():
+        if entry.body not in model.exposures:
+            raise unknown_body(entry.body, model.bodies, f"{place}.body")
+        if entry.body in depths:
+            raise CaseError(f"{entry.body!r} has two maps; give one", place)
+        if entry.body not in model.laws:
+            raise CaseError(f"{entry.body!r} does not wear in this case", f"{place}.body")
+        shape = model.exposures[entry.body].rows, model.grid.cells[1]
+        with located(f"{place}.depth"):
+            depth = on_cells(entry.heights(), shape, model.grid.spacing)
+        depths[entry.body] = depth, entry.uncertainty
+        priors[entry.body] = Prior(entry.spread, entry.length)
+    return fit_maps(model, depths, priors, on_run=on_run)
+
+
+def on_cells(heights: Heights, shape: tuple[int, int], spacing: tuple[float, float]) -> Array:
+    """Return the mean of a map over each cell of a surface, centre on centre; NaN beside it.
+
+    Raises
+    ------
+    CaseError
+        If its pixels are larger than cells, or none lies on the surface.
+    """
+    averaged = shape[0] == 1
+    cell = heights.heights.shape[0] * heights.pitch[0] if averaged else spacing[0], spacing[1]
+    if any(pitch > (1 + FINER) * size for pitch, size in zip(heights.pitch, cell, strict=True)):
+        raise CaseError(
+            f"its pixels, {1e6 * heights.pitch[0]:g} × {1e6 * heights.pitch[1]:g} µm, are larger "
+            f"than cells, {1e6 * cell[0]:g} × {1e6 * cell[1]:g} µm; lower grid.cells"
+        )
+    x, y = heights.grid.mesh
+    read = np.isfinite(heights.heights)
+    edges = [0.5 * h * np.arange(-n, n + 1, 2) for n, h in zip(shape, cell, strict=True)]
+    places = np.broadcast_to(x, read.shape)[read], np.broadcast_to(y, read.shape)[read]
+    found = binned_statistic_2d(*places, heights.heights[read], "mean", edges).statistic
+    if np.all(np.isnan(found)):
+        raise CaseError("it does not lie on the window: its middle is taken as the contact's")
+    return np.asarray(found)

@@ -1,0 +1,375 @@
+"""Coefficients that differ from place to place, from a map of the depth worn off."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from contextlib import closing
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.fft import dctn, idctn
+from scipy.optimize import minimize
+from scipy.special import chdtrc, ndtri
+
+from tribo.case import Case
+from tribo.core.arrays import Array, Mask
+from tribo.core.errors import CaseError
+from tribo.simulation.march import begin, march
+from tribo.simulation.model import Model
+from tribo.simulation.run import Simulation
+from tribo.study.gradient.backwards import swept_back
+from tribo.study.gradient.gradient import ValueAndGradient
+from tribo.study.gradient.local import localised
+from tribo.study.gradient.objective import Seeds, View
+from tribo.study.gradient.tape import Tape, recorded
+
+STEP = 1e-2
+"""Largest change of a logarithm for the derivative of all depths along a direction."""
+PRODUCTS, EACH, LITTLE = 400, 10, 0.2
+"""Most products with the information of the data; every so many it is seen whether each of them
+still gave so much of a number that the data determine."""
+ROUGHLY, ITERATIONS, MEMORY, FALL = 10, 100, 30, 1e-6
+"""Steps of L-BFGS before them, at most after them, those remembered, and the fall that ends it."""
+EXHAUSTED = 1e-9
+"""Part of a new direction that counts as none."""
+UNLIKELY = 0.01
+"""Probability of so large a misfit below which data and model are said to disagree."""
+SILENT = 0.9
+"""Part of the prior's standard deviation above which the data say nothing of a place."""
+
+
+@dataclass(frozen=True)
+class Prior:
+    """What is known of ln(k/k₀) at each cell before anything is measured: a Gaussian field.
+
+    Its covariance is that of Whittle, s² (r/ℓ) K₁(r/ℓ), with reflecting ends, where it is larger.
+    A cosine transform takes its root.
+
+    Parameters
+    ----------
+    spread : float
+        The standard deviation s.
+    length : float
+        The length ℓ, in m; at that distance 0.60 of the correlation is left.
+
+    References
+    ----------
+    Whittle, P. (1954), On stationary processes in the plane, Biometrika 41, 434-449.
+    """
+
+    spread: float
+    length: float
+
+    def amplitudes(self, shape: tuple[int, int], spacing: tuple[float, float]) -> Array:
+        """Return the standard deviations of cosine waves, of the shape of the map."""
+        waves = [np.pi * np.arange(n) / (n * h) for n, h in zip(shape, spacing, strict=True)]
+        squared = waves[0][:, None] ** 2 + waves[1] ** 2
+        planes = np.count_nonzero(np.array(shape) > 1)
+        variance = (1 + self.length**2 * squared) ** -(1 + 0.5 * planes)
+        # Away from the ends the mean counts half as much as a wave.
+        weight = [np.where((np.arange(n) == 0) & (n > 1), 0.5, 1.0) for n in shape]
+        inside = np.sum(weight[0][:, None] * weight[1] * variance) / variance.size
+        return np.asarray(self.spread * np.sqrt(variance / inside))
+
+
+@dataclass(frozen=True, eq=False)
+class LocalMap:
+    """The factor on a body's wear coefficient at each cell of its surface.
+
+    Parameters
+    ----------
+    logs, deviation : ndarray, shape (rows, ny)
+        The most probable ln(k/k₀), and its standard deviation.
+    prior : ndarray, shape (rows, ny)
+        The standard deviation that the prior has.
+    residual : ndarray, shape (rows, ny)
+        The computed less the measured depth, in standard deviations; NaN where nothing was
+        measured.
+    spacing : tuple of float
+        Edge lengths of a cell, in m.
+    """
+
+    logs: Array
+    deviation: Array
+    prior: Array
+    residual: Array
+    spacing: tuple[float, float]
+
+    @property
+    def factor(self) -> Array:
+        """k/k₀ in the median."""
+        return np.exp(self.logs)
+
+    @property
+    def told(self) -> Mask:
+        """Where the data say something, beyond the prior."""
+        return np.asarray(self.deviation < SILENT * self.prior)
+
+    def interval(self, level: float) -> tuple[Array, Array]:
+        """Return the ends of the interval of the factor at each cell."""
+        far = float(ndtri(0.5 + 0.5 * level)) * self.deviation
+        return np.exp(self.logs - far), np.exp(self.logs + far)
+
+
+@dataclass(frozen=True, eq=False)
+class FittedMaps:
+    """Local coefficients fitted to depth maps.
+
+    Parameters
+    ----------
+    maps : dict of LocalMap
+        By the name of the body.
+    gradients, products : int
+        Gradients, and products with the Hessian, that it took.
+    chi_square : float
+        Sum of the squared residuals.
+    degrees_of_freedom : float
+        Cells that were measured, less what the data determine: Σ λ/(1 + λ) over the eigenvalues
+        of their information, in units of the prior's.
+    """
+
+    maps: Mapping[str, LocalMap]
+    gradients: int
+    products: int
+    chi_square: float
+    degrees_of_freedom: float
+
+    @property
+    def p_value(self) -> float:
+        """Probability of a misfit at least as large by chance."""
+        return float(chdtrc(self.degrees_of_freedom, self.chi_square))
+
+    @property
+    def notes(self) -> list[str]:
+        """Remarks on what the data can tell."""
+        notes = [
+            f"{name}: the data say nothing of {np.sum(~each.told)} cells, mostly where nothing was "
+            "worn or measured: there the coefficient is the case's, as uncertain as before"
+            for name, each in self.maps.items()
+            if not np.all(each.told)
+        ]
+        if self.p_value < UNLIKELY:
+            notes.append(
+                "no map that varies so smoothly explains the depths: χ² is "
+                f"{self.chi_square:.4g} where about {self.degrees_of_freedom:.4g} is expected; the "
+                "model leaves something out, or the uncertainty is larger, or the length shorter"
+            )
+        return notes
+
+
+def fit_maps(
+    case: Case | Mapping[str, Any] | str | Path | Model,
+    depths: Mapping[str, tuple[Array, float]],
+    priors: Mapping[str, Prior],
+    *,
+    on_run: Callable[[int, float], None] = lambda count, misfit: None,
+) -> FittedMaps:
+    """Find the factors on the wear coefficients of bodies that explain maps of their depth.
+
+    The most probable ones, by L-BFGS with exact gradients in waves of the prior. Their standard
+    deviations are linearised after its first steps: the information of the data, Jᵀ V⁻¹ J, is
+    projected on a Krylov space, by products that are each a run and a pass back, until these
+    hardly tell more. What lies beyond is left to the prior, so that they come out too large rather
+    than too small. The other steps are taken in directions that this makes about equally wide.
+
+    Parameters
+    ----------
+    case : Case, Mapping, str, Path or Model
+        As `tribo.gradient` takes it.
+    depths : Mapping
+        By the name of the body the depth worn off at the end, in m, of the shape of `View.wear`,
+        NaN where it was not measured; and its standard deviation.
+    priors : Mapping
+        By the name of the body.
+    on_run : callable, optional
+        Called after each gradient or product with their number and the misfit χ², NaN of a product.
+
+    Raises
+    ------
+    CaseError
+        If no gradient goes through the case, or a map is not of the shape of the body's.
+    NumericalError
+        If a run fails.
+
+    References
+    ----------
+    Bui-Thanh, T. et al. (2013), A computational framework for infinite-dimensional Bayesian
+    inverse problems, SIAM J. Sci. Comput. 35, A2494-A2523.
+    """
+    waves = _Waves(Simulation(case).model, depths, priors)
+    fit = ValueAndGradient(waves.model, waves.misfit, (), list(depths))
+    made = 0
+
+    def posterior(z: Array) -> tuple[float, Array]:
+        nonlocal made
+        value, slope = fit(waves.logs(z))
+        made += 1
+        on_run(made, 2 * value)
+        return value + 0.5 * float(np.sum(z * z)), waves.back(slope) + z
+
+    near = _least(posterior, waves.size, ROUGHLY)
+    with closing(Tape()) as tape:
+        product = waves.products(waves.logs(near), tape)
+        basis, values = _krylov(product, waves.size, lambda k: on_run(made + k, math.nan))
+    less = (1 + values) ** -0.5 - 1
+
+    def rounded(y: Array) -> Array:
+        """Return amplitudes of such by which the posterior is about as wide in all directions."""
+        return np.asarray(y + np.sum((less * np.sum(basis * y, axis=1))[:, None] * basis, axis=0))
+
+    def sphere(y: Array) -> tuple[float, Array]:
+        value, slope = posterior(near + rounded(y))
+        return value, rounded(slope)
+
+    logs = waves.logs(near + rounded(_least(sphere, waves.size, ITERATIONS)))
+    residuals = waves.residuals(waves.run(waves.local(logs)))
+    taken = sum(
+        value / (1 + value) * waves.logs(vector) ** 2
+        for vector, value in zip(basis, values, strict=True)
+    )
+    maps = {}
+    for name, part in waves.parts.items():
+        shape, prior = waves.shapes[name], waves.prior(name)
+        left = prior**2 - taken[part].reshape(shape)
+        maps[name] = LocalMap(
+            logs[part].reshape(shape),
+            np.sqrt(np.maximum(left, 0.0)),
+            prior,
+            residuals[name],
+            waves.model.grid.spacing,
+        )
+    read = sum(int(np.sum(~np.isnan(each))) for each in residuals.values())
+    return FittedMaps(
+        maps=maps,
+        gradients=made,
+        products=len(values),
+        chi_square=sum(float(np.nansum(each**2)) for each in residuals.values()),
+        degrees_of_freedom=read - float(np.sum(values / (1 + values))),
+    )
+
+
+class _Waves:
+    """Maps as waves of the prior, of independent amplitudes of standard deviation 1."""
+
+    def __init__(
+        self,
+        model: Model,
+        depths: Mapping[str, tuple[Array, float]],
+        priors: Mapping[str, Prior],
+    ) -> None:
+        self.model, self.depths = model, depths
+        exposures = model.exposures
+        self.shapes = {name: (exposures[name].rows, model.grid.cells[1]) for name in depths}
+        self.amplitudes, self.parts, self.size = {}, {}, 0
+        for name, shape in self.shapes.items():
+            if depths[name][0].shape != shape:
+                raise CaseError(
+                    f"the depth map of {name} has the shape {depths[name][0].shape}, its surface "
+                    f"{shape}"
+                )
+            self.amplitudes[name] = priors[name].amplitudes(shape, model.grid.spacing)
+            self.parts[name] = slice(self.size, self.size + shape[0] * shape[1])
+            self.size = self.parts[name].stop
+
+    def logs(self, z: Array) -> Array:
+        """Return the logarithms of the factors of amplitudes."""
+        found = np.empty(self.size)
+        for name, part in self.parts.items():
+            waves = self.amplitudes[name] * z[part].reshape(self.shapes[name])
+            found[part] = idctn(waves, norm="ortho").ravel()
+        return found
+
+    def back(self, slope: Array) -> Array:
+        """Return derivatives in the amplitudes from those in the logarithms."""
+        found = np.empty(self.size)
+        for name, part in self.parts.items():
+            waves = dctn(slope[part].reshape(self.shapes[name]), norm="ortho")
+            found[part] = (self.amplitudes[name] * waves).ravel()
+        return found
+
+    def residuals(self, view: View) -> dict[str, Array]:
+        """Return the computed less the measured depths, in standard deviations."""
+        return {name: (view.wear(name) - d) / sigma for name, (d, sigma) in self.depths.items()}
+
+    def misfit(self, view: View) -> tuple[float, Seeds]:
+        """Return half of the sum of the squared residuals, and its derivative."""
+        off = {name: np.nan_to_num(each) for name, each in self.residuals(view).items()}
+        value = 0.5 * sum(float(np.sum(each * each)) for each in off.values())
+        return value, Seeds({name: each / self.depths[name][1] for name, each in off.items()})
+
+    def prior(self, name: str) -> Array:
+        """Return the standard deviation that the prior has at each cell of a body."""
+        waves = [idctn(np.eye(n), axes=[0], norm="ortho") ** 2 for n in self.shapes[name]]
+        return np.asarray(np.sqrt(waves[0] @ self.amplitudes[name] ** 2 @ waves[1].T))
+
+    def local(self, logs: Array) -> Model:
+        """Return the model with factors of these logarithms."""
+        parts = {n: np.exp(logs[part]).reshape(self.shapes[n]) for n, part in self.parts.items()}
+        return localised(self.model, parts)
+
+    def run(self, model: Model) -> View:
+        """Return the end of a run."""
+        *_, last = march(model, begin(model))
+        return View(model, last.state)
+
+    def products(self, logs: Array, tape: Tape) -> Callable[[Array], Array]:
+        """Return the product of Jᵀ V⁻¹ J about a map with amplitudes, as a function."""
+        model, time = self.local(logs), self.model.end_time
+        end = View(model, recorded(model, [time], tape)[time])
+
+        def product(z: Array) -> Array:
+            move = self.logs(z)
+            step = STEP / np.max(np.abs(move))
+            moved, seeds = self.run(self.local(logs + step * move)), {}
+            for name, (depth, sigma) in self.depths.items():
+                change = (moved.wear(name) - end.wear(name)) / (step * sigma**2)
+                seeds[name] = np.where(np.isnan(depth), 0.0, change)
+            found = swept_back(model, tape, {time: Seeds(seeds)}, [])
+            return self.back(np.concatenate([found.wear_rate[name].ravel() for name in seeds]))
+
+        return product
+
+
+def _least(objective: Callable[[Array], tuple[float, Array]], size: int, steps: int) -> Array:
+    """Return the least point from 0 on, or where so many steps lead to."""
+    options = {"maxiter": steps, "ftol": FALL, "maxcor": MEMORY}
+    found = minimize(objective, np.zeros(size), jac=True, method="L-BFGS-B", options=options)
+    return np.asarray(found.x)
+
+
+def _krylov(
+    product: Callable[[Array], Array], size: int, tell: Callable[[int], None]
+) -> tuple[Array, Array]:
+    """Return approximate eigenvectors, as rows, and eigenvalues, by Lanczos' method."""
+    vector = np.random.default_rng(0).standard_normal(size)
+    basis, images = np.empty((2, min(PRODUCTS, size), size))
+    values, known, turned = np.zeros(0), 0.0, np.zeros((0, 0))
+    for i in range(len(basis)):
+        whole = np.sqrt(np.sum(vector**2))
+        for _ in range(2):
+            along = np.sum(basis[:i] * vector, axis=1)
+            vector = vector - np.sum(along[:, None] * basis[:i], axis=0)
+        left = np.sqrt(np.sum(vector**2))
+        if left <= EXHAUSTED * whole:
+            values, turned = _projected(basis[:i], images[:i])
+            break
+        basis[i] = vector / left
+        images[i] = vector = product(basis[i])
+        tell(i + 1)
+        if (i + 1) % EACH and i + 1 < len(basis):
+            continue
+        values, turned = _projected(basis[: i + 1], images[: i + 1])
+        former, known = known, float(np.sum(values / (1 + values)))
+        if known - former < LITTLE * EACH:
+            break
+    return turned.T @ basis[: len(values)], values
+
+
+def _projected(basis: Array, images: Array) -> tuple[Array, Array]:
+    """Return eigenvalues and eigenvectors of a product in the space of a basis."""
+    projected = basis @ images.T
+    values, turned = np.linalg.eigh(0.5 * (projected + projected.T))
+    return np.maximum(values, 0.0), turned
