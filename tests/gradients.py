@@ -9,7 +9,7 @@ from tribo.simulation.march import begin, march
 from tribo.stepping.step import rested, rests, start_sliding
 from tribo.study.gradient.local import localised
 from tribo.study.gradient.objective import View
-from tribo.study.gradient.parameters import _distances, _stops, changed, find
+from tribo.study.gradient.parameters import Stops, changed, find
 
 
 def taken(model):
@@ -20,19 +20,18 @@ def taken(model):
 def repeated(model, base, steps, objective, worn=None):
     """The objective after the same steps, at the same parts of each stretch, in a model."""
     looks = objective if isinstance(objective, dict) else {base.end_time: objective}
-    stops, own = _stops(base), _stops(model)
-    distances = _distances(base, stops), _distances(model, own)
+    stops, own = Stops.of(base), Stops.of(model)
     state, total = begin(model), 0.0
     for name, depth in (worn or {}).items():
         body = replace(state.bodies[name], wear=depth)
         state = replace(state, bodies={**state.bodies, name: body})
     for time, distance in steps:
-        then = float(np.interp(time, stops, own))
+        then = float(np.interp(time, stops.times, own.times))
         if rests(model, state, then):
             state = rested(model, state, then)
         else:
             state = start_sliding(model, state)
-            increment = float(np.interp(distance, *distances)) - state.distance
+            increment = float(np.interp(distance, stops.distances, own.distances)) - state.distance
             state = model.stepping.step(model, state, increment, then)
         if time in looks:
             total += looks[time](View(model, state))[0]
@@ -45,7 +44,7 @@ def difference(base, steps, objective, numbers, maps, part):
     for by in (part, -part):
         case = base.case
         for path, change in numbers.items():
-            ((_, places, value, _),) = find(case, [path])
+            ((_, places, value),) = find(case, [path])
             for place in places:
                 case = changed(case, place, value * (1 + by * change))
         rates = {name: 1 + by * change for name, change in maps.get("wear_rate", {}).items()}
@@ -57,18 +56,3 @@ def difference(base, steps, objective, numbers, maps, part):
         worn = {name: by * change for name, change in maps.get("worn_before", {}).items()}
         found.append(repeated(replace(model, gaps=tuple(gaps)), base, steps, objective, worn))
     return (found[0] - found[1]) / (2 * part)
-
-
-def along(gradient, numbers, maps):
-    """The derivative along the same changes."""
-    total = sum(
-        gradient[path] * find_value(gradient, path) * change for path, change in numbers.items()
-    )
-    for kind, of_bodies in maps.items():
-        for name, change in of_bodies.items():
-            total += float(np.sum(getattr(gradient, kind)[name] * change))
-    return total
-
-
-def find_value(gradient, path):
-    return gradient.value * gradient.relative[path] / gradient.parameters[path]

@@ -13,19 +13,22 @@ from tribo.case import Body, Layer, Stop
 from tribo.contact.periodic import Periodic
 from tribo.contact.winkler import Winkler
 from tribo.core.errors import CaseError, NumericalError
+from tribo.core.fields import Field
 from tribo.core.grid import Grid
+from tribo.effects.effect import Effect
 from tribo.motion.rotating import Rotating
 from tribo.motion.unidirectional import Unidirectional
 from tribo.simulation.positions import composed
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
-from tribo.study.gradient import backwards, linear, parameters, tape
+from tribo.study.gradient import backwards, course, linear, parameters, tape
 from tribo.study.gradient.gradient import ValueAndGradient, gradient
 from tribo.study.gradient.objective import Deepest, Depth, Misfit, Pressure, Volume
 from tribo.surfaces.cylinder import Cylinder
 from tribo.surfaces.waves import Waves
+from tribo.wear.archard import Archard
 from tribo.wear.power import Power
-from tribo.wear.running_in import RunningIn
+from tribo.wear.running_in import RunningIn, Smoothing
 
 CLOSE = 1e-6
 """As near as differences of runs come, whose contacts are solved to 1e-12."""
@@ -87,22 +90,54 @@ RAMP = [
     {"until": 21, "normal": 20.0},
 ]
 LINE = [named("ball", Cylinder(radius="5 mm"), steel(), archard()), named("disk", flat(), steel())]
-LAYERED = pair(archard(), archard())
-LAYERED[0] = (
-    "ball",
-    Body(
-        surface=sphere(),
-        material=steel(),
-        wear=archard(),
-        layers=[Layer(thickness="1 um", wear=archard(K / 2))],
-    ),
-)
+LAYERED = [
+    (name, Body(surface=body, material=steel(), wear=archard(), layers=[layer]))
+    for name, body, layer in (
+        ("ball", sphere(), Layer(thickness="0.3 um", wear=archard(K / 2))),
+        ("disk", flat(), Layer(thickness="0.05 um", wear=archard(2 * K))),
+    )
+]
 YIELDING = pair(archard(), archard(), ("1.2 GPa", "1.1 GPa"))
 SOFT = pair(archard(), archard(), ("1.1 GPa", "1 GPa"))
 STAGES = ["load.normal.0.normal", "load.normal.1.normal", "load.normal.2.normal"]
 HARD = "bodies.disk.material.hardness"
 
+
+class Turns(Effect):
+    type = "turns"
+    state_fields = (Field("turns", "m", "Distance slid.", uniform=True),)
+
+    def state_rates(self, contact):
+        return {"turns": np.full((1, 1), contact.speed)}
+
+
+class Follows(Archard):
+    type = "follows"
+    requires = ("turns",)
+
+
+FRESH = RunningIn(law=archard(), factor=4.0, over="1 GPa m")
+SMOOTH = Smoothing(law=archard(), factor=3.0, roughness="0.4 um", settled="0.1 um", depth="0.2 um")
+OF_FRESH = ["bodies.ball.wear.over", "bodies.ball.wear.factor", "bodies.ball.wear.law.k"]
+OF_SMOOTH = ["bodies.disk.wear.roughness", "bodies.disk.wear.depth", "bodies.disk.wear.law.k"]
+LONG = few(nonlinear_tolerance=1e-13, cycle_tolerance=1e-12)
+
 KINDS = {
+    "remembers": (
+        run(bodies=pair(FRESH, SMOOTH), stepping=LONG),
+        Depth("disk"),
+        ["load.normal", *SHAPE, *OF_FRESH, *OF_SMOOTH, "kinematics.frequency"],
+        1e-5,
+    ),
+    "layers": (
+        run(bodies=LAYERED, stepping=LONG),
+        Depth("disk"),
+        [
+            *("load.normal", *SHAPE, "bodies.ball.wear.k", "bodies.ball.layers.0.wear.k"),
+            *("bodies.ball.layers.0.thickness", "bodies.disk.layers.0.thickness"),
+        ],
+        1e-6,
+    ),
     "average": (run(), Deepest("disk"), [*BASE, *SHAPE, "kinematics.stroke"], 1e-4),
     "pressure": (run(), Pressure(2e-5, 0), [*BASE, *SHAPE], 1e-4),
     "springs": (run(contact=Winkler()), Depth("ball"), [*BASE, *SHAPE], 1e-5),
@@ -114,9 +149,9 @@ KINDS = {
     ),
     "yields": (run(grid=ODD, bodies=YIELDING), Depth("disk"), [*BASE, *SHAPE, HARD], 1e-6),
     "load over time": (
-        run(load=RAMP),
+        run(load=RAMP, bodies=pair(FRESH, archard()), stepping=LONG),
         {20.0: Depth("disk")},
-        [*STAGES, "load.normal.1.at", "load.normal.2.until"],
+        [*STAGES, *OF_FRESH, "load.normal.1.at", "load.normal.2.until"],
         1e-5,
     ),
     "positions": (
@@ -131,15 +166,17 @@ KINDS = {
         [*BASE, HARD],
         1e-6,
     ),
-    "positions, nonlinear": (
+    "positions, remembers": (
         run(
-            kinematics=resolved(waveform="sinusoidal"),
-            bodies=pair(power(1.3), archard()),
-            stepping=few(cycle_tolerance=1e-12),
+            kinematics=motion(
+                stroke="0.125 mm", positions=5, frequency=100, duration=1, waveform="sinusoidal"
+            ),
+            bodies=pair(FRESH, SMOOTH),
+            stepping=LONG,
         ),
         Depth("disk", 5e-5),
-        [*BASE[:3], *SHAPE],
-        1e-6,
+        ["load.normal", *SHAPE, *OF_FRESH, *OF_SMOOTH],
+        1e-5,
     ),
     "repeating": (flats(), Depth("ball"), ["load.normal", "bodies.ball.surface.amplitude"], 1e-5),
     "rows of their own speed": (
@@ -226,8 +263,7 @@ def zero(method):
 
 MUTANTS = [
     ("average", parameters.Chain, "by_load", zero),
-    ("average", parameters.Chain, "by_law", zero),
-    ("average", parameters.Chain, "by_motion", zero),
+    ("average", parameters.Chain, "by_wear", zero),
     ("average", parameters.Chain, "by_rest", without("gap")),
     ("average", parameters.Chain, "by_rest", without("stiffness")),
     ("average", linear.Carrier, "gathered", zero),
@@ -239,7 +275,10 @@ MUTANTS = [
     ("yields", backwards._Back, "spread_out", nothing),
     ("yields", backwards._Back, "_gave", zero),
     ("positions", linear.Carrier, "gathered", zero),
-    ("nonlinear", backwards._Back, "_rates", lambda of: lambda *given: (of(*given)[0], {})),
+    ("remembers", course._Asked, "by_pressure", lambda of: lambda *g: [0 * d for d in of(*g)]),
+    ("remembers", course._Asked, "back", lambda of: lambda *g: (of(*g)[0], [0 * s for s in g[-1]])),
+    ("load over time", backwards._Back, "_of_load", zero),
+    ("layers", course, "_layers", lambda of: lambda *given: (of(*given)[0], 1.0)),
 ]
 
 
@@ -315,10 +354,9 @@ def test_a_hardness_of_both_bodies_is_named_once():
     [
         ({"stepping": Explicit(time_step=1.0)}, "stepping.type: gradients go through implicit"),
         ({"stop": Stop(depth="1 um")}, "stop.depth: a run that a depth ends has another length"),
-        ({"bodies": LAYERED}, r"bodies.ball.layers: gradients do not go through layers"),
         (
-            {"bodies": pair(RunningIn(law=archard(), factor=2.0, over="1 GPa m"), archard())},
-            r"bodies.ball.wear: 'running_in' remembers \(pressure_distance\)",
+            {"effects": [Turns()], "bodies": pair(Follows(k=K), archard())},
+            "follows turns of effects",
         ),
     ],
 )
@@ -348,6 +386,14 @@ def test_without_paths_all_numbers_count_and_the_rest_says_why():
     assert "whole cells" in found.refused["kinematics.stroke"]
     with pytest.raises(CaseError, match="whole cells"):
         found["kinematics.stroke"]
+
+
+def test_effects_that_no_law_follows_have_no_part_in_it():
+    found, alone = (
+        gradient(run(effects=effects), Volume("ball"), ["load.normal"])
+        for effects in ([Turns()], [])
+    )
+    assert found.parameters == alone.parameters
 
 
 def test_a_save_that_is_not_there_is_refused():

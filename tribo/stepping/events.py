@@ -10,17 +10,24 @@ from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
 
 if TYPE_CHECKING:
+    from tribo.stepping.extrapolation import Plan
+    from tribo.stepping.memory import Memory
     from tribo.stepping.rates import Moment
 
 
 @dataclass(frozen=True)
 class Worn:
-    """The bodies were worn by a step, from a time and distance to a moment, under `contacts`."""
+    """The bodies were worn by a step up to a moment, under `contacts`.
+
+    It began at a time, with a memory, and was divided as in `plan`.
+    """
 
     contacts: Sequence[ContactSolution]
     time: float
-    distance: float
+    increment: float
     moment: Moment
+    before: Memory
+    plan: Plan
 
 
 @dataclass(frozen=True)

@@ -155,7 +155,7 @@ def _rates(
     Those of the depths of bodies in layers, which follow what is remembered, are means over a step.
     """
     moment = end.back((1 - passed) * increment)
-    contacts = _loaded(model, contacts, increment, end, passed)
+    contacts = loaded(model, contacts, increment, end, passed)
     each = iter(values)
     now = before.with_values(each)
     if layered:
@@ -177,7 +177,7 @@ def _rates(
     return total + [rate.depth_rate for rates in found for rate in rates.wear.values()]
 
 
-def _loaded(
+def loaded(
     model: Model,
     contacts: Sequence[ContactSolution],
     increment: float,
@@ -190,12 +190,12 @@ def _loaded(
     last = model.loads.before(end.time)
     if middle == last:
         return contacts
-    cell, loaded = model.grid.cell_area, []
+    cell, found = model.grid.cell_area, []
     for contact, half, whole in zip(contacts, middle, last, strict=True):
         load = whole + 2 * (1 - passed) * (half - whole)
         share = load / (float(np.sum(contact.pressure)) * cell)
-        loaded.append(replace(contact, pressure=readonly(share * contact.pressure)))
-    return loaded
+        found.append(replace(contact, pressure=readonly(share * contact.pressure)))
+    return found
 
 
 def _limits(model: Model, memory: Memory) -> list[Limits]:

@@ -120,7 +120,7 @@ def integrated(
         along = partial(_along, rates, passed, part)
         if of_steps:
             first = along(values, 0.0, 1.0)
-        slopes = _relaxing(along, values, first, span, limits) if relaxes else [0.0] * count
+        slopes = relaxing(along, values, first, span, limits) if relaxes else [0.0] * count
         stages = RELAXING if relaxes else PLAIN
         found = _extrapolated(along, values, first, slopes, span, stages, limits, of_steps)
         best, rough, samples = found
@@ -259,7 +259,7 @@ def _jump(
     return worst
 
 
-def _relaxing(
+def relaxing(
     rates: Rates,
     states: Sequence[Array],
     first: Sequence[Array],

@@ -17,6 +17,7 @@ from tribo.core.errors import BadValues, NumericalError, PluginError
 from tribo.core.state import State
 from tribo.core.units import Quantity
 from tribo.stepping.contacts import solve_cycle
+from tribo.stepping.events import Worn
 from tribo.stepping.evolution import Course, course, sloped
 from tribo.stepping.linear_wear import linear_wear
 from tribo.stepping.memory import Memory, filling, remembered
@@ -259,6 +260,7 @@ class Implicit(Scheme):
             # Set first: settling a groove leaves the pressure that these rates belong to. What is
             # remembered changes them along a step, and so do layers.
             after = replace(after, rates=rates)
+        model.tell(Worn(contacts, state.time, increment, moment, before, slid.plan))
         return Trial(accepted(model, state, after, contacts, loads), forward)
 
     def errors(self, model: Model, before: State, trial: Trial) -> Errors:

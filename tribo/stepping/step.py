@@ -17,7 +17,7 @@ from tribo.core.measures import Invariants, reaches_border
 from tribo.core.notices import Notice
 from tribo.core.state import BodyState, State
 from tribo.stepping.contacts import solve, solve_cycle, solved
-from tribo.stepping.events import Drawn, Solved, Worn, Yielded
+from tribo.stepping.events import Drawn, Solved, Yielded
 from tribo.stepping.evolution import Course, rested_memory
 from tribo.stepping.friction import friction_work
 from tribo.stepping.invariants import ONE_LOAD, wear_balance
@@ -262,8 +262,6 @@ def accepted(
 
     The contacts carry `loads`, in N; they are solved anew where those at the end are others.
     """
-    moment = Moment(after.time, after.distance, after.speed)
-    model.tell(Worn(contacts, before.time, before.distance, moment))
     after = replace(after, contacts=tuple(contacts))
     at_end = model.loads.before(after.time)
     after = _at_rest(model, after, loads) if loads == at_end else _under(model, after, at_end)

@@ -7,27 +7,33 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tribo.contact.projection import over
-from tribo.core.arrays import Array
+from tribo.contact.projection import CELLS, over
+from tribo.core.arrays import Array, readonly
+from tribo.core.box import Box, whole
+from tribo.core.contact import ContactSolution, Residuals
 from tribo.core.errors import CaseError
-from tribo.core.fields import FRICTION_COEFFICIENT, PLACE_X, PLACE_Y
+from tribo.core.fields import FRICTION_COEFFICIENT, LOAD_SHARE, PLACE_X, PLACE_Y
+from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.model import Model
+from tribo.stepping.evolution import course, loaded
 from tribo.stepping.implicit import Implicit
-from tribo.study.gradient.linear import StepSystem
+from tribo.study.gradient.course import Slopes, slopes
+from tribo.study.gradient.linear import StepSystem, carriers
 from tribo.study.gradient.objective import Seeds
 from tribo.study.gradient.parameters import Chain
 from tribo.study.gradient.tape import Enveloped, Gave, Pressed, Saved, Tape
-from tribo.study.gradient.touched import Touched, carriers
 
-NUDGE = 3e-5
-"""Part of the pressure by which it is varied to find the derivative of a law, up and down."""
-AT_ONCE = 1 << 18
-"""Cells for which a law with another number is asked at once."""
 KNOWN = {FRICTION_COEFFICIENT.name, PLACE_X.name, PLACE_Y.name}
 
 
-def check_covered(model: Model) -> None:
-    """Refuse a case with what has no gradient here; `CaseError` names it."""
+def covered(model: Model) -> Model:
+    """Return a model without the effects that no law follows, and no load.
+
+    Raises
+    ------
+    CaseError
+        If there is no gradient through a part of it.
+    """
     if not isinstance(model.stepping, Implicit):
         raise CaseError("gradients go through implicit steps only", "stepping.type")
     if model.case.stop.depth is not None:
@@ -36,29 +42,23 @@ def check_covered(model: Model) -> None:
             "motion's own end",
             "stop.depth",
         )
-    if model.case.effects:
-        raise CaseError(
-            "gradients do not go through effects; leave out those that no law follows, and no load",
-            "effects",
-        )
+    between = {field.name for effect in model.case.effects for field in effect.provides}
     for name, law in model.laws.items():
-        place = f"bodies.{name}.wear"
-        if getattr(model.bodies[name], "layers", ()):
-            raise CaseError("gradients do not go through layers", f"bodies.{name}.layers")
-        if law.state_fields:
+        if beyond := set(law.requires) - (KNOWN - between):
             raise CaseError(
-                f"{law.component.type!r} remembers ({law.state_fields[0].name}); gradients go "
-                "through laws without a state",
-                place,
+                f"{law.component.type!r} follows {', '.join(sorted(beyond))} of effects, through "
+                "which no gradient goes",
+                f"bodies.{name}.wear",
             )
-        if beyond := set(law.requires) - KNOWN:
-            raise CaseError(
-                f"{law.component.type!r} follows {', '.join(sorted(beyond))}, whose derivative in "
-                "pressure is not known",
-                place,
-            )
+    if LOAD_SHARE.name in between:
+        raise CaseError("an effect that carries load has no gradient", "effects")
+    if any(law.bottoms for law in model.laws.values()) and any(
+        law.state_fields for law in model.laws.values()
+    ):
+        raise CaseError("gradients go through layers, or laws that remember, not both", "bodies")
     if model.contact.operator(model.system, model.gap <= np.min(model.gap)) is None:
         raise CaseError(f"{model.contact.type!r} does not state its operator", "contact.type")
+    return assemble(varied(model.case, effects=())) if model.effects else model
 
 
 @dataclass(frozen=True)
@@ -89,12 +89,13 @@ def swept_back(
     """Go through a run backwards; return the derivatives of the objective with these seeds.
 
     Each step gave w¹ = w⁰ + Δs Σₘ ωₘ Jₘ r(pₘ), with K pₘ + h + Tₘ w¹ = δₘ on its free cells. With
-    λ¹ the derivative of the objective in w¹, and r' that of the step's depth in pressure, the
+    λ¹ the derivative of the objective in w¹, and ωₘ r' that of the step's depth in pressure, the
     adjoint is one more solve on these cells::
 
-        K zₘ + r' Jₘᵀ Σₙ Tₙᵀ ωₙ zₙ + μₘ = r' Jₘᵀ λ¹,  Σ zₘ = 0,  λ⁰ = λ¹ − Σₙ Tₙᵀ ωₙ zₙ
+        K zₘ + r' Tₘ Σₙ Tₙᵀ ωₙ zₙ + μₘ = r' Tₘ λ¹,  Σ zₘ = 0,  λ⁰ = λ¹ − Σₙ Tₙᵀ ωₙ zₙ
 
-    Cells at the hardness have a fixed z, by what their overlap adds to the plastic depth.
+    Cells at the hardness have a fixed z, by what their overlap adds to the plastic depth. What laws
+    remember adds to the right side, and is followed back through the step.
     """
     back = _Back(model, chains)
     for record in reversed(tape):
@@ -122,6 +123,10 @@ class _Back:
         self.wear = {name: np.zeros(shape) for name, shape in own.items()}
         self.height = {name: np.zeros(shape) for name, shape in own.items()}
         self.factor = {name: np.zeros(own[name]) for name in model.laws}
+        self.states = {
+            name: {key: np.zeros(own[name]) for key in law.initial_state}
+            for name, law in model.laws.items()
+        }
         self.plastic = {
             name: np.zeros(cells if self.carriers[name].weights is not None else own[name])
             for name, share in model.plastic_share.items()
@@ -133,8 +138,6 @@ class _Back:
         self.stiffness = self.cap = 0.0
         self.sums = np.zeros(len(chains))
         self.start = np.zeros((positions, *cells))
-        self.waiting: dict[float, list[tuple[Touched, dict[str, Array]]]] = {}
-        self.count = 0
 
     def look(self, seeds: Seeds) -> None:
         """Add the derivatives of the objective in a saved state."""
@@ -157,9 +160,10 @@ class _Back:
         """Go back through a contact, and what was worn under it."""
         pressed, yielded = self.pressure, self.gave
         self.pressure, self.gave = None, ()
-        if record.slid is None and pressed is None and not yielded:
+        slid, model = record.slid, self.model
+        if slid is None and pressed is None and not yielded:
             return
-        model, window = self.model, np.zeros_like(self.gap)
+        window = np.zeros_like(self.gap)
         window[(slice(None), *record.region)] = record.pressure
         found = model.contact.operator(model.system, np.any(window > 0, axis=0))
         assert found is not None
@@ -169,86 +173,71 @@ class _Back:
         full = np.zeros_like(pressure, dtype=bool)
         if model.system.cap is not None:
             full = pressure >= model.system.cap * (1 - 1e-12)
-        free = (pressure > 0) & ~full
 
-        cells = _touched(window)
-        rates: dict[str, Array] = {}
-        slopes: dict[str, Array] = {}
-        increment = 0.0
-        if record.slid is not None:
-            increment = record.slid.end_distance - record.slid.distance
-            speed = increment / (record.slid.end_time - record.slid.time)
-            rates, slopes = self._rates(cells, speed)
-        given, bodies = np.zeros_like(pressure), []
-        for name, slope in slopes.items():
-            steep = np.zeros_like(window)
-            steep[window > 0] = increment * slope
-            bodies.append((self.carriers[name], steep[here]))
-            given += steep[here] * self.carriers[name].seen(self.wear[name], box)
+        contacts = [_contact(each) for each in window]
+        through: dict[str, Slopes] = {}
+        given, fixed, bodies = np.zeros_like(pressure), np.zeros_like(pressure), []
+        if slid is not None:
+            known = course(model, slid.before, contacts, slid.increment, slid.moment, slid.plan)
+            for name, after in self.states.items():
+                carrier = self.carriers[name]
+                of_body = through[name] = slopes(model, name, carrier, contacts, slid, known, after)
+                steep = of_body.pressure[here]
+                bodies.append((carrier, steep))
+                given += of_body.given[here] + steep * carrier.seen(self.wear[name], box)
         weights = np.where(self.shares > 0, self.shares, 1.0)
         if pressed is not None:
             given += pressed[here] / over(weights)
-        fixed = np.zeros_like(pressure)
         if yielded and record.overlap is not None:
             fixed = self._gave(record, yielded)[here] * full / over(weights)
-        system = StepSystem(operator, box, self.shares, bodies, free)
+        system = StepSystem(operator, box, self.shares, bodies, (pressure > 0) & ~full)
         z, mean, left = system.solve(given, fixed, self.start[here])
         self.start = np.zeros_like(self.start)
         self.start[here] = z
         y = over(self.shares) * z
 
+        self._shift(y, box)
+        self.stiffness += float(np.sum(y * operator.apply(pressure)))
+        self.cap += float(np.sum(over(self.shares) * (left - over(mean)) * full))
+        if slid is not None and any(self.states.values()):
+            told = loaded(model, contacts, slid.increment, slid.moment, 0.0)
+            mean = mean - (0.0 if told is contacts else self._of_load(window, through))
+        by_load = self.shares * mean / model.grid.cell_area
+        for at, chain in enumerate(self.chains):
+            self.sums[at] += chain.by_load(record, by_load)
+            if slid is not None:
+                self.sums[at] += chain.by_wear(slid, contacts, known, self.wear, self.states)
+        for name, of_body in through.items():
+            wear = self.wear[name]
+            self.factor[name] += wear * of_body.factor
+            self.wear[name] = wear * of_body.worn
+            self.states[name] = {
+                key: before + wear * of_body.state[key] for key, before in of_body.before.items()
+            }
+
+    def _of_load(self, window: Array, through: Mapping[str, Slopes]) -> Array:
+        """Return what of the derivative in the pressures is one in their sum, by position.
+
+        Along a step with something to remember, pressures are told in proportion to the load.
+        """
+        of_pressure, all_cells = np.zeros_like(window), whole(self.model.grid.cells)
+        for name, of_body in through.items():
+            seen = self.carriers[name].seen(self.wear[name], all_cells)
+            of_pressure += of_body.pressure * seen + of_body.given
+        total: Array = np.sum(window * of_pressure, CELLS) / np.sum(window, CELLS)
+        return total
+
+    def _shift(self, y: Array, box: Box) -> None:
+        """Take what a solve says of the gaps."""
         for name, carrier in self.carriers.items():
             taken = carrier.gathered(y, box)
             self.wear[name] = self.wear[name] - taken
             self.height[name] = self.height[name] + taken
-            if name in self.plastic:
-                if carrier.weights is None:
-                    self.plastic[name] = self.plastic[name] - taken
-                else:
-                    self.plastic[name] = self.plastic[name].copy()
-                    self.plastic[name][box.slices] -= np.sum(y, axis=0)
-        self.gap[here] -= y
-        self.stiffness += float(np.sum(y * operator.apply(pressure)))
-        self.cap += float(np.sum(over(self.shares) * (left - over(mean)) * full))
-        by_load = self.shares * mean / model.grid.cell_area
-        for at, chain in enumerate(self.chains):
-            self.sums[at] += chain.by_load(record, by_load)
-            if record.slid is not None and chain.moves:
-                self.sums[at] += chain.by_motion(record.slid, cells, self.wear)
-        by_rate = {}
-        for name, rate in rates.items():
-            carrier = self.carriers[name]
-            seen = cells.seen(carrier, self.wear[name])
-            by_rate[name] = increment * self.shares[cells.position] * seen
-            self.factor[name] += cells.summed(carrier, by_rate[name] * rate)
-        if record.slid is not None:
-            self.waiting.setdefault(float(f"{speed:.9g}"), []).append((cells, by_rate))
-            self.count += len(cells.pressure)
-            if self.count > AT_ONCE:
-                self.ask_laws()
-
-    def ask_laws(self) -> None:
-        """Ask laws with other numbers for all the cells that wait for it, speed by speed."""
-        for speed, parts in self.waiting.items():
-            cells = Touched.joined([part for part, _ in parts])
-            by_rate = {
-                name: np.concatenate([of[name] for _, of in parts]) for name in self.model.laws
-            }
-            for at, chain in enumerate(self.chains):
-                if not chain.moves:
-                    self.sums[at] += chain.by_law(cells, speed, by_rate)
-        self.waiting, self.count = {}, 0
-
-    def _rates(self, cells: Touched, speed: float) -> tuple[dict[str, Array], dict[str, Array]]:
-        """Return the rate of each body in the cells, and its derivative in pressure."""
-        rates, slopes = {}, {}
-        for name in self.model.laws:
-            rates[name], higher, lower = (
-                cells.rate(self.model, name, self.carriers[name], speed, by * cells.pressure)
-                for by in (1.0, 1 + NUDGE, 1 - NUDGE)
-            )
-            slopes[name] = (higher - lower) / (2 * NUDGE * cells.pressure)
-        return rates, slopes
+            if name in self.plastic and carrier.weights is None:
+                self.plastic[name] = self.plastic[name] - taken
+            elif name in self.plastic:
+                self.plastic[name][box.slices] -= np.sum(y, axis=0)
+        self.gap[:, *box.slices] -= y
 
     def _gave(self, record: Pressed, places: Sequence[int]) -> Array:
         """Return the derivative in the overlap at each position, shape (positions, nx, ny)."""
@@ -268,14 +257,14 @@ class _Back:
 
     def outcome(self) -> Sensitivities:
         """Return all derivatives."""
-        self.ask_laws()
         sums = [
-            float(total) + chain.by_rest(self.gap, self.stiffness, self.cap)
+            float(total) + chain.by_rest(self.gap, self.stiffness, self.cap, self.states)
             for total, chain in zip(self.sums, self.chains, strict=True)
         ]
         return Sensitivities(sums, self.factor, self.height, self.wear)
 
 
-def _touched(window: Array) -> Touched:
-    position, x, y = np.nonzero(window)
-    return Touched(position, x, y, window[position, x, y])
+def _contact(pressure: Array) -> ContactSolution:
+    """Return a contact as laws are asked in it."""
+    shown = readonly(pressure)
+    return ContactSolution(shown, 0.0, np.zeros_like(shown), 0, Residuals(0.0, 0.0, 0.0))

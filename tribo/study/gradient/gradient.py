@@ -15,7 +15,7 @@ from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.simulation.model import Model
 from tribo.simulation.run import Simulation
-from tribo.study.gradient.backwards import check_covered, swept_back
+from tribo.study.gradient.backwards import covered, swept_back
 from tribo.study.gradient.local import localised
 from tribo.study.gradient.objective import Objective, View
 from tribo.study.gradient.parameters import Chain, chain, changed, find
@@ -108,17 +108,16 @@ def gradient(
         If the run fails.
     """
     factors = factors or {}
-    model = localised(Simulation(case).model, factors)
-    check_covered(model)
+    model = localised(covered(Simulation(case).model), factors)
     chains: list[Chain] = []
     refused: dict[str, str] = {}
-    for path, places, value, unit in find(model.case, wrt):
+    for path, places, value in find(model.case, wrt):
         try:
-            chains.append(chain(model, path, places, value, unit, factors))
+            chains.append(chain(model, path, places, value, factors))
         except CaseError as error:
             if wrt is not None:
                 raise
-            refused[path] = str(error)
+            refused[path] = str(error).removeprefix(f"{path}: ")
     looks: Mapping[float, Objective]
     looks = objective if isinstance(objective, Mapping) else {model.end_time: objective}
     with closing(Tape()) as tape:
@@ -189,7 +188,7 @@ class ValueAndGradient:
     def at(self, unknowns: Array) -> tuple[Case, dict[str, Array]]:
         """Return the case and the factors on wear rates, by body, for a vector of unknowns."""
         case, at = self._model.case, len(self._numbers)
-        for (_, places, value, _), log in zip(self._numbers, unknowns[:at], strict=True):
+        for (_, places, value), log in zip(self._numbers, unknowns[:at], strict=True):
             for place in places:
                 case = changed(case, place, float(value * np.exp(log)))
         factors = {}
@@ -203,7 +202,7 @@ class ValueAndGradient:
         case, factors = self.at(unknowns)
         paths = [path for path, *_ in self._numbers]
         found = gradient(case, self._objective, paths, factors=factors)
-        values = np.exp(unknowns[: len(paths)]) * [value for *_, value, _ in self._numbers]
+        values = np.exp(unknowns[: len(paths)]) * [value for *_, value in self._numbers]
         parts = values * [found.parameters[path] for path in paths]
         maps = [found.wear_rate[name].ravel() for name in self._shapes]
         return found.value, np.concatenate([parts, *maps])

@@ -12,7 +12,8 @@ from tribo.contact.operator import Operator
 from tribo.contact.projection import CELLS, over
 from tribo.core.arrays import Array, Mask, add_from, rows_from
 from tribo.core.box import Box
-from tribo.core.errors import NumericalError
+from tribo.core.errors import CaseError, NumericalError
+from tribo.simulation.model import Model
 
 Map = Callable[[Array], Array]
 
@@ -26,14 +27,12 @@ MOST, RESTART = 400, 60
 
 @dataclass(frozen=True)
 class Carrier:
-    """How a body's own surface meets the window: the transposed ways between the two.
+    """How a body's own surface meets the window.
 
     Parameters
     ----------
     rows : int
         Cells along x on the body's own surface.
-    cells : tuple of int
-        Cells of the window.
     starts : sequence of int
         The row of it at which the window begins, at each position.
     weights : ndarray, shape (nx, ny), or None
@@ -41,7 +40,6 @@ class Carrier:
     """
 
     rows: int
-    cells: tuple[int, int]
     starts: Sequence[int]
     weights: Array | None
 
@@ -57,27 +55,56 @@ class Carrier:
         return own
 
     def seen(self, own: Array, box: Box) -> Array:
-        """Return what rates on a box, by position, make of a sum over the body, by each rate."""
+        """Return a field on the body as it lies in a box, by position."""
         along, columns = box.slices
         if self.weights is not None:
-            return np.broadcast_to(own[:, columns] * self.weights[box.slices], self._many(box))
+            return np.broadcast_to(own[:, columns], (len(self.starts), *box.shape))
         rows = along.stop - along.start
         return np.stack(
             [rows_from(own[:, columns], start + along.start, rows) for start in self.starts]
         )
 
-    def _many(self, box: Box) -> tuple[int, int, int]:
-        return len(self.starts), *box.shape
+
+def carriers(model: Model) -> dict[str, Carrier]:
+    """Return how each body's own surface meets the window, by name.
+
+    Raises
+    ------
+    CaseError
+        If the average over a track is not a weighted sum over its rows.
+    """
+    return {name: _carrier(model, name) for name in model.bodies}
+
+
+def _carrier(model: Model, name: str) -> Carrier:
+    exposure, cells = model.exposures[name], model.grid.cells
+    starts = exposure.starts if exposure.starts is not None else [0] * len(model.cycle)
+    trial = np.random.default_rng(0).random(cells)
+    answer, expected, weights = exposure.average(trial), trial, None
+    if exposure.averaged:
+        weights = np.zeros(cells)
+        for row, of_row in enumerate(weights):
+            probe = np.zeros(cells)
+            probe[row] = 1.0
+            of_row[:] = exposure.average(probe)[0]
+        expected = np.sum(weights * trial, axis=0, keepdims=True)
+    if answer.shape != expected.shape or not np.allclose(answer, expected, rtol=1e-12, atol=0):
+        raise CaseError(
+            f"the average of {model.case.kinematics.type!r} over the track of {name} is not a sum "
+            "over its rows, for which gradients are known",
+            "kinematics.type",
+        )
+    return Carrier(exposure.rows, starts, weights)
 
 
 @dataclass(frozen=True)
 class StepSystem:
     """K z plus the wear that a step adds, transposed, on the free cells of each position.
 
-    With the shares ω of the positions, Tₘ from a body's surface to the window and r' the
-    derivative of the depth of the step in pressure::
+    With the shares ω of the positions, Tₘ from a body's surface to the window and ωₘ r'ₘ the
+    derivative of a point's depth in the pressure of each of its cells::
 
-        (A z)ₘ = K zₘ + Σ over bodies r'ₘ Jₘᵀ Σₙ Tₙᵀ ωₙ zₙ
+        (A z)ₘ = K zₘ + Σ over bodies r'ₘ Tₘ Σₙ Tₙᵀ ωₙ zₙ
 
     Parameters
     ----------
@@ -189,7 +216,7 @@ class StepSystem:
         if self.mirrored or len(self.shares) < 3 or len(self.shares) % 2 == 0 or beside:
             return False
         for carrier, _ in self.bodies:
-            rest = carrier.rows - carrier.cells[0]
+            rest = carrier.rows - self.box.window[0]
             pairs = zip(carrier.starts, reversed(carrier.starts), strict=True)
             if carrier.weights is None and any((a + b - rest) % carrier.rows for a, b in pairs):
                 return False
@@ -204,8 +231,7 @@ class StepSystem:
         """Whether A is symmetric in the product Σ ωₘ zₘᵀ qₘ."""
         for carrier, slope in self.bodies:
             local = carrier.weights is None and len(self.shares) == 1
-            acts = slope if carrier.weights is None else slope * carrier.weights[self.box.slices]
-            inside = acts[self.free]
+            inside = slope[self.free]
             if not local and inside.size and np.ptp(inside) > 1e-9 * np.max(np.abs(inside)):
                 return False
         return True
@@ -219,7 +245,7 @@ class StepSystem:
                 continue
             passed = max(carrier.starts) - min(carrier.starts)
             if carrier.weights is not None:
-                symbol[0] += mean * float(np.mean(np.sum(carrier.weights[self.box.slices], 0)))
+                symbol[0] += mean * self.box.shape[0]
             elif passed:
                 symbol[0] += mean * min(1.0, self.box.shape[0] / passed)
             else:

@@ -29,6 +29,7 @@ class LocalLaw(GuardedLaw):
 
     def __init__(self, law: GuardedLaw, factor: Array, spacing: tuple[float, float]) -> None:
         vars(self).update(vars(law))
+        self._law = law
         self.requires = tuple(dict.fromkeys((*law.requires, PLACE_X.name, PLACE_Y.name)))
         self._factor = factor
         self._spacing = spacing
@@ -41,7 +42,7 @@ class LocalLaw(GuardedLaw):
                 (PLACE_X, PLACE_Y), self._spacing, self._factor.shape, strict=True
             )
         )
-        factor, rate = self._factor[cells], super().rate(local)
+        factor, rate = self._factor[cells], self._law.rate(local)
         return replace(
             rate, depth_rate=factor * rate.depth_rate, depth_slope=factor * rate.depth_slope
         )

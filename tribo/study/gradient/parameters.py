@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -12,14 +12,16 @@ from pydantic import BaseModel, ValidationError
 from tribo.case import Case
 from tribo.config.overrides import leaves, path_keys
 from tribo.core.arrays import Array
+from tribo.core.contact import ContactSolution
 from tribo.core.errors import CaseError, TriboError
 from tribo.core.words import did_you_mean, suggestion
 from tribo.simulation.assembly import assemble
 from tribo.simulation.model import Model
-from tribo.study.gradient.linear import Carrier
+from tribo.stepping.evolution import Course, course
+from tribo.stepping.rates import Moment
+from tribo.stepping.step import worn_depths
 from tribo.study.gradient.local import localised
 from tribo.study.gradient.tape import Pressed, Slid
-from tribo.study.gradient.touched import Touched, carriers
 
 NUDGE = 3e-5
 """Part of a number by which it is varied: what is compared is a height, a rate, never a solve."""
@@ -29,20 +31,43 @@ ANY = "*"
 """The key that stands for each body, as in ``bodies.*.material.hardness``."""
 HOW = ("grid", "stepping")
 """Parts of a case that say how it is computed, and have no derivative."""
+MOVES = "it moves the positions of the cycle by whole cells"
 NOT_PHYSICS = (*HOW, "output", "stop", "begin", "effects", "observers", "requires")
 """Parts of a case whose numbers are left out unless they are named."""
 
 
 @dataclass(frozen=True)
+class Stops:
+    """Times at which steps of a model end in any case, in s, and how far it has slid by then, in m.
+
+    In between, a model with another number makes its steps at the same parts of each stretch.
+    """
+
+    times: Array
+    distances: Array
+
+    @staticmethod
+    def of(model: Model) -> Stops:
+        """Return those of a model, 0 among them."""
+        edges = {*model.loads.edges, *model.motion.edges()}
+        within = {time for time in edges if 0 < time < model.end_time}
+        times = sorted({0.0, *model.saves, *within})
+        return Stops(
+            np.array(times), np.array([model.motion.distance_at(float(time)) for time in times])
+        )
+
+
+@dataclass(frozen=True)
 class Variant:
-    """A model with a number changed, and its weight in the derivative."""
+    """A model with a number changed, and its weight in the derivative.
+
+    `wears` names the bodies whose wear under given contacts differs.
+    """
 
     model: Model
     weight: float
-    stops: Array
-    distances: Array
-    carriers: Mapping[str, Carrier]
-    moves: bool
+    stops: Stops
+    wears: frozenset[str]
 
 
 @dataclass(frozen=True)
@@ -55,24 +80,19 @@ class Chain:
         Where the number stands.
     value : float
         What it is.
-    unit : str
-        Its unit.
     variants : sequence of Variant
         Whose weighted sum is the derivative.
     base : Model
         The model of the case itself.
-    stops, distances : ndarray
-        Times at which steps of it end in any case, in s, and how far it has slid by then, in m. In
-        between, a variant makes its steps at the same parts of each stretch.
+    stops : Stops
+        Its own.
     """
 
     path: str
     value: float
-    unit: str
     variants: Sequence[Variant]
     base: Model
-    stops: Array
-    distances: Array
+    stops: Stops
 
     def by_load(self, record: Pressed, by_load: Array) -> float:
         """Return what comes through the loads of a contact, given the derivative in each."""
@@ -83,42 +103,58 @@ class Chain:
             total += each.weight * float(np.sum(by_load * np.array(loads(*times))))
         return total
 
-    @property
-    def moves(self) -> bool:
-        """Whether it changes how bodies slide."""
-        return any(each.moves for each in self.variants)
+    def by_wear(
+        self,
+        slid: Slid,
+        contacts: Sequence[ContactSolution],
+        known: Course,
+        wear: Mapping[str, Array],
+        states: Mapping[str, Mapping[str, Array]],
+    ) -> float:
+        """Return what comes through a step under given contacts.
 
-    def by_law(self, cells: Touched, speed: float, by_rate: Mapping[str, Array]) -> float:
-        """Return what comes through the laws, given the derivative in the rate of each cell."""
-        total = 0.0
+        `known` is what it came to; `wear` and `states` are the derivatives in the depth and in what
+        laws remember after it.
+        """
+        total, follows = 0.0, True
         for each in self.variants:
-            for name in each.model.laws:
-                carrier = each.carriers[name]
-                rate = cells.rate(each.model, name, carrier, speed, cells.pressure)
-                total += each.weight * float(np.sum(by_rate[name] * rate))
-        return total
-
-    def by_motion(self, slid: Slid, cells: Touched, wear: Mapping[str, Array]) -> float:
-        """Return what comes through the depths of a step, given the derivative in each."""
-        total = 0.0
-        for each in self.variants:
-            begun, ended = (self._then(each, time) for time in (slid.time, slid.end_time))
-            begin, end = (
-                float(np.interp(distance, self.distances, each.distances))
-                for distance in (slid.distance, slid.end_distance)
+            if not each.wears:
+                continue
+            laws = {name: law for name, law in each.model.laws.items() if name in each.wears}
+            model = replace(each.model, laws=laws)
+            before = replace(slid.before, laws={name: slid.before.laws[name] for name in laws})
+            begun, ended = (self._then(each, time) for time in (slid.time, slid.moment.time))
+            end = slid.moment.distance
+            began, distance = (
+                float(np.interp(place, self.stops.distances, each.stops.distances))
+                for place in (end - slid.increment, end)
             )
-            increment, model = end - begin, each.model
-            shares = np.array([position.share for position in model.cycle])[cells.position]
-            for name, carrier in each.carriers.items():
-                if name in model.laws:
-                    speed = increment / (ended - begun)
-                    rate = cells.rate(model, name, carrier, speed, cells.pressure)
-                    worn = np.sum(shares * cells.seen(carrier, wear[name]) * rate)
-                    total += each.weight * increment * float(worn)
+            increment = distance - began
+            moment = Moment(ended, distance, increment / (ended - begun))
+            after = known
+            if follows:
+                after = course(model, before, contacts, increment, moment, slid.plan)
+                # A law that the number does not enter need not be asked about it again.
+                follows = each.model is self.base or not _same_rates(after, known)
+            rates = [{name: of[name] for name in laws} for of in after.rates]
+            depths = worn_depths(model, rates, increment)
+            through = sum(float(np.sum(wear[name] * depth)) for name, depth in depths.items())
+            through += sum(
+                float(np.sum(states[name][key] * values))
+                for name in laws
+                for key, values in after.memory.laws[name].items()
+            )
+            total += each.weight * through
         return total
 
-    def by_rest(self, gap: Array, stiffness: float, cap: float) -> float:
-        """Return what comes through shapes, moduli and the hardness."""
+    def by_rest(
+        self,
+        gap: Array,
+        stiffness: float,
+        cap: float,
+        states: Mapping[str, Mapping[str, Array]],
+    ) -> float:
+        """Return what comes through shapes, moduli, the hardness and what laws begin with."""
         total = 0.0
         for each in self.variants:
             model = each.model
@@ -128,18 +164,19 @@ class Chain:
             through -= stiffness * np.log(softness(model) / softness(self.base))
             if model.system.cap is not None:
                 through += cap * model.system.cap
+            for name in each.wears:
+                for key, first in model.laws[name].initial_state.items():
+                    through += first * float(np.sum(states[name][key]))
             total += each.weight * through
         return total
 
     def _then(self, each: Variant, time: float) -> float:
         """Return the time in a variant of what happens at `time` (s) in the case."""
-        return float(np.interp(time, self.stops, each.stops))
+        return float(np.interp(time, self.stops.times, each.stops.times))
 
 
-def find(
-    case: Case, asked: Sequence[str] | None
-) -> list[tuple[str, list[tuple[Any, ...]], float, str]]:
-    """Return path, places, value and unit of the numbers that are asked for, or of all.
+def find(case: Case, asked: Sequence[str] | None) -> list[tuple[str, list[tuple[Any, ...]], float]]:
+    """Return path, places and value of the numbers that are asked for, or of all.
 
     Raises
     ------
@@ -147,15 +184,11 @@ def find(
         If a path does not lead to a number with decimals, or to several different ones, or to one
         that says how the run is computed.
     """
-    known = {
-        place: (value, mark.unit if mark else "1")
-        for place, value, mark in leaves(case)
-        if isinstance(value, float)
-    }
+    known = {place: value for place, value, _ in leaves(case) if isinstance(value, float)}
     if asked is None:
         return [
-            (".".join(map(str, place)), [place], value, unit)
-            for place, (value, unit) in known.items()
+            (".".join(map(str, place)), [place], value)
+            for place, value in known.items()
             if not (place[0] in NOT_PHYSICS or _is_tolerance(place) or value == 0)
         ]
     found = []
@@ -177,10 +210,10 @@ def find(
                 "bodies, load, motion, friction or contact",
                 path,
             )
-        values = {known[place][0] for place in places}
+        values = {known[place] for place in places}
         if len(values) > 1:
             raise CaseError(f"stands for different numbers: {sorted(values)}", path)
-        found.append((path, places, values.pop(), known[places[0]][1]))
+        found.append((path, places, values.pop()))
     return found
 
 
@@ -199,7 +232,6 @@ def chain(
     path: str,
     places: Sequence[Sequence[Any]],
     value: float,
-    unit: str,
     factors: Mapping[str, Array],
 ) -> Chain:
     """Return what a number changes, `factors` on the wear rates being the base's.
@@ -212,7 +244,7 @@ def chain(
     if value == 0:
         raise CaseError("is 0, of which no part can be taken as a difference", path)
     step = value * (FINE if places[0][0] == "kinematics" else NUDGE)
-    errors: list[str] = []
+    error: Exception | None = None
     central, upper = [(1, 0.5), (-1, -0.5)], [(0, -1.5), (1, 2.0), (2, -0.5)]
     lower = [(-by, -weight) for by, weight in upper]
     for scheme in (central, upper, lower):
@@ -221,68 +253,73 @@ def chain(
                 _varied(base, places, value + by * step, factors) if by else base
                 for by, _ in scheme
             ]
-        except (TriboError, ValidationError) as error:
-            errors.append(str(error))
+        except (TriboError, ValidationError) as failed:
+            error = error or failed
             continue
-        weights = [weight / step for _, weight in scheme]
-        variants = _weighed(base, models, weights)
         if scheme is central:
-            _check_smooth(base, *variants)
-        stops = _stops(base)
-        return Chain(path, value, unit, variants, base, stops, _distances(base, stops))
-    raise CaseError(f"has no derivative here: {errors[0]}", path)
+            _check_smooth(models[0], base, models[1], path)
+        stops = [Stops.of(model) for model in models]
+        wears = frozenset().union(*(_wears(base, model) for model in models))
+        variants = [
+            Variant(model, weight / step, of_model, wears)
+            for model, (_, weight), of_model in zip(models, scheme, stops, strict=True)
+        ]
+        return Chain(path, value, variants, base, Stops.of(base))
+    why = str(error).removeprefix(f"{path}: ")
+    raise CaseError(f"has no derivative here: {why}", path)
+
+
+def _same_rates(one: Course, other: Course) -> bool:
+    return not (other.memory.values or other.memory.shares) and all(
+        np.array_equal(rate.depth_rate, rates[name].depth_rate)
+        for of_bodies, rates in zip(one.rates, other.rates, strict=True)
+        for name, rate in of_bodies.items()
+    )
 
 
 def _varied(
     base: Model, places: Sequence[Sequence[Any]], number: float, factors: Mapping[str, Array]
 ) -> Model:
-    """Return the model of a case with another number."""
+    """Return the model of a case with another number; refuse one that changes more than values."""
     case = base.case
     for place in places:
         case = changed(case, place, number)
     model = localised(assemble(case), factors)
-    _check_alike(base, model)
-    if len(_stops(model)) != len(_stops(base)):
+    ways, others = (
+        [(e.rows, None if e.starts is None else tuple(e.starts)) for e in each.exposures.values()]
+        for each in (base, model)
+    )
+    if ways != others or len(base.cycle) != len(model.cycle):
+        raise CaseError(MOVES)
+    if base.plastic_share != model.plastic_share:
+        raise CaseError(
+            "both bodies have the same hardness, and either may be the softer; name both, as "
+            f"bodies.{ANY}.material.hardness"
+        )
+    ratio = _symbol(model) / _symbol(base)
+    if np.ptp(ratio) > 1e-9 * float(np.max(ratio)):
+        raise CaseError("it changes the shape of the displacement under a pressure")
+    if len(Stops.of(model).times) != len(Stops.of(base).times):
         raise CaseError("it changes how many stops the run makes")
     return model
 
 
-def _weighed(base: Model, models: Sequence[Model], weights: Sequence[float]) -> list[Variant]:
-    """Return models with their weights, each with all laws that differ in any of them.
-
-    The base may be one of them; what it leaves out, the others must leave out too.
-    """
-    stops = [_stops(model) for model in models]
-    moves = any(
-        model.case.kinematics != base.case.kinematics
-        or model.case.friction != base.case.friction
-        or not np.array_equal(of_model, _stops(base))
-        for model, of_model in zip(models, stops, strict=True)
-    )
-    if not moves:
-        worn = {name: (body.wear, body.material) for name, body in base.case.bodies.items()}
-        differ = {
-            name
-            for model in models
-            for name, body in model.case.bodies.items()
-            if (body.wear, body.material) != worn[name]
-        }
-        models = [
-            replace(model, laws={name: law for name, law in model.laws.items() if name in differ})
-            for model in models
-        ]
-    unmoved = carriers(base)
-    return [
-        Variant(
-            model,
-            weight,
-            of_model,
-            _distances(model, of_model),
-            carriers(model) if moves else unmoved,
-            moves,
-        )
-        for model, weight, of_model in zip(models, weights, stops, strict=True)
-    ]
+def _wears(base: Model, model: Model) -> set[str]:
+    """Return the bodies that wear otherwise under given contacts."""
+    one, other = base.case, model.case
+    if one.load != other.load and any(law.initial_state for law in model.laws.values()):
+        # What is remembered follows the load along a step.
+        return set(model.laws)
+    if (one.kinematics, one.friction) != (other.kinematics, other.friction) or not np.array_equal(
+        Stops.of(base).times, Stops.of(model).times
+    ):
+        return set(model.laws)
+    same = {"surface": None}
+    return {
+        name
+        for name in model.laws
+        if one.bodies[name].model_copy(update=same) != other.bodies[name].model_copy(update=same)
+    }
 
 
 def changed(value: Any, place: Sequence[Any], number: float) -> Any:
@@ -298,45 +335,13 @@ def changed(value: Any, place: Sequence[Any], number: float) -> Any:
     return tuple(changed(v, rest, number) if i == key else v for i, v in enumerate(value))
 
 
-def _stops(model: Model) -> Array:
-    """Return the times at which steps end whatever the tolerances, and 0, in s."""
-    edges = {*model.loads.edges, *model.motion.edges()}
-    within = {time for time in edges if 0 < time < model.end_time}
-    return np.array(sorted({0.0, *model.saves, *within}))
-
-
-def _distances(model: Model, stops: Array) -> Array:
-    return np.array([model.motion.distance_at(float(time)) for time in stops])
-
-
-def _check_smooth(base: Model, higher: Variant, lower: Variant) -> None:
+def _check_smooth(higher: Model, base: Model, lower: Model, path: str) -> None:
     """Refuse a number at which the shares of the positions have a kink."""
     up, at, down = (
-        np.array([position.share for position in model.cycle])
-        for model in (higher.model, base, lower.model)
+        np.array([position.share for position in model.cycle]) for model in (higher, base, lower)
     )
     if np.max(np.abs(up + down - 2 * at)) > 1e-3 * np.max(np.abs(up - down)) + 1e-13:
-        raise CaseError("it moves the positions of the cycle by whole cells")
-
-
-def _check_alike(base: Model, model: Model) -> None:
-    """Refuse a number that changes more than values."""
-    ways = [(e.rows, None if e.starts is None else tuple(e.starts)) for e in _each(base)]
-    others = [(e.rows, None if e.starts is None else tuple(e.starts)) for e in _each(model)]
-    if ways != others or len(base.cycle) != len(model.cycle):
-        raise CaseError("it moves the positions of the cycle by whole cells")
-    if base.plastic_share != model.plastic_share:
-        raise CaseError(
-            "both bodies have the same hardness, and either may be the softer; name both, as "
-            f"bodies.{ANY}.material.hardness"
-        )
-    ratio = _symbol(model) / _symbol(base)
-    if np.ptp(ratio) > 1e-9 * float(np.max(ratio)):
-        raise CaseError("it changes the shape of the displacement under a pressure")
-
-
-def _each(model: Model) -> Iterator[Any]:
-    yield from model.exposures.values()
+        raise CaseError(MOVES, path)
 
 
 def softness(model: Model) -> float:

@@ -12,12 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tribo.core.arrays import Array, Region, bounds, union
-from tribo.core.contact import ContactSolution
 from tribo.core.errors import CaseError
 from tribo.core.state import State
 from tribo.simulation.march import begin, march
 from tribo.simulation.model import Model
 from tribo.stepping.events import Drawn, Event, Worn, Yielded
+from tribo.stepping.extrapolation import Plan
+from tribo.stepping.memory import Memory
+from tribo.stepping.rates import Moment
 
 IN_MEMORY = 1 << 26
 """Bytes of a tape that are kept in memory; a longer one goes to a temporary file."""
@@ -25,12 +27,16 @@ IN_MEMORY = 1 << 26
 
 @dataclass(frozen=True)
 class Slid:
-    """How a step slid: times in s, distances in m."""
+    """How a step slid: from a time (s) on, and by an increment (m), to a moment.
+
+    `before` is what laws remembered, and `plan` how the step was divided to follow that.
+    """
 
     time: float
-    distance: float
-    end_time: float
-    end_distance: float
+    increment: float
+    moment: Moment
+    before: Memory
+    plan: Plan
 
 
 @dataclass(frozen=True)
@@ -116,17 +122,16 @@ class Tape:
 def recorded(model: Model, looked_at: Sequence[float], tape: Tape) -> dict[float, State]:
     """Run a model, recorded on a tape; return the states at times (s) that are saved."""
     heard: list[Event] = []
-    model = replace(model, tell=heard.append)
     states: dict[float, State] = {}
-    state = begin(model)
-    averaged = [name for name, exposure in model.exposures.items() if exposure.averaged]
-    _keep(tape, heard, averaged, "after", (0.0,), 0.0)
+    telling = replace(model, tell=heard.append)
+    state = begin(telling)
+    _keep(tape, model, heard, "after", 0.0, 0.0)
     if 0.0 in looked_at:
         states[0.0] = state
         tape.append(Saved(0.0))
-    for accepted in march(model, state):
+    for accepted in march(telling, state):
         before, state = state, accepted.state
-        _keep(tape, heard, averaged, "before", (state.time,), before.time)
+        _keep(tape, model, heard, "before", state.time, before.time)
         if accepted.save and state.time in looked_at:
             states[state.time] = state
             tape.append(Saved(state.time))
@@ -140,39 +145,35 @@ def recorded(model: Model, looked_at: Sequence[float], tape: Tape) -> dict[float
 
 
 def _keep(
-    tape: Tape,
-    heard: list[Event],
-    averaged: Sequence[str],
-    load: str,
-    times: tuple[float, ...],
-    begun: float,
+    tape: Tape, model: Model, heard: list[Event], load: str, time: float, begun: float
 ) -> None:
     """Write down what was heard up to an accepted state, without the steps that were rejected."""
     steps = [i for i, event in enumerate(heard) if isinstance(event, Worn)]
     if steps:
         for event in heard[: steps[0]]:
-            tape.append(_written(event, averaged, "after", (begun,)))
+            tape.append(_written(event, model, "after", begun))
         del heard[: steps[-1]]
     for event in heard:
-        tape.append(_written(event, averaged, load, times))
+        tape.append(_written(event, model, load, time))
     heard.clear()
 
 
-def _written(event: Event, averaged: Sequence[str], load: str, times: tuple[float, ...]) -> Record:
+def _written(event: Event, model: Model, load: str, time: float) -> Record:
     if isinstance(event, Yielded):
         return Gave(tuple(event.places))
     if isinstance(event, Drawn):
-        return Enveloped({n: np.argmax(event.before[n], axis=0) for n in averaged})
+        averaged = [name for name, exposure in model.exposures.items() if exposure.averaged]
+        return Enveloped({name: np.argmax(event.before[name], axis=0) for name in averaged})
+    times: tuple[float, ...] = (time,)
+    slid = None
     if isinstance(event, Worn):
-        moment = event.moment
-        slid = Slid(event.time, event.distance, moment.time, moment.distance)
-        return _pressed(event.contacts, "mean", (event.time, moment.time), slid)
-    return _pressed(event.contacts, load, times, None)
-
-
-def _pressed(
-    contacts: Sequence[ContactSolution], load: str, times: tuple[float, ...], slid: Slid | None
-) -> Pressed:
+        load, times = "mean", (event.time, event.moment.time)
+        # Only in layers a law depends on how deep its body is worn.
+        worn = {name: event.before.worn[name] for name, law in model.laws.items() if law.bottoms}
+        laws = {name: event.before.laws[name] for name in model.laws}
+        before = Memory(laws, {}, worn)
+        slid = Slid(event.time, event.increment, event.moment, before, event.plan)
+    contacts = event.contacts
     region = reduce(union, (bounds(contact.pressure > 0) for contact in contacts))
     yields = any(np.any(contact.overlap > 0) for contact in contacts)
     return Pressed(
