@@ -33,18 +33,9 @@ def to_and_fro(
     its mirror image about mid-stroke, so that half of the positions are solved and the bodies
     stay symmetrical, as many strokes leave them.
 
-    Parameters
-    ----------
-    model : Model
-        Gives grid, gap, load and contact solver; symmetrical along x.
-    ball_k, flat_k : float
-        Wear coefficients, in 1/Pa.
-    stroke : int
-        In cells.
-    distance : float
-        Sliding distance, in m.
-    passes : int
-        How many passes stand for the whole of it.
+    `model` gives grid, gap, load and contact solver, and is symmetrical along x; the wear
+    coefficients are in 1/Pa, the stroke in cells, the sliding distance, for which so many passes
+    stand, in m.
     """
     nx, ny = model.grid.cells
     ball, flat = np.zeros((nx, ny)), np.zeros((nx + stroke, ny))

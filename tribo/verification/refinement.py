@@ -70,12 +70,7 @@ def refine(model: Model, started: Callable[[str], None] = lambda _: None) -> Ref
     shortened instead, which stays within their stability limit. Nothing is
     saved on the way, since a save cuts a step short on all levels alike.
 
-    Parameters
-    ----------
-    model : Model
-        The case.
-    started : callable, optional
-        Told what runs before it does; five runs in all.
+    `started` is told what runs before it does; five runs in all.
 
     Raises
     ------
