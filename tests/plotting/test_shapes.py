@@ -40,25 +40,21 @@ def shown_mm(axis):
     return np.max(np.abs(axis.get_view_interval())) * {"mm": 1.0, "µm": 1e-3}[unit]
 
 
-@pytest.mark.parametrize("draw", [pressure_map, difference], ids=["pressure", "difference"])
-def test_a_map_shows_the_contact_and_little_else(case, draw):
+@pytest.mark.parametrize("draw", [pressure_map, difference, worn_section, pressure_sections])
+def test_a_picture_shows_the_contact_and_little_else(case, draw):
     figure = draw(case)
     figure.draw_without_rendering()
-    axes = figure.axes[0]
-    for number, axis in enumerate((axes.xaxis, axes.yaxis)):
-        reach = half_width(case, number)
-        assert 0.99 * reach <= shown_mm(axis) <= 1.5 * reach
-
-
-@pytest.mark.parametrize("draw", [worn_section, pressure_sections])
-def test_sections_show_the_contact_and_little_else(case, draw):
-    figure = draw(case)
-    figure.draw_without_rendering()
-    for number, axes in enumerate(figure.axes[-2:]):
-        reach = max(half_width(case, number, save) for save in range(len(case.times)))
+    is_map = draw in (pressure_map, difference)
+    # A map has both axes, and of sections the last two panels go along and across.
+    shown = (figure.axes[0].xaxis, figure.axes[0].yaxis)
+    if not is_map:
+        shown = [axes.xaxis for axes in figure.axes[-2:]]
+    saves = [-1] if is_map else range(len(case.times))
+    for number, axis in enumerate(shown):
+        reach = max(half_width(case, number, save) for save in saves)
         # The outermost cells' centres end a section.
-        outside = case.grid.spacing[number] * 1e3
-        assert reach - outside <= shown_mm(axes.xaxis) <= 1.5 * reach
+        missing = 0.01 * reach if is_map else case.grid.spacing[number] * 1e3
+        assert reach - missing <= shown_mm(axis) <= 1.5 * reach
 
 
 def test_the_scales_of_a_map_are_equal_or_the_axis_says_how_unequal(case):

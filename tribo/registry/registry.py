@@ -123,7 +123,11 @@ class Registry:
         words = kind.replace("_", " ")
         cls = self.find(name, words)
         if cls is None:
-            meant = suggestion(did_you_mean(name, [*self.names(kind), *self.waiting]))
+            known = [*self.names(kind), *self.waiting]
+            meant = suggestion(did_you_mean(name, known))
+            package, dot, _ = name.partition(".")
+            if dot and not any(each.startswith(package + dot) for each in known):
+                meant += f" No package for {package!r} is installed, as tribo-{package} would be."
             raise CaseError(f"unknown {words} {name!r}{meant} Installed: {self.choices(kind)}")
         if cls.kind() != kind:
             other = cls.kind().replace("_", " ")

@@ -8,7 +8,6 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from tribo.case import Layer
 from tribo.core.dimensions import scale
 from tribo.core.errors import CaseError
 from tribo.core.material import Material
@@ -43,17 +42,12 @@ def component_words(config: Mapping[str, Any]) -> str:
     name, table = str(config.get("type", "")), None
     with suppress(CaseError):
         table = default_registry().find(name)
-    return ", ".join([name, *_values(config, table)])
+    return f"{name}, {value_words(config, table)}".removesuffix(", ")
 
 
-def material_words(config: Mapping[str, Any]) -> str:
-    """Return the values of a material."""
-    return ", ".join(_values(config, Material))
-
-
-def layer_words(config: Mapping[str, Any]) -> str:
-    """Return the values of a layer, and how it wears."""
-    return ", ".join(_values(config, Layer))
+def value_words(config: Mapping[str, Any], table: type[BaseModel] | None) -> str:
+    """Return the values of a table of the case, in the units that its model says."""
+    return ", ".join(_values(config, table))
 
 
 def load_words(load: Mapping[str, Any]) -> str:
@@ -76,8 +70,8 @@ def _values(config: Mapping[str, Any], table: type[BaseModel] | None) -> Iterato
         unit = _unit(table, key)
         name = key.replace("_", " ")
         if isinstance(value, Mapping):
-            words = component_words if "type" in value else material_words
-            yield f"{name} {words(value)}"
+            words = component_words(value) if "type" in value else value_words(value, Material)
+            yield f"{name} {words}"
         elif isinstance(value, bool):
             yield name
         elif isinstance(value, Sequence) and not isinstance(value, str):

@@ -6,13 +6,15 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from tribo.case import Layer
 from tribo.cli.tables import inferred_table, roughness_table, saves_table, wear_table
 from tribo.config.write import to_toml
+from tribo.core.material import Material
 from tribo.lab.report import LabReport, lab_report
 from tribo.lab.running_in import rough_bodies
 from tribo.plotting.figures import result_pictures
 from tribo.plotting.sections import number_of_saves
-from tribo.report.amounts import amount, component_words, layer_words, load_words, material_words
+from tribo.report.amounts import amount, component_words, load_words, value_words
 from tribo.report.drawing import drawing
 from tribo.report.fields import charts
 from tribo.report.page import check_installed, render, stills
@@ -109,15 +111,14 @@ def _facts(case: Mapping[str, Any]) -> list[tuple[str, str]]:
     """Return the numbers of a case in words, by what they are of."""
     facts = []
     for name, body in case["bodies"].items():
-        for part, words in (
-            ("surface", component_words),
-            ("material", material_words),
-            ("wear", component_words),
-        ):
-            if body.get(part):
-                facts.append((f"{name}, {part}", words(body[part])))
-        layers = enumerate(body.get("layers") or (), start=1)
-        facts += [(f"{name}, layer {i} from the top", layer_words(layer)) for i, layer in layers]
+        if body.get("surface"):
+            facts.append((f"{name}, surface", component_words(body["surface"])))
+        if body.get("material"):
+            facts.append((f"{name}, material", value_words(body["material"], Material)))
+        if body.get("wear"):
+            facts.append((f"{name}, wear", component_words(body["wear"])))
+        for i, layer in enumerate(body.get("layers") or (), start=1):
+            facts.append((f"{name}, layer {i} from the top", value_words(layer, Layer)))
     if "load" in case:
         facts.append(("normal load", load_words(case["load"])))
     facts += [
