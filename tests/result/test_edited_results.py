@@ -133,11 +133,11 @@ def test_what_does_not_fit_is_told(folder, edit):
     assert "x.h5 is damaged: " in refusal(folder, edit, "show", "x.h5", "--json")
 
 
-@pytest.mark.parametrize("command", COMMANDS.values(), ids=COMMANDS)
+WITHOUT_TWO = ({}, {"ball": {}}, {**BODIES, "pin": {}}, [1], BODIES | {"ball": 1})
+
+
 @pytest.mark.parametrize(
-    "bodies",
-    [{}, {"ball": {}}, {**BODIES, "pin": {}}, [1]],
-    ids=["none", "one", "three", "list"],
+    ("command", "bodies"), list(zip(COMMANDS.values(), WITHOUT_TWO, strict=True)), ids=COMMANDS
 )
 def test_every_command_refuses_a_case_without_its_two_bodies(folder, command, bodies):
     assert "x.h5 is damaged: 'case" in refusal(folder, text("case", {"bodies": bodies}), *command)

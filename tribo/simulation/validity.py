@@ -132,7 +132,8 @@ def check_stroke(model: Model, state: State) -> None:
 def limitation(model: Model, state: State) -> str | None:
     """Return why the track average does not hold in `state`, if so."""
     seen = half_width, *_ = track_average(model, state)
-    return model.motion.limitation(*seen) if average_matters(model, half_width) else None
+    words = model.motion.limitation(*seen)
+    return words if average_matters(model, half_width) else None
 
 
 def track_average(model: Model, state: State) -> tuple[float, float, float, float]:
