@@ -124,7 +124,7 @@ def coverage(labs: int, cells: int) -> Iterator[dict[str, object]]:
         logs = idctn(waves * random.standard_normal(waves.shape), norm="ortho")
         depth = worn(model, np.exp(logs))
         noisy = depth + NOISE * random.standard_normal(depth.shape)
-        fitted = fit_maps(test, {"ball": (noisy, NOISE)}, {"ball": prior})
+        fitted = fit_maps(test, {"ball": (noisy, NOISE)}, {"ball": prior}, products=400)
         low, high = fitted.maps["ball"].interval(LEVEL)
         covered = (low < np.exp(logs)) & (np.exp(logs) < high)
         shares.append([np.mean(covered[depth > DEEP * depth.max()]), np.mean(covered)])

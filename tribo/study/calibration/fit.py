@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from scipy.optimize import LinearConstraint, NonlinearConstraint, brentq, minimize
+from scipy.optimize import LinearConstraint, NonlinearConstraint, minimize
 from scipy.special import chdtri, stdtrit
 
 from tribo.core.arrays import Array
@@ -145,22 +145,6 @@ def interval(here: Linearised, direction: Array, level: float) -> tuple[float, f
         steepest = np.sum(here.residuals(at)[:, None] * here.jacobian(at), axis=0)
         return np.asarray(-2 * np.sum(steepest[:, None] * root, axis=0))
 
-    def edge(sign: float) -> Array:
-        """Return where a straight line from the estimate meets the end of the interval."""
-        along = sign * gradient / spread
-        moved = np.sum(root * along, axis=1)
-        ends = np.where(moved > 0, upper - best, lower - best)
-        most = float(
-            np.min(np.divide(ends, moved, out=np.full_like(ends, np.inf), where=moved != 0))
-        )
-        far = np.sqrt(rise)
-        while far < most and room(far * along) > 0:
-            far *= 2
-        far = min(far, most)
-        if room(far * along) < 0:
-            far = brentq(lambda part: room(part * along), 0.0, far, rtol=1e-3)
-        return np.asarray(far * along)
-
     within = (
         NonlinearConstraint(room, 0.0, np.inf, jac=room_slopes),
         LinearConstraint(root, lower - best, upper - best),
@@ -169,7 +153,7 @@ def interval(here: Linearised, direction: Array, level: float) -> tuple[float, f
     def end(sign: float) -> float:
         found = minimize(
             lambda z: -sign * float(np.sum(gradient * z)) / spread,
-            edge(sign),
+            sign * np.sqrt(rise) * gradient / spread,
             jac=lambda z: -sign * gradient / spread,
             method="SLSQP",
             constraints=within,

@@ -28,9 +28,9 @@ from tribo.study.gradient.tape import Tape, recorded
 
 STEP = 1e-2
 """Largest change of a logarithm for the derivative of all depths along a direction."""
-PRODUCTS, EACH, LITTLE = 400, 10, 0.2
-"""Most products with the information of the data; every so many it is seen whether each of them
-still gave so much of a number that the data determine."""
+EACH, LITTLE = 10, 0.2
+"""Every so many products with the information of the data it is seen whether each of them still
+gave so much of a number that the data determine."""
 ROUGHLY, ITERATIONS, MEMORY, FALL = 10, 100, 30, 1e-6
 """Steps of L-BFGS before them, at most after them, those remembered, and the fall that ends it."""
 EXHAUSTED = 1e-9
@@ -165,6 +165,7 @@ def fit_maps(
     depths: Mapping[str, tuple[Array, float]],
     priors: Mapping[str, Prior],
     *,
+    products: int = 60,
     on_run: Callable[[int, float], None] = lambda count, misfit: None,
 ) -> FittedMaps:
     """Find the factors on the wear coefficients of bodies that explain maps of their depth.
@@ -184,6 +185,8 @@ def fit_maps(
         NaN where it was not measured; and its standard deviation.
     priors : Mapping
         By the name of the body.
+    products : int, optional
+        Most products to take; with more of them standard deviations come out smaller.
     on_run : callable, optional
         Called after each gradient or product with their number and the misfit χ², NaN of a product.
 
@@ -213,7 +216,7 @@ def fit_maps(
     near = _least(posterior, waves.size, ROUGHLY)
     with closing(Tape()) as tape:
         product = waves.products(waves.logs(near), tape)
-        basis, values = _krylov(product, waves.size, lambda k: on_run(made + k, math.nan))
+        basis, values = _krylov(product, waves.size, products, lambda k: on_run(made + k, math.nan))
     less = (1 + values) ** -0.5 - 1
 
     def rounded(y: Array) -> Array:
@@ -341,11 +344,11 @@ def _least(objective: Callable[[Array], tuple[float, Array]], size: int, steps: 
 
 
 def _krylov(
-    product: Callable[[Array], Array], size: int, tell: Callable[[int], None]
+    product: Callable[[Array], Array], size: int, most: int, tell: Callable[[int], None]
 ) -> tuple[Array, Array]:
     """Return approximate eigenvectors, as rows, and eigenvalues, by Lanczos' method."""
     vector = np.random.default_rng(0).standard_normal(size)
-    basis, images = np.empty((2, min(PRODUCTS, size), size))
+    basis, images = np.empty((2, min(most, size), size))
     values, known, turned = np.zeros(0), 0.0, np.zeros((0, 0))
     for i in range(len(basis)):
         whole = np.sqrt(np.sum(vector**2))
