@@ -37,3 +37,12 @@ def test_a_rate_that_is_zero_at_both_ends_is_integrated():
 
     _, (total,), _ = integrated(rates, [0 * ONE], 1.0, [ANY])
     assert total[0, 0] == pytest.approx(1 / 6 + 1e-4 / 20, rel=3e-5)
+
+
+@pytest.mark.parametrize("at", [1e-7, 1e-4, 0.3])
+def test_a_rate_that_jumps_is_followed_wherever_it_does(at):
+    def rates(values, passed, step):
+        return [ONE, ONE if passed < at else 3 * ONE]
+
+    _, (total,), _ = integrated(rates, [0 * ONE], 1.0, [ANY])
+    assert total[0, 0] == pytest.approx(3 - 2 * at, abs=3e-4)

@@ -23,8 +23,8 @@ ROUGHEST = 0.05
 JUMP = 0.1
 """Relative difference from a smooth rate at which one is looked at as one that jumps."""
 SAFETY, LEAST = 0.9, 0.1
-"""Of the length at which a part is as accurate as asked, what is taken; and the least that is cut
-off a part at once."""
+"""Of the length at which the next part would be as accurate as asked, what is taken; and the least
+that is cut off it."""
 FINEST = 2.0**-20
 """The smallest part, where a state goes on to leave its limits."""
 PLAIN, RELAXING = (1, 2, 3), (1, 2, 3, 4)
@@ -149,7 +149,7 @@ def integrated(
                     f"{limit.name} goes on beyond its limits of {limit.least:g} to {limit.most:g}: "
                     "let its rate vanish there"
                 )
-            waiting[:1] = _divided(part, 0.5 * part if left else part * _wanted(plan, off))
+            waiting[:1] = [(0.5 * part, True)] * 2
             if not left and (part <= FINEST or len(waiting) + len(done) > MOST_PARTS):
                 # Rates that jump, at one point after the other.
                 plan = _looser(plan)
@@ -161,9 +161,11 @@ def integrated(
         sums = [old + new for old, new in zip(sums, best[count:], strict=True)]
         missed += part * off
         done.append(waiting.pop(0))
-        wanted = part * _wanted(plan, off)
-        if waiting and waiting[0][0] > 2 * wanted:
-            waiting[:1] = _divided(waiting[0][0], wanted)
+        following = SAFETY * part * (plan.accuracy / off) ** (1 / 3) if off > 0 else math.inf
+        if waiting and waiting[0][0] > 2 * following:
+            whole = waiting[0][0]
+            cut = max(following, LEAST * whole)
+            waiting[:1] = [(cut, True), (whole - cut, True)]
     if not missed <= ROUGHEST:
         names = ", ".join(limit.name for limit in limits)
         raise BadValues(
@@ -171,16 +173,6 @@ def integrated(
             "s of a rest): shorten the steps"
         )
     return values, sums, replace(plan, parts=tuple(done))
-
-
-def _wanted(plan: Plan, off: float) -> float:
-    """Return the part of a part, or the multiple of it, that is as accurate as the plan asks."""
-    return SAFETY * (plan.accuracy / off) ** (1 / 3) if off > 0 else math.inf
-
-
-def _divided(part: float, first: float) -> list[tuple[float, bool]]:
-    first = min(max(first, LEAST * part), 0.5 * part)
-    return [(first, True), (part - first, True)]
 
 
 def _looser(plan: Plan) -> Plan:
