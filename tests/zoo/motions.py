@@ -48,9 +48,12 @@ for name, words, saved, parts in (
         {"exposures": lambda self, grid, bodies: {"ball": Stationary(grid), "disk": Track}},
     ),
     ("unexposed", "ZeroDivisionError", False, {"exposures": raising(ZeroDivisionError())}),
-    ("limited_by_7", "gave a int as its limitation", False, {"limitation": lambda *given: 7}),
 ):
     ZOO.bad(name, Slide, words, saved=saved, **parts)
+
+
+# Asked where a swept body changes its shape.
+GROOVES.bad("limited_by_7", Slide, "gave a int as its limitation", limitation=lambda *given: 7)
 
 
 def exposed(name, words, zoo=ZOO, saved=False, **parts):
