@@ -73,7 +73,7 @@ def test_a_patch_settles_at_a_roughness_of_its_own():
             sa = [parameters(patch.surface(save)).Sa_m for save in range(6, len(result.times))]
             depth = patch.wear_depth[-1]
         settled.append(np.mean(sa))
-        # Archard's wear on the mean: 16 particles in 5 layers, ±0.5/√80.
+        # Archard's wear on the mean: 16 particles in 4 layers, ±0.5/√64.
         assert depth.mean() == pytest.approx(4 * THICKNESS, rel=0.15, abs=0)
         assert parameters(depth).Sq_m < THICKNESS
     assert settled[0] == pytest.approx(settled[1], rel=0.25, abs=0)
