@@ -24,6 +24,7 @@ from tribo.stepping.implicit import Implicit
 from tribo.study.gradient import backwards, course, linear, parameters, tape
 from tribo.study.gradient.gradient import ValueAndGradient, gradient
 from tribo.study.gradient.objective import Deepest, Depth, Misfit, Pressure, Volume
+from tribo.study.gradient.sensitivity import sensitivity
 from tribo.surfaces.cylinder import Cylinder
 from tribo.surfaces.waves import Waves
 from tribo.wear.archard import Archard
@@ -394,6 +395,17 @@ def test_effects_that_no_law_follows_have_no_part_in_it():
         for effects in ([Turns()], [])
     )
     assert found.parameters == alone.parameters
+
+
+def test_a_coarse_run_tells_what_rules_the_depth():
+    fine = gradient(run(), Deepest("ball")).relative
+    found = sensitivity(composed(run()))
+    assert found.body == "ball"
+    assert list(found.percent) == sorted(found.percent, key=lambda path: -abs(found.percent[path]))
+    assert found.percent["load.normal"] == pytest.approx(fine["load.normal"], abs=0.1)
+    assert (
+        sensitivity(composed(run(bodies=pair(Follows(k=K), archard()), effects=[Turns()]))) is None
+    )
 
 
 def test_a_save_that_is_not_there_is_refused():

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Iterator
 from dataclasses import asdict
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 from rich.table import Table
@@ -17,6 +18,12 @@ from tribo.core.errors import CaseError, NumericalError
 from tribo.lab.first_contact import HertzContact, computed_pressure, yield_words
 from tribo.simulation.model import Model
 from tribo.simulation.predict import Prediction
+
+if TYPE_CHECKING:
+    from tribo.study.gradient.sensitivity import Sensitivity
+
+SHOWN = 6
+"""Most numbers of the case that are shown with what they change."""
 
 
 @click.command()
@@ -38,19 +45,21 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
     from tribo.config.load import load_case
     from tribo.simulation.predict import predict
     from tribo.simulation.run import Simulation
+    from tribo.study.gradient.sensitivity import sensitivity
 
     model = Simulation(load_case(case, overrides=overrides)).model
     prediction = predict(model)
+    ruled = sensitivity(model) if prediction.last else None
     if as_json:
-        echo_json(asdict(prediction))
+        echo_json({**asdict(prediction), "sensitivity": ruled and asdict(ruled)})
     else:
-        _print(case, model, prediction)
+        _print(case, model, prediction, ruled)
     for kind in (CaseError, NumericalError):
         if prediction.exit_code == kind.exit_code:
             raise kind(f"a run of {case} would stop on its way")
 
 
-def _print(case: Path, model: Model, prediction: Prediction) -> None:
+def _print(case: Path, model: Model, prediction: Prediction, ruled: Sensitivity | None) -> None:
     console = Console()
     verdict = "is valid, but:" if prediction.problems else "is valid."
     if prediction.exit_code:
@@ -58,6 +67,10 @@ def _print(case: Path, model: Model, prediction: Prediction) -> None:
     console.print(f"{case} {verdict}", markup=False, soft_wrap=True)
     console.print(_rows(("  -", problem) for problem in prediction.problems))
     console.print(_rows((f"  {name}", text) for name, text in _facts(model, prediction)))
+    if ruled is not None:
+        console.print(f"  depth of {ruled.body}, for 1 % more of:", markup=False)
+        first = list(ruled.percent.items())[:SHOWN]
+        console.print(_rows((f"    {path}", f"{percent:+.2f} %") for path, percent in first))
     for place, facts in prediction.facts.items():
         console.print(f"  {place}:", markup=False)
         console.print(_rows((f"    {name}", text) for name, text in facts.items()))
