@@ -29,7 +29,9 @@ def sh(command: str, code: int = 0, lines: int | None = None) -> None:
         check=False,
     )
     # Progress, which depends on how fast the machine is.
-    output = re.sub(r"(?m)^[\d.e+]+ s of [\d.e+]+ s, step \d+\n?", "", done.stdout).splitlines()
+    progress = r"(?m)^(?:[\d.e+]+ s of [\d.e+]+ s, step|run and pass back) \d+.*\n?"
+    output = re.sub(progress, "", done.stdout.replace(" left at least", ""))
+    output = re.sub(r"(?m)^(run \d+: .*), \d+ s$", r"\1", output).splitlines()
     if done.returncode != code:
         raise RuntimeError(f"{command} exited with {done.returncode}:\n{done.stdout}")
     if lines is not None and len(output) > lines:
