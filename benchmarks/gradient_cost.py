@@ -1,13 +1,17 @@
 """What a gradient costs: the time of the run with all derivatives over that of the run alone.
 
     python benchmarks/gradient_cost.py [cells]
+    python benchmarks/gradient_cost.py [cells] memory
 
 Each case is run in turn with and without, three times, and the best of each is taken. Derivatives
-are those in all numbers of the case and in the wear rate and the height at each cell.
+are those in all numbers of the case and in the wear rate and the height at each cell. The second
+prints the peak memory of runs of more and more steps.
 """
 
 from __future__ import annotations
 
+import multiprocessing
+import resource
 import sys
 import warnings
 from time import process_time
@@ -84,5 +88,25 @@ def main(cells: int) -> None:
         )
 
 
+def memory(cells: int) -> None:
+    """Print the peak memory of a process by the steps of its run."""
+    context = multiprocessing.get_context("spawn")
+    for saves in (100, 200, 400, 800):
+        with context.Pool(1) as pool:
+            peak, steps = pool.apply(_peak, (cells, saves))
+        print(f"{cells}² {steps:4} steps: peak {peak:.0f} MiB", flush=True)
+
+
+def _peak(cells: int, saves: int) -> tuple[float, int]:
+    warnings.simplefilter("ignore", TriboWarning)
+    times = [200 * (i + 1) / saves for i in range(saves)]
+    springs = case(cells, contact={"type": "winkler"}, output={"save_times": times})
+    gradient(springs, Deepest("disk"), ["load.normal"])
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024, saves
+
+
 if __name__ == "__main__":
+    if "memory" in sys.argv:
+        memory(int(sys.argv[1]))
+        sys.exit()
     main(int(sys.argv[1]) if len(sys.argv) > 1 else 64)
