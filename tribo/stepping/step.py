@@ -69,7 +69,8 @@ def first_contact(
         load_distance=0.0,
         between={**first_memory(model), **(between or {})},
     )
-    gaps = undeformed(model, state) if worn is not None or model.filling else model.gaps
+    # Kept in a list, so that each gap has an identity of its own.
+    gaps = list(undeformed(model, state) if worn is not None or model.filling else model.gaps)
     solutions: dict[tuple[int, float], ContactSolution] = {}
     asked = [(id(gap), load) for gap, load in zip(gaps, model.loads.after(0.0), strict=True)]
     for gap, key, cap in zip(gaps, asked, caps(model, state.bodies), strict=True):
