@@ -36,7 +36,7 @@ KINDS = (
     *("schema", "mutated", "mutated", "plausible", "plausible", "plausible"),
     *("text", "override", "surface", "result", "stop"),
 )
-FORMATS = ("opd", "x3p", "asc", "npy")
+FORMATS = ("opd", "sur", "x3p", "asc", "npy")
 
 
 def prepare(folder):

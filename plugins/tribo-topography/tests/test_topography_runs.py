@@ -1,5 +1,6 @@
 """Measured bodies in contact, and what a case is told."""
 
+import json
 import subprocess
 import sys
 from hashlib import sha256
@@ -7,7 +8,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 from tribo import CaseError, ContactProblem, Simulation, TriboWarning
+from tribo.cli.main import tribo
 from tribo.simulation.predict import predict
 
 from tribo_topography.export import export_xyz
@@ -114,6 +117,44 @@ def test_what_the_file_was_read_as_is_kept_in_the_result_and_what_is_worn_export
         np.testing.assert_allclose(height, result.body("ball").surface(-1), rtol=1e-8, atol=1e-18)
         np.testing.assert_allclose(x[:, 0], result.grid.x, rtol=1e-8)
         np.testing.assert_allclose(y[0], result.grid.y, rtol=1e-8)
+
+
+def test_check_prints_it(case, tmp_path):
+    surface = case()["bodies"]["ball"]["surface"]
+    quoted = {key: json.dumps(value, default=str) for key, value in surface.items()}
+    path = tmp_path / "case.toml"
+    text = CASE.format(surface=", ".join(f"{key} = {value}" for key, value in quoted.items()))
+    path.write_text(text)
+    done = CliRunner().invoke(tribo, ["check", str(path)])
+    assert done.exit_code == 0, done.output
+    assert "96 × 96" in done.output
+    assert sha256(Path(surface["path"]).read_bytes()).hexdigest() in done.output
+
+
+CASE = """
+[grid]
+size = "0.5 mm"
+cells = 40
+
+[load]
+normal = "40 N"
+
+[bodies.ball]
+surface = {{ {surface} }}
+material = {{ young = "207 GPa", poisson = 0.3 }}
+wear = {{ type = "archard", k = "3.11e-16 1/Pa" }}
+
+[bodies.disk]
+surface = "flat"
+material = {{ young = "207 GPa", poisson = 0.3 }}
+
+[kinematics]
+type = "reciprocating"
+stroke = "2 mm"
+frequency = "25 Hz"
+distance = "0.2 m"
+positions = "average"
+"""
 
 
 def test_offering_the_surface_does_not_import_surfacetopography():
