@@ -36,8 +36,8 @@ def twice_the_overlap(right):
 
 def whole_depth_for_each(right):
     def shares(*given):
-        cap, share = right(*given)
-        return cap, {name: float(part > 0) for name, part in share.items()}
+        cap, share, hardness = right(*given)
+        return cap, {name: float(part > 0) for name, part in share.items()}, hardness
 
     return shares
 
