@@ -1,8 +1,12 @@
 """The paper's test on springs and a small grid, in long steps: to calibrate in little time."""
 
 import tomllib
+from contextlib import contextmanager
+
+import pytest
 
 from tribo.config.overrides import apply_settings
+from tribo.study.calibration.posed import make_run
 from tribo.templates import template
 
 SPRINGS = {
@@ -21,3 +25,20 @@ def cheap(duration):
     """Return the paper's test as it is cheap to run, for a time in s."""
     grid = {"size": "1 mm", "cells": 24}
     return on_springs("ball_on_disk", {"grid": grid, "kinematics.duration": duration})
+
+
+@contextmanager
+def kept_runs():
+    """Make no run of a calibration twice."""
+    kept = {}
+
+    def remembered(tables, parameters, values, wanted, *rest):
+        paths = [each.path for each in parameters]
+        key = repr((tables, paths, values.tobytes(), wanted))
+        if key not in kept:
+            kept[key] = make_run(tables, parameters, values, wanted, *rest)
+        return kept[key]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("tribo.study.calibration.posed.make_run", remembered)
+        yield

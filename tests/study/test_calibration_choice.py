@@ -5,14 +5,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from calibrations import cheap
+from calibrations import cheap, kept_runs
 from click.testing import CliRunner
 from scipy.stats import multivariate_normal
 
 from tribo.cli.main import tribo
 from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError
-from tribo.study.calibration.bench import make_run
 from tribo.study.calibration.choice import choose_case
 from tribo.study.calibration.fit import fit
 from tribo.study.calibration.linearised import Problem
@@ -30,22 +29,8 @@ def weighed(load, part):
     return {"name": f"{load} N", "set": {"load.normal": load}, "measured": [entry]}
 
 
-@pytest.fixture
-def kept_runs(monkeypatch):
-    """Make no run twice."""
-    kept = {}
-
-    def remembered(tables, parameters, values, wanted, *rest):
-        key = repr((tables, values.tobytes(), wanted))
-        if key not in kept:
-            kept[key] = make_run(tables, parameters, values, wanted, *rest)
-        return kept[key]
-
-    monkeypatch.setattr("tribo.study.calibration.posed.make_run", remembered)
-
-
 @pytest.mark.slow
-@pytest.mark.usefixtures("kept_runs")
+@kept_runs()
 def test_the_law_that_made_the_data_is_chosen_where_they_are_exact():
     """A pressure falls as the scar grows, so that losses of other laws are not as the load."""
     exact = {"test": [weighed(load, 0.02) for load in (40, 100)]}

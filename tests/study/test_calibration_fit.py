@@ -80,7 +80,7 @@ def test_intervals_cover_the_truth_at_their_level(part, level):
     """
     exact = worn(TRUE)
     sigma = part * exact
-    draws, random = 100, np.random.default_rng(17)
+    draws, random = 40, np.random.default_rng(17)
     covered = np.zeros(3, dtype=int)
     for _ in range(draws):
         drawn = exact + sigma * random.standard_normal(len(exact))

@@ -4,7 +4,7 @@ import warnings
 
 import numpy as np
 import pytest
-from calibrations import cheap, on_springs
+from calibrations import cheap, kept_runs, on_springs
 from scipy.stats import norm
 
 from tribo.closed_forms.ball_on_track import ball_on_track
@@ -13,10 +13,10 @@ from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError, NumericalError, TriboWarning
 from tribo.result.export import profile
 from tribo.simulation.run import Simulation
-from tribo.study.calibration.bench import make_run
 from tribo.study.calibration.calibrate import calibrate, far_off
 from tribo.study.calibration.measured import read_measurements
 from tribo.study.calibration.parameters import Parameter, find_parameters
+from tribo.study.calibration.posed import make_run
 from tribo.study.calibration.quantities import Reading, percent, read
 
 TRUE = {"bodies.ball.wear.k": 3.11e-16, "bodies.disk.wear.k": 1.5e-16}
@@ -46,18 +46,8 @@ def run_with(**changes):
 
 
 @pytest.fixture(scope="module", autouse=True)
-def kept_runs():
-    """Make no run twice."""
-    kept = {}
-
-    def remembered(tables, parameters, values, wanted, *rest):
-        key = repr((tables, parameters, values.tobytes(), wanted))
-        if key not in kept:
-            kept[key] = make_run(tables, parameters, values, wanted, *rest)
-        return kept[key]
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("tribo.study.calibration.posed.make_run", remembered)
+def runs_made_once():
+    with kept_runs():
         yield
 
 

@@ -17,7 +17,7 @@ from tribo.study.calibration.fit import NO_EFFECT, NOTABLE, interval
 from tribo.study.calibration.linearised import Linearised, root_covariance, weigh
 from tribo.study.calibration.notes import notes
 from tribo.study.calibration.parameters import Parameter
-from tribo.study.calibration.quantities import QUANTITIES, Reading
+from tribo.study.calibration.quantities import QUANTITIES, Reading, plain
 
 DATA = ["test", "body", "quantity", "time_s", "position_m", "unit"]
 DATA += ["measured", "below", "sigma", "computed", "residual"]
@@ -120,23 +120,8 @@ class Calibration:
 
     def as_json(self) -> dict[str, Any]:
         """Return it as plain data in SI units; what is not given is NaN."""
-        return {
-            "level": self.level,
-            "runs": self.runs,
-            "parameters": self.parameters.to_dict("records"),
-            "data": self.data.to_dict("records"),
-            "predictions": self.predictions.to_dict("records"),
-            "chi_square": self.chi_square,
-            "degrees_of_freedom": self.degrees_of_freedom,
-            "p_value": self.p_value,
-            "repeatability": self.repeatability,
-            "repeatability_estimated": self.repeatability_estimated,
-            "correlation": self.correlation.tolist(),
-            "singular_values": self.singular_values.tolist(),
-            "bic": self.bic,
-            "left_out": self.left_out.tolist(),
-            "notes": list(self.notes),
-        }
+        found = plain(self) | {"p_value": self.p_value}
+        return {name: value for name, value in found.items() if name != "fitted"}
 
 
 def outcome(

@@ -18,6 +18,7 @@ from tribo.registry.registry import Registry
 from tribo.study.calibration.fit import check_effect, differenced
 from tribo.study.calibration.measured import Measurements, read_measurements
 from tribo.study.calibration.posed import Posed
+from tribo.study.calibration.quantities import plain
 
 MOST = 1000
 """Tests that are thought of."""
@@ -51,14 +52,8 @@ class Plan:
     parameters: pd.DataFrame
 
     def as_json(self) -> dict[str, Any]:
-        """Return it as plain data; what is infinite is NaN."""
-        return {
-            "level": self.level,
-            "within": self.within,
-            "runs": self.runs,
-            "tests": self.tests.to_dict("records"),
-            "parameters": self.parameters.to_dict("records"),
-        }
+        """Return it as plain data."""
+        return plain(self)
 
 
 def plan_tests(
@@ -141,15 +136,9 @@ def plan_tests(
     search = Search(np.array(kinds), within, level, asked.repeatability > 0)
     counts = search.fewest()
     halves, freedom = search.expected(counts)
-    return Plan(
-        level=level,
-        within=within,
-        runs=posed.made,
-        tests=pd.DataFrame({"test": [bench.name for bench in posed.tested], "count": counts}),
-        parameters=pd.DataFrame(
-            {"path": list(problem.names), "half_width": halves, "freedom": freedom}
-        ),
-    )
+    tests = pd.DataFrame({"test": [bench.name for bench in posed.tested], "count": counts})
+    expected = {"path": list(problem.names), "half_width": halves, "freedom": freedom}
+    return Plan(level, within, posed.made, tests, pd.DataFrame(expected))
 
 
 @dataclass(frozen=True)
@@ -188,13 +177,7 @@ class Search:
         return np.where(few, np.inf, quantiles * np.sqrt(variances)), freedom
 
     def fewest(self) -> Array:
-        """Return how many tests of each kind are enough.
-
-        Raises
-        ------
-        CaseError
-            If none are.
-        """
+        """Return how many tests of each kind are enough; CaseError if none are."""
         counts = np.zeros(len(self.kinds), dtype=int)
         for _ in range(MOST):
             counts = min((counts + one for one in np.eye(len(counts), dtype=int)), key=self._size)

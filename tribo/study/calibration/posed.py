@@ -3,53 +3,69 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+import warnings
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
 
 from tribo.case import Case
 from tribo.config.load import case_tables, validate_case
+from tribo.config.overrides import apply_settings
 from tribo.core.arrays import Array
-from tribo.core.errors import CaseError
+from tribo.core.errors import CaseError, NumericalError, TriboWarning
 from tribo.registry.registry import Registry
-from tribo.study.calibration.bench import Bench, Run, benches, make_run
+from tribo.simulation.model import Model
+from tribo.simulation.positions import chosen
+from tribo.simulation.run import Simulation
 from tribo.study.calibration.linearised import Problem
-from tribo.study.calibration.measured import Measurements, read_measurements
+from tribo.study.calibration.measured import Measured, Measurements, Tested, read_measurements
 from tribo.study.calibration.parameters import Parameter, check_set, find_parameters
-from tribo.study.calibration.quantities import PROFILES, Reading
+from tribo.study.calibration.quantities import (
+    AXES,
+    EDGES,
+    PROFILES,
+    QUANTITIES,
+    Reading,
+    read,
+    unavailable,
+)
+from tribo.study.variation import unknown_body, valid_case
+
+
+@dataclass(frozen=True)
+class Bench:
+    """One case among the tests, and all that is read off its runs."""
+
+    name: str
+    """Of the first test."""
+    case: Mapping[str, Any]
+    tables: Mapping[str, Any]
+    """The case, with what the readings need."""
+    model: Model
+    rows: list[int]
+    """The measured numbers, by their row in `Measurements.table`."""
+    measured: list[Reading]
+    predicted: list[Reading]
+    """What is not measured but known at the end."""
 
 
 @dataclass(frozen=True)
 class Posed:
-    """Parameters of a case, the tests that tell them, and what was measured.
-
-    Parameters
-    ----------
-    tested : list of Bench
-        The tests, those alike as one.
-    parameters : list of Parameter
-        What is fitted.
-    data : DataFrame
-        As `Measurements.table` has it, with `bench` and, as `edge`, the
-        standard deviation of a computed diameter.
-    repeatability : float or None
-        From test to test; None if it is to be estimated.
-    registry : Registry, optional
-        Where to look components up.
-    runs : dict
-        What has been run, by the bytes of the parameters.
-    """
+    """Parameters of a case, the tests that tell them, and what was measured."""
 
     tested: list[Bench]
     parameters: list[Parameter]
     data: pd.DataFrame
+    """As `Measurements.table` has it, with `bench`, and `edge`: the σ of a computed diameter."""
     repeatability: float | None
+    """From test to test; None if it is to be estimated."""
     registry: Registry | None
     runs: dict[bytes, Run] = field(default_factory=dict)
+    """What has been run, by the bytes of the parameters."""
 
     @classmethod
     def of(
@@ -64,14 +80,14 @@ class Posed:
             raise CaseError("asks for local coefficients; see calibrate_maps", "map")
         base = validate_case(tables, registry=registry)
         data = asked.table()
-        tested = benches(tables, asked.tests, data, registry)
+        tested = _benches(tables, asked.tests, data, registry)
         parameters = find_parameters(base, asked.fit, data["body"].unique())
         for place, test in asked.tests.items():
             check_set(parameters, test.set, f"{place}set")
-        data["edge"] = [
-            tested[each.bench].edge(each.quantity)
-            for each in data[["bench", "quantity"]].itertuples()
-        ]
+        diameter = data["position_m"].isna() & data["quantity"].isin(AXES)
+        axis = data["quantity"].map(AXES).fillna(0).astype(int)
+        spacing = np.array([bench.model.grid.spacing for bench in tested])
+        data["edge"] = np.where(diameter, EDGES * spacing[data["bench"], axis], 0.0)
         repeated = data[~data["below"]].groupby(
             ["bench", "body", "quantity", "time_s", "position_m"], dropna=False
         )["specimen"]
@@ -96,13 +112,7 @@ class Posed:
         return len(self.tested) * len(self.runs)
 
     def run(self, values: Array) -> Run:
-        """Return the responses for parameters: those to the data, then the predictions.
-
-        Raises
-        ------
-        CaseError, NumericalError
-            If a run fails, or a measured quantity comes out as 0.
-        """
+        """Return the responses to parameters, of the data and then the predictions, made once."""
         key = values.tobytes()
         if key in self.runs:
             return self.runs[key]
@@ -111,14 +121,19 @@ class Posed:
         notices: dict[str, None] = {}
         for i, bench in enumerate(self.tested, 1):
             name = f"run {self.made + i}"
-            made = make_run(
-                bench.tables, self.parameters, values, bench.wanted, self.registry, name
-            )
+            wanted = [*bench.measured, *bench.predicted]
+            made = make_run(bench.tables, self.parameters, values, wanted, self.registry, name)
             rows = [*bench.rows, *range(count, count + len(bench.predicted))]
             count += len(bench.predicted)
             responses[rows], read_off[rows] = made.responses, made.read_off
             notices |= dict.fromkeys(made.notices)
-        self._check_positive(responses)
+        nothing = self.data["position_m"].isna() & (responses[: len(self.data)] <= 0)
+        for each in self.data[nothing].itertuples():
+            raise CaseError(
+                f"the {each.quantity} of {each.body!r} comes out as 0 in the case; begin with more "
+                "wear: give start in fit",
+                each.place,
+            )
         self.runs[key] = Run(responses, read_off, tuple(notices))
         return self.runs[key]
 
@@ -138,12 +153,120 @@ class Posed:
             upper=np.array([math.log(p.upper) for p in parameters]),
         )
 
-    def _check_positive(self, computed: Array) -> None:
-        data = self.data
-        nothing = data[data["position_m"].isna() & (computed[: len(data)] <= 0)]
-        for each in nothing.itertuples():
+
+def _benches(
+    tables: Mapping[str, Any],
+    tests: Mapping[str, Tested],
+    data: pd.DataFrame,
+    registry: Registry | None,
+) -> list[Bench]:
+    """Return the cases of the tests, those alike as one, and add the column `bench` to the data."""
+    cases: dict[str, tuple[Tested, Case, Model]] = {}
+    of = []
+    given = validate_case(tables, registry=registry).output.save_times
+    for place, test in tests.items():
+        try:
+            # A test may end before times at which the case is saved.
+            case = valid_case(tables, {**test.set, "output.save_times": []}, registry)
+        except CaseError as error:
+            raise error if not place else CaseError(str(error), f"{place}set") from None
+        key = repr(case)
+        cases.setdefault(key, (test, case, Simulation(case, registry).model))
+        of.append([*cases].index(key))
+        for i, entry in enumerate(test.measured):
+            _check_entry(cases[key][2], entry, f"{place}measured[{i}]")
+    data["bench"] = np.array(of)[data["of"]]
+    found = []
+    for number, (test, case, model) in enumerate(cases.values()):
+        own = data[data["bench"] == number]
+        columns = own[["body", "quantity", "time_s", "position_m"]]
+        measured = [Reading(*row) for row in columns.itertuples(index=False)]
+        kept = {
+            "output.save_times": sorted(own["time_s"].dropna().unique().tolist()),
+            "observers": [],
+            **chosen(case, model),
+        }
+        changed = apply_settings(tables, test.set)
+        reached = [time for time in given if time <= model.end_time]
+        if len(reached) < len(given):
+            changed = apply_settings(changed, {"output.save_times": reached})
+        if test.name in [other.name for other in found]:
+            raise CaseError(f"two tests that differ are called {test.name!r}; rename one", "test")
+        ready, predicted = apply_settings(changed, kept), _not_measured(model, measured)
+        rows = [*own.index]
+        found.append(Bench(test.name, changed, ready, model, rows, measured, predicted))
+    return found
+
+
+class Run(NamedTuple):
+    """Responses of a run, their standard deviations due to the grid, and its notices."""
+
+    responses: Array
+    read_off: Array
+    notices: tuple[str, ...]
+
+
+def make_run(
+    tables: Mapping[str, Any],
+    parameters: Sequence[Parameter],
+    values: Array,
+    wanted: Sequence[Reading],
+    registry: Registry | None = None,
+    name: str = "run",
+) -> Run:
+    """Run a case with other values of its parameters, and read numbers off the result."""
+    # Taking logarithms may round to just beyond a bound.
+    settings = {
+        p.path: min(max(float(value), p.lower), p.upper)
+        for p, value in zip(parameters, values, strict=True)
+    }
+    with warnings.catch_warnings():
+        # The calibration has the notices of the last run.
+        warnings.simplefilter("ignore", TriboWarning)
+        try:
+            case = validate_case(apply_settings(tables, settings), registry=registry)
+            result = Simulation(case, registry).run()
+        except (CaseError, NumericalError) as error:
+            named = ", ".join(f"{path} = {value:.4g}" for path, value in settings.items())
+            raise type(error)(f"{name}, with {named}: {error}") from error
+    with result:
+        given, blurred = np.array([read(result, each) for each in wanted]).T
+        return Run(given, blurred, result.notices)
+
+
+def _check_entry(model: Model, entry: Measured, place: str) -> None:
+    if entry.body not in model.bodies:
+        raise unknown_body(entry.body, model.bodies, f"{place}.body")
+    reason = unavailable(model, entry.body, entry.quantity)
+    if reason:
+        raise CaseError(reason, f"{place}.quantity")
+    if entry.time is not None and entry.time > model.end_time * (1 + 1e-12):
+        raise CaseError(
+            f"{entry.time:g} s is not reached: the run ends at {model.end_time:g} s",
+            f"{place}.time",
+        )
+    for position in entry.position or ():
+        half = 0.5 * model.grid.size[AXES[entry.quantity]]
+        if abs(position) > half:
             raise CaseError(
-                f"the {each.quantity} of {each.body!r} comes out as 0 in the case; begin with more "
-                "wear: give start in fit",
-                each.place,
+                f"{1e3 * position:g} mm lies outside the window, which reaches "
+                f"{1e3 * half:g} mm from the centre",
+                f"{place}.position",
             )
+
+
+def _not_measured(model: Model, measured: Sequence[Reading]) -> list[Reading]:
+    """Return all quantities at the end of the run that were not measured."""
+    known = {
+        (entry.body, entry.quantity)
+        for entry in measured
+        if not entry.time_s < model.end_time * (1 - 1e-12)
+    }
+    return [
+        Reading(body, quantity)
+        for body in model.bodies
+        for quantity in QUANTITIES
+        if quantity not in PROFILES
+        and (body, quantity) not in known
+        and not unavailable(model, body, quantity)
+    ]

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
+import pandas as pd
 
 from tribo.core.measures import between_cells
 from tribo.lab.conversion import mass_from_volume
@@ -21,25 +22,15 @@ EDGES, DEPTHS = 0.15, 1e-3
 
 
 class WornQuantity(NamedTuple):
-    """A quantity that is measured of a worn body, by its SI unit.
-
-    Parameters
-    ----------
-    unit : str
-        Its SI unit.
-    shown : str
-        The unit it is shown in.
-    per_unit : float
-        How many of those make one in SI.
-    of : str
-        Which bodies have it: those that stay in the contact, those swept
-        through it, or both.
-    """
+    """A quantity that is measured of a worn body, by its SI unit."""
 
     unit: str
     shown: str
+    """The unit it is shown in."""
     per_unit: float
+    """How many of those make one in SI."""
     of: Literal["both", "stationary", "swept"] = "both"
+    """Which bodies have it: those that stay in the contact, or are swept through it."""
 
 
 _DEPTH = WornQuantity("m", "µm", 1e6)
@@ -68,6 +59,16 @@ class Reading(NamedTuple):
     quantity: str
     time_s: float = math.nan
     position_m: float = math.nan
+
+
+def plain(found: Any) -> dict[str, Any]:
+    """Return the fields of a dataclass as plain data: tables as lists of rows."""
+    data = {}
+    for name, value in vars(found).items():
+        if isinstance(value, pd.DataFrame):
+            value = value.to_dict("records")
+        data[name] = value.tolist() if isinstance(value, np.ndarray) else value
+    return data
 
 
 def in_words(name: str, value: float) -> str:
