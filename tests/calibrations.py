@@ -23,7 +23,7 @@ def on_springs(name, settings):
 
 def cheap(duration):
     """Return the paper's test as it is cheap to run, for a time in s."""
-    grid = {"size": "1 mm", "cells": 24}
+    grid = {"size": "1 mm", "cells": 16}
     return on_springs("ball_on_disk", {"grid": grid, "kinematics.duration": duration})
 
 

@@ -26,18 +26,18 @@ pytestmark = pytest.mark.slow
 
 
 @pytest.fixture(scope="module")
-def done():
-    ran = tribo(*WEIGHED, cwd=EXAMPLES)
-    assert ran.returncode == 0, ran.stderr
-    return ran
-
-
-@pytest.fixture(scope="module")
 def asked():
     """Return how the command ends with more options, in one process that makes no run twice."""
     with kept_runs(), pytest.MonkeyPatch.context() as patch:
         patch.chdir(EXAMPLES)
         yield lambda *options: CliRunner().invoke(main, [*WEIGHED, *options])
+
+
+@pytest.fixture(scope="module")
+def done(asked):
+    ended = asked()
+    assert ended.exit_code == 0, ended.output
+    return ended
 
 
 def test_it_prints_estimates_with_intervals_and_what_to_run(done):

@@ -116,11 +116,12 @@ def test_a_loss_of_the_size_of_its_uncertainty_bounds_from_above_only():
     assert np.exp(high) == pytest.approx((1 + 0.8 * norm.ppf(0.975)) ** 0.25, rel=1e-3)
 
 
-def test_a_limit_bounds_from_above_only():
+@pytest.mark.parametrize("start", [0.1, 1.0, 10.0])
+def test_a_limit_bounds_from_above_only_whatever_the_start(start):
     """With no loss at all, a reading below the limit is as likely as the level says."""
     below = {"below": np.array([True])}
     made = problem(np.array([1.0]), np.array([0.5]), names=("k",), start=np.ones(1), **below)
-    found = fit(lambda k: k, made, np.ones(1))
+    found = fit(lambda k: k, made, np.array([start]))
     low, high = interval(found, np.ones(1), 0.95)
     assert found.limited() == [True]
     assert (low, np.exp(found.point)) == (pytest.approx(0, abs=1e-9), pytest.approx(0.01))

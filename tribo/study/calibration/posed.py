@@ -176,7 +176,7 @@ def _benches(
         for i, entry in enumerate(test.measured):
             _check_entry(cases[key][2], entry, f"{place}measured[{i}]")
     data["bench"] = np.array(of)[data["of"]]
-    found = []
+    found: list[Bench] = []
     for number, (test, case, model) in enumerate(cases.values()):
         own = data[data["bench"] == number]
         columns = own[["body", "quantity", "time_s", "position_m"]]
