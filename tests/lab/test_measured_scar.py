@@ -9,7 +9,7 @@ from tribo import CaseError, Grid, Heights, Registry, Rough, Sphere, measured_sc
 from tribo.cli.scar import scar as command
 from tribo.lab import heights
 from tribo.lab.registration import register
-from tribo.plotting.scar import scar_map
+from tribo.plotting.scar import measured_scar_map
 from tribo.registry.plugins import builtin
 
 PITCH = 1e-6
@@ -207,7 +207,7 @@ def test_the_command_measures_and_draws(tmp_path):
 
 
 def test_a_picture_leaves_what_is_missing_white(standard):
-    (image,) = scar_map(standard[3]).axes[0].images
+    (image,) = measured_scar_map(standard[3]).axes[0].images
     assert np.ma.getmaskarray(image.get_array()).any()
 
 

@@ -74,10 +74,10 @@ def scar(
     )
     if output is not None:
         from tribo.plotting.figures import write_figures
-        from tribo.plotting.scar import scar_map
+        from tribo.plotting.scar import measured_scar_map
 
         suffix = output.suffix or ".png"
-        write_figures({output.stem: lambda: scar_map(found)}, output.parent, suffix)
+        write_figures({output.stem: lambda: measured_scar_map(found)}, output.parent, suffix)
     if as_json:
         echo_json(found.as_json() | ({} if output is None else {"picture": str(output)}))
         return

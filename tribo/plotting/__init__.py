@@ -10,7 +10,7 @@ from tribo.plotting.history import (
 from tribo.plotting.pressure import pressure_map, pressure_sections
 from tribo.plotting.profiles import body_profiles, groove, worn_section
 from tribo.plotting.relief import height_map, material_ratio_curves
-from tribo.plotting.scars import scar_map
+from tribo.plotting.scar import scar_map
 
 __all__ = [
     "body_profiles",

@@ -25,7 +25,7 @@ from tribo.plotting.kept import field_map, kept_fields
 from tribo.plotting.pressure import pressure_map, pressure_sections
 from tribo.plotting.profiles import along_track, body_profiles, groove, worn_section
 from tribo.plotting.relief import height_map, material_ratio_curves
-from tribo.plotting.scars import scar_map
+from tribo.plotting.scar import scar_map
 from tribo.plotting.sections import number_of_saves, removed
 from tribo.plotting.style import house_style
 from tribo.registry.registry import from_plugins_of

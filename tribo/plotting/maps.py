@@ -15,7 +15,7 @@ from tribo.core.arrays import Array, Mask
 from tribo.core.grid import Grid
 from tribo.plotting.sections import limits
 from tribo.plotting.style import AXIS_LABELS, new_figure, ticks, times
-from tribo.plotting.units import fitting, size
+from tribo.plotting.units import axis_units, size
 
 _AROUND = 19.0
 """Height of the title and of the labels, in mm."""
@@ -69,11 +69,9 @@ def new_maps(
     """
     windows = [limits(marked, grid, axis, reach[axis]) for axis in (0, 1)]
     x, y = (high - low for low, high in windows)
-    units = [fitting("m", max(map(abs, window))) for window in windows]
+    units = axis_units([max(map(abs, window)) for window in windows])
     shape = y / x
-    if 1 / _THINNEST <= shape <= _THINNEST:
-        units = [max(units, key=size)] * 2
-    else:
+    if not 1 / _THINNEST <= shape <= _THINNEST:
         shape = _STRETCHED if shape > 1 else 1 / _STRETCHED
     width = min(_WIDEST, _TALLEST / shape)
     height = width * shape

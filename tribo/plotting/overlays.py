@@ -44,7 +44,7 @@ def profile_overlay(results: Results, name: str, time: float) -> Figure:
     swept = all(result.body(name).swept for result, _ in saves)
     fields = _surfaces(saves, name)
     return draw_profiles(
-        [through_centre(axis, fields) for axis in ((1,) if swept else (0, 1))],
+        through_centre(fields, (1,) if swept else (0, 1)),
         overlay_looks(len(results)),
         list(results),
         f"{name}, t = {time:g} s",
@@ -65,7 +65,7 @@ def _rows(results: Results, time: float, names: Sequence[str]) -> Figure:
         rows = figure.subplots(len(names), 2, sharey="row", squeeze=False)
         for row, name in zip(rows, names, strict=True):
             fields = _surfaces(saves, name) if name else _pressures(saves)
-            sections = [through_centre(axis, fields) for axis in (0, 1)]
+            sections = through_centre(fields)
             parts = [line for section in sections for line in section.in_sight()]
             low, high = float(min(map(np.min, parts))), float(max(map(np.max, parts)))
             # A flat has a range too, so that its height reads as a round number.

@@ -85,7 +85,7 @@ def pressure_sections(result: Result) -> Figure:
     fields = [result.field("pressure", i) for i in range(count)]
     touched = np.asarray(np.any([field > 0 for field in fields], axis=0))
     shown = [(grid, field, touched) for field in fields]
-    sections = [through_centre(axis, shown, reach[axis]) for axis in (0, 1)]
+    sections = through_centre(shown, reach=reach)
     peaks = [max(np.max(section.curves[i][1]) for section in sections) for i in range(count)]
     first, later = float(peaks[0]), float(max(peaks[1:], default=0.0))
     highest = max(first, later)

@@ -46,7 +46,7 @@ def body_profiles(result: Result, name: str, axis: int | None = None) -> Figure:
     body = result.body(name)
     scar = scar_mask(removed(result, name)[-1])
     fields = [(result.grid, body.surface(i), scar) for i in range(count)]
-    sections = [through_centre(each, fields) for each in ((0, 1) if axis is None else (axis,))]
+    sections = through_centre(fields, (0, 1) if axis is None else (axis,))
     return draw_profiles(sections, save_looks(count), time_labels(result.times), name)
 
 
@@ -73,9 +73,9 @@ def along_track(result: Result, name: str) -> Figure:
     grid = Grid((rows * dx, breadth), (rows, columns))
     depths = [np.nan_to_num(track.isel(time=save).values) for save in range(count)]
     scar = scar_mask(depths[-1])
-    section = through_centre(0, [(grid, -depth, scar) for depth in depths])
+    sections = through_centre([(grid, -depth, scar) for depth in depths], (0,))
     labels = time_labels(result.times)
-    return draw_profiles([section], save_looks(count), labels, name, what="Change of height")
+    return draw_profiles(sections, save_looks(count), labels, name, what="Change of height")
 
 
 def worn_section(result: Result) -> Figure:
@@ -108,7 +108,7 @@ def worn_section(result: Result) -> Figure:
             labels.append(f"{body.name} unworn")
     fields = [(result.grid, surface, marked) for surface in surfaces]
     figure = draw_profiles(
-        [through_centre(axis, fields) for axis in (0, 1)],
+        through_centre(fields),
         looks,
         labels,
         f"t = {time_labels(result.times)[last]}, unloaded",

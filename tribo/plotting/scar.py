@@ -1,28 +1,62 @@
-"""Picture of a measured scar."""
+"""Scars seen from above, computed and measured."""
 
 from __future__ import annotations
 
 import numpy as np
 from matplotlib.figure import Figure
 
+from tribo.core.arrays import Array
+from tribo.core.grid import Grid
 from tribo.lab.heights import smoothed
 from tribo.lab.measured_scar import MeasuredScar
 from tribo.plotting import style
-from tribo.plotting.maps import new_maps
-from tribo.plotting.units import height_unit, size
+from tribo.plotting.maps import Map, new_maps
+from tribo.plotting.sections import number_of_saves, removed, scar_mask
+from tribo.plotting.units import height_unit, size, time_labels
+from tribo.result.read import Result
 
 
-def scar_map(found: MeasuredScar) -> Figure:
+def scar_map(result: Result, name: str, save: int = -1) -> Figure:
+    """Draw from above how much of a body is gone at a save: worn off and displaced.
+
+    Of a body that passes through a resolved cycle it is the groove along the
+    whole track, else what lies in the window. A long scar is drawn wider than
+    it is, and the axis says how much.
+
+    Raises
+    ------
+    CaseError
+        If the result holds no such save, or no such body.
+    """
+    number_of_saves(result)
+    grid, gone = result.grid, removed(result, name)[save]
+    if result.body(name).swept and "track_depth" in result.dataset:
+        gone = np.nan_to_num(result.track_depth.sel(body=name).isel(time=save).values)
+        grid = Grid((gone.shape[0] * grid.spacing[0], grid.size[1]), gone.shape)
+    deepest = float(np.max(gone))
+    unit = height_unit(deepest)
+    with style.house_style():
+        figure, (shown,) = new_maps(scar_mask(gone), grid)
+        _draw_depths(shown, gone, unit, deepest / size(unit) or 1.0)
+        shown.axes.set_title(f"{name}, t = {time_labels(result.times)[save]}", loc="left")
+    return figure
+
+
+def measured_scar_map(found: MeasuredScar) -> Figure:
     """Draw the depth of a measured scar, missing pixels left white, and its outline."""
     unit = height_unit(found.depth)
     with style.house_style():
         figure, (shown,) = new_maps(np.isfinite(found.depths), found.after.grid)
-        look = {"cmap": style.DEPTHS, "interpolation": "nearest", "vmin": 0.0}
         most = float(np.max(smoothed(found.depths)[found.scar])) / size(unit)
-        shown.image(found.depths / size(unit), f"Depth ({unit})", vmax=most, **look)
+        _draw_depths(shown, found.depths, unit, most)
         x, y = shown.positions()
         outline = found.scar.T.astype(float)
         shown.axes.contour(x, y, outline, [0.5], colors="black", linewidths=0.8)
         volume, sure = 1e9 * found.volume, 1e9 * found.volume_uncertainty
         shown.axes.set_title(f"{volume:.4g} ± {sure:.1g} mm³", loc="left")
     return figure
+
+
+def _draw_depths(shown: Map, depths: Array, unit: str, most: float) -> None:
+    look = {"cmap": style.DEPTHS, "interpolation": "nearest", "vmin": 0.0, "vmax": most}
+    shown.image(depths / size(unit), f"Depth ({unit})", **look)

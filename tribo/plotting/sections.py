@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +14,7 @@ from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.plotting import style
-from tribo.plotting.units import fitting, height_unit, size
+from tribo.plotting.units import axis_units, height_unit, size
 from tribo.result.export import profile
 from tribo.result.read import Result
 
@@ -33,11 +33,8 @@ class Section:
     axis: int
     window: Limits
     curves: Sequence[Curve]
-
-    @property
-    def unit(self) -> str:
-        """The unit of its positions."""
-        return fitting("m", max(map(abs, self.window)))
+    unit: str
+    """In which positions are shown."""
 
     def draw(
         self, axes: Axes, unit: str, looks: Sequence[style.Look], labels: Sequence[str], up: Limits
@@ -62,22 +59,30 @@ class Section:
 
 
 def through_centre(
-    axis: int, fields: Iterable[tuple[Grid, Array, Mask]], reach: float = 0.0
-) -> Section:
-    """Return the section of fields, each on its grid, and limits around what is marked of each.
+    fields: Sequence[tuple[Grid, Array, Mask]],
+    axes: Sequence[int] = (0, 1),
+    reach: Sequence[float] = (0.0, 0.0),
+) -> list[Section]:
+    """Return sections of fields, each on its grid, and limits around what is marked of each.
 
-    `axis` is 0 along the sliding direction and 1 across it; `reach` is a
+    They run along `axes`: 0 is the sliding direction, and 1 across it. `reach` along both is a
     distance from the centre to be shown as well, in m.
     """
-    curves, lows, highs = [], [], []
-    for grid, field, marked in fields:
-        x = (grid.x, grid.y)[axis]
-        low, high = limits(marked, grid, axis, reach)
-        # The outermost cells' centres end a section.
-        lows.append(max(low, float(x[0])))
-        highs.append(min(high, float(x[-1])))
-        curves.append((x, profile(field, axis)))
-    return Section(axis, (min(lows), max(highs)), curves)
+    windows = []
+    for axis in axes:
+        lows, highs = [], []
+        for grid, _, marked in fields:
+            x = (grid.x, grid.y)[axis]
+            low, high = limits(marked, grid, axis, reach[axis])
+            # The outermost cells' centres end a section.
+            lows.append(max(low, float(x[0])))
+            highs.append(min(high, float(x[-1])))
+        windows.append((min(lows), max(highs)))
+    units = axis_units([max(map(abs, window)) for window in windows])
+    return [
+        Section(axis, window, [((g.x, g.y)[axis], profile(f, axis)) for g, f, _ in fields], unit)
+        for axis, window, unit in zip(axes, windows, units, strict=True)
+    ]
 
 
 def limits(marked: Mask, grid: Grid, axis: int, reach: float = 0.0) -> Limits:

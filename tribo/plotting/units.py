@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from tribo.core.arrays import Array
@@ -22,6 +24,14 @@ def fitting(si: str, largest: float, least: float = 0.1) -> str:
     if largest == 0:
         return units[0]
     return next((unit for unit in units if largest / size(unit) >= least), units[-1])
+
+
+def axis_units(reaches: Sequence[float]) -> list[str]:
+    """Return the units of axes that reach so far, in m: one, but for lengths that differ much."""
+    one = fitting("m", max(reaches))
+    if min(reaches) >= 0.01 * size(one):
+        return [one] * len(reaches)
+    return [fitting("m", reach) for reach in reaches]
 
 
 def height_unit(largest: float) -> str:

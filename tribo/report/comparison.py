@@ -84,8 +84,6 @@ def _answers(comparison: Comparison) -> list[str]:
     time = time_labels(comparison.results[first].times)[comparison.results[first].save_at(last)]
     # Values stand for a variant, file names for a place.
     where = f"{'with' if comparison.settings else 'in'} {first}"
-    # Values stand for a variant, file names for a place.
-    where = f"{'with' if comparison.settings else 'in'} {first}"
     answers = []
     for body in comparison.bodies:
         worn = {label: save["bodies"][body] for label, save in saves.items()}

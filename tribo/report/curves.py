@@ -10,7 +10,7 @@ import numpy as np
 from tribo.core.arrays import Array, Mask
 from tribo.plotting.kept import kept_fields
 from tribo.plotting.sections import limits, removed, scar_mask
-from tribo.plotting.units import fitting, shown_in, size, time_labels, time_unit
+from tribo.plotting.units import axis_units, shown_in, size, time_labels, time_unit
 from tribo.report.reduced import Blocks, block_words, plain
 from tribo.result.export import profile
 from tribo.result.read import Result
@@ -87,16 +87,16 @@ def sections(results: Results, times: Sequence[float]) -> list[dict[str, Any]]:
             curves = {label: (result, depths[label, name]) for label, result in results.items()}
             shown[f"Wear depth of {name}"] = "m", curves
     marked = {label: touched(result, saves[label]) for label, result in results.items()}
-    ends = [
-        [limits(marked[label], result.grid, axis) for label, result in results.items()]
-        for axis in (0, 1)
-    ]
+    windows = []
+    for axis in (0, 1):
+        ends = [limits(marked[label], result.grid, axis) for label, result in results.items()]
+        windows.append((min(low for low, _ in ends), max(high for _, high in ends)))
+    units = axis_units([max(map(abs, window)) for window in windows])
     count = 2 * len(times) * sum(len(curves) for _, curves in shown.values())
     most = max(min(LONGEST, NUMBERS // count), SHORTEST)
     return [
-        _section(name, axis, (min(low), max(high)), si, curves, most)
+        _section(name, axis, windows[axis], units[axis], si, curves, most)
         for axis in (0, 1)
-        for low, high in (zip(*ends[axis], strict=True),)
         for name, (si, curves) in shown.items()
     ]
 
@@ -116,12 +116,13 @@ def _section(
     name: str,
     axis: int,
     window: tuple[float, float],
+    along: str,
     si: str,
     curves: Curves,
     most: int,
 ) -> dict[str, Any]:
     """Return the curves of fields, one for each time, along an axis through the centre."""
-    along, largest, lines, sizes = fitting("m", max(map(abs, window))), 0.0, {}, []
+    largest, lines, sizes = 0.0, {}, []
     for label, (result, fields) in curves.items():
         x = (result.grid.x, result.grid.y)[axis]
         inside = np.flatnonzero((window[0] <= x) & (x <= window[1]))

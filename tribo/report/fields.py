@@ -11,7 +11,7 @@ import numpy as np
 from tribo.core.arrays import Array
 from tribo.plotting.kept import kept_fields
 from tribo.plotting.sections import limits, number_of_saves
-from tribo.plotting.units import fitting, shown_in, size
+from tribo.plotting.units import axis_units, shown_in, size
 from tribo.report.curves import history, moments, sections, thinned, touched
 from tribo.report.reduced import Blocks, block_means, block_words, plain
 from tribo.result.body import BodyResult
@@ -48,9 +48,9 @@ class Part:
 
     @property
     def units(self) -> tuple[str, str]:
-        """Along x and y: one, if a map is true to scale."""
-        x, y = [max(self.lengths)] * 2 if self.is_true else self.lengths
-        return fitting("m", 0.5 * x), fitting("m", 0.5 * y)
+        """Along x and y."""
+        x, y = axis_units([0.5 * length for length in self.lengths])
+        return x, y
 
     def of(self, field: Array) -> Array:
         """Return the part of a field, shape (nx, ny)."""

@@ -163,7 +163,7 @@ def _distributed() -> Any:
         import distributed
     except ImportError:
         raise CaseError(
-            "dask.distributed is not installed; install it with: pip install 'tribo[dask]'"
+            "dask.distributed is not installed; install it with: pip install dask distributed"
         ) from None
     # Errors are reported as our own; dask would log them with tracebacks.
     for name in list(logging.root.manager.loggerDict):
