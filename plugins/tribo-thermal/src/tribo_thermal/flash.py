@@ -161,6 +161,7 @@ class Flash(Effect):
         """Return by how much the bulk of each body that warms in time does so per second."""
         flows, rates = self._flows(contact), {}
         for name, path in self._warming.items():
+            assert path.capacity is not None
             conductivity = _needed(name, contact.materials[name], "conductivity")
             away = contact.state[bulk(name)] / path.resistance(conductivity)
             rates[bulk(name)] = (flows[name] - away) / path.capacity
