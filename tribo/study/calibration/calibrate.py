@@ -99,19 +99,7 @@ def calibrate(
         if not far:
             raise
         raise type(error)(f"{error}; or is a measured value off? {'; '.join(far)}") from error
-    last = posed.run(np.exp(fitted.point))
-    positive = np.all([made.responses > 0 for made in posed.runs.values()], axis=0)
-    return outcome(
-        fitted,
-        posed.parameters,
-        posed.data,
-        {i: each for i, each in enumerate(posed.predicted, len(posed.data)) if positive[i]},
-        cases={bench.name: bench.case for bench in posed.tested},
-        read_off=last.read_off,
-        level=level,
-        runs=posed.made,
-        notices=last.notices,
-    )
+    return outcome(fitted, posed, level)
 
 
 def far_off(data: pd.DataFrame, computed: Array, parameters: Sequence[Parameter]) -> list[str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,7 @@ from tribo.config.load import case_tables, validate_case
 from tribo.core.errors import CaseError, TriboError
 from tribo.registry.registry import Registry
 from tribo.study.calibration.calibrate import calibrate
-from tribo.study.calibration.measured import Fitted, Measurements, read_measurements
+from tribo.study.calibration.measured import Measurements, read_measurements
 from tribo.study.calibration.outcome import Calibration
 from tribo.study.calibration.parameters import is_number
 from tribo.study.calibration.quantities import in_words
@@ -50,13 +51,9 @@ class Choice:
 
     def as_json(self) -> dict[str, Any]:
         """Return it as plain data in SI units; what is not given is NaN."""
-        rows = self.cases.to_dict("records")
         own = [self.calibrations[name].as_json() for name in self.cases["case"]]
-        pairs = zip(rows, own, strict=True)
-        return {
-            "verdict": self.verdict,
-            "cases": [{**row, "calibration": each} for row, each in pairs],
-        }
+        cases = self.cases.assign(calibration=own).to_dict("records")
+        return {"verdict": self.verdict, "cases": cases}
 
 
 def choose_case(
@@ -101,7 +98,10 @@ def choose_case(
     if len(cases) < 2:
         raise CaseError("give two cases or more to choose from")
     asked = read_measurements(measured)
-    fitted = {name: _own(case, asked.fit, registry) for name, case in cases.items()}
+    fitted = {}
+    for name, case in cases.items():
+        known = validate_case(case_tables(case), registry=registry)
+        fitted[name] = tuple(entry for entry in asked.fit if is_number(known, entry.path))
     for i, entry in enumerate(asked.fit):
         if not any(entry in own for own in fitted.values()):
             raise CaseError(f"{entry.path} is a number of none of the cases", f"fit[{i}].path")
@@ -109,11 +109,7 @@ def choose_case(
     for name, case in cases.items():
         if asked.fit and not fitted[name]:
             raise CaseError(f"{name} has none of the numbers to fit; add one of its own to fit")
-
-        def tell(run: int, misfit: float, name: str = name) -> None:
-            if on_run is not None:
-                on_run(name, run, misfit)
-
+        tell = None if on_run is None else partial(on_run, name)
         own = asked.model_copy(update={"fit": fitted[name]})
         try:
             found[name] = calibrate(case, own, level=level, registry=registry, on_run=tell)
@@ -131,15 +127,6 @@ def choose_case(
     weight = np.exp(-0.5 * (rows["bic"] - rows["bic"].min()))
     rows.insert(2, "weight", weight / weight.sum())
     return Choice(rows, found, _verdict(rows, found))
-
-
-def _own(
-    case: Case | Mapping[str, Any] | str | Path,
-    fit: tuple[Fitted, ...],
-    registry: Registry | None,
-) -> tuple[Fitted, ...]:
-    known = validate_case(case_tables(case), registry=registry)
-    return tuple(entry for entry in fit if is_number(known, entry.path))
 
 
 def _verdict(rows: pd.DataFrame, found: Mapping[str, Calibration]) -> str:

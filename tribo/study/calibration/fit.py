@@ -41,28 +41,9 @@ def fit(model: Callable[[Array], Array], problem: Problem, start: Array) -> Line
 
     Each step minimises χ² on the model linearised about the last run. Its
     slopes are differences, taken anew where they foretold a step badly or were
-    taken far from the estimate.
-
-    Parameters
-    ----------
-    model : callable
-        Responses, shape (m,), for parameters, shape (p,).
-    problem : Problem
-        What is fitted.
-    start : ndarray, shape (p,)
-        Parameters to begin with; positive.
-
-    Returns
-    -------
-    Linearised
-        About the last run, whose parameters are the estimate.
-
-    Raises
-    ------
-    CaseError
-        If a parameter changes none of the data.
-    NumericalError
-        If the estimate does not settle.
+    taken far from the estimate. Returns the model about the last run, whose
+    parameters are the estimate. CaseError if a parameter changes none of the
+    data; NumericalError if the estimate does not settle.
     """
     known = np.log(start)
     here = differenced(model, problem, known, model(np.exp(known)))
@@ -108,16 +89,8 @@ def interval(here: Linearised, direction: Array, level: float) -> tuple[float, f
     whose χ² is at most its minimum plus the quantile of χ²₁, or that of t²
     where the repeatability is estimated. It does not depend on how the
     parameters are scaled and keeps within the bounds; infinite where the data
-    leave it open.
-
-    Parameters
-    ----------
-    here : Linearised
-        About the estimate.
-    direction : ndarray, shape (p,)
-        A unit vector for a parameter, or the slopes of a response.
-    level : float
-        Probability with which it covers the truth.
+    leave it open. The direction is a unit vector for a parameter, or the slopes
+    of a response.
     """
     best = here.least(here.point)
     freedom = here.freedom(direction)

@@ -25,37 +25,24 @@ _UNKNOWN = 10.0
 
 @dataclass(frozen=True)
 class Problem:
-    """What is fitted.
-
-    Parameters
-    ----------
-    names : tuple of str
-        What the parameters are called in messages.
-    observed, sigma : ndarray, shape (n,)
-        Measured values and their standard deviations.
-    below : ndarray of bool, shape (n,)
-        Where the value is a limit of detection that the reading was below.
-    specimen : ndarray of int, shape (n,)
-        Of which test a value is.
-    repeatability : float or None
-        Relative standard deviation of the parameters from test to test; None
-        if it is to be estimated.
-    logged : ndarray of bool, shape (m,)
-        Which of the model's responses are positive and near to power laws of
-        the parameters. The first n responses answer to `observed`.
-    lower, upper : ndarray, shape (p,)
-        Bounds of the logarithms of the parameters; infinite for none.
-    """
+    """What is fitted: p parameters, to n data, which the first n of m responses answer to."""
 
     names: tuple[str, ...]
+    """What the parameters are called in messages."""
     observed: Array
     sigma: Array
+    """Measured values and their standard deviations, shape (n,)."""
     below: Mask
+    """Where the value is a limit of detection that the reading was below, shape (n,)."""
     specimen: Array
+    """Of which test a value is, shape (n,)."""
     repeatability: float | None
+    """Relative standard deviation of the parameters from test to test; None to estimate it."""
     logged: Mask
+    """Which responses are positive and near to power laws of the parameters, shape (m,)."""
     lower: Array
     upper: Array
+    """Bounds of the logarithms of the parameters, shape (p,); infinite for none."""
 
     def scaled(self, responses: Array) -> Array:
         """Return responses, of those that are `logged` the logarithms."""
@@ -89,31 +76,19 @@ class Linearised:
 
     Worn volumes, depths and widths go as powers of the wear coefficients: the
     volume by Archard's law exactly as the first.
-
-    Parameters
-    ----------
-    problem : Problem
-        What is fitted.
-    point : ndarray, shape (p,)
-        Logarithms of the parameters of the run.
-    responses : ndarray, shape (m,)
-        What the run gave.
-    slopes : ndarray, shape (m, p)
-        Derivatives by the logarithms of the parameters: of the logarithm of a
-        response where logged, else of itself.
-    weights : ndarray, shape (n,) or (n, n)
-        Root W of the inverse covariance of the data, V⁻¹ = Wᵀ W; its diagonal
-        where the data are independent.
-    repeatability : float
-        Part of V: relative standard deviation from test to test.
     """
 
     problem: Problem
     point: Array
+    """Logarithms of the parameters of the run, shape (p,)."""
     responses: Array
+    """What the run gave, shape (m,)."""
     slopes: Array
+    """Derivatives by the logarithms of the parameters, shape (m, p): of logarithms where logged."""
     weights: Array
+    """Root W of the inverse covariance of the data, V⁻¹ = Wᵀ W; its diagonal if that is all."""
     repeatability: float = 0.0
+    """Part of V: relative standard deviation from test to test."""
 
     def at(self, point: Array) -> Array:
         """Return the responses at another point."""
@@ -174,11 +149,7 @@ class Linearised:
         return np.asarray(found.x)
 
     def best(self) -> tuple[Linearised, Array]:
-        """Return the least-squares point, and the model with the data weighed as there.
-
-        The repeatability, if it is to be estimated, by restricted maximum
-        likelihood.
-        """
+        """Return the model with the data weighed as at its least-squares point, and that point."""
         here, point = self, self.least(self.point)
         if self.problem.repeatability == 0:
             return here, point

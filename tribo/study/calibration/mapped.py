@@ -54,21 +54,7 @@ def calibrate_maps(
 ) -> FittedMaps:
     """Find where the wear coefficients of bodies differ from those of a case, from depth maps.
 
-    Parameters
-    ----------
-    case : Case, Mapping, str or Path
-        A case, its tables, or its TOML file.
-    mapped : Mapping
-        The maps by their place in the file, for messages.
-    registry, on_run
-        As for `fit_maps`.
-
-    Raises
-    ------
-    CaseError
-        If the case or a map is wrong, or no gradient goes through the case.
-    NumericalError
-        If a run fails.
+    As `fit_maps`, with the maps by their place in the file, for messages.
     """
     model = Simulation(
         validate_case(case_tables(case), registry=registry).model_copy(update={"observers": ()}),
@@ -92,13 +78,7 @@ def calibrate_maps(
 
 
 def on_cells(heights: Heights, shape: tuple[int, int], spacing: tuple[float, float]) -> Array:
-    """Return the mean of a map over each cell of a surface, centre on centre; NaN beside it.
-
-    Raises
-    ------
-    CaseError
-        If its pixels are larger than cells, or none lies on the surface.
-    """
+    """Return the mean of a map over each cell of a surface, centre on centre; NaN beside it."""
     averaged = shape[0] == 1
     cell = heights.heights.shape[0] * heights.pitch[0] if averaged else spacing[0], spacing[1]
     if any(pitch > (1 + FINER) * size for pitch, size in zip(heights.pitch, cell, strict=True)):

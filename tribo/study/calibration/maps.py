@@ -46,14 +46,7 @@ class Prior:
     """What is known of ln(k/k₀) at each cell before anything is measured: a Gaussian field.
 
     Its covariance is that of Whittle, s² (r/ℓ) K₁(r/ℓ), with reflecting ends, where it is larger.
-    A cosine transform takes its root.
-
-    Parameters
-    ----------
-    spread : float
-        The standard deviation s.
-    length : float
-        The length ℓ, in m; at that distance 0.60 of the correlation is left.
+    A cosine transform takes its root. At the distance ℓ 0.60 of the correlation is left.
 
     References
     ----------
@@ -61,7 +54,9 @@ class Prior:
     """
 
     spread: float
+    """The standard deviation s."""
     length: float
+    """The length ℓ, in m."""
 
     def amplitudes(self, shape: tuple[int, int], spacing: tuple[float, float]) -> Array:
         """Return the standard deviations of cosine waves, of the shape of the map."""
@@ -77,26 +72,17 @@ class Prior:
 
 @dataclass(frozen=True, eq=False)
 class LocalMap:
-    """The factor on a body's wear coefficient at each cell of its surface.
-
-    Parameters
-    ----------
-    logs, deviation : ndarray, shape (rows, ny)
-        The most probable ln(k/k₀), and its standard deviation.
-    prior : ndarray, shape (rows, ny)
-        The standard deviation that the prior has.
-    residual : ndarray, shape (rows, ny)
-        The computed less the measured depth, in standard deviations; NaN where nothing was
-        measured.
-    spacing : tuple of float
-        Edge lengths of a cell, in m.
-    """
+    """The factor on a body's wear coefficient at each cell of its surface, shape (rows, ny)."""
 
     logs: Array
+    """The most probable ln(k/k₀)."""
     deviation: Array
     prior: Array
+    """Its standard deviation, and that of the prior."""
     residual: Array
+    """The computed less the measured depth, in standard deviations; NaN without a measured one."""
     spacing: tuple[float, float]
+    """Edge lengths of a cell, in m."""
 
     @property
     def factor(self) -> Array:
@@ -116,26 +102,17 @@ class LocalMap:
 
 @dataclass(frozen=True, eq=False)
 class FittedMaps:
-    """Local coefficients fitted to depth maps.
-
-    Parameters
-    ----------
-    maps : dict of LocalMap
-        By the name of the body.
-    gradients, products : int
-        Gradients, and products with the Hessian, that it took.
-    chi_square : float
-        Sum of the squared residuals.
-    degrees_of_freedom : float
-        Cells that were measured, less what the data determine: Σ λ/(1 + λ) over the eigenvalues
-        of their information, in units of the prior's.
-    """
+    """Local coefficients fitted to depth maps."""
 
     maps: Mapping[str, LocalMap]
+    """By the name of the body."""
     gradients: int
     products: int
+    """Gradients, and products with the Hessian, that it took."""
     chi_square: float
     degrees_of_freedom: float
+    """Cells that were measured, less what the data determine: Σ λ/(1 + λ) over the eigenvalues
+    of their information, in units of the prior's."""
 
     @property
     def p_value(self) -> float:

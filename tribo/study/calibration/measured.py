@@ -71,8 +71,7 @@ class Measured(Table):
     @field_validator("value", mode="plain")
     @classmethod
     def _values(cls, value: Any, info: ValidationInfo) -> Any:
-        name = info.data.get("quantity")
-        if value is None or name is None:
+        if value is None or (name := info.data.get("quantity")) is None:
             return None
         # The depths of a profile may be 0, or below it by noise.
         mark = Quantity(QUANTITIES[name].unit, above=None if name in PROFILES else 0)
@@ -90,8 +89,7 @@ class Measured(Table):
     @field_validator("uncertainty", "resolution", mode="before")
     @classmethod
     def _in_si(cls, value: Any, info: ValidationInfo) -> Any:
-        name = info.data.get("quantity")
-        if value is None or name is None:
+        if value is None or (name := info.data.get("quantity")) is None:
             return None
         try:
             return Quantity(QUANTITIES[name].unit, above=0).read(value)
@@ -297,13 +295,7 @@ class Measurements(Table):
 
 
 def read_measurements(source: Measurements | Mapping[str, Any] | str | Path) -> Measurements:
-    """Read measured values from a TOML file, or from its tables.
-
-    Raises
-    ------
-    CaseError
-        If the file cannot be read, or what it says is wrong; one line an error.
-    """
+    """Read measured values from a TOML file, or from its tables; CaseError if they are wrong."""
     if isinstance(source, Measurements):
         return source
     data = read_toml(source) if isinstance(source, str | Path) else source

@@ -24,18 +24,12 @@ _ALIKE = 3.0
 
 
 def notes(
-    estimates: pd.DataFrame,
-    data: pd.DataFrame,
-    jacobian: Array,
-    spare: int | None,
+    estimates: pd.DataFrame, data: pd.DataFrame, jacobian: Array, spare: int | None
 ) -> list[str]:
-    """Return the notes, one or two sentences each.
+    """Return the notes on estimates and data, one or two sentences each.
 
-    `estimates` are those of a `Calibration`; `data` as well, with the columns
-    of `Measurements.table` and `stated`, the standard deviation without that of
-    the grid, and `edge`, that of a diameter due to the grid; `jacobian` the derivatives of the
-    residuals by the logarithms of the parameters, and
-    `spare` the degrees of freedom of χ², None where the data tell their own scatter.
+    `jacobian` are the derivatives of the residuals by the logarithms of the parameters, `spare` the
+    degrees of freedom of χ², None where the data tell their own scatter.
     """
     return [
         *_on_parameters(estimates, data, jacobian),

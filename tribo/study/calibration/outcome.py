@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,8 +16,8 @@ from tribo.core.arrays import Array
 from tribo.study.calibration.fit import NO_EFFECT, NOTABLE, interval
 from tribo.study.calibration.linearised import Linearised, root_covariance, weigh
 from tribo.study.calibration.notes import notes
-from tribo.study.calibration.parameters import Parameter
-from tribo.study.calibration.quantities import QUANTITIES, Reading, plain
+from tribo.study.calibration.posed import Posed
+from tribo.study.calibration.quantities import QUANTITIES, plain
 
 DATA = ["test", "body", "quantity", "time_s", "position_m", "unit"]
 DATA += ["measured", "below", "sigma", "computed", "residual"]
@@ -124,30 +124,13 @@ class Calibration:
         return {name: value for name, value in found.items() if name != "fitted"}
 
 
-def outcome(
-    fitted: Linearised,
-    parameters: Sequence[Parameter],
-    data: pd.DataFrame,
-    predicted: Mapping[int, tuple[str, Reading]],
-    *,
-    cases: Mapping[str, Mapping[str, Any]],
-    read_off: Array,
-    level: float,
-    runs: int,
-    notices: Sequence[str],
-) -> Calibration:
-    """Return the calibration that follows from a fit.
-
-    `data` are what was measured, as `Measurements.table` has it, and the
-    standard deviation of a computed diameter, `edge`; `predicted` the responses
-    that are predictions, by their index, each with the name of its test; `cases`
-    the tables of each test's case; `read_off` the standard
-    deviations with which the grid gives the responses.
-    """
-    jacobian = fitted.sensitivity()
+def outcome(fitted: Linearised, posed: Posed, level: float) -> Calibration:
+    """Return the calibration that follows from a fit."""
+    jacobian, data = fitted.sensitivity(), posed.data
+    last = posed.run(np.exp(fitted.point))
     root = root_covariance(jacobian)
     deviations = np.sqrt(np.sum(root**2, axis=1))
-    estimates = _estimates(fitted, jacobian, parameters, data, level)
+    estimates = _estimates(fitted, jacobian, posed, level)
     held, limited = (estimates[name].to_numpy() for name in ("held", "limited"))
     settled = {each.path: float(f"{each.value:.7g}") for each in estimates.itertuples()}
     problem, computed = fitted.problem, fitted.responses[: len(data)]
@@ -162,19 +145,22 @@ def outcome(
     )
     told = np.max(np.abs(jacobian[~problem.below]), axis=0, initial=0.0) > NO_EFFECT
     spare = max(int(np.sum(~problem.below)) - int(np.sum(told & ~held)), 0)
+    positive = np.all([made.responses > 0 for made in posed.runs.values()], axis=0)
     rows = []
-    for i, (test, each) in predicted.items():
+    for i, (test, each) in enumerate(posed.predicted, len(data)):
+        if not positive[i]:
+            continue
         value, ends = float(fitted.responses[i]), (0.0, math.inf)
         if not np.any(np.abs(fitted.slopes[i][held]) > NOTABLE):
             below, above = value - value * np.exp(interval(fitted, fitted.slopes[i], level))
-            by = math.sqrt(chdtri(1, 1 - level)) * float(read_off[i])
+            by = math.sqrt(chdtri(1, 1 - level)) * float(last.read_off[i])
             least = 0.0 if np.any(fitted.slopes[i][limited] > NOTABLE) else value - below
             ends = max(value - math.hypot(value - least, by), 0.0), value + math.hypot(above, by)
         rows.append((test, each.body, each.quantity, QUANTITIES[each.quantity].unit, value, *ends))
     columns = ["test", "body", "quantity", "unit", "value", "lower", "upper"]
     return Calibration(
         level=level,
-        runs=runs,
+        runs=posed.made,
         parameters=estimates,
         data=data[DATA],
         predictions=pd.DataFrame(rows, columns=columns),
@@ -182,7 +168,7 @@ def outcome(
         degrees_of_freedom=spare,
         repeatability=fitted.repeatability,
         repeatability_estimated=problem.repeatability is None,
-        fitted={name: apply_settings(case, settled) for name, case in cases.items()},
+        fitted={each.name: apply_settings(each.case, settled) for each in posed.tested},
         correlation=root @ root.T / np.outer(deviations, deviations),
         singular_values=np.asarray(np.linalg.svd(jacobian, compute_uv=False), dtype=np.float64),
         bic=fitted.deviance(fitted.point)
@@ -190,19 +176,14 @@ def outcome(
         left_out=fitted.left_out(),
         notes=(
             *notes(estimates, data, jacobian, None if problem.repeatability is None else spare),
-            *notices,
+            *last.notices,
         ),
     )
 
 
-def _estimates(
-    fitted: Linearised,
-    jacobian: Array,
-    parameters: Sequence[Parameter],
-    data: pd.DataFrame,
-    level: float,
-) -> pd.DataFrame:
-    table = pd.DataFrame(parameters).drop(columns="start")
+def _estimates(fitted: Linearised, jacobian: Array, posed: Posed, level: float) -> pd.DataFrame:
+    """Return `Calibration.parameters`."""
+    table = pd.DataFrame(posed.parameters).drop(columns="start")
     values = np.exp(fitted.point)
     lower, upper = table[["lower", "upper"]].to_numpy(float, copy=True).T
     held = (values - lower <= AT_BOUND * values) | (upper - values <= AT_BOUND * values)
@@ -212,7 +193,7 @@ def _estimates(
         lower[i], upper[i] = max(0.0 if limited[i] else low, lower[i]), min(high, upper[i])
     standard = np.asarray(np.linalg.pinv(jacobian), dtype=np.float64)
     effect = weigh(fitted.weights.T, standard.T).T
-    deviation, most = data[["step_sigma", "step_most"]].to_numpy().T
+    deviation, most = posed.data[["step_sigma", "step_most"]].to_numpy().T
     share = np.sum((effect * deviation) ** 2, axis=1) / np.sum(standard**2, axis=1)
     return table[["path", "unit"]].assign(
         value=values,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterable, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from tribo.case import Case
 from tribo.config.overrides import leaves, path_keys
@@ -18,36 +18,22 @@ WITHIN = 1e-9
 
 
 class Parameter(NamedTuple):
-    """A positive number of a case that is fitted.
-
-    Parameters
-    ----------
-    path : str
-        Where it stands in the case.
-    unit : str
-        Its SI unit; ``"1"`` for none.
-    start, lower, upper : float
-        Where the fit begins, and its bounds, in SI; 0 and infinity for none.
-    """
+    """A positive number of a case that is fitted."""
 
     path: str
     unit: str
+    """Its SI unit; ``"1"`` for none."""
     start: float
+    """Where the fit begins."""
     lower: float
     upper: float
+    """Its bounds; 0 and infinity for none."""
 
 
 def find_parameters(
     case: Case, fit: Sequence[Fitted], measured: Collection[str]
 ) -> list[Parameter]:
-    """Return the parameters that are asked for, or else the k of each body in `measured`.
-
-    Raises
-    ------
-    CaseError
-        If a path does not lead to a positive number, one is given twice, or
-        bounds and start do not fit; the message says where.
-    """
+    """Return the parameters that are asked for, or else the k of each body in `measured`."""
     asked = {f"fit[{i}]": entry for i, entry in enumerate(fit)}
     if not fit:
         bodies = [name for name in case.bodies if name in measured]
@@ -87,15 +73,18 @@ def check_set(parameters: Sequence[Parameter], paths: Iterable[str], place: str)
 
 def is_number(case: Case, path: str) -> bool:
     """Whether a path leads to a number of a case that can be fitted; CaseError if it is no path."""
-    keys = path_keys(path)
-    return any(
-        isinstance(value, float) and [*map(str, place)] == keys for place, value, _ in leaves(case)
-    )
+    value, _ = _leaves(case).get(tuple(path_keys(path)), (None, None))
+    return isinstance(value, float)
+
+
+def _leaves(case: Case) -> dict[tuple[str, ...], tuple[Any, Quantity | None]]:
+    """Return the values of a case, and what their fields say of them, by their place."""
+    return {tuple(map(str, place)): (value, mark) for place, value, mark in leaves(case)}
 
 
 def _number(case: Case, keys: tuple[str, ...]) -> tuple[float, Quantity]:
     """Return the number that the keys lead to, and what its field says of it."""
-    known = {tuple(map(str, place)): (value, mark) for place, value, mark in leaves(case)}
+    known = _leaves(case)
     value, mark = known.get(keys, (None, None))
     if not isinstance(value, float):
         numbers = [".".join(place) for place, (each, _) in known.items() if isinstance(each, float)]
