@@ -71,19 +71,16 @@ def calibrate(
     if not 0 < level < 1:
         raise CaseError(f"the level, {level:g}, must lie between 0 and 1, as 0.95 does")
     posed = Posed.of(case, measured, registry)
-    unknown = posed.data[posed.data["measured"].isna()]
-    for each in unknown.itertuples():
+    for each in posed.data[posed.data["measured"].isna()].itertuples():
         more = ", or before and after" if each.quantity == "mass" else ""
         raise CaseError(f"give value{more}", each.place)
-    if len(posed.data) < len(posed.parameters):
-        count = len(posed.data)
+    if (count := len(posed.data)) < len(posed.parameters):
         raise CaseError(
             f"{len(posed.parameters)} parameters cannot be fitted to {count} measured "
             f"value{'' if count == 1 else 's'}: measure more, or leave parameters out of fit"
         )
-    first = posed.run(posed.start)
-    far = far_off(posed.data, first.responses, posed.parameters)
-    problem = posed.problem(first.read_off)
+    far = far_off(posed.data, posed.run(posed.start).responses, posed.parameters)
+    problem = posed.problem()
 
     def responses(values: Array) -> Array:
         found = posed.run(values).responses

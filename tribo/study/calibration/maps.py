@@ -153,26 +153,10 @@ def fit_maps(
     hardly tell more. What lies beyond is left to the prior, so that they come out too large rather
     than too small. The other steps are taken in directions that this makes about equally wide.
 
-    Parameters
-    ----------
-    case : Case, Mapping, str, Path or Model
-        As `tribo.gradient` takes it.
-    depths : Mapping
-        By the name of the body the depth worn off at the end, in m, of the shape of `View.wear`,
-        NaN where it was not measured; and its standard deviation.
-    priors : Mapping
-        By the name of the body.
-    products : int, optional
-        Most products to take; with more of them standard deviations come out smaller.
-    on_run : callable, optional
-        Called after each gradient or product with their number and the misfit χ², NaN of a product.
-
-    Raises
-    ------
-    CaseError
-        If no gradient goes through the case, or a map is not of the shape of the body's.
-    NumericalError
-        If a run fails.
+    `depths` are by the name of the body the depth worn off at the end, in m, of the shape of
+    `View.wear`, NaN where it was not measured, and its standard deviation. With more products,
+    at most so many, standard deviations come out smaller. `on_run` is called after each gradient
+    or product with their number and the misfit χ², NaN of a product.
 
     References
     ----------
@@ -205,7 +189,7 @@ def fit_maps(
         return value, rounded(slope)
 
     logs = waves.logs(near + rounded(_least(sphere, waves.size, ITERATIONS)))
-    residuals = waves.residuals(waves.run(waves.local(logs)))
+    residuals = waves.residuals(waves.run(logs))
     taken = sum(
         value / (1 + value) * waves.logs(vector) ** 2
         for vector, value in zip(basis, values, strict=True)
@@ -290,8 +274,9 @@ class _Waves:
         parts = {n: np.exp(logs[part]).reshape(self.shapes[n]) for n, part in self.parts.items()}
         return localised(self.model, parts)
 
-    def run(self, model: Model) -> View:
-        """Return the end of a run."""
+    def run(self, logs: Array) -> View:
+        """Return the end of a run with factors of these logarithms."""
+        model = self.local(logs)
         *_, last = march(model, begin(model))
         return View(model, last.state)
 
@@ -303,7 +288,7 @@ class _Waves:
         def product(z: Array) -> Array:
             move = self.logs(z)
             step = STEP / np.max(np.abs(move))
-            moved, seeds = self.run(self.local(logs + step * move)), {}
+            moved, seeds = self.run(logs + step * move), {}
             for name, (depth, sigma) in self.depths.items():
                 change = (moved.wear(name) - end.wear(name)) / (step * sigma**2)
                 seeds[name] = np.where(np.isnan(depth), 0.0, change)

@@ -68,31 +68,24 @@ class Measured(Table):
     time: Annotated[float, Quantity("s", above=0)] | None = None
     """When it was measured; at the end if left out."""
 
-    @field_validator("value", mode="plain")
-    @classmethod
-    def _values(cls, value: Any, info: ValidationInfo) -> Any:
-        if value is None or (name := info.data.get("quantity")) is None:
-            return None
-        # The depths of a profile may be 0, or below it by noise.
-        mark = Quantity(QUANTITIES[name].unit, above=None if name in PROFILES else 0)
-
-        def read(part: object) -> float:
-            if isinstance(part, str) and part.lstrip().startswith("<") and name not in PROFILES:
-                return Below(mark.read(part.lstrip()[1:].strip()))
-            return part if isinstance(part, Below) else mark.read(part)
-
-        try:
-            return tuple(map(read, value)) if isinstance(value, list | tuple) else read(value)
-        except CaseError as error:
-            raise ValueError(str(error)) from None
-
-    @field_validator("uncertainty", "resolution", mode="before")
+    @field_validator("value", "uncertainty", "resolution", mode="plain")
     @classmethod
     def _in_si(cls, value: Any, info: ValidationInfo) -> Any:
         if value is None or (name := info.data.get("quantity")) is None:
             return None
+        is_value, is_profile = info.field_name == "value", name in PROFILES
+        # The depths of a profile may be 0, or below it by noise.
+        mark = Quantity(QUANTITIES[name].unit, above=None if is_value and is_profile else 0)
+
+        def read(part: object) -> float:
+            is_limit = isinstance(part, str) and part.lstrip().startswith("<")
+            if is_limit and is_value and not is_profile:
+                return Below(mark.read(str(part).lstrip()[1:].strip()))
+            return part if isinstance(part, Below) else mark.read(part)
+
+        is_list = is_value and isinstance(value, list | tuple)
         try:
-            return Quantity(QUANTITIES[name].unit, above=0).read(value)
+            return tuple(map(read, value)) if is_list else read(value)
         except CaseError as error:
             raise ValueError(str(error)) from None
 

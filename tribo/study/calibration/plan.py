@@ -123,7 +123,7 @@ def plan_tests(
         return np.where(found > 0, found, 1.0)
 
     computed = responses(posed.start)
-    problem = posed.problem(posed.run(posed.start).read_off)
+    problem = posed.problem()
     point = np.log(posed.start)
     here = differenced(responses, problem, point, computed).weighed(point, asked.repeatability)
     check_effect(here)

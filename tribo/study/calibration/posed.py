@@ -137,9 +137,9 @@ class Posed:
         self.runs[key] = Run(responses, read_off, tuple(notices))
         return self.runs[key]
 
-    def problem(self, read_off: Array) -> Problem:
-        """Return what is to be fitted; the grid gives the responses as well as `read_off` says."""
-        data, parameters = self.data, self.parameters
+    def problem(self) -> Problem:
+        """Return what is to be fitted; how well the grid gives the data, the first run says."""
+        data, parameters, read_off = self.data, self.parameters, self.run(self.start).read_off
         quantities = [*data["quantity"], *(each.quantity for _, each in self.predicted)]
         return Problem(
             names=tuple(p.path for p in parameters),
