@@ -71,6 +71,8 @@ def _print(case: Path, model: Model, prediction: Prediction, ruled: Sensitivity 
         console.print(f"  depth of {ruled.body}, for 1 % more of:", markup=False)
         first = list(ruled.percent.items())[:SHOWN]
         console.print(_rows((f"    {path}", f"{percent:+.2f} %") for path, percent in first))
+    elif prediction.last:
+        console.print("  which numbers rule the depth: no gradient on a coarse grid of this case")
     for place, facts in prediction.facts.items():
         console.print(f"  {place}:", markup=False)
         console.print(_rows((f"    {name}", text) for name, text in facts.items()))
