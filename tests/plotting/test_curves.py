@@ -6,7 +6,13 @@ import pytest
 from made_results import made
 
 from tribo.core.errors import CaseError
-from tribo.plotting.curves import fit_picture, history_curves, sweep_curves
+from tribo.plotting.curves import (
+    curves_by,
+    fit_picture,
+    history_curves,
+    sweep_curves,
+    sweep_pictures,
+)
 from tribo.plotting.history import fields_history
 from tribo.plotting.kept import field_map, kept_fields
 
@@ -45,6 +51,14 @@ def test_runs_of_a_sweep_are_curves_in_the_order_of_what_varies():
         sweep_curves(runs, "load", "max_pressure_Pa")
     with pytest.raises(CaseError, match="no run is done"):
         sweep_curves(runs[2:3], "load_N", "max_pressure_Pa")
+
+
+def test_no_line_joins_the_runs_of_a_sample():
+    runs = pd.DataFrame({"status": "done", "load_N": [20.0, 40.0, 60.0], "k": [1.0, 3.0, 2.0]})
+    assert curves_by(runs, ["k"]) == ([], False)
+    assert curves_by(runs.assign(k=1.0), ["k"]) == ([], True)
+    (draw,) = sweep_pictures(runs, ["load_N", "k"], ["load_N"]).values()
+    assert draw().axes[0].lines[0].get_linestyle() == "None"
 
 
 def test_a_fit_stands_over_what_was_measured():

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
 from pathlib import Path
 
 import pandas as pd
@@ -13,8 +12,6 @@ from tribo.cli.console import Console, titled
 
 ROWS = 20
 """Most runs in the table."""
-CURVES = 8
-"""Most curves in a picture."""
 MEASURED = (
     ("max_pressure_Pa", "p max\nMPa", 1e-6, ".3g"),
     (".max_wear_depth_m", "{}\nµm", 1e6, ".3g"),
@@ -51,30 +48,15 @@ def print_runs(runs: pd.DataFrame, console: Console | None = None) -> None:
 
 
 def draw_runs(runs: pd.DataFrame, folder: Path) -> list[Path]:
-    """Draw the largest depth of each worn body over what varies most, and return the files.
-
-    Nothing is drawn where no number varies, or so many that a curve would have one run.
-    """
-    from tribo.plotting.curves import sweep_curves
+    """Draw the largest depth of each worn body over what varies most, and return the files."""
+    from tribo.plotting.curves import sweep_pictures
     from tribo.plotting.figures import write_figures
 
-    done = runs[runs["status"] == "done"]
-    names = varied(runs)
-    numbers = [name for name in names if pd.api.types.is_numeric_dtype(done[name])]
-    if done.empty or not numbers:
-        return []
-    x = max(numbers, key=lambda name: done[name].nunique())
-    by = [name for name in names if name != x and done[name].nunique() > 1]
-    curves = done.groupby(by).ngroups if by else 1
-    if done[x].nunique() < 2 or curves > CURVES or len(done) < 2 * curves:
-        return []
-    depths = [str(name) for name in done if str(name).endswith(".max_wear_depth_m")]
-    pictures = {
-        f"{depth.split('.')[1]}_depth": partial(sweep_curves, done, x, depth, by)
-        for depth in depths
-        if (done[depth] > 0).any()
-    }
-    return write_figures(pictures, folder)
+    depths = [str(name) for name in runs if str(name).endswith(".max_wear_depth_m")]
+    worn = [depth for depth in depths if (runs[depth] > 0).any()]
+    pictures = sweep_pictures(runs, varied(runs), worn)
+    named = {f"{depth.split('.')[1]}_depth": draw for depth, draw in pictures.items()}
+    return write_figures(named, folder) if named else []
 
 
 def varied(runs: pd.DataFrame) -> Sequence[str]:

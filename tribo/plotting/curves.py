@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -40,6 +41,8 @@ OTHERS = (
     ("_s", "s"),
 )
 """Ends of other names, and their unit; the longer first, as the inverse of a pressure."""
+MOST_CURVES = 6
+"""In a picture of a sweep."""
 FIT = 4.0
 """Height of a measured value in the picture of a fit, in mm."""
 NAME = 1.25
@@ -79,7 +82,37 @@ def history_curves(result: Result, columns: Sequence[str], against: str = "dista
     return figure
 
 
-def sweep_curves(runs: pd.DataFrame, x: str, y: str, by: Sequence[str] = ()) -> Figure:
+def sweep_pictures(
+    runs: pd.DataFrame, varied: Sequence[str], measures: Sequence[str]
+) -> dict[str, Callable[[], Figure]]:
+    """Return how to draw each measure over the number that varies most; none if no number does."""
+    done = runs[runs["status"] == "done"]
+    numbers = [name for name in varied if pd.api.types.is_numeric_dtype(done[name])]
+    x = max(numbers, key=lambda name: done[name].nunique(), default="")
+    if not x or done[x].nunique() < 2:
+        return {}
+    by, joined = curves_by(done, [name for name in varied if name != x])
+    return {name: partial(sweep_curves, done, x, name, by, joined) for name in measures}
+
+
+def curves_by(done: pd.DataFrame, others: Sequence[str]) -> tuple[list[str], bool]:
+    """Return the columns that part runs into curves, and whether a line joins those of a curve.
+
+    Where other quantities vary along, as in a random sample, none does; only text tells the runs
+    apart then.
+    """
+    others = [name for name in others if done[name].nunique() > 1]
+    texts = [name for name in others if not pd.api.types.is_numeric_dtype(done[name])]
+    for names, joined in ((others, True), (texts, False)):
+        count = done.groupby(names).ngroups if names else 1
+        if count <= MOST_CURVES and len(done) >= (2 * count if joined else 1):
+            return names, joined
+    return [], False
+
+
+def sweep_curves(
+    runs: pd.DataFrame, x: str, y: str, by: Sequence[str] = (), joined: bool = True
+) -> Figure:
     """Draw a measure of a sweep's runs over a quantity that varies.
 
     Parameters
@@ -90,6 +123,8 @@ def sweep_curves(runs: pd.DataFrame, x: str, y: str, by: Sequence[str] = ()) -> 
         Its columns along both axes.
     by : sequence of str, optional
         Columns that part the runs into curves, one for each combination of their values.
+    joined : bool, optional
+        Whether a line joins the runs of a curve.
 
     Raises
     ------
@@ -114,6 +149,7 @@ def sweep_curves(runs: pd.DataFrame, x: str, y: str, by: Sequence[str] = ()) -> 
                 f"{value:.4g}" if isinstance(value, float) else str(value) for value in values
             )
             across, up = (rows[name].to_numpy(float) for name in (x, y))
+            look = look if joined else {**look, "linestyle": "none"}
             curves += _draw(
                 axes, across, up, x, y, every, label=label, marker="o", markersize=4.0, **look
             )

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure
 
+from tribo.cli.swept import varied
 from tribo.core.errors import CaseError
-from tribo.plotting.curves import column_label, sweep_curves
+from tribo.plotting.curves import column_label, curves_by, sweep_pictures
 from tribo.report.page import check_installed, render, stills
 from tribo.report.reduced import plain
 from tribo.report.result import cited
@@ -21,7 +21,6 @@ from tribo.report.tables import PageTable
 from tribo.result.read import Result
 
 RUNS, RESULTS = "runs.csv", "results"
-MOST_CURVES = 6
 MOST_PICTURES = 4
 DECADE = 10.0
 MEASURES = ("wear_volume_m3", "max_wear_depth_m", "scar_across_m")
@@ -42,9 +41,7 @@ def sweep_page(folder: Path) -> str:
         if done.empty:
             raise CaseError(f"no run of {folder} is done; there is nothing to report")
         # What is a number first: it makes the better axis.
-        varied = sorted(
-            runs.columns[2 : runs.columns.get_loc("time_s")], key=partial(_is_text, done)
-        )
+        names = sorted(varied(runs), key=partial(_is_text, done))
         first = done.iloc[0]["file"]
     except (OSError, ValueError, KeyError) as error:
         raise CaseError(f"{folder / RUNS} is not the table of a sweep: {error}") from error
@@ -56,24 +53,25 @@ def sweep_page(folder: Path) -> str:
         for column in (*(f"bodies.{b}.{m}" for m in MEASURES for b in bodies), "max_pressure_Pa")
         if column in done and np.any(done[column] != 0)
     ]
+    pictures = sweep_pictures(done, names, measures[:MOST_PICTURES])
     return render(
         "study.html.j2",
         kind="Sweep",
         title=folder.name,
-        answers=list(_answers(done, len(runs), varied, bodies)),
+        answers=list(_answers(done, len(runs), names, bodies)),
         tables_title="The runs",
-        tables=[_table(runs, varied, measures)],
+        tables=[_table(runs, names, measures)],
         remarks=[],
         notes=list(_notes(runs)),
         has_moments=False,
         curves_title="What varies, and what comes of it",
-        stills=stills(_pictures(done, varied, measures)),
+        stills=stills({_words(name, done): draw for name, draw in pictures.items()}),
         always=False,
         provenance=[("folder", str(folder.name)), ("made with", made)],
         citation=citation,
         case="",
         whose="",
-        data={"history": _curves(done, varied, measures)},
+        data={"history": _curves(done, names, measures)},
     )
 
 
@@ -175,32 +173,11 @@ def _curves(done: pd.DataFrame, varied: list[str], measures: list[str]) -> dict[
     return {"axes": axes}
 
 
-def _pictures(
-    done: pd.DataFrame, varied: list[str], measures: list[str]
-) -> dict[str, Callable[[], Figure]]:
-    """Return how to draw the first measures over the first number that varies, for paper."""
-    numbers = [name for name in varied if not _is_text(done, name)]
-    others = [name for name in varied if name not in numbers[:1]]
-    groups, apart = _groups(done, others)
-    by = [name for name in others if len(groups) > 1 and (_is_text(done, name) or not apart)]
-    return {
-        _words(name, done): partial(sweep_curves, done, numbers[0], name, by)
-        for name in measures[: MOST_PICTURES if numbers else 0]
-    }
-
-
 def _groups(runs: pd.DataFrame, others: list[str]) -> tuple[dict[str, pd.DataFrame], bool]:
-    """Return the runs of each curve by name, and whether their marks stand apart.
-
-    Where other quantities vary along, as in a random sample, no line joins the runs; only text
-    tells them apart then.
-    """
-    texts = [name for name in others if _is_text(runs, name)]
-    for names, apart in ((others, False), (texts, True)):
-        parts = {
-            ", ".join(f"{_words(n, runs)} {_cell(n, runs, rows.index[0])}" for n in names): rows
-            for _, rows in (runs.groupby(names, sort=True) if names else [("", runs)])
-        }
-        if len(parts) <= MOST_CURVES and (apart or len(runs) >= 2 * len(parts)):
-            return parts, apart
-    return {"": runs}, True
+    """Return the runs of each curve by name, and whether their marks stand apart."""
+    names, joined = curves_by(runs, others)
+    parts = {
+        ", ".join(f"{_words(n, runs)} {_cell(n, runs, rows.index[0])}" for n in names): rows
+        for _, rows in (runs.groupby(names, sort=True) if names else [("", runs)])
+    }
+    return parts, not joined
