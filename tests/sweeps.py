@@ -28,9 +28,9 @@ case = "case.toml"
 [settings]
 grid = { cells = 32, size = "0.7 mm" }
 contact.type = "winkler"
-kinematics.duration = "12 s"
+kinematics.duration = "20 s"
 stepping = { type = "explicit", time_step = "0.04 s" }
-output.save_times = [0.1, 0.5, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11]
+output.save_times = [0.1, 0.5, 1, 2, 4, 6, 8, 10, 12, 14, 16, 18]
 """
 
 

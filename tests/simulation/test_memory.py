@@ -82,7 +82,7 @@ def test_more_than_there_is_is_refused_with_the_estimate(tight):
     with pytest.raises(CaseError) as caught:
         small(grid=Grid((0.7e-3, 0.7e-3), (4000, 4000)))
     text = str(caught.value)
-    assert text.startswith("grid.cells: 4000 × 4000 cells take up to 8.6 GiB of memory, and this")
+    assert text.startswith("grid.cells: 4000 × 4000 cells take up to 9.08 GiB of memory, and this")
     assert text.endswith("leaves 64 MiB: use fewer cells")
 
 

@@ -14,8 +14,8 @@ from tribo.simulation.guarded_motion import GuardedExposure
 
 Exposures = Mapping[str, GuardedExposure]
 
-FIELDS = 60
-"""Arrays of the window's size that a run holds at its peak; 56 were measured."""
+FIELDS = 64
+"""Arrays of the window's size that a run holds at its peak; 60 were measured."""
 FIELDS_IF_PLASTIC = 16
 """What yielding takes besides; 14 were measured."""
 FIELDS_PER_FIELD = 8
