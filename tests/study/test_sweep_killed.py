@@ -66,6 +66,12 @@ def written_since(folder, moment):
         return any(path.stat().st_mtime > moment for path in files)
 
 
+def in_progress(folder):
+    """Wait until a run writes, after what was killed."""
+    moment = time.time()
+    until(lambda: written_since(folder, moment), "run in progress")
+
+
 def is_done(path):
     try:
         with Result.open(path) as result:
@@ -122,6 +128,7 @@ def test_a_sweep_survives_a_killed_worker_ctrl_c_and_a_killed_parent(tmp_path, w
     process, command = swept(tmp_path, "--jobs", 2)
     os.kill(workers(process)[0], signal.SIGKILL)
     until(lambda: done(tmp_path), "run that is done")
+    in_progress(tmp_path)
     assert len(workers(process)) == 2
     # As a terminal does, to the parent and to its workers.
     os.killpg(process.pid, signal.SIGINT)
@@ -188,6 +195,7 @@ def test_a_sweep_survives_a_killed_worker_ctrl_c_and_the_end_of_dask(tmp_path, w
     process, command = swept(tmp_path, "--scheduler", address)
     first.kill()
     until(lambda: done(tmp_path), "run of the other worker")
+    in_progress(tmp_path)
     process.send_signal(signal.SIGINT)
     assert_stopped(tmp_path, process)
     process = sweeps.tribo(*command, cwd=tmp_path)
