@@ -15,8 +15,8 @@ from tribo.core.measures import (
 )
 from tribo.core.state import BodyInfo, BodyState, RunInfo, Snapshot, State
 from tribo.lab.running_in import contact_roughness
+from tribo.observers.recorder import Recorder
 from tribo.result.provenance import provenance
-from tribo.result.store import ResultWriter
 
 GRID = Grid((2e-3, 1.6e-3), (50, 40))
 RADIUS = 5e-3
@@ -64,8 +64,8 @@ def made(
     body, of which none is worn through.
     """
     bodies = tuple(zip(names, swept, worn, densities, strict=True))
-    writer = ResultWriter()
-    writer.create(
+    writer = Recorder()
+    writer.on_start(
         RunInfo(
             system=ContactSystem(grid, 1.137e11, 100.0, cap, curvature),
             bodies=tuple(
@@ -97,10 +97,10 @@ def made(
         snapshot = _snapshot(time, *looks)
         # Two steps to each save.
         if time > 0:
-            writer.append_step(_snapshot(0.1 * before + 0.9 * time, *looks).measures)
-        writer.append_step(snapshot.measures)
-        writer.append_save(snapshot)
-    writer.finish(status, 1.0)
+            writer.on_step(_snapshot(0.1 * before + 0.9 * time, *looks))
+        writer.on_step(snapshot)
+        writer.on_save(snapshot)
+    writer.on_finish(None, status)
     return writer.result()
 
 

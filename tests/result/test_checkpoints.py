@@ -15,10 +15,10 @@ from paper_models import case, motion
 from tribo import CaseError, Grid, Interrupted, Result, Simulation
 from tribo.core import locks
 from tribo.core.errors import OutputError, TriboWarning
+from tribo.observers import recorder
 from tribo.observers.observer import Observer
 from tribo.result.checkpoint import RunFolder, _load, _store
 from tribo.result.sealed import open_sealed
-from tribo.result.store import ResultWriter
 
 
 class StopAfter(Observer):
@@ -46,11 +46,11 @@ def left(tmp_path_factory):
     folder = tmp_path_factory.mktemp("left")
     with pytest.MonkeyPatch.context() as patch:
 
-        def full(*_):
+        def full(*_, **__):
             raise OSError(errno.ENOSPC, "No space left on device")
 
         # As if it were killed before it writes the whole result.
-        patch.setattr(ResultWriter, "finish", full)
+        patch.setattr(recorder, "filled_image", full)
         with pytest.warns(TriboWarning, match="No space"), pytest.raises(Interrupted):
             simulation().run(folder / "run.h5", observers=[StopAfter()])
     return folder
@@ -199,8 +199,9 @@ def test_every_bit_of_a_state_is_kept(killed, tmp_path):
 def test_only_one_process_writes_a_result(killed, undisturbed):
     folder = RunFolder(killed)
     before = folder.checkpoint.read_bytes()
-    with closing(ResultWriter(killed)) as other:
-        other._folder.lock()
+    other = RunFolder(killed)
+    other.lock()
+    with closing(other._lock):
         with Result.open(killed) as result:
             assert result.status == "running"
         with pytest.raises(CaseError, match=r"in use: another process is writing it$"):

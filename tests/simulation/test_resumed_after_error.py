@@ -9,7 +9,7 @@ from paper_models import motion, small
 
 from tribo import Grid, Result, Simulation, TriboError
 from tribo.case import Stop
-from tribo.result.store import ResultWriter
+from tribo.observers.recorder import Recorder
 
 
 def model(stop):
@@ -45,7 +45,7 @@ def undisturbed(tmp_path_factory):
 )
 def test_resumed_it_equals_an_undisturbed_run(undisturbed, tmp_path, monkeypatch, stop, failing):
     path = tmp_path / "broken.h5"
-    write, saves = ResultWriter.append_save, []
+    write, saves = Recorder._append_save, []
 
     def full(writer, snapshot):
         saves.append(snapshot)
@@ -54,7 +54,7 @@ def test_resumed_it_equals_an_undisturbed_run(undisturbed, tmp_path, monkeypatch
         write(writer, snapshot)
 
     with monkeypatch.context() as patched:
-        patched.setattr(ResultWriter, "append_save", full)
+        patched.setattr(Recorder, "_append_save", full)
         with pytest.raises(TriboError, match="No space left"):
             Simulation(model(stop).case).run(path)
     Simulation(model(stop).case).resume(path).close()

@@ -13,8 +13,8 @@ from trust.full_disks import FullDisks, fill_and_resume
 from trust.kills import kill_and_resume
 from trust.trial import contents, resume, run, same, start, whole
 
+from tribo.observers.recorder import Recorder
 from tribo.result.checkpoint import RunFolder
-from tribo.result.store import ResultWriter
 
 pytestmark = pytest.mark.slow
 
@@ -43,7 +43,7 @@ def test_killed_between_a_step_and_its_save(tmp_path, monkeypatch):
     path = tmp_path / "run.h5"
 
     def dies(*args):
-        append_save, left = ResultWriter.append_save, [3]
+        append_save, left = Recorder._append_save, [3]
 
         def killed(self, snapshot):
             left[0] -= 1
@@ -51,7 +51,7 @@ def test_killed_between_a_step_and_its_save(tmp_path, monkeypatch):
                 os.kill(os.getpid(), signal.SIGKILL)
             append_save(self, snapshot)
 
-        ResultWriter.append_save = killed
+        Recorder._append_save = killed
         run(*args)
 
     code, told = start(dies, path).wait()

@@ -18,9 +18,9 @@ from strangers.running_in import RunningIn
 import tribo.simulation.run
 from tribo import Grid, Simulation
 from tribo.core.errors import TriboError
+from tribo.observers import recorder
 from tribo.observers.observer import Observer
-from tribo.observers.recorder import Recorder
-from tribo.result import checkpoint, store
+from tribo.result import checkpoint
 from tribo.result.sealed import write_sealed
 
 SAVES = (10, 20, 30)
@@ -83,7 +83,7 @@ def dying(work, at):
         write_sealed(path, data, **options)
 
     def worked(*args):
-        checkpoint.write_sealed = store.write_sealed = half
+        checkpoint.write_sealed = recorder.write_sealed = half
         Path.replace, Path.unlink = before(Path.replace), before(Path.unlink)
         work(*args)
 
@@ -104,7 +104,7 @@ def start(work, *args):
     try:
         os.close(reading)
         warnings.simplefilter("ignore")
-        tribo.simulation.run.Recorder = partial(Recorder, checkpoint_every=CHECKPOINTS)
+        tribo.simulation.run.Recorder = partial(recorder.Recorder, checkpoint_every=CHECKPOINTS)
         work(*args, writing)
         code = 0
     except TriboError as error:

@@ -26,7 +26,6 @@ def show(output: Path, as_json: bool) -> None:
     from tribo.result.read import Result
 
     with Result.open(output) as result:
-        result.check()
         if as_json:
             summary = result.summary()
             for name in result.body_names:

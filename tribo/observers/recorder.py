@@ -1,88 +1,163 @@
-"""Write the result file and its checkpoints."""
+"""Write a result as a run proceeds: parts and checkpoints, and at its end one file of them all."""
 
 from __future__ import annotations
 
+import json
 import math
-import os
 import time
-from collections.abc import Iterator
+import warnings
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from io import BytesIO
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 from pydantic import PrivateAttr
 
-from tribo.core.errors import CaseError, OutputError
-from tribo.core.state import RunInfo, Snapshot
-from tribo.core.units import Quantity
+from tribo.core.errors import CaseError, OutputError, TriboWarning
+from tribo.core.measures import Measures
+from tribo.core.notices import worn_through
+from tribo.core.state import RunInfo, Snapshot, State
 from tribo.observers.observer import Observer
+from tribo.result.checkpoint import Checkpoint, RunFolder, fingerprint
+from tribo.result.hdf5 import empty_image, filled_image
+from tribo.result.layout import EFFECT, Rows, Variable, part_of, save_row, step_row, variables
 from tribo.result.read import Result
-from tribo.result.store import ResultWriter
+from tribo.result.sealed import write_sealed
 
 
 class Recorder(Observer):
-    """Writes a result file, and beside it checkpoints to resume from."""
+    """Writes a result file, and beside it checkpoints to resume from; in memory without a path."""
 
     type = "recorder"
     path: Path | None = None
-    """Where to write; in memory if left out."""
-    overwrite: bool = False
-    """Whether an existing file may be replaced."""
-    checkpoint_every: Annotated[float, Quantity("s", at_least=0)] = 10.0
-    """Wall time between checkpoints; one is also written at every save."""
+    checkpoint_every: float = 10.0
+    """Wall time between checkpoints, in s; one is also written at every save."""
 
-    _writer: ResultWriter = PrivateAttr()
-    _begun: bool = False
+    _folder: RunFolder | None = None
+    _table: Mapping[str, Variable] = PrivateAttr(default_factory=dict)
+    _empty: bytes = b""
+    _image: BytesIO = PrivateAttr()
+    _case: str = ""
     _effects: bool = False
+    _kept: list[Rows] = PrivateAttr(default_factory=list)
+    _steps: list[Rows] = PrivateAttr(default_factory=list)
+    _saves: list[Rows] = PrivateAttr(default_factory=list)
+    _count: int = 0
+    """Parts so far."""
+    _saved: int = 0
+    """Saves so far."""
+    _rows: int = 0
+    """Steps of the history so far, the first contact counted."""
+    _begun: bool = False
     _clock: float = 0.0
     _spent_before: float = 0.0
     _last_checkpoint: float = -math.inf
-    _saved: float = -1.0
+    _last_save: float = -1.0
 
     def model_post_init(self, context: Any, /) -> None:
-        """Make the writer."""
-        self._writer = ResultWriter(self.path)
+        """Find the folder of the run."""
+        if self.path is not None:
+            self._folder = RunFolder(self.path.resolve())
+
+    def resume(self, case: Mapping[str, object]) -> tuple[State, float]:
+        """Return the last good state of the stopped run of a case, and the time spent, in s.
+
+        Where the newest checkpoint is damaged, it is the state of the one before; a warning says
+        so, and the run goes on as if the newest had not been written. `CaseError` if another
+        process is writing the file, or no good checkpoint is of this case.
+        """
+        folder = self._folder
+        assert folder is not None
+        if folder.path.is_dir():
+            # What a run that goes on has saved changes as it is read.
+            folder.lock()
+        try:
+            kept, damage = folder.read_checkpoint(case)
+            if damage:
+                warnings.warn(
+                    f"{damage}; going on from the checkpoint before, at {kept.state.time:.6g} s",
+                    TriboWarning,
+                    stacklevel=2,
+                )
+                folder.drop_newest()
+        except CaseError as error:
+            raise CaseError(
+                f"{self.path} has no checkpoint to resume from: {error}; start again with "
+                "'tribo run --force'"
+            ) from error
+        finally:
+            folder.unlock()
+        self._count, self._saved, self._rows = kept.parts, kept.saves, kept.rows
+        self._spent_before, self._last_save = kept.wall_time, kept.state.time
+        return kept.state, kept.wall_time
 
     def on_start(self, run: RunInfo) -> None:
         """Create the file, or go on with it."""
         self._clock = time.monotonic()
+        # With a map of heights in the case this takes as long as a step.
+        self._case, self._table = fingerprint(run.case), variables(run)
         self._effects = bool(run.effect_fields)
+        resumed, folder = run.resumed_from is not None, self._folder
         with self._writing():
-            if run.resumed_from is not None and self.path is not None:
-                self._spent_before, self._last_checkpoint = run.wall_time, self._clock
-                self._saved = run.resumed_from.state.time
-                self._writer.reopen(run)
-                self._begun = True
+            if folder is None:
+                self._empty = empty_image(run)
                 return
-            if self.path is not None and os.path.exists(self.path) and not self.overwrite:
-                raise CaseError(f"{self.path} exists; choose another path, or set overwrite = true")
-            self._writer.create(run)
-            self._begun = True
+            folder.lock()
+            try:
+                if resumed:
+                    self._last_checkpoint = self._clock
+                    with Result(folder.result, str(folder.result)) as stopped:
+                        provenance = json.dumps(_gone_on_with(stopped, run))
+                    self._empty = empty_image(run, provenance=provenance)
+                else:
+                    self._empty = empty_image(run)
+                    folder.clear()
+                self._write(BytesIO(self._empty))
+            except BaseException:
+                # Of a run that was stopped its checkpoints stay.
+                folder.unlock() if resumed else folder.remove()
+                raise
+        self._begun = True
 
     def on_step(self, snapshot: Snapshot) -> None:
         """Add to the history; now and then write a checkpoint."""
-        self._writer.append_step(snapshot.measures)
+        self._append_step(snapshot.measures)
         due = time.monotonic() - self._last_checkpoint >= self.checkpoint_every
         # A state that counts a save still to be written has its checkpoint with that.
-        if due and snapshot.state.saves == self._writer.saves:
-            self._checkpoint(snapshot)
+        if due and snapshot.state.saves == self._saved:
+            self._checkpoint(snapshot.state)
 
     def on_save(self, snapshot: Snapshot) -> None:
         """Write the fields and a checkpoint; when this returns, the disk has the save."""
-        self._writer.append_save(snapshot)
-        self._saved = snapshot.state.time
-        self._checkpoint(snapshot)
+        self._append_save(snapshot)
+        self._checkpoint(snapshot.state)
 
     def on_finish(self, snapshot: Snapshot | None, reason: str) -> None:
-        """Write what is left; keep the checkpoint unless the run is done."""
+        """Write the whole result; keep the checkpoint unless the run is done."""
         try:
             with self._writing():
                 if snapshot is not None and reason != "done":
                     self._keep_last(snapshot)
-                notices = () if snapshot is None else snapshot.state.notices
-                self._writer.finish(reason, self._spent(), notices)
+                self._finish_part()
+                folder, notices = self._folder, () if snapshot is None else snapshot.state.notices
+                self._image = filled_image(
+                    self._empty,
+                    self._kept if folder is None else folder.parts(self._count),
+                    self._saved,
+                    self._rows,
+                    status=reason,
+                    wall_time_s=self._spent(),
+                    notices=json.dumps([str(notice) for notice in notices]),
+                    worn_through=json.dumps(worn_through(notices)),
+                )
+                if folder is not None:
+                    self._write(self._image)
+                    if reason == "done":
+                        folder.remove()
         finally:
-            self._writer.close()
+            if self._folder is not None:
+                self._folder.unlock()
 
     @property
     def holds(self) -> Path | None:
@@ -91,30 +166,60 @@ class Recorder(Observer):
 
     def result(self) -> Result:
         """Return what was recorded, for reading."""
-        return self._writer.result()
+        folder = self._folder
+        return Result(self._image, "the result") if folder is None else Result.open(folder.result)
+
+    def _append_step(self, measures: Measures) -> None:
+        self._steps.append(step_row(measures))
+        self._rows += 1
+
+    def _append_save(self, snapshot: Snapshot) -> None:
+        self._saves.append(save_row(snapshot, self._table))
+        self._saved += 1
+        self._last_save = snapshot.state.time
+
+    def _finish_part(self) -> None:
+        """Write what was added since the last part."""
+        part = {**part_of(self._steps), **part_of(self._saves)}
+        if not part:
+            return
+        if self._folder is None:
+            self._kept.append(part)
+        else:
+            self._folder.write_part(self._count, part)
+        self._count += 1
+        self._steps, self._saves = [], []
+
+    def _checkpoint(self, state: State) -> None:
+        """Write what was added, and the state after it."""
+        with self._writing():
+            self._finish_part()
+            if self._folder is not None:
+                kept = self._case, state, self._spent(), self._count, self._saved, self._rows
+                self._folder.write_checkpoint(Checkpoint(*kept))
+        self._last_checkpoint = time.monotonic()
 
     def _keep_last(self, snapshot: Snapshot) -> None:
         """Write the moment at which the run ends before its time."""
-        state, writer = snapshot.state, self._writer
-        if writer.rows <= state.steps:
-            writer.append_step(snapshot.measures)
+        state = snapshot.state
+        if self._rows <= state.steps:
+            self._append_step(snapshot.measures)
         whole = bool(snapshot.effects) or not self._effects
-        if whole and writer.saves < state.saves:
-            writer.append_save(snapshot)
-            self._saved = state.time
-        if writer.saves == state.saves:
-            self._checkpoint(snapshot)
-        if state.time != self._saved:
+        if whole and self._saved < state.saves:
+            self._append_save(snapshot)
+        if self._saved == state.saves:
+            self._checkpoint(state)
+        if state.time != self._last_save:
             # For the user to see; it belongs to no checkpoint.
-            writer.append_save(snapshot)
-
-    def _checkpoint(self, snapshot: Snapshot) -> None:
-        with self._writing():
-            self._writer.checkpoint(snapshot.state, self._spent())
-        self._last_checkpoint = time.monotonic()
+            self._append_save(snapshot)
 
     def _spent(self) -> float:
         return self._spent_before + time.monotonic() - self._clock
+
+    def _write(self, image: BytesIO) -> None:
+        assert self._folder is not None
+        fresh = self._folder.path / "result.new"
+        write_sealed(self._folder.result, image.getbuffer(), fresh=fresh, sync=True)
 
     @contextmanager
     def _writing(self) -> Iterator[None]:
@@ -127,3 +232,20 @@ class Recorder(Observer):
                 f"cannot write {self.path}: {reason}; {remedy}choose another place with "
                 "-o; the last checkpoint is intact"
             ) from error
+
+
+def _gone_on_with(stopped: Result, run: RunInfo) -> dict[str, Any]:
+    """Return the provenance of a stopped run, with what it goes on with."""
+    provided = {field.name for field in run.effect_fields}
+    kept = {field.name for field in stopped.fields_of(EFFECT).values()}
+    if kept != provided:
+        raise CaseError(
+            f"the effects provide {', '.join(sorted(provided)) or 'nothing'}, but the result keeps "
+            f"{', '.join(sorted(kept)) or 'nothing'} of them; start again with 'tribo run --force'"
+        )
+    made = dict(stopped.provenance)
+    before = made.get("resumed_with", [])
+    last = before[-1] if before else made
+    if any(last.get(key) != value for key, value in run.provenance.items()):
+        made["resumed_with"] = [*before, dict(run.provenance)]
+    return made

@@ -11,7 +11,6 @@ from tribo.motion.reciprocating import Reciprocating
 from tribo.motion.rotating import Rotating
 from tribo.motion.unidirectional import Unidirectional
 from tribo.observers.progress import Progress
-from tribo.observers.recorder import Recorder
 from tribo.registry.hookspecs import CaseTemplate, ExportFormat, hookimpl
 from tribo.result.export import export_csv
 from tribo.surfaces.cylinder import Cylinder
@@ -38,7 +37,7 @@ def tribo_components() -> tuple[type[Component], ...]:
         *(Archard, Power, RunningIn, Scaled, Smoothing),
         *(Measured, Reciprocating, Rotating, Unidirectional),
         *(Sphere, Paraboloid, Cylinder, Flat, Pin, HeightMap, Rough, Texture, Waves),
-        *(Recorder, Progress),
+        Progress,
     )
 
 

@@ -34,7 +34,6 @@ def result_page(result: Result, verified: Path | None = None) -> str:
     """Return the report of a result as HTML; see `tribo.write_report`."""
     check_installed()
     number_of_saves(result)
-    result.check()
     lab, case = lab_report(result), result.case
     estimates = [] if verified is None else read_verified(verified, result)
     swept = next((name for name in result.body_names if result.body(name).swept), None)

@@ -58,7 +58,7 @@ class RunFolder:
         self.path = result.with_name(result.name + ".run")
         self.checkpoint = self.path / "checkpoint"
         self.previous = self.path / "checkpoint.previous"
-        self._result = result
+        self.result = result
         self._lock: IO[bytes] | None = None
 
     def lock(self) -> None:
@@ -66,11 +66,11 @@ class RunFolder:
         self.path.mkdir(exist_ok=True)
         place = self.path / "lock"
         self._lock = place.open("ab")
-        busy = CaseError(f"{self._result} is in use: another process is writing it")
+        busy = CaseError(f"{self.result} is in use: another process is writing it")
         try:
             if not lock(self._lock.fileno()):
                 warnings.warn(
-                    f"{self._result}: its file system has no locks, so nothing stops another run "
+                    f"{self.result}: its file system has no locks, so nothing stops another run "
                     "from writing the same file; see that none does, or choose another place with "
                     "-o",
                     TriboWarning,
@@ -241,48 +241,6 @@ def _checkpoint(data: dict[str, Any]) -> Checkpoint:
 def _contact(data: dict[str, Any]) -> ContactSolution:
     """Return a solved contact from plain data."""
     return ContactSolution(residuals=Residuals(**data.pop("residuals")), **data)
-
-
-def read_checkpoint(result: Path, case: Mapping[str, object]) -> tuple[State, float]:
-    """Return the last good state of a stopped run, and the time spent until then.
-
-    Where the newest checkpoint is damaged, it is the state of the one before;
-    a warning says so, and the run goes on as if the newest had not been written.
-
-    Parameters
-    ----------
-    result : Path
-        The result file.
-    case : Mapping
-        Its configuration, as plain data.
-
-    Raises
-    ------
-    CaseError
-        If another process is writing it, there is no good checkpoint, or it
-        belongs to another case.
-    """
-    folder = RunFolder(result.resolve())
-    if folder.path.is_dir():
-        # What a run that goes on has saved changes as it is read.
-        folder.lock()
-    try:
-        checkpoint, damage = folder.read_checkpoint(case)
-        if damage:
-            warnings.warn(
-                f"{damage}; going on from the checkpoint before, at {checkpoint.state.time:.6g} s",
-                TriboWarning,
-                stacklevel=2,
-            )
-            folder.drop_newest()
-    except CaseError as error:
-        raise CaseError(
-            f"{result} has no checkpoint to resume from: {error}; start again with "
-            "'tribo run --force'"
-        ) from error
-    finally:
-        folder.unlock()
-    return checkpoint.state, checkpoint.wall_time
 
 
 def tidied(result: Path) -> bool:

@@ -11,7 +11,6 @@ from typing import Any
 import h5py
 import numpy as np
 
-from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.result.layout import (
     BETWEEN,
@@ -25,10 +24,6 @@ from tribo.result.layout import (
     Variable,
 )
 
-LARGEST = 1e100
-"""No quantity comes near it; its square and cube are still finite."""
-_MOST_PACKED = 1100
-"""Bytes that a byte of a file may stand for; deflate comes to 1032."""
 _STATUS = ("done", "running", "killed", "interrupted", "failed")
 # Name, shape, lower bound, whether every result has it.
 _NUMBERS: tuple[tuple[str, tuple[int, ...], float, bool], ...] = (
@@ -51,12 +46,6 @@ _JSON: dict[str, object] = {
     "provenance": _MADE,
     "notices": [str],
     "worn_through": [_PASSED],
-}
-_GROWING = {"x", "y", "track_x", "time", "history_time"}
-_NEVER_NEGATIVE = {
-    *("time", "distance", "pressure", "max_pressure", "centre_pressure", "contact_area"),
-    *("wear_depth", TRACK, "max_wear_depth", "wear_volume", "density"),
-    *("plastic_depth", TRACK_PLASTIC),
 }
 _FRICTION = ("friction_force", "friction_energy")
 _LATER = {
@@ -109,7 +98,7 @@ def read_attributes(attributes: Mapping[str, Any]) -> dict[str, Any]:
         if (needed or name in read) and not (
             values.shape == shape
             and values.dtype.kind in "fiu"
-            and np.all((values > above) & (np.abs(values) < LARGEST))
+            and np.all((values > above) & np.isfinite(values))
         ):
             raise ValueError(f"{name!r} is {read.get(name)!r}")
     return read
@@ -120,12 +109,9 @@ def read_variables(file: h5py.File, bodies: tuple[str, ...]) -> dict[str, Variab
     table = {name: v for name, v in FIXED.items() if name in file or name not in _LATER}
     if not {"track_x", TRACK} & file.keys():
         del table["track_x"], table[TRACK]
-    size = file.id.get_filesize()
     for name, values in file.items():
         if not isinstance(values, h5py.Dataset):
             raise ValueError(f"{name!r} is no variable")
-        if values.size * values.dtype.itemsize > _MOST_PACKED * size:
-            raise ValueError(f"{name!r} claims more bytes than the file can hold")
         if "kind" in values.attrs:
             kind, field, unit, meaning = (
                 str(values.attrs[key]) for key in ("kind", "field", "units", "long_name")
@@ -154,22 +140,6 @@ def read_variables(file: h5py.File, bodies: tuple[str, ...]) -> dict[str, Variab
             kept = f"{file[name].dtype} of shape {file[name].shape}"
             raise ValueError(f"{name!r} is {kept} instead of real numbers of shape {shape}")
     return table
-
-
-def check_values(name: str, variable: Variable, values: Array) -> None:
-    """Raise ValueError if numbers of a variable are not finite, or cannot be what it means."""
-    bare = name.removeprefix("history_")
-    sound = np.abs(values) < LARGEST
-    may_lack = {"density", "plastic_area", *_FRICTION, TRACK, TRACK_PLASTIC, *ROUGHNESS}
-    if variable.kind or {name, bare} & may_lack:
-        # A body that has none, an effect that failed.
-        sound |= np.isnan(values)
-    if not sound.all():
-        raise ValueError(f"{name!r} has numbers that are not finite")
-    if bare in _NEVER_NEGATIVE and np.any(values < 0):
-        raise ValueError(f"{name!r} has negative numbers")
-    if name in _GROWING and np.any(np.diff(values) <= 0):
-        raise ValueError(f"{name!r} does not grow")
 
 
 def _fits(data: object, pattern: Any) -> bool:

@@ -20,7 +20,7 @@ from tribo.observers.observer import Observer
 from tribo.observers.recorder import Recorder
 from tribo.registry.plugins import Plugin
 from tribo.registry.registry import Registry, default_registry
-from tribo.result.checkpoint import read_checkpoint, tidied
+from tribo.result.checkpoint import tidied
 from tribo.result.provenance import changed_components, origin, provenance
 from tribo.result.read import Result
 from tribo.simulation.audience import Audience
@@ -101,7 +101,7 @@ class Simulation:
             If it was stopped from outside; it can be resumed.
         """
         path = _checked_output(output, overwrite)
-        recorder = Recorder(path=path, overwrite=overwrite)
+        recorder = Recorder(path=path)
         state = begin(self.model)
         return self._follow(state, recorder, observers, resumed=False, wall_time=0.0)
 
@@ -165,9 +165,9 @@ class Simulation:
         # Another version of a component may have other keys.
         if case != self.model.data and not changes:
             raise CaseError(f"{path} is the result of another case; resume that one")
-        state, wall_time = read_checkpoint(path, case)
-        state = state.without_notice("failed")
         recorder = Recorder(path=path)
+        state, wall_time = recorder.resume(case)
+        state = state.without_notice("failed")
         return partial(
             self._follow,
             state,
@@ -344,8 +344,11 @@ def _checked_output(output: str | Path | None, overwrite: bool) -> Path | None:
     # Unlike Path.exists it does not raise where a name is too long.
     if os.path.exists(path) and not overwrite:
         raise CaseError(f"{path} {_held(path)}; choose another with -o, or replace it with --force")
-    if os.path.isdir(path):
-        raise CaseError(f"{path} is a folder; give a file name, as {path / 'result.h5'}")
+    if os.path.exists(path) and not os.path.isfile(path):
+        raise CaseError(
+            f"{path} is not a file that could be replaced; give a file name, as "
+            f"{path.with_name('result.h5')}"
+        )
     if not os.path.isdir(path.parent):
         raise CaseError(f"there is no folder {path.parent}; make it first")
     return path

@@ -10,7 +10,6 @@ from tribo.motion.reciprocating import Reciprocating
 from tribo.motion.rotating import Rotating
 from tribo.motion.unidirectional import Unidirectional
 from tribo.observers.progress import Progress
-from tribo.observers.recorder import Recorder
 from tribo.registry.kinds import KINDS
 from tribo.registry.registry import Registry
 from tribo.surfaces.cylinder import Cylinder
@@ -76,7 +75,6 @@ test_rough = parametrize_checks(Rough)
 test_texture = parametrize_checks(Texture)
 test_waves = parametrize_checks(Waves)
 test_progress = parametrize_checks(Progress)
-test_recorder = parametrize_checks(Recorder)
 
 
 @pytest.mark.parametrize("kind", KINDS)
