@@ -21,13 +21,14 @@ from tribo.motion.unidirectional import Unidirectional
 from tribo.simulation.positions import composed
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
-from tribo.study.gradient import backwards, course, linear, parameters, tape
+from tribo.study.gradient import backwards, course, linear, local, parameters, tape
 from tribo.study.gradient.gradient import ValueAndGradient, gradient
 from tribo.study.gradient.objective import Deepest, Depth, Misfit, Pressure, Volume
 from tribo.study.gradient.sensitivity import sensitivity
 from tribo.surfaces.cylinder import Cylinder
 from tribo.surfaces.waves import Waves
 from tribo.wear.archard import Archard
+from tribo.wear.modified import times
 from tribo.wear.power import Power
 from tribo.wear.running_in import RunningIn, Smoothing
 
@@ -117,6 +118,13 @@ class Follows(Archard):
     requires = ("turns",)
 
 
+class Brisk(Archard):
+    type = "brisk"
+
+    def rate(self, local):
+        return times(np.sqrt(1e9 * local.speed / local.material.hardness), super().rate(local))
+
+
 FRESH = RunningIn(law=archard(), factor=4.0, over="1 GPa m")
 SMOOTH = Smoothing(law=archard(), factor=3.0, roughness="0.4 um", settled="0.1 um", depth="0.2 um")
 OF_FRESH = ["bodies.ball.wear.over", "bodies.ball.wear.factor", "bodies.ball.wear.law.k"]
@@ -141,7 +149,15 @@ KINDS = {
     ),
     "average": (run(), Deepest("disk"), [*BASE, *SHAPE, "kinematics.stroke"], 1e-4),
     "pressure": (run(), Pressure(2e-5, 0), [*BASE, *SHAPE], 1e-4),
-    "springs": (run(contact=Winkler()), Depth("ball"), [*BASE, *SHAPE], 1e-5),
+    "springs": (
+        run(
+            contact=Winkler(plasticity=False),
+            bodies=pair(archard(), Brisk(k=K), ("2 GPa", "1 GPa")),
+        ),
+        Depth("ball"),
+        [*BASE, *SHAPE, HARD],
+        1e-5,
+    ),
     "nonlinear": (
         run(bodies=pair(power(1.5), power(2.0)), stepping=few(nonlinear_tolerance=1e-13)),
         Depth("disk"),
@@ -271,6 +287,7 @@ MUTANTS = [
     ("average", linear.Carrier, "seen", zero),
     ("average", linear.StepSystem, "solve", without("given")),
     ("pressure", backwards._Back, "look", nothing),
+    ("springs", local.WatchedLaw, "rate", lambda _: lambda of, told: of._law.rate(told)),
     ("yields", parameters.Chain, "by_rest", without("cap")),
     ("yields", linear.StepSystem, "solve", without("fixed")),
     ("yields", backwards._Back, "spread_out", nothing),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -17,10 +17,12 @@ from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.model import Model
 from tribo.stepping.evolution import course, loaded
 from tribo.stepping.implicit import Implicit
+from tribo.stepping.step import worn_depths
 from tribo.study.gradient.course import Slopes, slopes
 from tribo.study.gradient.linear import StepSystem, carriers
+from tribo.study.gradient.local import WatchedLaw
 from tribo.study.gradient.objective import Seeds
-from tribo.study.gradient.parameters import Chain
+from tribo.study.gradient.parameters import Chain, Known
 from tribo.study.gradient.tape import Enveloped, Gave, Pressed, Saved, Tape
 
 KNOWN = {FRICTION_COEFFICIENT.name, PLACE_X.name, PLACE_Y.name}
@@ -114,7 +116,8 @@ class _Back:
     """What has been gathered so far, from the end of a run back."""
 
     def __init__(self, model: Model, chains: Sequence[Chain]) -> None:
-        self.model = model
+        self.laws = {name: WatchedLaw(law) for name, law in model.laws.items()}
+        self.model = model = replace(model, laws=self.laws)
         self.chains = chains
         cells, positions = model.grid.cells, len(model.cycle)
         self.shares = np.array([position.share for position in model.cycle])
@@ -178,7 +181,11 @@ class _Back:
         through: dict[str, Slopes] = {}
         given, fixed, bodies = np.zeros_like(pressure), np.zeros_like(pressure), []
         if slid is not None:
+            for law in self.laws.values():
+                law.seen.clear()
             known = course(model, slid.before, contacts, slid.increment, slid.moment, slid.plan)
+            seen = {name: frozenset(law.seen) for name, law in self.laws.items()}
+            step = Known(known, worn_depths(model, known.rates, slid.increment), seen)
             for name, after in self.states.items():
                 carrier = self.carriers[name]
                 of_body = through[name] = slopes(model, name, carrier, contacts, slid, known, after)
@@ -206,7 +213,7 @@ class _Back:
         for at, chain in enumerate(self.chains):
             self.sums[at] += chain.by_load(record, by_load)
             if slid is not None:
-                self.sums[at] += chain.by_wear(slid, contacts, known, self.wear, self.states)
+                self.sums[at] += chain.by_wear(slid, contacts, step, self.wear, self.states)
         for name, of_body in through.items():
             wear = self.wear[name]
             self.factor[name] += wear * of_body.factor

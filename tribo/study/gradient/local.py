@@ -1,17 +1,22 @@
-"""Wear rates that differ from place to place on a body: a factor at each cell of its surface."""
+"""Wear laws with a factor at each cell of their body's surface, and what they look at."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.fields import PLACE_X, PLACE_Y, LocalConditions, WearRate
+from tribo.core.material import Material
 from tribo.simulation.guards import GuardedLaw
 from tribo.simulation.model import Model
+
+SPEED = "speed"
+"""What a law may be told of the motion."""
 
 
 class LocalLaw(GuardedLaw):
@@ -46,6 +51,44 @@ class LocalLaw(GuardedLaw):
         return replace(
             rate, depth_rate=factor * rate.depth_rate, depth_slope=factor * rate.depth_slope
         )
+
+
+class WatchedLaw(GuardedLaw):
+    """A law of a body that notes in `seen` which properties of its material, and `SPEED`, it read.
+
+    Copies of what it is told count as read.
+    """
+
+    def __init__(self, law: GuardedLaw) -> None:
+        vars(self).update(vars(law))
+        self._law = law
+        self.seen: set[str] = set()
+
+    def rate(self, local: LocalConditions) -> WearRate:
+        """Return the law's rate."""
+        material: Any = _Watched(local.material, self.seen)
+        told = _WatchedConditions(**{**vars(local), "material": material}, seen=self.seen)
+        return self._law.rate(told)
+
+
+@dataclass(frozen=True, kw_only=True)
+class _WatchedConditions(LocalConditions):
+    seen: set[str]
+
+    def __getattribute__(self, name: str) -> Any:
+        if name == SPEED:
+            self.seen.add(name)
+        return super().__getattribute__(name)
+
+
+class _Watched:
+    def __init__(self, material: Material, seen: set[str]) -> None:
+        self._material, self._seen = material, seen
+
+    def __getattr__(self, name: str) -> Any:
+        fields = Material.model_fields
+        self._seen.update([name] if name in fields else fields)
+        return getattr(self._material, name)
 
 
 def localised(model: Model, factors: Mapping[str, Array]) -> Model:

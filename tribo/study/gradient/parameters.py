@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -20,13 +20,15 @@ from tribo.simulation.model import Model
 from tribo.stepping.evolution import Course, course
 from tribo.stepping.rates import Moment
 from tribo.stepping.step import worn_depths
-from tribo.study.gradient.local import localised
+from tribo.study.gradient.local import SPEED, localised
 from tribo.study.gradient.tape import Pressed, Slid
 
 NUDGE = 3e-5
 """Part of a number by which it is varied: what is compared is a height, a rate, never a solve."""
 FINE = 1e-7
 """The same for numbers of the motion, which may be at any phase of many cycles."""
+LAW = "law"
+"""What a number changes of a law that it enters."""
 ANY = "*"
 """The key that stands for each body, as in ``bodies.*.material.hardness``."""
 HOW = ("grid", "stepping")
@@ -61,13 +63,25 @@ class Stops:
 class Variant:
     """A model with a number changed, and its weight in the derivative.
 
-    `wears` names the bodies whose wear under given contacts differs.
+    `wears` has the bodies whose wear under given contacts differs, and what of their laws it may be
+    that does: the `LAW` itself, or only properties of their material or the `SPEED`. `same_path`
+    tells whether points pass through the contact as they do without the change.
     """
 
     model: Model
     weight: float
     stops: Stops
-    wears: frozenset[str]
+    wears: Mapping[str, frozenset[str]]
+    same_path: bool
+
+
+@dataclass(frozen=True)
+class Known:
+    """A step gone through once more: its course, the depths it wore, and what laws looked at."""
+
+    course: Course
+    worn: Mapping[str, Array]
+    seen: Mapping[str, Set[str]]
 
 
 @dataclass(frozen=True)
@@ -107,22 +121,26 @@ class Chain:
         self,
         slid: Slid,
         contacts: Sequence[ContactSolution],
-        known: Course,
+        known: Known,
         wear: Mapping[str, Array],
         states: Mapping[str, Mapping[str, Array]],
     ) -> float:
         """Return what comes through a step under given contacts.
 
-        `known` is what it came to; `wear` and `states` are the derivatives in the depth and in what
-        laws remember after it.
+        `wear` and `states` are the derivatives in the depth and in what laws remember after it.
         """
-        total, follows = 0.0, True
+        total, memory = 0.0, known.course.memory
+        remembers = bool(memory.values or memory.shares)
         for each in self.variants:
-            if not each.wears:
+            # A law that the number does not enter need not be asked about it again.
+            laws = {
+                name: each.model.laws[name]
+                for name, through in each.wears.items()
+                if remembers or LAW in through or through & known.seen[name]
+            }
+            wears = {name for name, through in each.wears.items() if SPEED in through} | set(laws)
+            if not wears:
                 continue
-            laws = {name: law for name, law in each.model.laws.items() if name in each.wears}
-            model = replace(each.model, laws=laws)
-            before = replace(slid.before, laws={name: slid.before.laws[name] for name in laws})
             begun, ended = (self._then(each, time) for time in (slid.time, slid.moment.time))
             end = slid.moment.distance
             began, distance = (
@@ -131,13 +149,20 @@ class Chain:
             )
             increment = distance - began
             moment = Moment(ended, distance, increment / (ended - begun))
-            after = known
-            if follows:
+            after = known.course
+            if laws:
+                model = replace(each.model, laws=laws)
+                before = replace(slid.before, laws={name: slid.before.laws[name] for name in laws})
                 after = course(model, before, contacts, increment, moment, slid.plan)
-                # A law that the number does not enter need not be asked about it again.
-                follows = each.model is self.base or not _same_rates(after, known)
-            rates = [{name: of[name] for name in laws} for of in after.rates]
-            depths = worn_depths(model, rates, increment)
+            if each.same_path and not laws:
+                longer = increment / slid.increment
+                depths = {name: longer * known.worn[name] for name in wears}
+            else:
+                rates = [
+                    {name: (of if name in laws else was)[name] for name in wears}
+                    for of, was in zip(after.rates, known.course.rates, strict=True)
+                ]
+                depths = worn_depths(each.model, rates, increment)
             through = sum(float(np.sum(wear[name] * depth)) for name, depth in depths.items())
             through += sum(
                 float(np.sum(states[name][key] * values))
@@ -259,22 +284,17 @@ def chain(
         if scheme is central:
             _check_smooth(models[0], base, models[1], path)
         stops = [Stops.of(model) for model in models]
-        wears = frozenset().union(*(_wears(base, model) for model in models))
+        wears: dict[str, frozenset[str]] = {}
+        for model in models:
+            for name, through in _wears(base, model).items():
+                wears[name] = wears.get(name, frozenset()) | through
         variants = [
-            Variant(model, weight / step, of_model, wears)
+            Variant(model, weight / step, of_model, wears, _same_path(base, model))
             for model, (_, weight), of_model in zip(models, scheme, stops, strict=True)
         ]
         return Chain(path, value, variants, base, Stops.of(base))
     why = str(error).removeprefix(f"{path}: ")
     raise CaseError(f"has no derivative here: {why}", path)
-
-
-def _same_rates(one: Course, other: Course) -> bool:
-    return not (other.memory.values or other.memory.shares) and all(
-        np.array_equal(rate.depth_rate, rates[name].depth_rate)
-        for of_bodies, rates in zip(one.rates, other.rates, strict=True)
-        for name, rate in of_bodies.items()
-    )
 
 
 def _varied(
@@ -304,22 +324,32 @@ def _varied(
     return model
 
 
-def _wears(base: Model, model: Model) -> set[str]:
-    """Return the bodies that wear otherwise under given contacts."""
+def _wears(base: Model, model: Model) -> dict[str, frozenset[str]]:
+    """Return the bodies that wear otherwise under given contacts, and through what."""
     one, other = base.case, model.case
+    everything = dict.fromkeys(model.laws, frozenset({LAW}))
     if one.load != other.load and any(law.initial_state for law in model.laws.values()):
         # What is remembered follows the load along a step.
-        return set(model.laws)
-    if (one.kinematics, one.friction) != (other.kinematics, other.friction) or not np.array_equal(
+        return everything
+    if one.friction != other.friction:
+        return everything
+    if one.kinematics != other.kinematics or not np.array_equal(
         Stops.of(base).times, Stops.of(model).times
     ):
-        return set(model.laws)
-    same = {"surface": None}
-    return {
-        name
-        for name in model.laws
-        if one.bodies[name].model_copy(update=same) != other.bodies[name].model_copy(update=same)
-    }
+        # Rows that slide further wear more, whatever their law looks at.
+        if any(position.reach is not None for position in model.cycle):
+            return everything
+        return dict.fromkeys(model.laws, frozenset({SPEED}))
+    found = {}
+    for name in model.laws:
+        was, now = one.bodies[name], other.bodies[name]
+        if (was.wear, was.layers) != (now.wear, now.layers):
+            found[name] = frozenset({LAW})
+        elif was.material != now.material:
+            found[name] = frozenset(
+                key for key, value in was.material if value != getattr(now.material, key)
+            )
+    return found
 
 
 def changed(value: Any, place: Sequence[Any], number: float) -> Any:
@@ -333,6 +363,16 @@ def changed(value: Any, place: Sequence[Any], number: float) -> Any:
     if isinstance(value, Mapping):
         return {**value, key: changed(value[key], rest, number)}
     return tuple(changed(v, rest, number) if i == key else v for i, v in enumerate(value))
+
+
+def _same_path(base: Model, model: Model) -> bool:
+    trial = np.random.default_rng(0).random(base.grid.cells)
+    return all(
+        one.share == other.share for one, other in zip(base.cycle, model.cycle, strict=True)
+    ) and all(
+        np.array_equal(exposure.average(trial), model.exposures[name].average(trial))
+        for name, exposure in base.exposures.items()
+    )
 
 
 def _check_smooth(higher: Model, base: Model, lower: Model, path: str) -> None:
