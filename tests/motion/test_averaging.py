@@ -58,7 +58,7 @@ def test_the_papers_end_is_said_with_a_number_and_a_remedy():
     assert stroke(swept="disk").limitation(0.5e-3, 8.05e-6, 4.4e-6, 1.0) == (
         "the groove of disk is about 18 % too deep at mid-stroke, because tribo averages over the "
         "stroke (2 mm, 4 half-widths of the 1 mm contact); over the same sliding distance about "
-        "3 % with a stroke of 4.9 mm (frequency 10.3 Hz); or resolve the stroke: "
+        "3 % with a stroke of 4.9 mm and 0.41 times the frequency; or resolve the stroke: "
         'kinematics.positions = "auto"'
     )
 

@@ -4,7 +4,18 @@ import numpy as np
 import pytest
 from paper_models import K, flat, foundation, named, small, sphere, states, steel
 
-from tribo import CaseError, Explicit, Grid, Implicit, Rotating, SpeedStage, Unidirectional, WearLaw
+from tribo import (
+    CaseError,
+    Explicit,
+    FrequencyStage,
+    Grid,
+    Implicit,
+    Reciprocating,
+    Rotating,
+    SpeedStage,
+    Unidirectional,
+    WearLaw,
+)
 from tribo.core.fields import WearRate
 
 STAGES = [
@@ -13,19 +24,28 @@ STAGES = [
     SpeedStage(until=20, speed=0.5),
 ]
 
+FREQUENCIES = [FrequencyStage(until=s.until, frequency=s.speed / 0.04) for s in STAGES]
+
 
 def track(**values):
     return Unidirectional(**{"speed": STAGES, "track_length": "20 mm", "duration": 12, **values})
 
 
-def test_distance_is_the_integral_of_the_speed_and_time_its_first_inverse():
-    motion = track()
+def strokes(**values):
+    given = {"frequency": FREQUENCIES, "stroke": "20 mm", "duration": 12, "positions": "average"}
+    return Reciprocating(**{**given, **values})
+
+
+@pytest.mark.parametrize("motion", [track(), strokes()], ids=lambda m: m.type)
+def test_distance_is_the_integral_of_the_speed_and_time_its_first_inverse(motion):
     times = [0, 2, 4, 6, 9, 10, 12]
     found = [motion.distance_at(time) for time in times]
     np.testing.assert_allclose(found, [0, 0.2, 0.4, 0.4, 0.4, 0.9, 1.9], rtol=1e-14)
     assert [motion.time_at(distance) for distance in (0.2, 0.4, 0.9)] == pytest.approx([2, 4, 10])
     assert track(duration=None, distance=0.9).end_time == pytest.approx(10)
     assert track(duration=None, revolutions=45).end_time == pytest.approx(10)
+    assert strokes(duration=None, distance=0.9).end_time == pytest.approx(10)
+    assert strokes(duration=None, cycles=22.5).end_time == pytest.approx(10)
 
 
 class Faster(WearLaw):
@@ -41,8 +61,8 @@ class Faster(WearLaw):
 @pytest.mark.parametrize("stepping", [Implicit(), Explicit(time_step=0.3)], ids=lambda s: s.type)
 @pytest.mark.parametrize(
     "motion",
-    [track(), Rotating(speed=STAGES, track_radius="1 m", duration=12)],
-    ids=["unidirectional", "rotating"],
+    [track(), Rotating(speed=STAGES, track_radius="1 m", duration=12), strokes()],
+    ids=lambda m: m.type,
 )
 def test_a_law_is_asked_at_the_speed_of_each_stage_by_itself(motion, stepping):
     bodies = [named("ball", sphere(), steel(), Faster()), named("disk", flat(), steel())]
@@ -75,14 +95,20 @@ def test_stages_that_make_no_sense_are_refused(values, words):
         track(**values)
 
 
+def test_a_sinusoidal_motion_has_one_frequency():
+    with pytest.raises(ValueError, match=r"a frequency in stages is for .*constant_speed"):
+        strokes(waveform="sinusoidal")
+
+
 @pytest.mark.parametrize(
-    ("values", "words"),
+    ("motion", "place", "words"),
     [
-        ({"duration": 21}, "ends at 20 s, after 5.9 m, before the run does at 21 s"),
-        ({"duration": None, "distance": 6}, "before the run does at 6 m"),
-        ({"duration": None, "revolutions": 300}, "before the run does at 6 m"),
+        (track(duration=21), "speed", "after 5.9 m, before the run does at 21 s"),
+        (track(duration=None, distance=6), "speed", "before the run does at 6 m"),
+        (track(duration=None, revolutions=300), "speed", "before the run does at 6 m"),
+        (strokes(duration=21), "frequency", "after 147.5 cycles, before the run does at 21 s"),
     ],
 )
-def test_stages_that_end_before_the_run_are_refused(values, words):
-    with pytest.raises(CaseError, match=rf"kinematics\.speed: .*{words}"):
-        small(kinematics=track(**values), contact=foundation())
+def test_stages_that_end_before_the_run_are_refused(motion, place, words):
+    with pytest.raises(CaseError, match=rf"kinematics\.{place}: .*ends at 20 s, .*{words}"):
+        small(kinematics=motion, contact=foundation())

@@ -4,23 +4,19 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
-from functools import cached_property
 from typing import Annotated, Self
 
-import numpy as np
 from pydantic import Tag, field_validator, model_validator
 
-from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
-from tribo.core.stages import NUMBER, ONE_OR_STAGES, STAGES, check_times, listed
+from tribo.core.stages import NUMBER, ONE_OR_STAGES, STAGES, listed
 from tribo.core.table import Table
 from tribo.core.units import Quantity
 from tribo.motion.exposure import Exposure, Track
+from tribo.motion.held import Held, held
 from tribo.motion.kinematics import Kinematics
 from tribo.motion.swept import one_swept_body
-
-ROUNDING = 1e-12
 
 
 class SpeedStage(Table):
@@ -58,10 +54,7 @@ class ClosedTrack(Kinematics):
     @field_validator("speed")
     @classmethod
     def _slides_on(cls, speed: float | tuple[SpeedStage, ...]) -> float | tuple[SpeedStage, ...]:
-        if not isinstance(speed, float):
-            check_times([stage.until for stage in speed], "speed")
-            if not any(stage.speed for stage in speed):
-                raise ValueError("every stage is a rest; give one that slides")
+        held("speed", speed)
         return speed
 
     @model_validator(mode="after")
@@ -70,18 +63,14 @@ class ClosedTrack(Kinematics):
             raise ValueError("give exactly one of duration, revolutions and distance")
         return self
 
-    @cached_property
-    def _course(self) -> tuple[Array, Array]:
-        """Times at which stages end, from 0 on, in s, and the distance slid by then, in m."""
-        assert not isinstance(self.speed, float)
-        times = np.array([0.0, *(stage.until for stage in self.speed)])
-        speeds = np.array([stage.speed for stage in self.speed])
-        return times, np.concatenate([[0.0], np.cumsum(speeds * np.diff(times))])
+    @property
+    def _held(self) -> Held:
+        return held("speed", self.speed)
 
     @property
     def edges(self) -> Sequence[float]:
         """Times at which one stage of the speed ends and another begins, in s."""
-        return () if isinstance(self.speed, float) else [s.until for s in self.speed[:-1]]
+        return self._held.ends[:-1]
 
     @property
     @abstractmethod
@@ -103,37 +92,15 @@ class ClosedTrack(Kinematics):
             If the stages of the speed end before.
         """
         far = self.distance if self.revolutions is None else self.revolutions * self.lap
-        if not isinstance(self.speed, float):
-            times, slid = self._course
-            left = (slid[-1] - (far or 0.0)) / slid[-1], 1 - (self.duration or 0.0) / times[-1]
-            if min(left) < -ROUNDING:
-                end = f"{self.duration:g} s" if far is None else f"{far:g} m"
-                raise CaseError(
-                    f"the speed ends at {times[-1]:g} s, after {slid[-1]:g} m, before the run does "
-                    f"at {end}; give it up to then",
-                    "kinematics.speed",
-                )
-        if self.duration is not None:
-            return self.duration
-        assert far is not None
-        return self.time_at(far)
+        return self._held.end("speed", "m", self.duration, far)
 
     def distance_at(self, time: float) -> float:
         """Return the sliding distance until `time`, in m."""
-        if isinstance(self.speed, float):
-            return self.speed * time
-        return float(np.interp(time, *self._course))
+        return self._held.by(time)
 
     def time_at(self, distance: float) -> float:
         """Return the first time at which `distance` is reached, in s."""
-        if isinstance(self.speed, float):
-            return distance / self.speed
-        times, slid = self._course
-        distance = min(distance, float(slid[-1]))
-        if distance <= 0:
-            return 0.0
-        stage = int(np.searchsorted(slid, distance)) - 1
-        return float(times[stage + 1] - (slid[stage + 1] - distance) / self.speed[stage].speed)
+        return self._held.reached(distance)
 
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
         """Return the closed track for the swept body."""

@@ -7,14 +7,17 @@ from collections.abc import Mapping, Sequence
 from typing import Annotated, Literal, Self
 
 import numpy as np
-from pydantic import ConfigDict, Field, field_validator, model_validator
+from pydantic import ConfigDict, Field, Tag, field_validator, model_validator
 
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
+from tribo.core.stages import NUMBER, ONE_OR_STAGES, STAGES, listed
+from tribo.core.table import Table
 from tribo.core.units import Quantity
 from tribo.motion.averaging import GOOD, NOTICED, good_stroke, groove_excess, too_deep
 from tribo.motion.cycle import Position, Stroke, check_spacing, odd
 from tribo.motion.exposure import Exposure, Passing, Track
+from tribo.motion.held import Held, held
 from tribo.motion.kinematics import Kinematics
 from tribo.motion.swept import one_swept_body
 
@@ -24,6 +27,15 @@ PHASES = 6
 """Speeds of a sinusoidal cycle: means of its powers up to the third are exact to 1e-6."""
 SAMPLES = 16
 """Of a sinusoidal half cycle, between two positions."""
+
+
+class FrequencyStage(Table):
+    """A stage of a frequency that changes over time: it is held until a time."""
+
+    until: Annotated[float, Quantity("s", above=0)]
+    """When it ends."""
+    frequency: Annotated[float, Quantity("Hz", at_least=0, usual=(1e-6, 1e5))]
+    """Full cycles, back and forth, per second; 0 for a rest."""
 
 
 class Reciprocating(Kinematics):
@@ -49,8 +61,13 @@ class Reciprocating(Kinematics):
     type = "reciprocating"
     stroke: Annotated[float, Quantity("m", above=0, usual=(1e-9, 1.0))]
     """Distance between the two points of reversal."""
-    frequency: Annotated[float, Quantity("Hz", above=0, usual=(1e-6, 1e5))]
-    """Full cycles, back and forth, per second."""
+    frequency: Annotated[
+        Annotated[float, Quantity("Hz", above=0, usual=(1e-6, 1e5)), Tag(NUMBER)]
+        | Annotated[tuple[FrequencyStage, ...], Tag(STAGES)],
+        ONE_OR_STAGES,
+    ]
+    """Full cycles, back and forth, per second: a number or, at a constant speed along the stroke, a
+    list of stages, each a table with `until` and `frequency`, 0 for a rest."""
     duration: Annotated[float, Quantity("s", above=0)] | None = None
     """How long it runs."""
     cycles: Annotated[float, Quantity("1", above=0)] | None = None
@@ -70,39 +87,67 @@ class Reciprocating(Kinematics):
     """Whether a stroke is accepted that is shorter than the first contact's half-width or, where
     the cycle is resolved, than two cells."""
 
+    _in_a_list = field_validator("frequency", mode="before")(listed)
+
+    @field_validator("frequency")
+    @classmethod
+    def _slides_on(
+        cls, frequency: float | tuple[FrequencyStage, ...]
+    ) -> float | tuple[FrequencyStage, ...]:
+        held("frequency", frequency)
+        return frequency
+
     @model_validator(mode="after")
     def _one_end(self) -> Self:
         if sum(end is not None for end in (self.duration, self.cycles, self.distance)) != 1:
             raise ValueError("give exactly one of duration, cycles and distance")
+        if self.waveform == "sinusoidal" and not isinstance(self.frequency, float):
+            raise ValueError(
+                'a frequency in stages is for waveform = "constant_speed"; give the path of '
+                'another as type = "measured"'
+            )
         return self
+
+    @property
+    def _held(self) -> Held:
+        return held("frequency", self.frequency)
+
+    @property
+    def _steady(self) -> float:
+        """The one frequency of a sinusoidal motion, in Hz."""
+        return self._held.rates[0]
+
+    @property
+    def edges(self) -> Sequence[float]:
+        """Times at which one stage of the frequency ends and another begins, in s."""
+        return self._held.ends[:-1]
 
     _middle = field_validator("positions")(odd)
 
     @property
     def end_time(self) -> float:
         """Time at which the motion ends, in s."""
-        if self.duration is not None:
-            return self.duration
-        if self.cycles is not None:
-            return self.cycles / self.frequency
-        assert self.distance is not None
-        return self.time_at(self.distance)
+        cycles = self.cycles if self.distance is None else self._half_cycles(self.distance) / 2
+        return self._held.end("frequency", "cycles", self.duration, cycles)
 
     def distance_at(self, time: float) -> float:
         """Return the sliding distance until `time`, in m."""
-        half_cycles = 2 * self.frequency * time
+        half_cycles = 2 * self._held.by(time)
         if self.waveform == "constant_speed":
             return half_cycles * self.stroke
         whole = math.floor(half_cycles)
         return (whole + math.sin(0.5 * math.pi * (half_cycles - whole)) ** 2) * self.stroke
 
     def time_at(self, distance: float) -> float:
-        """Return the time at which `distance` is reached, in s."""
+        """Return the first time at which `distance` is reached, in s."""
+        return self._held.reached(self._half_cycles(distance) / 2)
+
+    def _half_cycles(self, distance: float) -> float:
         strokes = distance / self.stroke
-        if self.waveform == "sinusoidal":
-            whole = math.floor(strokes)
-            strokes = whole + math.asin(math.sqrt(strokes - whole)) / (0.5 * math.pi)
-        return strokes / (2 * self.frequency)
+        if self.waveform == "constant_speed":
+            return strokes
+        whole = math.floor(strokes)
+        return whole + math.asin(math.sqrt(strokes - whole)) / (0.5 * math.pi)
 
     def speeds(self) -> Sequence[tuple[float, float]] | None:
         """Return speeds of a sinusoidal cycle, at Gauss points of the phase; else None."""
@@ -112,7 +157,7 @@ class Reciprocating(Kinematics):
         # From a reversal to mid-stroke; distance goes as the integral of the speed over the phase.
         sines = np.sin(0.25 * math.pi * (nodes + 1))
         shares = weights * sines / np.sum(weights * sines)
-        largest = math.pi * self.stroke * self.frequency
+        largest = math.pi * self.stroke * self._steady
         return [(largest * float(s), float(w)) for s, w in zip(sines, shares, strict=True)]
 
     def cycle(self, grid: Grid) -> Sequence[Position]:
@@ -128,7 +173,7 @@ class Reciprocating(Kinematics):
         last = len(at) - 1
         right = np.interp(np.linspace(0, last, SAMPLES * last + 1), np.arange(last + 1), at)
         phases = np.concatenate([-right[:0:-1], right])
-        times = phases / (2 * math.pi * self.frequency)
+        times = phases / (2 * math.pi * self._steady)
         return stroke.passed(times, 0.5 * self.stroke * np.sin(phases))
 
     def coarsened(self, half_width_x: float) -> Reciprocating:
@@ -177,8 +222,8 @@ class Reciprocating(Kinematics):
             f"the groove{f' of {self.swept}' if self.swept else ''} is {too_deep(excess)} at "
             f"mid-stroke, because tribo averages over the stroke ({1e3 * stroke:.3g} mm, {many} of "
             f"the {2e3 * half_width_x:.3g} mm contact); over the same sliding distance about "
-            f"{100 * GOOD:.0f} % with a stroke of {1e3 * longer:.2g} mm "
-            f"(frequency {self.frequency * stroke / longer:.3g} Hz); or resolve the stroke: "
+            f"{100 * GOOD:.0f} % with a stroke of {1e3 * longer:.2g} mm and {stroke / longer:.2g} "
+            "times the frequency; or resolve the stroke: "
             'kinematics.positions = "auto"'
         )
 
