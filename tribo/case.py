@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Self
 
@@ -10,7 +10,6 @@ from packaging.requirements import InvalidRequirement, Requirement
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from tribo import above
-from tribo.component import Component
 from tribo.contact.dcfft import DcFft
 from tribo.contact.solver import ContactSolver
 from tribo.core.grid import Grid
@@ -216,24 +215,3 @@ class Case(Table):
     def run(self, output: str | Path | None = None, **options: Any) -> Result:
         """Run from the beginning, as ``Simulation(case).run(output, …)``."""
         return above.run(self, output, **options)
-
-    def components(self) -> Iterator[tuple[str, Component]]:
-        """Yield every component with its place in the case, those within others too."""
-        for place, component in self._outer():
-            yield place, component
-            yield from ((f"{place}.{inner}", part) for inner, part in component.within())
-
-    def _outer(self) -> Iterator[tuple[str, Component]]:
-        for name, body in self.bodies.items():
-            yield f"bodies.{name}.surface", body.surface
-            if body.wear is not None:
-                yield f"bodies.{name}.wear", body.wear
-            for i, layer in enumerate(body.layers):
-                if layer.wear is not None:
-                    yield f"bodies.{name}.layers[{i}].wear", layer.wear
-        yield "contact", self.contact
-        yield "kinematics", self.kinematics
-        for i, effect in enumerate(self.effects):
-            yield f"effects[{i}]", effect
-        for i, observer in enumerate(self.observers):
-            yield f"observers[{i}]", observer

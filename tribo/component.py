@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from pydantic import (
+    BaseModel,
     GetCoreSchemaHandler,
     GetJsonSchemaHandler,
     SerializerFunctionWrapHandler,
@@ -136,16 +137,6 @@ class Component(Table, ABC):
         """Pickle the class and its configuration."""
         return type(self).model_validate, (dict(self),)
 
-    def within(self) -> Iterator[tuple[str, Component]]:
-        """Yield the components that its fields hold, and those within them, each with its place."""
-        for name, value in self:
-            several = isinstance(value, tuple | list)
-            for at, part in enumerate(value if several else (value,)):
-                if isinstance(part, Component):
-                    place = f"{name}[{at}]" if several else name
-                    yield place, part
-                    yield from ((f"{place}.{inner}", each) for inner, each in part.within())
-
     def facts(self) -> Mapping[str, str]:
         """Return facts that a user should see before a run, such as how a file was read.
 
@@ -158,6 +149,21 @@ class Component(Table, ABC):
             Text by its name, as in ``{"size": "1.24 × 0.94 mm"}``.
         """
         return {}
+
+
+def components(table: BaseModel) -> Iterator[tuple[str, Component]]:
+    """Yield every component in a table with its place there, those within others too."""
+    for name, value in table:
+        parts = {name: value}
+        if isinstance(value, Mapping):
+            parts = {f"{name}.{key}": part for key, part in value.items()}
+        elif isinstance(value, tuple | list):
+            parts = {f"{name}[{at}]": part for at, part in enumerate(value)}
+        for place, part in parts.items():
+            if isinstance(part, Component):
+                yield place, part
+            if isinstance(part, BaseModel):
+                yield from ((f"{place}.{inner}", each) for inner, each in components(part))
 
 
 def _snake_case(name: str) -> str:

@@ -3,8 +3,7 @@
 import pytest
 
 from tribo import CaseError
-from tribo.config.requirements import check_requirements
-from tribo.registry.plugins import Plugin
+from tribo.registry.plugins import Plugin, check_requirements
 
 
 @pytest.mark.parametrize(

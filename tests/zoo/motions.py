@@ -56,14 +56,13 @@ for name, words, saved, parts in (
 GROOVES.bad("limited_by_7", Slide, "gave a int as its limitation", limitation=lambda *given: 7)
 
 
-def exposed(name, words, zoo=ZOO, saved=False, **parts):
+def exposed(name, words, **parts):
     """Keep a motion whose first body has an exposure with other parts."""
     wrong = type(name, (Stationary,), parts)
-    zoo.bad(
+    ZOO.bad(
         name,
         Slide,
         words,
-        saved=saved,
         exposures=lambda self, grid, bodies: {bodies[0]: wrong(grid), bodies[1]: Track(grid, 0.02)},
     )
 
@@ -74,22 +73,22 @@ def doubled(self, rate):
 
 
 for name, words, average in (
-    ("average_none", "for body 'ball', gave an average that", lambda self, rate: None),
+    ("average_none", "gave an average for body 'ball' that", lambda self, rate: None),
     ("average_of_a_track", "float64 of shape (1, 32)", lambda self, rate: rate[:1]),
     ("average_nan", "that is not finite", lambda self, rate: np.where(rate > 0, np.nan, rate)),
     ("average_negative", "gave a negative average", lambda self, rate: -np.abs(rate)),
     ("average_writes", "read-only", doubled),
     ("average_raises", "raised IndexError: out", staticmethod(raising(IndexError("out")))),
 ):
-    exposed(name, words, saved=True, average=average)
-exposed("swept_stays", "of shape (1, 32): float64 of shape (32, 32)", saved=True, swept=True)
+    exposed(name, words, average=average)
+exposed("swept_stays", "of shape (1, 32): float64 of shape (32, 32)", swept=True, rows=1)
 exposed("volume_array", "of shape (32,)", volume=lambda self, depth: np.sum(depth, axis=0))
 exposed("volume_nan", "not a finite number: nan", volume=lambda self, depth: np.nan)
 for name, words, envelope in (
     ("envelope_short", "an array of shape (32, 32)", lambda self, field: field[1:]),
     ("envelope_nan", "not finite", lambda self, field: field * np.nan),
 ):
-    exposed(name, words, GROOVES, True, envelope=envelope)
+    exposed(name, words, envelope=envelope)
 for name, words, compliance in (
     ("compliance_array", "instead of a WearCompliance", lambda self, k, p: k),
     ("compliance_short", "a local", lambda self, k, p: WearCompliance(k[1:], np.zeros(32))),
@@ -97,4 +96,4 @@ for name, words, compliance in (
     ("compliance_below_0", "a negative", lambda self, k, p: WearCompliance(-k, np.zeros(32))),
     ("compliance_raises", "NumericalError and says no more", raising(NumericalError(""))),
 ):
-    exposed(name, words, saved=True, compliance=compliance)
+    exposed(name, words, compliance=compliance)

@@ -11,7 +11,7 @@ import click
 
 from tribo.cli.running import no_interrupt_lost, warnings_on_stderr
 from tribo.cli.streams import Output, Remarks, over, say
-from tribo.core.errors import ReaderGone, TriboError
+from tribo.core.errors import CaseError, ReaderGone, TriboError
 from tribo.core.words import did_you_mean, suggestion
 
 COMMANDS = {
@@ -127,6 +127,8 @@ def _told(error: Exception) -> tuple[str, int]:
     """Return the message and the exit code of an error."""
     if isinstance(error, TriboError):
         return "\n".join([str(error), *getattr(error, "__notes__", ())]), error.exit_code
+    if isinstance(error, RecursionError):
+        return "tables or lists are nested too deeply", CaseError.exit_code
     if isinstance(error, MemoryError):
         return "out of memory; lower grid.cells, or raise the limit of this process", 3
     return (

@@ -14,10 +14,9 @@ from pydantic import ValidationError
 
 from tribo.case import Case
 from tribo.config.overrides import apply_settings
-from tribo.config.requirements import check_requirements
-from tribo.core.depth import check_depth, nested_too_deeply
 from tribo.core.errors import CaseError
 from tribo.core.explain import case_error
+from tribo.registry.plugins import check_requirements
 from tribo.registry.registry import Registry, default_registry
 
 FEWEST, MOST = 4, 16384
@@ -66,7 +65,6 @@ def validate_case(data: Mapping[str, Any], *, registry: Registry | None = None) 
     CaseError
         If anything in `data` is wrong; one line for each error.
     """
-    check_depth(data, "the case")
     known = registry or default_registry()
     requires = data.get("requires")
     if isinstance(requires, list | tuple):
@@ -77,6 +75,8 @@ def validate_case(data: Mapping[str, Any], *, registry: Registry | None = None) 
         case = Case.model_validate(data, context={"registry": known})
     except ValidationError as error:
         raise case_error(error) from None
+    except RecursionError:
+        raise CaseError("tables or lists of the case are nested too deeply") from None
     for cells in case.grid.cells:
         if not FEWEST <= cells <= MOST:
             raise CaseError(f"{cells}: must be from {FEWEST} to {MOST}", "grid.cells")
@@ -130,6 +130,5 @@ def read_toml(path: str | Path) -> dict[str, Any]:
     except ValueError as error:
         raise CaseError(f"{path} is not TOML: {error}{_quotes(content, error)}") from None
     except RecursionError:
-        raise nested_too_deeply(path) from None
-    check_depth(data, path)
+        raise CaseError(f"{path}: tables or lists are nested too deeply") from None
     return data

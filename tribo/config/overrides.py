@@ -9,7 +9,6 @@ from typing import Any
 from pydantic import BaseModel
 
 from tribo.component import Component
-from tribo.core.depth import LEVELS, check_depth, nested_too_deeply
 from tribo.core.errors import CaseError
 from tribo.core.units import Quantity, quantities
 from tribo.core.words import shown
@@ -40,16 +39,10 @@ def apply_settings(
         If a text is not of that form, or a path leads through a value that is
         not a table.
     """
-    check_depth(data, "the case")
     if isinstance(settings, str):
         settings = [settings]
     pairs = settings.items() if isinstance(settings, Mapping) else map(_pair, settings)
     changes = [(path_keys(path), value) for path, value in pairs]
-    for keys, value in changes:
-        path = shown(".".join(keys))
-        if len(keys) > LEVELS:
-            raise nested_too_deeply(path)
-        check_depth(value, path)
     changed = dict(data)
     types = sorted((c for c in changes if c[0][-1] == "type"), key=lambda c: len(c[0]))
     for keys, value in types + [c for c in changes if c[0][-1] != "type"]:
@@ -73,12 +66,11 @@ def path_keys(path: str) -> list[str]:
 
 
 def parse_value(text: str) -> Any:
-    """Return the value of a text as TOML, or else the text; CaseError if it nests too deeply."""
+    """Return the value of a text as TOML, or else the text."""
     try:
         read = tomllib.loads(f"value = {text}")
     except (ValueError, RecursionError):
         return text
-    check_depth(read, shown(text))
     return read["value"] if len(read) == 1 else text
 
 

@@ -32,12 +32,9 @@ class Exposure(ABC):
     repeats, rows are counted round."""
 
     @property
-    def rows(self) -> int | None:
-        """Cells along x on the body's own surface; None for as many as the window has.
-
-        1 where every point of a track sees the same.
-        """
-        return 1 if self.swept else None
+    @abstractmethod
+    def rows(self) -> int:
+        """Cells along x on the body's own surface; 1 where every point of a track sees the same."""
 
     @property
     def averaged(self) -> bool:
@@ -83,7 +80,12 @@ class Stationary(Exposure):
     """The same material points stay in contact."""
 
     def __init__(self, grid: Grid) -> None:
-        self._cell_area = grid.cell_area
+        self._grid = grid
+
+    @property
+    def rows(self) -> int:
+        """Cells along x on the body."""
+        return self._grid.cells[0]
 
     def average(self, rate: Array) -> Array:
         """Return `rate` itself: every point sees its own."""
@@ -95,7 +97,7 @@ class Stationary(Exposure):
 
     def volume(self, depth: Array) -> float:
         """Return the integral of `depth` over the body's rows, in m³."""
-        return float(np.sum(depth)) * self._cell_area
+        return float(np.sum(depth)) * self._grid.cell_area
 
     def compliance(self, derivative: Array, pressure: Array) -> WearCompliance:
         """Return the derivative as a local compliance."""
@@ -125,9 +127,10 @@ class Track(Exposure):
     """
 
     swept = True
+    rows = 1
 
     def __init__(self, grid: Grid, length: float | Array, *, shape_stays: bool = False) -> None:
-        self._rows = grid.cells[1]
+        self._ny = grid.cells[1]
         self._dx, self._dy = grid.spacing
         self.length = length
         self.shape_stays = shape_stays
@@ -143,7 +146,7 @@ class Track(Exposure):
 
     def volume(self, depth: Array) -> float:
         """Return the area of the track's cross-section times its length, row by row, in m³."""
-        section = np.max(np.broadcast_to(depth, (depth.shape[0], self._rows)), axis=0)
+        section = np.max(np.broadcast_to(depth, (depth.shape[0], self._ny)), axis=0)
         return float(np.sum(section * self.length)) * self._dy
 
     def compliance(self, derivative: Array, pressure: Array) -> WearCompliance:
@@ -181,7 +184,6 @@ class Passing(Stationary):
 
     def __init__(self, grid: Grid, starts: Sequence[int], length: float) -> None:
         super().__init__(grid)
-        self._grid = grid
         self.starts = tuple(starts)
         self._rows = grid.period or grid.cells[0] + max(starts)
         self._length = length if grid.period is None else min(length, grid.size[0])

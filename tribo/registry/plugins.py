@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass, field
 from importlib import metadata
@@ -13,8 +13,8 @@ from typing import Literal
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
-from tribo.core.distributions import applies, entry_points
-from tribo.core.errors import TriboWarning
+from tribo.core.distributions import applies, entry_points, lacking
+from tribo.core.errors import CaseError, TriboWarning
 from tribo.registry import builtin as models
 from tribo.registry.hookspecs import PROJECT
 from tribo.registry.kinds import Classes
@@ -130,6 +130,23 @@ def _choose(plugins: list[Plugin]) -> None:
             plugin.status, plugin.reason = "disabled", reason
     for name in sorted((off | only) - known):
         warnings.warn(f"no plugin is called {name!r}", TriboWarning, stacklevel=3)
+
+
+def check_requirements(requires: Iterable[str], plugins: Iterable[Plugin] = ()) -> None:
+    """Raise `CaseError` unless every requirement, as ``"acme-tribo>=1.2"``, is met.
+
+    One whose marker does not hold here is skipped. A distribution whose plugins are all disabled,
+    broken or incompatible does not meet a requirement.
+    """
+    known = list(plugins)
+    for text in filter(applies, requires):
+        if lack := lacking(text):
+            raise CaseError(f"{text!r} is needed, but {lack}; install it with pip", "requires")
+        name = canonicalize_name(Requirement(text).name)
+        found = [plugin for plugin in known if canonicalize_name(plugin.distribution) == name]
+        if found and not any(plugin.usable for plugin in found):
+            reason = f"the plugin {found[0]} is {found[0].status}: {found[0].reason}"
+            raise CaseError(f"{text!r} is needed, but {reason}", "requires")
 
 
 def undeclared() -> list[str]:

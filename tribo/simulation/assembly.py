@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 
 from tribo.case import Body, Case
-from tribo.config.requirements import check_requirements
 from tribo.contact.solver import ContactSolver
 from tribo.core.arrays import Array, readonly, rows_from
 from tribo.core.coating import Coating
@@ -20,9 +19,11 @@ from tribo.core.fields import PLACE_X
 from tribo.core.grid import Grid, RepeatingGrid
 from tribo.core.loads import Loads
 from tribo.core.material import contact_modulus
+from tribo.motion.exposure import Exposure
 from tribo.motion.unidirectional import Unidirectional
+from tribo.registry.plugins import check_requirements
 from tribo.simulation.effects import in_order
-from tribo.simulation.guarded_motion import GuardedExposure, GuardedMotion
+from tribo.simulation.guarded_motion import GuardedMotion
 from tribo.simulation.guards import (
     GuardedEffect,
     GuardedLaw,
@@ -48,7 +49,7 @@ def assemble(case: Case) -> Model:
         exposures = motion.exposures(window, list(bodies))
         cycle = motion.cycle(window)
         for exposure in exposures.values():
-            exposure.check_starts(len(cycle))
+            motion.check_starts(exposure, len(cycle), window)
     cap, share, hardness = _plastic(bodies, case.contact)
     # Before the first array is made.
     check_memory(grid, memory_needed(case, exposures, plastic=cap is not None))
@@ -169,7 +170,7 @@ def _plastic(
     return cap, {name: (1 / len(soft) if name in soft else 0.0) for name in bodies}, {}
 
 
-def _law(body: Body, name: str, grid: Grid, exposure: GuardedExposure) -> GuardedLaw:
+def _law(body: Body, name: str, grid: Grid, exposure: Exposure) -> GuardedLaw:
     """Return the law of a body that wears, or those of its layers."""
     laws = []
     own = (*((f"layers[{i}].wear", layer) for i, layer in enumerate(body.layers)), ("wear", None))
@@ -228,7 +229,7 @@ def _coatings(bodies: Mapping[str, Body], contact: ContactSolver) -> dict[str, C
     return coatings
 
 
-def _own_grid(grid: Grid, exposure: GuardedExposure) -> Grid:
+def _own_grid(grid: Grid, exposure: Exposure) -> Grid:
     """Return the cells of a body's own surface: those of the window, and of its path beyond it."""
     if exposure.starts is None:
         return grid
@@ -236,7 +237,7 @@ def _own_grid(grid: Grid, exposure: GuardedExposure) -> Grid:
     return Grid(size=(exposure.rows * dx, grid.size[1]), cells=(exposure.rows, ny))
 
 
-def _places(grid: Grid, positions: int, exposures: Mapping[str, GuardedExposure]) -> Array:
+def _places(grid: Grid, positions: int, exposures: Mapping[str, Exposure]) -> Array:
     """Return where the body that passes is at each position, from the middle, in m."""
     starts = next((e.starts for e in exposures.values() if e.starts is not None), [0] * positions)
     # The window's place on the body moves against the body itself.
@@ -247,7 +248,7 @@ def _gaps(
     grid: Grid,
     positions: int,
     surfaces: Mapping[str, GuardedSurface],
-    exposures: Mapping[str, GuardedExposure],
+    exposures: Mapping[str, Exposure],
 ) -> tuple[Array, ...]:
     """Return the initial gap at each position, 0 at the least in the middle of the cycle."""
 
@@ -278,7 +279,7 @@ def _curvature(surfaces: Mapping[str, GuardedSurface]) -> tuple[float, float] | 
     return sum(c[0] for c in known if c), sum(c[1] for c in known if c)
 
 
-def _check_sliding(surface: GuardedSurface, exposure: GuardedExposure) -> None:
+def _check_sliding(surface: GuardedSurface, exposure: Exposure) -> None:
     """Raise `CaseError` if the motion moves a shape that would not stay as it is."""
     stays = exposure.shape_stays or exposure.starts is not None
     if not stays and _varies_along_x(surface.height):
@@ -291,7 +292,7 @@ def _check_sliding(surface: GuardedSurface, exposure: GuardedExposure) -> None:
         )
 
 
-def _check_ring(surface: GuardedSurface, exposure: GuardedExposure, lap: float, grid: Grid) -> None:
+def _check_ring(surface: GuardedSurface, exposure: Exposure, lap: float, grid: Grid) -> None:
     """Raise `CaseError` if a body that turns is not round, or not of its track's radius."""
     if not exposure.swept:
         return
@@ -314,7 +315,7 @@ def _check_ring(surface: GuardedSurface, exposure: GuardedExposure, lap: float, 
         )
 
 
-def _check_places(law: GuardedLaw, exposure: GuardedExposure) -> None:
+def _check_places(law: GuardedLaw, exposure: Exposure) -> None:
     """Raise `CaseError` if a law asks for places on a body whose track has none."""
     if PLACE_X.name in law.requires and exposure.averaged:
         raise CaseError(

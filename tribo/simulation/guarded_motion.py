@@ -1,4 +1,4 @@
-"""A motion, and how it exposes the bodies, held to their contract at every call."""
+"""A motion held to its contract at every call, and how it exposes the bodies."""
 
 from __future__ import annotations
 
@@ -61,8 +61,8 @@ class GuardedMotion(Guard[Kinematics]):
             )
         return [(float(speed), float(share)) for speed, share in pairs]
 
-    def exposures(self, grid: Grid, bodies: Sequence[str]) -> dict[str, GuardedExposure]:
-        """Return how each body meets the contact."""
+    def exposures(self, grid: Grid, bodies: Sequence[str]) -> dict[str, Exposure]:
+        """Return how each body meets the contact; exposures not tribo's own are tried once."""
         answer = self.ask(self.component.exposures, grid, bodies)
         if not isinstance(answer, Mapping) or set(answer) != set(bodies):
             given = list(answer) if isinstance(answer, Mapping) else f"a {type(answer).__name__}"
@@ -72,7 +72,55 @@ class GuardedMotion(Guard[Kinematics]):
         for body, exposure in answer.items():
             if not isinstance(exposure, Exposure):
                 raise self.wrong(exposure, f"as exposure of body {body!r}")
-        return {body: GuardedExposure(answer[body], self.component, body, grid) for body in bodies}
+            lengths = np.asarray(getattr(exposure, "length", 1.0))
+            if not np.all((lengths > 0) & np.isfinite(lengths)):
+                raise BadValues(f"{self} has a track of length {lengths!s:.60} m for body {body!r}")
+            if type(exposure) not in (Stationary, Track, Passing):
+                self._try(exposure, f"for body {body!r}", grid)
+        return {body: answer[body] for body in bodies}
+
+    def _try(self, exposure: Exposure, where: str, grid: Grid) -> None:
+        """Hold an exposure to its contract, which is the same at each call."""
+        rate, own = readonly(np.ones(grid.cells)), (exposure.rows, grid.cells[1])
+        mean = self.ask(exposure.average, rate)
+        if exposure.starts is None:
+            mean = self.field(f"an average {where}", mean, own, at_least=0.0)
+        elif not np.array_equal(mean, rate):
+            raise PluginError(
+                f"{self} gave an average {where} that is not the rate itself, which is laid on the "
+                "body at each of its starts"
+            )
+        passing = rate if exposure.starts is None else readonly(np.ones(own))
+        self.field(f"an envelope {where}", self.ask(exposure.envelope, passing), own)
+        self.number(f"a volume {where}", self.ask(exposure.volume, readonly(mean)))
+        given = self.ask(exposure.compliance, rate, rate)
+        if given is None:
+            return
+        if not isinstance(given, WearCompliance):
+            raise self.wrong(given, "instead of a WearCompliance")
+        self.field(f"a local compliance {where}", given.local, grid.cells, at_least=0.0)
+        self.field(f"a swept compliance {where}", given.swept, grid.cells[1:], at_least=0.0)
+
+    def check_starts(self, exposure: Exposure, positions: int, grid: Grid) -> None:
+        """Hold `starts` to one row for each position, in the body's rows, the middle one midway."""
+        if exposure.starts is None:
+            return
+        rows, window = exposure.rows, grid.cells[0]
+        starts = [int(self.number("a start", start)) for start in exposure.starts]
+        if grid.period is not None and rows != window:
+            raise PluginError(
+                f"{self} has {rows} rows where the contact repeats with the window; it needs "
+                f"the window's {window}, with starts that are counted round"
+            )
+        beyond = rows - window
+        within = grid.period is not None or (min(starts) >= 0 and max(starts) <= beyond)
+        midway = len(starts) == positions and starts[positions // 2] % rows == beyond // 2
+        if not (within and midway):
+            raise PluginError(
+                f"{self} has starts {starts!s:.60} of {len(starts)} positions on {rows} rows; "
+                f"one is needed for each of {positions} positions, from 0 to {beyond}, with "
+                f"{beyond // 2} in the middle"
+            )
 
     def end_time(self, distance: float | None) -> float:
         """Return when the motion ends, or has slid `distance` (m) if that is sooner, in s."""
@@ -129,97 +177,3 @@ class GuardedMotion(Guard[Kinematics]):
         if not isinstance(answer, str | None):
             raise self.wrong(answer, "as its limitation")
         return answer
-
-
-class GuardedExposure(Guard[Kinematics]):
-    """An exposure of which every answer is checked; what is wrong names the motion it is from.
-
-    Tribo's own are linear in finite rates, and so are asked themselves.
-    """
-
-    def __init__(self, exposure: Exposure, motion: Kinematics, body: str, grid: Grid) -> None:
-        super().__init__(motion)
-        self.swept = exposure.swept
-        self.shape_stays = exposure.shape_stays
-        self._asked = exposure
-        self._whose = body
-        self._cells = grid.cells
-        self._repeats = grid.period is not None
-        self.starts = exposure.starts
-        self.averaged = exposure.averaged
-        self.rows = exposure.rows or grid.cells[0]
-        self._own = (self.rows, grid.cells[1])
-        if type(exposure) in (Stationary, Track, Passing):
-            lengths = np.asarray(getattr(exposure, "length", 1.0))
-            if not np.all((lengths > 0) & np.isfinite(lengths)):
-                raise BadValues(f"{self} has a track of length {lengths!s:.60} m")
-            for name in ("average", "envelope", "volume", "compliance"):
-                setattr(self, name, getattr(exposure, name))
-
-    def __str__(self) -> str:
-        """Return what messages call it."""
-        return f"{super().__str__()}, for body {self._whose!r},"
-
-    def check_starts(self, positions: int) -> None:
-        """Hold `starts` to one row for each position, in the body's rows, the middle one midway."""
-        if self.starts is None:
-            return
-        beyond = self.rows - self._cells[0]
-        starts = [int(self.number("a start", start)) for start in self.starts]
-        if self._repeats and beyond != 0:
-            raise PluginError(
-                f"{self} has {self.rows} rows where the contact repeats with the window; it needs "
-                f"the window's {self._cells[0]}, with starts that are counted round"
-            )
-        within = self._repeats or (min(starts) >= 0 and max(starts) <= beyond)
-        if (
-            len(starts) != positions
-            or not within
-            or starts[positions // 2] % self.rows != beyond // 2
-        ):
-            raise PluginError(
-                f"{self} has starts {starts!s:.60} of {len(starts)} positions on {self.rows} rows; "
-                f"one is needed for each of {positions} positions, from 0 to {beyond}, with "
-                f"{beyond // 2} in the middle"
-            )
-
-    def average(self, rate: Array) -> Array:
-        """Return the rate each point of the body sees."""
-        asked = readonly(rate)
-        answer = self.ask(self._asked.average, asked)
-        if answer is asked and (self.starts is not None or not self.swept):
-            # What was held to the contract as a law's answer.
-            return asked
-        if self.starts is not None:
-            if not np.array_equal(self.field("an average", answer, self._cells), asked):
-                raise PluginError(
-                    f"{self} gave an average that is not the rate itself, which is laid on the "
-                    "body at each of its starts"
-                )
-            return asked
-        # Rates of a state may be negative; the mean of what is nowhere negative is not either.
-        least = 0.0 if np.min(rate) >= 0 else -np.inf
-        return self.field("an average", answer, self._own, at_least=least)
-
-    def envelope(self, field: Array) -> Array:
-        """Return the largest value each point of the body meets, on its own surface."""
-        answer = self.ask(self._asked.envelope, readonly(field))
-        return self.field("an envelope", answer, self._own)
-
-    def volume(self, depth: Array) -> float:
-        """Return the volume of a depth on the body's own surface, in m³."""
-        return self.number("a volume", self.ask(self._asked.volume, readonly(depth)))
-
-    def compliance(self, derivative: Array, pressure: Array) -> WearCompliance | None:
-        """Return the wear per metre of sliding as a compliance, or None."""
-        asked = readonly(derivative)
-        answer = self.ask(self._asked.compliance, asked, readonly(pressure))
-        if answer is None:
-            return None
-        if not isinstance(answer, WearCompliance):
-            raise self.wrong(answer, "instead of a WearCompliance")
-        local = answer.local
-        if local is not asked:
-            local = self.field("a local compliance", local, self._cells, at_least=0.0)
-        swept = self.field("a swept compliance", answer.swept, self._cells[1:], at_least=0.0)
-        return WearCompliance(local, swept)

@@ -10,9 +10,9 @@ import psutil
 from tribo.case import Case
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
-from tribo.simulation.guarded_motion import GuardedExposure
+from tribo.motion.exposure import Exposure
 
-Exposures = Mapping[str, GuardedExposure]
+Exposures = Mapping[str, Exposure]
 
 FIELDS = 64
 """Arrays of the window's size that a run holds at its peak; 60 were measured."""

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from tribo.case import Body, Case
+from tribo.component import components
 from tribo.contact.solver import ContactSolver
 from tribo.core.arrays import Array, laid_from, readonly, rows_from
 from tribo.core.contact import ContactSystem
@@ -19,8 +20,9 @@ from tribo.core.loads import Loads
 from tribo.core.measures import between_cells
 from tribo.lab.roughness import is_rough
 from tribo.motion.cycle import Position, missed_shares
+from tribo.motion.exposure import Exposure
 from tribo.simulation.guard import calling
-from tribo.simulation.guarded_motion import GuardedExposure, GuardedMotion
+from tribo.simulation.guarded_motion import GuardedMotion
 from tribo.simulation.guards import (
     GuardedEffect,
     GuardedLaw,
@@ -53,7 +55,7 @@ class Model:
         Wear law of each body, by name, that wears.
     effects : tuple of GuardedEffect
         The effects, each after those that provide what it requires.
-    exposures : Mapping[str, GuardedExposure]
+    exposures : Mapping[str, Exposure]
         How each body, by name, meets the contact.
     plastic_share : Mapping[str, float]
         Part of the plastic overlap that each body, by name, takes.
@@ -83,7 +85,7 @@ class Model:
     surfaces: Mapping[str, GuardedSurface]
     laws: Mapping[str, GuardedLaw]
     effects: tuple[GuardedEffect, ...]
-    exposures: Mapping[str, GuardedExposure]
+    exposures: Mapping[str, Exposure]
     plastic_share: Mapping[str, float]
     system: ContactSystem
     loads: Loads
@@ -230,7 +232,7 @@ class Model:
     @property
     def data(self) -> dict[str, Any]:
         """The case as plain data, in SI units, ready for JSON."""
-        for _, component in self.case.components():
+        for _, component in components(self.case):
             # Of the whole case an error would not tell which component it is from.
             with calling(component):
                 component.model_dump(mode="json")

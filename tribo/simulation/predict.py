@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from tribo.component import components
 from tribo.contact.coated import surface_modulus
 from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError, NumericalError, PluginError
@@ -144,7 +145,7 @@ def predict(model: Model) -> Prediction:
         short_of_a_lap(model),
     )
     facts = {}
-    for place, component in model.case.components():
+    for place, component in components(model.case):
         with calling(component):
             facts[place] = stated_facts(component)
     return Prediction(

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from tribo.case import Case
+from tribo.component import components as named
 from tribo.config.load import load_case, validate_case
 from tribo.core.errors import CaseError, Interrupted, TriboError, TriboWarning
 from tribo.core.notices import Notice
@@ -258,7 +259,7 @@ class Simulation:
 
     def _provenance(self) -> dict[str, object]:
         components = {}
-        for place, component in self.model.case.components():
+        for place, component in named(self.model.case):
             with calling(component):
                 components[place] = origin(component)
         return provenance(components, [plugin.facts for plugin in self._plugins])

@@ -10,7 +10,6 @@ from typing import Any
 from tribo.case import Case
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings, parse_value, path_keys
-from tribo.core.depth import check_depth
 from tribo.core.errors import CaseError
 from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.registry import Registry
@@ -123,7 +122,6 @@ def _axis(text: str) -> tuple[str, tuple[Any, ...]]:
         if bracketed:
             raise CaseError(f"{given!r} is not a list in TOML: {error}", path) from None
         read = {"values": [parse_value(part.strip()) for part in given.split(",")]}
-    check_depth(read, path)
     values = tuple(read["values"])
     if not values or "" in values:
         raise CaseError(

@@ -11,7 +11,8 @@ from tribo.case import Stop
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid, RepeatingGrid
-from tribo.simulation.guarded_motion import GuardedExposure, GuardedMotion
+from tribo.motion.exposure import Exposure
+from tribo.simulation.guarded_motion import GuardedMotion
 from tribo.testing import samples
 from tribo.testing.checks import BODIES, Checks
 from tribo.testing.compare import apply_if, expect_close, require
@@ -60,7 +61,7 @@ class KinematicsChecks(Checks):
             }
         return answers
 
-    def _exposures(self, grid: Grid = GRID) -> Mapping[str, GuardedExposure]:
+    def _exposures(self, grid: Grid = GRID) -> Mapping[str, Exposure]:
         return GuardedMotion(self._make()).exposures(grid, BODIES)
 
     def answers_fit_a_run(self) -> None:
