@@ -1,13 +1,16 @@
 """What check and the run say where a case leaves what its models hold for."""
 
 import re
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from paper_models import archard, flat, named, small, steel
 
 from tribo import Grid, Simulation, TriboWarning
 from tribo.motion.unidirectional import Unidirectional
 from tribo.simulation.predict import predict
+from tribo.simulation.validity import peak_at_the_edge
 from tribo.surfaces.sphere import Sphere
 
 
@@ -47,3 +50,14 @@ def test_a_part_of_a_lap_is_told_by_check_and_by_the_run():
 @pytest.mark.parametrize("revolutions", [1, 10])
 def test_a_whole_lap_is_not(revolutions):
     assert predict(circle(revolutions)).problems == ()
+
+
+def test_a_largest_pressure_at_the_edge_alone_is_told():
+    x = np.linspace(-1.1, 1.1, 45)
+    inside = np.maximum(1 - x[:, None] ** 2 - x**2, 0.0)
+    contact = SimpleNamespace(contact=SimpleNamespace(pressure=1e9 * inside))
+    assert peak_at_the_edge(contact) is None
+    sharp = np.where(inside > 0, 1e8 / np.sqrt(inside + 1e-3), 0.0)
+    contact.contact.pressure = sharp
+    words = peak_at_the_edge(contact)
+    assert words.startswith(f"the largest pressure, {np.max(sharp) / 1e6:.4g} MPa")

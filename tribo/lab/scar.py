@@ -17,6 +17,8 @@ VISIBLE = 1e-4
 """Smallest depth taken for wear, as a part of the largest."""
 STEEPEST = 2.0
 """Largest power of the distance from the edge with which a depth may begin."""
+SHALLOW, NARROWER = 0.05, 0.8
+"""Part of the largest depth that is not of the scar where the rest is narrower than such a part."""
 
 
 class Scar(NamedTuple):
@@ -58,7 +60,9 @@ def diameter(depth: Array, axis: int, spacing: float) -> float:
     toe, as that of a groove does, and that of a scar under elastic bodies, the
     parabola is one through a root of the depths; which, a fourth cell tells. A
     scar some ten cells wide is good to a tenth of a cell, and to a third in its
-    first nanometres. A cell is worn where it is deeper than 10⁻⁴ of the deepest.
+    first nanometres. A cell is worn where it is deeper than 10⁻⁴ of the deepest; or
+    than a twentieth where those are less than 0.8 times as wide, as on a ball that
+    also meets the ends of its track: no microscope shows such shallow wear.
 
     Parameters
     ----------
@@ -116,10 +120,13 @@ def crown(height: Array, depth: Array) -> float:
 
 def _ends(line: Array) -> tuple[float, float] | None:
     """Return the edges of what is worn of a line, counted in cells from the first's centre."""
-    index = np.flatnonzero(line > VISIBLE * max(float(np.max(line)), 0.0))
+    deepest = max(float(np.max(line)), 0.0)
+    index, deep = (np.flatnonzero(line > part * deepest) for part in (VISIBLE, SHALLOW))
     if index.size == 0:
         return None
     first, last = int(index[0]), int(index[-1])
+    if deep[-1] - deep[0] + 1 < NARROWER * (last - first + 1) - 2:
+        first, last = int(deep[0]), int(deep[-1])
     worn = np.maximum(line[first : last + 1], 0.0)
     below = _beyond(worn, 0.5 if first == 0 else 1.0)
     above = _beyond(worn[::-1], 0.5 if last == line.size - 1 else 1.0)

@@ -19,6 +19,7 @@ from tribo.simulation.validity import (
     coarse_cycle,
     few_cells,
     limitation,
+    peak_at_the_edge,
     short_of_a_lap,
 )
 from tribo.stepping.invariants import chattering_words, chatters, hold
@@ -176,6 +177,8 @@ def _concluded(model: Model, state: State) -> State:
     """Say what the averaging has come to by the end, in place of what it began with."""
     if words := coarse_cycle(model, state):
         state = state.with_notice("quadrature", words)
+    if not state.has_notice("chattering") and (words := peak_at_the_edge(state)):
+        state = state.with_notice("resolution", words, from_here=True)
     words = limitation(model, state)
     if words is None:
         return state

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from scipy import ndimage
 
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
@@ -20,6 +21,8 @@ COARSE, FINE = 0.05, 0.01
 """Error of a cycle, of the depth, from which on it is spoken of, and with the positions advised."""
 STEEP = 0.3
 """Half-width of a contact over the radius of a body, from which on it is spoken of."""
+SHARP = 1.2
+"""Largest pressure at the edge over that inside of a contact, from which on it is spoken of."""
 SEAM = 4
 """How many times more a surface bends at the edge of a window than inside if it ends there."""
 ROUNDING = 1e-9
@@ -175,6 +178,20 @@ def coarse_cycle(model: Model, state: State) -> str | None:
         f"the {len(model.cycle)} positions of the cycle, {1e3 * model.apart:.3g} mm apart, leave "
         f"the wear depth uncertain by about {100 * error:.2g} %, weighted with the load; raise "
         f"kinematics.positions to {2 * math.ceil(0.5 * gaps) + 1} for 1 %"
+    )
+
+
+def peak_at_the_edge(state: State) -> str | None:
+    """Say so if the largest pressure stands in cells at the edge of the contact alone."""
+    pressure = state.contact.pressure
+    inside = ndimage.binary_erosion(pressure > 0, border_value=1)
+    largest, within = float(np.max(pressure)), float(np.max(pressure, where=inside, initial=0.0))
+    if largest <= SHARP * within or not within:
+        return None
+    return (
+        f"the largest pressure, {1e-6 * largest:.4g} MPa, stands in cells at the edge of the "
+        f"contact alone, and {1e-6 * within:.4g} MPa inside of it: it changes with the size of the "
+        "cells and from step to step; compare pressures in the centre instead"
     )
 
 
