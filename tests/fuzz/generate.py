@@ -1,16 +1,11 @@
-"""Cases made at random: from the JSON schema, and by mutating valid ones."""
+"""Cases made at random, by mutating valid ones."""
 
-import json
 import tomllib
 from copy import deepcopy
-from functools import reduce
 from math import inf, nan
-from operator import getitem
 from pathlib import Path
 
 import tribo.templates
-from tribo.case import Case
-from tribo.config.schema import json_schema
 
 ROOT = Path(__file__).parents[2]
 NUMBERS = (0, 1, -1, 2, 0.3, 0.5, 1e-16, 1e-9, 1e-6, 1e-3, 10, 25, 1e3, 1e9, 2e11, 1e300, 1e-320)
@@ -28,7 +23,6 @@ STRINGS += (
     "/dev/null",
 )
 ODD = (True, False, nan, inf, -inf, [], {}, [1, "a"], {"type": "x"}, 10**30, [[]], {"": 1})
-DEEPEST = 8
 PARTS = {
     "contact": (
         {"type": "winkler", "modulus": 1.3e15},
@@ -75,74 +69,6 @@ SURFACES = (
     {"type": "sphere", "radius": "20 mm"},
     {"type": "cylinder", "radius": "5 mm"},
 )
-
-
-class Schema:
-    """Values that the schema of a case allows, or nearly."""
-
-    def __init__(self):
-        self.whole = json_schema(Case)
-
-    def case(self, chance):
-        return self.value(self.whole, chance)
-
-    def value(self, schema, chance, depth=0):
-        """Return a value of `schema`; rarely one that breaks it."""
-        if "$ref" in schema:
-            schema = reduce(getitem, schema["$ref"].split("/")[1:], self.whole)
-        if chance.random() < 0.01 or depth > DEEPEST:
-            return odd(chance)
-        for several in ("anyOf", "oneOf"):
-            if several in schema:
-                return self.value(chance.choice(schema[several]), chance, depth)
-        if "const" in schema:
-            return schema["const"]
-        if "enum" in schema:
-            return chance.choice(schema["enum"])
-        if schema.get("examples") and chance.random() < 0.5:
-            example = deepcopy(chance.choice(schema["examples"]))
-            fixed = schema.get("properties", {}).get("type", {}).get("const")
-            return {"type": fixed, **example} if fixed and isinstance(example, dict) else example
-        make = getattr(self, f"_{schema.get('type')}", lambda *_: odd(chance))
-        return make(schema, chance, depth)
-
-    def _object(self, schema, chance, depth):
-        needed = schema.get("required", [])
-        properties = schema.get("properties", {})
-        made = {
-            key: self.value(each, chance, depth + 1)
-            for key, each in properties.items()
-            if key in needed or chance.random() < 0.3
-        }
-        others = schema.get("additionalProperties")
-        if isinstance(others, dict):
-            names = chance.sample(("ball", "disk", "pin", "a b"), chance.choice((2, 2, 2, 1, 3)))
-            made |= {name: self.value(others, chance, depth + 1) for name in names}
-        return made
-
-    def _array(self, schema, chance, depth):
-        if "prefixItems" in schema:
-            return [self.value(each, chance, depth + 1) for each in schema["prefixItems"]]
-        each = schema.get("items", {})
-        return [self.value(each, chance, depth + 1) for _ in range(chance.randrange(4))]
-
-    def _number(self, schema, chance, depth):
-        low = schema.get("minimum", schema.get("exclusiveMinimum", -1e3))
-        high = schema.get("maximum", schema.get("exclusiveMaximum", 1e12))
-        fitting = [value for value in NUMBERS if low <= value <= high]
-        return chance.choice(fitting) if fitting else chance.uniform(low, high)
-
-    def _integer(self, schema, chance, depth):
-        return int(self._number(schema, chance, depth))
-
-    def _string(self, schema, chance, depth):
-        return chance.choice(STRINGS)
-
-    def _boolean(self, schema, chance, depth):
-        return chance.random() < 0.5
-
-    def _null(self, schema, chance, depth):
-        return None
 
 
 def odd(chance):
@@ -223,7 +149,7 @@ def places(value, path=()):
             yield from places(each, (*path, key))
 
 
-def mutated(case, schema, chance):
+def mutated(case, chance):
     """Return a copy of `case` changed in a few places."""
     case = deepcopy(case)
     for _ in range(chance.choice((1, 1, 1, 2, 3, 5))):
@@ -234,13 +160,13 @@ def mutated(case, schema, chance):
         parent = case
         for each in above:
             parent = parent[each]
-        _change(parent, key, case, paths, schema, chance)
+        _change(parent, key, case, paths, chance)
     return case
 
 
-def _change(parent, key, case, paths, schema, chance):
+def _change(parent, key, case, paths, chance):
     value = parent[key]
-    kind = chance.randrange(7)
+    kind = chance.randrange(6)
     if kind == 0:
         del parent[key]
     elif kind == 1 and isinstance(parent, dict):
@@ -255,8 +181,6 @@ def _change(parent, key, case, paths, schema, chance):
         for each in chance.choice(paths):
             other = other[each]
         parent[key] = deepcopy(other)
-    elif kind == 5:
-        parent[key] = schema.value(chance.choice(list(schema.whole["$defs"].values())), chance)
     else:
         parent[key] = odd(chance)
 
@@ -264,22 +188,6 @@ def _change(parent, key, case, paths, schema, chance):
 def _misspelt(key, chance):
     at = chance.randrange(len(key) + 1)
     return key[:at] + chance.choice(("", "s", "_", "-", "X")) + key[at + 1 :]
-
-
-def toml(case):
-    """Write a case as TOML, a table a line; what TOML lacks is left out."""
-    return "".join(f"{json.dumps(str(k))} = {_toml(v)}\n" for k, v in case.items() if v is not None)
-
-
-def _toml(value):
-    if isinstance(value, dict):
-        inner = (f"{json.dumps(str(k))} = {_toml(v)}" for k, v in value.items() if v is not None)
-        return "{" + ", ".join(inner) + "}"
-    if isinstance(value, list | tuple):
-        return "[" + ", ".join(_toml(each) for each in value if each is not None) + "]"
-    if isinstance(value, float):
-        return repr(value)
-    return json.dumps(value, ensure_ascii=False).replace("\x7f", "")
 
 
 def damaged(data, chance):

@@ -14,10 +14,11 @@ from pathlib import Path
 import numpy as np
 import psutil
 from command_line import tribo
-from fuzz.generate import PARTS, ROOT, Schema, damaged, mutated, plausible, small, toml, valid_cases
+from fuzz.generate import PARTS, ROOT, damaged, mutated, plausible, small, valid_cases
 from trust.trial import contents, same
 
 from tribo import Result
+from tribo.config.write import to_toml as toml
 from tribo.stepping.invariants import CHATTERING, CONDITIONS, LOAD, VOLUME
 
 DOCUMENTED = {0, 2, 3, 130}
@@ -33,7 +34,7 @@ PATIENCE = 3.0
 MEMORY = 2**30
 """What a case may take, in bytes, beyond what the process has."""
 KINDS = (
-    *("schema", "mutated", "mutated", "plausible", "plausible", "plausible"),
+    *("mutated", "mutated", "plausible", "plausible", "plausible"),
     *("text", "override", "surface", "result", "stop"),
 )
 FORMATS = ("opd", "sur", "x3p", "asc", "npy")
@@ -76,11 +77,6 @@ def timed(number, seed):
 
 
 @cache
-def schema():
-    return Schema()
-
-
-@cache
 def sound(name):
     """Return the bytes of a valid file: a surface by its format, or a result."""
     if name == "result":
@@ -95,12 +91,6 @@ def sound(name):
     return path.read_bytes()
 
 
-def _schema(path, chance):
-    case = schema().case(chance)
-    path.write_text(toml(small(case, chance)) if isinstance(case, dict) else repr(case))
-    return _tried(path, chance)
-
-
 def _plausible(path, chance):
     path.write_text(toml(plausible(chance.choice(valid_cases()), chance)))
     return _tried(path, chance)
@@ -108,7 +98,7 @@ def _plausible(path, chance):
 
 def _mutated(path, chance):
     case = small(chance.choice(valid_cases()), chance)
-    path.write_text(toml(mutated(case, schema(), chance)))
+    path.write_text(toml(mutated(case, chance)))
     return _tried(path, chance)
 
 

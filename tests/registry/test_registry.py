@@ -219,19 +219,6 @@ def test_an_import_leaves_folder_warnings_numpy_and_stdout_alone(folder, capfd):
     assert capfd.readouterr() == ("", "from the import\nfrom the hook\n")
 
 
-def test_who_provides_a_field_is_known_of_what_is_imported(folder):
-    effect = LAW.replace("WearLaw", "Effect").replace("requires = ()", "provides = (WARMTH,)")
-    effect = effect.replace("def rate", "def fields")
-    for name in ("warm_a", "warm_b"):
-        code = {name: effect.format(name=f"{name}.warm")}
-        distribute(folder, name, "1.0", {f"{name}.warm": name}, **code)
-    registry = found("warm_a", "warm_b")
-    assert registry.providers(["warmth"]) == []
-    registry.lookup("effect", "warm_b.warm")
-    assert registry.providers(["warmth"]) == ["'warm_b.warm' (warm_b 1.0)"]
-    assert "warm_a" not in sys.modules
-
-
 @pytest.mark.parametrize("off", ["five-tribo", "Five_Tribo", "five", "five.calm", "*"])
 def test_plugins_can_be_turned_off(folder, monkeypatch, off):
     distribute(folder, "five-tribo", "1.0", {"five.calm": "five_calm"}, five_calm="1/0")

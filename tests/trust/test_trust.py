@@ -2,14 +2,11 @@
 
 import os
 import signal
-from dataclasses import replace
 
 import pytest
-import trust.damages
-from edited import edited
 from trust import trial
 from trust.damages import KINDS, damage_and_read
-from trust.full_disks import FullDisks, fill_and_resume
+from trust.full_disks import fill_and_resume
 from trust.kills import kill_and_resume
 from trust.trial import contents, resume, run, same, start, whole
 
@@ -72,38 +69,3 @@ def test_killed_as_it_ended(tmp_path):
     assert start(resume, path).wait()[0] == 0
     assert same(contents(path), undisturbed)
     assert sorted(p.name for p in tmp_path.iterdir()) == ["run.h5", "whole.h5"]
-
-
-def test_a_file_read_wrong_would_be_seen(tmp_path, monkeypatch):
-    def other_load(data, chance):
-        path = tmp_path / "other.h5"
-        path.write_bytes(data)
-        with edited(path) as file:
-            file.attrs["load_N"] = chance.uniform(1, 100)
-        data[:] = path.read_bytes()
-
-    monkeypatch.setattr(trust.damages, "KINDS", (other_load,))
-    monkeypatch.chdir(tmp_path)
-    damages = damage_and_read(2, seed=3)
-    assert damages.ends() == {"silently wrong": 2}
-    assert not damages.good
-
-
-def test_other_bits_after_a_kill_would_be_seen(monkeypatch):
-    write = RunFolder.write_checkpoint
-
-    def other(folder, kept, **options):
-        state = replace(kept.state, distance=kept.state.distance + 1e-9)
-        write(folder, replace(kept, state=state), **options)
-
-    monkeypatch.setattr(RunFolder, "write_checkpoint", other)
-    kills = kill_and_resume(1, seed=3)
-    assert kills.different > 0
-    assert not kills.good
-
-
-def test_a_save_lost_to_a_full_disk_would_be_seen():
-    sound = FullDisks(stopped=2, identical=2)
-    assert sound.good
-    bad = ({"lost_saves": 1}, {"other_exits": 1}, {"identical": 1}, {"stopped": 0, "identical": 0})
-    assert not any(replace(sound, **change).good for change in bad)

@@ -55,14 +55,18 @@ def assemble(case: Case) -> Model:
     check_memory(grid, memory_needed(case, exposures, plastic=cap is not None))
     surfaces, laws = {}, {}
     for name, body in bodies.items():
+        exposure, own = exposures[name], grid
+        if exposure.starts is not None:
+            # The cells of the window, and of the body's path beyond it.
+            along, across = exposure.rows * grid.spacing[0], grid.size[1]
+            own = Grid(size=(along, across), cells=(exposure.rows, grid.cells[1]))
         with located(f"bodies.{name}.surface"):
-            surfaces[name] = GuardedSurface(body.surface, name, _own_grid(grid, exposures[name]))
-            _check_sliding(surfaces[name], exposures[name])
+            surfaces[name] = GuardedSurface(body.surface, name, own)
+            _check_sliding(surfaces[name], exposure)
             if isinstance(case.kinematics, Unidirectional) and case.kinematics.turns:
-                _check_ring(surfaces[name], exposures[name], case.kinematics.lap, grid)
+                _check_ring(surfaces[name], exposure, case.kinematics.lap, grid)
         if body.wear is not None:
-            laws[name] = _law(body, name, grid, exposures[name])
-            _check_thickness(body, name, surfaces[name])
+            laws[name] = _law(body, name, grid, exposure)
     if case.load.along and case.contact.periodic:
         raise CaseError(
             f"contact.type = {case.contact.type!r} repeats with the window, so that it is at many "
@@ -71,14 +75,19 @@ def assemble(case: Case) -> Model:
         )
     shares = case.load.shares_at(_places(grid, len(cycle), exposures), grid.spacing[0])
     loads = Loads(case.load.pieces, shares, tuple(position.share for position in cycle))
+    curvatures = [surface.curvature for surface in surfaces.values()]
+    known = [each for each in curvatures if each is not None]
     system = ContactSystem(
         grid=grid,
         modulus=contact_modulus([body.material for body in bodies.values()]),
         load=loads.after(0.0)[len(cycle) // 2],
         cap=cap,
-        curvature=_curvature(surfaces),
+        # Along x and y; none if a surface states none.
+        curvature=(sum(c[0] for c in known), sum(c[1] for c in known))
+        if len(known) == len(curvatures)
+        else None,
         materials={name: body.material for name, body in bodies.items()},
-        coatings=_coatings(bodies, case.contact),
+        coatings=_coatings(bodies, surfaces, case.contact),
     )
     with located("contact"):
         solver.ask(case.contact.check, replace(system, load=loads.largest))
@@ -180,29 +189,33 @@ def _law(body: Body, name: str, grid: Grid, exposure: Exposure) -> GuardedLaw:
         with located(f"bodies.{name}.{place}"):
             laws.append(GuardedLaw(law, name, material))
             laws[-1].ask(law.check_cells, grid.spacing)
-            _check_places(laws[-1], exposure)
+            if PLACE_X.name in law.requires and exposure.averaged:
+                raise CaseError(
+                    f"{law.type!r} wears places of their own, but the average over a track has "
+                    f"none on body {name!r}; resolve the cycle (kinematics.positions), or give "
+                    "this law to the body that stays in the contact"
+                )
     if not body.layers:
         return laws[0]
     with located(f"bodies.{name}.layers"):
         return LayeredLaw(laws, [layer.thickness for layer in body.layers])
 
 
-def _check_thickness(body: Body, name: str, surface: GuardedSurface) -> None:
-    """Raise `CaseError` if layers are as thick as a round body."""
-    total, curvature = sum(layer.thickness for layer in body.layers), surface.curvature
-    if curvature is not None and total * max(curvature) >= 1:
-        raise CaseError(
-            f"layers of {total:.4g} m in all are as thick as the body, whose radius is "
-            f"{1 / max(curvature):.4g} m; make them thinner, or give the body their material",
-            f"bodies.{name}.layers",
-        )
-
-
-def _coatings(bodies: Mapping[str, Body], contact: ContactSolver) -> dict[str, Coating]:
+def _coatings(
+    bodies: Mapping[str, Body], surfaces: Mapping[str, GuardedSurface], contact: ContactSolver
+) -> dict[str, Coating]:
     """Return the elastic layer on each body that has one, by name."""
     coatings = {}
     for name, body in bodies.items():
-        base = body.material
+        base, place = body.material, f"bodies.{name}.layers"
+        thickness = sum(layer.thickness for layer in body.layers)
+        curvature = max(surfaces[name].curvature or (0.0, 0.0))
+        if thickness * curvature >= 1:
+            raise CaseError(
+                f"layers of {thickness:.4g} m in all are as thick as the body, whose radius is "
+                f"{1 / curvature:.4g} m; make them thinner, or give the body their material",
+                place,
+            )
         elastic = [
             (layer.young or base.young, base.poisson if layer.poisson is None else layer.poisson)
             for layer in body.layers
@@ -211,7 +224,6 @@ def _coatings(bodies: Mapping[str, Body], contact: ContactSolver) -> dict[str, C
             elastic.pop()
         if not elastic:
             continue
-        place = f"bodies.{name}.layers"
         if len(set(elastic)) > 1:
             raise CaseError(
                 "layers may differ from the body in young and poisson, but not from one another: "
@@ -227,14 +239,6 @@ def _coatings(bodies: Mapping[str, Body], contact: ContactSolver) -> dict[str, C
         thickness = sum(layer.thickness for layer in body.layers[: len(elastic)])
         coatings[name] = Coating(thickness, body.layers[0].material(base), base)
     return coatings
-
-
-def _own_grid(grid: Grid, exposure: Exposure) -> Grid:
-    """Return the cells of a body's own surface: those of the window, and of its path beyond it."""
-    if exposure.starts is None:
-        return grid
-    (dx, _), (_, ny) = grid.spacing, grid.cells
-    return Grid(size=(exposure.rows * dx, grid.size[1]), cells=(exposure.rows, ny))
 
 
 def _places(grid: Grid, positions: int, exposures: Mapping[str, Exposure]) -> Array:
@@ -271,14 +275,6 @@ def _gaps(
     return tuple(readonly(gap_at(position) - lowest) for position in range(positions))
 
 
-def _curvature(surfaces: Mapping[str, GuardedSurface]) -> tuple[float, float] | None:
-    """Return the curvature of the gap along x and y, in 1/m; None if a surface states none."""
-    known = [surface.curvature for surface in surfaces.values()]
-    if any(c is None for c in known):
-        return None
-    return sum(c[0] for c in known if c), sum(c[1] for c in known if c)
-
-
 def _check_sliding(surface: GuardedSurface, exposure: Exposure) -> None:
     """Raise `CaseError` if the motion moves a shape that would not stay as it is."""
     stays = exposure.shape_stays or exposure.starts is not None
@@ -312,16 +308,6 @@ def _check_ring(surface: GuardedSurface, exposure: Exposure, lap: float, grid: G
             f"body {surface.body!r} turns, so that its track is its rim: its radius is "
             f"{1e3 / curvature:.4g} mm, but that of the track {1e3 * radius:.4g} mm; give "
             f"kinematics.track_radius = {1 / curvature:.6g}",
-        )
-
-
-def _check_places(law: GuardedLaw, exposure: Exposure) -> None:
-    """Raise `CaseError` if a law asks for places on a body whose track has none."""
-    if PLACE_X.name in law.requires and exposure.averaged:
-        raise CaseError(
-            f"{law.component.type!r} wears places of their own, but the average over a track has "
-            f"none on body {law.body!r}; resolve the cycle (kinematics.positions), or give this "
-            "law to the body that stays in the contact"
         )
 
 

@@ -15,11 +15,9 @@ def in_order(case: Case) -> tuple[Effect, ...]:
 
     Raises
     ------
-    MissingFieldError
-        If an effect or a wear law requires what nothing provides.
     CaseError
-        If a field but the share of the load is provided twice, or has the name of what a wear law
-        remembers.
+        If an effect or a wear law requires what nothing provides, or a field but the share of the
+        load is provided twice, or has the name of what a wear law remembers.
     """
     known = {PLACE_X.name, PLACE_Y.name}
     of_laws = {f.name for b in case.bodies.values() if b.wear for f in b.wear.state_fields}
@@ -48,7 +46,7 @@ def in_order(case: Case) -> tuple[Effect, ...]:
             first = waiting[0]
             missing = sorted(set(first.requires) - known - of_laws) or [LOAD_SHARE.name]
             text = _missing(f"effect {first.type!r}", missing, waiting)
-            raise MissingFieldError(text, "effects", missing)
+            raise CaseError(text, "effects")
         shared = (
             {LOAD_SHARE.name} if any(LOAD_SHARE.name in _provided(e) for e in ordered) else set()
         )
@@ -62,7 +60,7 @@ def in_order(case: Case) -> tuple[Effect, ...]:
         for law in body.laws():
             if missing := sorted(set(law.requires) - known):
                 text = _missing(f"wear law {law.type!r}", missing, [])
-                raise MissingFieldError(text, f"bodies.{name}.wear", missing)
+                raise CaseError(text, f"bodies.{name}.wear")
     return tuple(ordered)
 
 
@@ -73,14 +71,6 @@ def _provided(effect: Effect) -> set[str]:
 def _twice(field: Field, effect: Effect) -> CaseError:
     text = f"{field.name!r} is provided twice, the second time by {effect.type!r}; keep one"
     return CaseError(text, "effects")
-
-
-class MissingFieldError(CaseError):
-    """A law or an effect needs fields that nothing provides."""
-
-    def __init__(self, message: str, path: str, missing: Sequence[str]) -> None:
-        super().__init__(message, path)
-        self.missing = tuple(missing)
 
 
 def _missing(who: str, missing: Sequence[str], waiting: Sequence[Effect]) -> str:

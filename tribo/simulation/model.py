@@ -38,45 +38,12 @@ from tribo.stepping.implicit import Implicit
 class Model:
     """A case, and what a run derives from it once; made by `assemble`.
 
-    The parts of the case are guarded: what goes wrong in one names it, and what
-    it answers is checked.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-    solver : GuardedSolver
-        How the contact is solved.
-    motion : GuardedMotion
-        How the bodies move.
-    surfaces : Mapping[str, GuardedSurface]
-        Shape of each body, by name, before it wears.
-    laws : Mapping[str, GuardedLaw]
-        Wear law of each body, by name, that wears.
-    effects : tuple of GuardedEffect
-        The effects, each after those that provide what it requires.
-    exposures : Mapping[str, Exposure]
-        How each body, by name, meets the contact.
-    plastic_share : Mapping[str, float]
-        Part of the plastic overlap that each body, by name, takes.
-    system : ContactSystem
-        The constants of the contact.
-    loads : Loads
-        The normal load over time, at each position of the cycle.
-    cycle : tuple of Position
-        The positions of a cycle in which the contact is solved.
-    gaps : tuple of ndarray, shape (nx, ny)
-        Initial gap at each position, in m, with minimum 0 in the middle of the cycle; one array
-        for all where it is the same.
-    end_time : float
-        When the run ends if no depth stops it earlier, in s.
-    hardness : Mapping[str, tuple of float], optional
-        Hardness of the layers of each body and of what lies below, in Pa, where it limits the
-        pressure and changes with the depth worn; empty where it does not change.
-    chosen : str or None, optional
-        Which positions were taken where the case left them open, and why, if that is to be told.
-    tell : callable, optional
-        Is told what happens in each step, rejected ones too.
+    The parts of the case are guarded: what goes wrong in one names it, and what it answers is
+    checked. Mappings are by the name of the body; `laws` has those that wear, `plastic_share` the
+    part of the plastic overlap that each takes, `effects` come after those that provide what they
+    require. `hardness` is that of layers and of what lies below, where it changes with the depth
+    worn; `chosen` says which positions were taken where the case left them open. `tell` hears what
+    happens in each step, rejected ones too.
     """
 
     case: Case
@@ -91,6 +58,7 @@ class Model:
     loads: Loads
     cycle: tuple[Position, ...]
     gaps: tuple[Array, ...]
+    """Initial gap at each position, shape (nx, ny), in m, with minimum 0 in the middle."""
     end_time: float
     hardness: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     chosen: str | None = None

@@ -43,54 +43,29 @@ BARE_FILE = 1e6
 class Prediction:
     """An estimate of a run before it is made.
 
-    Parameters
-    ----------
-    first : Measures
-        The first contact.
-    hertz : HertzContact or None
-        The same by Hertz's theory.
-    hertz_bounds : tuple of HertzContact or None
-        Where a body has an elastic layer, those of the bodies without it, and of bodies that are
-        of the layer throughout: the first contact lies between the two.
-    cells_across : tuple of float or None
-        Cells across Hertz's contact along x and y.
-    last : Measures or None
-        The end of a run on a coarse grid in a wider window, good to some
-        percent; None where that could not be computed.
-    worn_through : tuple of Mapping[str, object]
-        Layers that it wears through, as in a result: body, layer, distance (m) and time (s).
-    window_holds : bool or None
-        Whether the contact stays inside the window; None where unknown.
-    limitation : str or None
-        Why the motion's averaging will not hold, if so.
-    positions : int
-        In how many positions of a cycle the contact is solved; 1 for an average.
-    positions_for_1_percent : int or None
-        Positions that wear the groove of the first contact evenly to 1 % of its depth; None of an
-        average.
-    memory, file_size : float
-        In bytes; upper estimates.
-    facts : Mapping[str, Mapping[str, str]]
-        What components state of themselves, by their place in the case.
-    problems : tuple of str
-        What will go wrong, each with its remedy.
-    exit_code : int
-        With which `tribo run` would end: 0, or that of the error that would stop it.
+    `first` is the first contact, `hertz` the same by Hertz's theory, `last` the end of a run on a
+    coarse grid in a wider window, good to some percent. `problems` says what will go wrong, each
+    with its remedy, `exit_code` with which `tribo run` would end. What is not known is None.
     """
 
     first: Measures
     hertz: HertzContact | None
     hertz_bounds: tuple[HertzContact, HertzContact] | None
+    """Of coated bodies: those without the layer, and those of the layer throughout."""
     cells_across: tuple[float, float] | None
     last: Measures | None
     worn_through: tuple[Mapping[str, object], ...]
     window_holds: bool | None
     limitation: str | None
     positions: int
+    """Of a cycle in which the contact is solved; 1 for an average."""
     positions_for_1_percent: int | None
+    """Those that wear the groove of the first contact evenly to 1 % of its depth."""
     memory: float
     file_size: float
+    """In bytes, as the memory; upper estimates."""
     facts: Mapping[str, Mapping[str, str]]
+    """What components state of themselves, by their place in the case."""
     problems: tuple[str, ...]
     exit_code: int
 

@@ -27,7 +27,6 @@ from tribo.result.read import Result
 from tribo.simulation.audience import Audience
 from tribo.simulation.beginning import checksum
 from tribo.simulation.doubt import doubting
-from tribo.simulation.effects import MissingFieldError
 from tribo.simulation.guard import calling
 from tribo.simulation.interrupt import interrupts_held
 from tribo.simulation.march import begin, march
@@ -305,14 +304,8 @@ def _model(
         case = load_case(case, registry=known)
     elif not isinstance(case, Case):
         case = validate_case(case, registry=known)
-    try:
-        with doubting(case):
-            return composed(case), known.plugins
-    except MissingFieldError as error:
-        providers = known.providers(error.missing)
-        if not providers:
-            raise
-        raise CaseError(f"{error}; these do: {', '.join(providers)}") from error
+    with doubting(case):
+        return composed(case), known.plugins
 
 
 def _announce(before: Sequence[Notice], after: Sequence[Notice]) -> None:
