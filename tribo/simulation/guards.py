@@ -59,28 +59,38 @@ class GuardedLaw(Guard[WearLaw]):
 
     bottoms: tuple[float, ...] = ()
     """Depths at which layers end, in m, where a body has any (`tribo.simulation.layers`)."""
+    advances = False
+    """Whether it may know the exact mean of its rate."""
 
     def __init__(self, law: WearLaw, body: str, material: Material) -> None:
         super().__init__(law, body)
         self.material = material
         self.requires = law.requires
         self.state_fields = law.state_fields
+        self.advances = type(law).advance is not WearLaw.advance
         self.ask(law.check, material)
         self.initial_state = _initial_state(self, law.state_fields, self.ask(law.initial_state))
 
-    def rate(self, local: LocalConditions) -> WearRate:
-        """Return the law's rate at the shape of the pressure, its slope not negative."""
-        answer, depth = self._depth(local)
+    def rate(self, local: LocalConditions, over: float = 0.0) -> WearRate:
+        """Return the law's rate at the shape of the pressure, its slope not negative.
+
+        Of a law that knows it that is the mean over a distance (m), without a slope.
+        """
+        mean = self.ask(self.component.advance, local, over) if self.advances and over else None
+        answer, depth = self._depth(local, mean)
         shape = local.pressure.shape
-        slope = answer.depth_slope
+        slope = answer.depth_slope if mean is None else np.zeros(shape)
         if slope is None:
             slope = self._slope(local, depth)
         slope = self.field("a derivative", slope, shape, spread=True)
         state = _rates(self, answer.state_rates, dict.fromkeys(self.initial_state, shape))
         return WearRate(depth, np.maximum(slope, 0.0) if np.min(slope) < 0 else slope, state)
 
-    def _depth(self, local: LocalConditions) -> tuple[WearRate, Array]:
-        answer, pressure = self.ask(self.component.rate, local), local.pressure
+    def _depth(
+        self, local: LocalConditions, mean: WearRate | None = None
+    ) -> tuple[WearRate, Array]:
+        answer = self.ask(self.component.rate, local) if mean is None else mean
+        pressure = local.pressure
         if not isinstance(answer, WearRate):
             raise self.wrong(answer, "instead of a WearRate")
         what = "a depth per metre"
@@ -116,6 +126,7 @@ class GuardedEffect(Guard[Effect]):
         self.requires = effect.requires
         self.provides = effect.provides
         self.state_fields = tuple(effect.state_fields)
+        self.advances = type(effect).advance is not Effect.advance
         self.carrier = self.ask(effect.carrier)
         if self.carrier is not None and self.carrier not in bodies:
             raise CaseError(
@@ -145,11 +156,17 @@ class GuardedEffect(Guard[Effect]):
                 found[field.name][body] = array
         return found
 
-    def state_rates(self, contact: ContactConditions) -> dict[str, Array]:
-        """Return the change of each state field per second, (nx, ny), or (1, 1) if uniform."""
+    def state_rates(self, contact: ContactConditions, over: float = 0.0) -> dict[str, Array]:
+        """Return the change of each state field per second, (nx, ny), or (1, 1) if uniform.
+
+        Of an effect that knows it that is the mean over a time (s).
+        """
         window = contact.pressure.shape
         shapes = {f.name: (1, 1) if f.uniform else window for f in self.state_fields}
-        return _rates(self, self.ask(self.component.state_rates, contact), shapes)
+        mean = self.ask(self.component.advance, contact, over) if self.advances and over else None
+        if mean is None:
+            mean = self.ask(self.component.state_rates, contact)
+        return _rates(self, mean, shapes)
 
 
 class GuardedSolver(Guard[ContactSolver]):

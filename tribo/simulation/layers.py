@@ -38,7 +38,7 @@ class LayeredLaw(GuardedLaw):
         self.state_fields, self.initial_state = _state(laws)
         self.bottoms = tuple(accumulate(thicknesses))
 
-    def rate(self, local: LocalConditions) -> WearRate:
+    def rate(self, local: LocalConditions, over: float = 0.0) -> WearRate:
         """Return the rates of the layers, weighted with their shares; see `GuardedLaw.rate`."""
         depth, slope = np.zeros_like(local.pressure), np.zeros_like(local.pressure)
         changes = {name: np.zeros_like(local.pressure) for name in self.initial_state}

@@ -88,6 +88,24 @@ class Model:
         return {f.name: (effect, f) for effect in self.effects for f in effect.state_fields}
 
     @cached_property
+    def advances(self) -> bool:
+        """Whether all that remember may know the mean of their rates, at points that stay.
+
+        A point that is swept sees many pressures, of which a closed form knows one.
+        """
+        of_laws = [
+            law.advances and name not in self.swept
+            for name, law in self.laws.items()
+            if law.initial_state
+        ]
+        known = of_laws + [
+            effect.advances and effect.carrier not in self.swept
+            for effect in self.effects
+            if effect.initial_state
+        ]
+        return len(self.cycle) == 1 and bool(known) and all(known)
+
+    @cached_property
     def filling(self) -> tuple[tuple[str | None, str], ...]:
         """The state fields that fill the gap, with the body whose law has them; None of effects."""
         of_laws = ((name, f) for name, law in self.laws.items() for f in law.state_fields)

@@ -78,7 +78,7 @@ def course(
     limits = _limits(model, before)
     limits += [Limits(-np.inf, np.inf, f"the depth of {name!r}", relaxes=False) for name in layered]
     values, depths, taken = integrated(
-        of_model, start, increment, limits, plan, of_steps=bool(layered)
+        of_model, start, increment, limits, plan, of_steps=bool(layered) or model.advances
     )
     each = iter(depths)
     mean = [
@@ -128,14 +128,16 @@ def rested_memory(model: Model, state: State, time: float) -> Memory:
         return before
     rest = time - state.time
 
-    def rates(values: Sequence[Array], passed: float, _: float) -> Values:
+    def rates(values: Sequence[Array], passed: float, step: float) -> Values:
         between = dict(zip(before.between, values, strict=True))
-        now = Moment(time - (1 - passed) * rest, state.distance, 0.0)
+        over = step * rest if model.advances else 0.0
+        now = Moment(time - (1 - passed) * rest, state.distance, 0.0, over)
         changes = resting_rates(model, state.contacts, replace(before, between=between), now)
         return [changes[key] for key in between]
 
     limits = _limits(model, Memory({}, before.between))
-    values, _, _ = integrated(rates, [*before.between.values()], rest, limits)
+    start = [*before.between.values()]
+    values, _, _ = integrated(rates, start, rest, limits, of_steps=model.advances)
     return replace(before, between=dict(zip(before.between, values, strict=True)))
 
 
@@ -152,9 +154,12 @@ def _rates(
 ) -> Values:
     """Return the rates of what is remembered, where it lies, and the depths in the contact.
 
-    Those of the depths of bodies in layers, which follow what is remembered, are means over a step.
+    Those of the depths of bodies in layers, which follow what is remembered, are means over a step,
+    and so are those of models that know them.
     """
     moment = end.back((1 - passed) * increment)
+    if model.advances:
+        moment = replace(moment, over=step * increment)
     contacts = loaded(model, contacts, increment, end, passed)
     each = iter(values)
     now = before.with_values(each)

@@ -25,6 +25,8 @@ JUMP = 0.1
 SAFETY, LEAST = 0.9, 0.1
 """Of the length at which the next part would be as accurate as asked, what is taken; and the least
 that is cut off it."""
+EXACT = 1e-10
+"""Relative difference of one step from two by which means over a step are known to be exact."""
 FINEST = 2.0**-20
 """The smallest part, where a state goes on to leave its limits."""
 PLAIN, RELAXING = (1, 2, 3), (1, 2, 3, 4)
@@ -94,7 +96,8 @@ def integrated(
         smoothly from the rates.
     of_steps : bool, optional
         Whether rates are the means over the part that they are told of, as where points pass from
-        layer to layer within it: they are asked anew for each length, and have no jumps.
+        layer to layer within it, or a model knows them: they are asked anew for each length, and
+        have no jumps.
 
     Raises
     ------
@@ -118,7 +121,7 @@ def integrated(
         part, relaxes = waiting[0]
         span = part * length
         along = partial(_along, rates, passed, part)
-        if of_steps:
+        if of_steps and part < 1:
             first = along(values, 0.0, 1.0)
         slopes = relaxing(along, values, first, span, limits) if relaxes else [0.0] * count
         stages = RELAXING if relaxes else PLAIN
@@ -227,6 +230,10 @@ def _extrapolated(
             pairs = zip(column[-1], before, strict=True)
             column.append([fine + (fine - coarse) / ratio for fine, coarse in pairs])
         row = column
+        if of_steps and stage == 1:
+            pairs = zip(*column, strict=True)
+            if all(_relative(fine, once, np.abs(fine)) <= EXACT for once, fine in pairs):
+                break
     return row[-1], row[-2], samples[:4]
 
 

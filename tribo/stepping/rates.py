@@ -43,12 +43,14 @@ CycleRates = Sequence[Mapping[str, WearRate]]
 class Moment:
     """When rates are asked for (s, m), and the mean speed of the step (m/s).
 
-    The speed is told where the motion does not state those of its cycle.
+    The speed is told where the motion does not state those of its cycle. Models that know it give
+    the mean of their rates `over` what follows, in m, or in s of a rest.
     """
 
     time: float
     distance: float
     speed: float
+    over: float = 0.0
 
     def back(self, distance: float) -> Moment:
         """Return the moment that lies by a distance (m) before, at its speed."""
@@ -177,7 +179,8 @@ def _rates_of(
                     field: np.broadcast_to(values, pressure.shape)[part]
                     for field, values in state_of(model, memory, name).items()
                 },
-            )
+            ),
+            moment.over,
         )
         if solid is not None:
             rate = replace(rate, depth_slope=solid * rate.depth_slope)
@@ -204,10 +207,11 @@ def _changes(
 ) -> dict[str, Array]:
     """Return by how much each state of an effect changes per second, in the window."""
     changes: dict[str, Array] = {}
+    seconds = moment.over / (moment.speed or 1.0)
     for effect in model.effects:
         if effect.initial_state:
             given = _conditions(model, contact.pressure, moment, fields, effect, memory)
-            changes |= effect.state_rates(replace(given, wear_rates=depths))
+            changes |= effect.state_rates(replace(given, wear_rates=depths), seconds)
     return changes
 
 

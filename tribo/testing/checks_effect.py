@@ -15,7 +15,7 @@ from tribo.core.grid import Grid
 from tribo.simulation.guards import GuardedEffect
 from tribo.testing import samples
 from tribo.testing.checks import BODIES
-from tribo.testing.checks_local import LocalChecks
+from tribo.testing.checks_local import LocalChecks, rate_of
 from tribo.testing.compare import (
     apply_if,
     expect_close,
@@ -53,6 +53,10 @@ class EffectChecks(LocalChecks):
     def _rates(self, component: Any, given: Any) -> Mapping[str, Array]:
         rates: Mapping[str, Array] = component.state_rates(given)
         return rates
+
+    def _advance(self, component: Any, given: Any, span: float) -> Any:
+        means = component.advance(given, span) or {}
+        return {rate_of(name): np.asarray(values) for name, values in means.items()}
 
     def _call(self, component: Any, inputs: Any) -> Mapping[str, Any]:
         fields = component.fields(replace(inputs, wear_rates={}))

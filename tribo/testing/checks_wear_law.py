@@ -16,7 +16,7 @@ from tribo.core.fields import LocalConditions, WearRate
 from tribo.simulation.guards import GuardedLaw
 from tribo.testing import samples
 from tribo.testing.checks import BODIES
-from tribo.testing.checks_local import LocalChecks
+from tribo.testing.checks_local import LocalChecks, rate_of
 from tribo.testing.compare import apply_if, expect_close, locked, require
 from tribo.testing.rescaling import factor
 
@@ -58,6 +58,10 @@ class WearLawChecks(LocalChecks):
     def _rates(self, component: Any, given: Any) -> Mapping[str, Array]:
         rates: Mapping[str, Array] = component.rate(given).state_rates
         return rates
+
+    def _advance(self, component: Any, given: Any, span: float) -> Any:
+        mean = component.advance(given, span)
+        return {} if mean is None else _parts(replace(mean, depth_slope=None))
 
     def _call(self, component: Any, inputs: Any) -> Mapping[str, Any]:
         rate = component.rate(inputs)
@@ -214,5 +218,5 @@ def _chosen(local: LocalConditions, chosen: Any) -> LocalConditions:
 def _parts(rate: WearRate) -> dict[str, Array]:
     """Return the arrays of a rate, by what they are called."""
     parts = {"depth": rate.depth_rate, "derivative": rate.depth_slope}
-    parts |= {f"the rate of {name!r}": values for name, values in rate.state_rates.items()}
+    parts |= {rate_of(name): values for name, values in rate.state_rates.items()}
     return {name: values for name, values in parts.items() if values is not None}

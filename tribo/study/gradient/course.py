@@ -75,7 +75,8 @@ def slopes(
     that one way back, from 1 on each point, has the derivatives of all of them.
     """
     slid = replace(slid, before=replace(slid.before, laws={name: slid.before.laws[name]}))
-    asked = _Asked(replace(model, laws={name: model.laws[name]}), name, carrier, contacts, slid)
+    alone = replace(model, laws={name: model.laws[name]})
+    asked = _Asked(alone, model.advances, name, carrier, contacts, slid)
     if any(model.laws[each].initial_state for each in model.laws):
         depth = np.stack([rates[name].depth_rate for rates in known.rates])
         factor = slid.increment * asked.own(depth)
@@ -144,9 +145,10 @@ class _Part:
 
 @dataclass(frozen=True)
 class _Asked:
-    """The law of one body, under given contacts."""
+    """The law of one body, under given contacts; `advances` as of all of them together."""
 
     model: Model
+    advances: bool
     name: str
     carrier: Carrier
     contacts: Sequence[ContactSolution]
@@ -163,16 +165,20 @@ class _Asked:
             over(shares) * self.row_weights * parts, whole(self.model.grid.cells)
         )
 
-    def rates(self, memory: Memory, passed: float = 1.0, by: float = 1.0) -> States:
+    def rates(
+        self, memory: Memory, passed: float = 1.0, by: float = 1.0, over: float = 0.0
+    ) -> States:
         """Return the rates of depth and states at each position, all pressures times `by`.
 
-        They are those where a part of the increment has passed.
+        They are those where a part of the increment has passed, or a law's means over what follows.
         """
         slid = self.slid
         contacts = loaded(self.model, self.contacts, slid.increment, slid.moment, passed)
         if by != 1:
             contacts = [replace(each, pressure=by * each.pressure) for each in contacts]
-        moment = slid.moment.back((1 - passed) * slid.increment)
+        moment = replace(
+            slid.moment.back((1 - passed) * slid.increment), over=over if self.advances else 0.0
+        )
         found = [
             rates.wear[self.name] for rates in rates_at_each(self.model, contacts, memory, moment)
         ]
@@ -181,13 +187,13 @@ class _Asked:
         ]
         return [np.stack([rate.depth_rate for rate in found]), *of_states]
 
-    def by_pressure(self, memory: Memory, passed: float = 1.0) -> States:
+    def by_pressure(self, memory: Memory, passed: float = 1.0, over: float = 0.0) -> States:
         """Return the derivatives of all rates in the pressure of their own cell."""
         pressure = np.stack([contact.pressure for contact in self.contacts])
         span = np.where(pressure > 0, 2 * NUDGE * pressure, np.inf)
         pairs = zip(
-            self.rates(memory, passed, 1 + NUDGE),
-            self.rates(memory, passed, 1 - NUDGE),
+            self.rates(memory, passed, 1 + NUDGE, over),
+            self.rates(memory, passed, 1 - NUDGE, over),
             strict=True,
         )
         return [(higher - lower) / span for higher, lower in pairs]
@@ -208,22 +214,23 @@ class _Asked:
             if field.name == key
         ]
 
-    def local(self, states: Sequence[Array], passed: float) -> _Rates:
+    def local(self, states: Sequence[Array], passed: float, over: float) -> _Rates:
         """Return rates with their derivatives, where a part of the increment has passed."""
         limits = self.limits()
         held = [np.clip(s, each.least, each.most) for s, each in zip(states, limits, strict=True)]
         memory, by_state = self.memory(held), []
-        found = self.rates(memory, passed)
+        found = self.rates(memory, passed, over=over)
         for at, (state, limit) in enumerate(zip(held, limits, strict=True)):
             nudge = self.nudge(state, found[1 + at])
             ends = [np.clip(state + by, limit.least, limit.most) for by in (nudge, -nudge)]
             span = self.carrier.seen(ends[0] - ends[1], whole(self.model.grid.cells))
             higher, lower = (
-                self.rates(self.memory([*held[:at], end, *held[at + 1 :]]), passed) for end in ends
+                self.rates(self.memory([*held[:at], end, *held[at + 1 :]]), passed, over=over)
+                for end in ends
             )
             by_state.append([(up - down) / span for up, down in zip(higher, lower, strict=True)])
         inside = [s == h for s, h in zip(states, held, strict=True)]
-        return _Rates(found, self.by_pressure(memory, passed), by_state, inside)
+        return _Rates(found, self.by_pressure(memory, passed, over), by_state, inside)
 
     def nudge(self, state: Array, rate: Array) -> float:
         """Return by how much a state is varied to find what follows it."""
@@ -235,35 +242,36 @@ class _Asked:
         slid, limits, found, passed = self.slid, self.limits(), [], 0.0
         states = list(slid.before.laws[self.name].values())
         for share, relaxes in slid.plan.parts:
-            start = self.local(states, passed)
+            span = share * slid.increment
+            start = self.local(states, passed, span)
             of_states: list[Array | float] = [0.0] * len(states)
             moved = []
             if relaxes:
-                at_start = partial(self._of_states, passed)
-                of_states = relaxing(
-                    at_start, states, at_start(states), share * slid.increment, limits
-                )
+                at_start = partial(self._of_states, passed, span)
+                of_states = relaxing(at_start, states, at_start(states), span, limits)
                 for at, (state, rate) in enumerate(zip(states, start.found[1:], strict=True)):
                     nudge = self.nudge(state, rate)
                     by = np.where(state + nudge > limits[at].most, -nudge, nudge)
                     other = [*states[:at], state + by, *states[at + 1 :]]
-                    moved.append((self.local(other, passed), by))
+                    moved.append((self.local(other, passed, span), by))
             rows, ends = [], [np.zeros_like(state) for state in states]
             stages = RELAXING if relaxes else PLAIN
             for steps in stages:
+                if steps > 1 and self.advances:
+                    start = self.local(states, passed, span / steps)
                 row, end = self._row(states, start, of_states, passed, share, steps)
                 rows.append(row)
                 counts = _counts(steps, stages)
                 ends = [total + counts * each for total, each in zip(ends, end, strict=True)]
-            found.append(_Part(share * slid.increment, of_states, rows, moved))
+            found.append(_Part(span, of_states, rows, moved))
             states = [
                 np.clip(s, each.least, each.most) for s, each in zip(ends, limits, strict=True)
             ]
             passed += share
         return found
 
-    def _of_states(self, passed: float, values: Sequence[Array], *_: float) -> States:
-        return [self.own(rate) for rate in self.rates(self.memory(values), passed)[1:]]
+    def _of_states(self, passed: float, over: float, values: Sequence[Array], *_: float) -> States:
+        return [self.own(rate) for rate in self.rates(self.memory(values), passed, over=over)[1:]]
 
     def _row(
         self,
@@ -282,7 +290,7 @@ class _Asked:
                 for state, rate, slope in zip(states, row[-1].found[1:], of_states, strict=True)
             ]
             if taken < steps:
-                row.append(self.local(states, passed + share * taken / steps))
+                row.append(self.local(states, passed + share * taken / steps, step))
         return row, states
 
     def back(self, parts: Sequence[_Part], depth: Array, after: States) -> tuple[Array, States]:

@@ -39,7 +39,7 @@ class LocalLaw(GuardedLaw):
         self._factor = factor
         self._spacing = spacing
 
-    def rate(self, local: LocalConditions) -> WearRate:
+    def rate(self, local: LocalConditions, over: float = 0.0) -> WearRate:
         """Return the law's rate and its derivative, times the factor of the place."""
         cells = tuple(
             np.rint(local.fields[place.name] / spacing + 0.5 * (count - 1)).astype(int)
@@ -47,7 +47,7 @@ class LocalLaw(GuardedLaw):
                 (PLACE_X, PLACE_Y), self._spacing, self._factor.shape, strict=True
             )
         )
-        factor, rate = self._factor[cells], self._law.rate(local)
+        factor, rate = self._factor[cells], self._law.rate(local, over)
         return replace(
             rate, depth_rate=factor * rate.depth_rate, depth_slope=factor * rate.depth_slope
         )
@@ -64,11 +64,11 @@ class WatchedLaw(GuardedLaw):
         self._law = law
         self.seen: set[str] = set()
 
-    def rate(self, local: LocalConditions) -> WearRate:
+    def rate(self, local: LocalConditions, over: float = 0.0) -> WearRate:
         """Return the law's rate."""
         material: Any = _Watched(local.material, self.seen)
         told = _WatchedConditions(**{**vars(local), "material": material}, seen=self.seen)
-        return self._law.rate(told)
+        return self._law.rate(told, over)
 
 
 @dataclass(frozen=True, kw_only=True)
