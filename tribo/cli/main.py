@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import os
 import sys
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from importlib import import_module
-from typing import NoReturn
+from typing import Any, NoReturn
 
 import click
 
-from tribo.cli.running import no_interrupt_lost, warnings_on_stderr
 from tribo.cli.streams import Output, Remarks, over, say
-from tribo.core.errors import CaseError, ReaderGone, TriboError
+from tribo.core.errors import CaseError, ReaderGone, TriboError, TriboWarning
 from tribo.core.words import did_you_mean, suggestion
 
 COMMANDS = {
@@ -96,13 +98,27 @@ def tribo(no_plugin: tuple[str, ...], only: str | None) -> None:
         os.environ[ONLY] = only
 
 
+@contextmanager
+def _warnings_on_stderr() -> Iterator[None]:
+    """Print tribo's own warnings as one line each, and no others."""
+
+    def show(message: Warning | str, category: type[Warning], *_: Any, **__: Any) -> None:
+        if issubclass(category, TriboWarning):
+            say("warning", "yellow", str(message))
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("always", TriboWarning)
+        warnings.showwarning = show
+        yield
+
+
 def main() -> None:
     """Run the command; every expected error becomes one message and an exit code."""
     # pydantic fails on any malformed distribution while it looks for its own plugins.
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     sys.stdout, sys.stderr = over(sys.stdout, Output), over(sys.stderr, Remarks)
     try:
-        with warnings_on_stderr(), no_interrupt_lost():
+        with _warnings_on_stderr():
             tribo.main(standalone_mode=False)
             # What a plugin may have printed.
             print(end="", flush=True)

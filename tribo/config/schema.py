@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import warnings
 from collections.abc import Iterator
-from typing import Any, Literal
+from typing import Any
 
 from pydantic import BaseModel
 
@@ -14,13 +14,10 @@ from tribo.core.errors import TriboWarning
 from tribo.core.words import said
 from tribo.registry.registry import Registry, default_registry
 
-Mode = Literal["validation", "serialization"]
 Schema = dict[str, Any]
 
 
-def json_schema(
-    model: type[BaseModel], registry: Registry | None = None, mode: Mode = "validation"
-) -> Schema:
+def json_schema(model: type[BaseModel], registry: Registry | None = None) -> Schema:
     """Return the JSON schema of a table that components are part of.
 
     Each kind of component has a definition of its name, as
@@ -34,13 +31,11 @@ def json_schema(
         A pydantic model, as `tribo.Case`.
     registry : Registry, optional
         Where components are looked up; the installed plugins if left out.
-    mode : str
-        The schema of what is read (``"validation"``) or of what is written.
     """
     known = registry or default_registry()
     for plugin in known.load_all():
         warnings.warn(f"{plugin} is left out: {plugin.reason}", TriboWarning, stacklevel=2)
-    whole: Schema = model.model_json_schema(mode=mode)
+    whole: Schema = model.model_json_schema()
     defs = whole.setdefault("$defs", {})
     waiting = list(_places(whole))
     for place in waiting:
@@ -51,16 +46,16 @@ def json_schema(
         schemas = {
             name: schema
             for name in known.names(kind)
-            if (schema := _schema(known, kind, name, mode)) is not None
+            if (schema := _schema(known, kind, name)) is not None
         }
         defs |= schemas
-        defs[kind] = _choice(schemas, mode)
+        defs[kind] = _choice(schemas)
         for schema in schemas.values():
             waiting += _places(schema)
     return whole
 
 
-def _choice(schemas: dict[str, Schema], mode: Mode) -> Schema:
+def _choice(schemas: dict[str, Schema]) -> Schema:
     """Return a choice by type, or by name alone of components that need no keys."""
     if not schemas:
         return {"not": {}}
@@ -70,15 +65,13 @@ def _choice(schemas: dict[str, Schema], mode: Mode) -> Schema:
         "discriminator": {"propertyName": "type", "mapping": mapping},
     }
     short = [name for name, schema in schemas.items() if schema["required"] == ["type"]]
-    if mode == "serialization" or not short:
-        return choice
-    return {"anyOf": [choice, {"type": "string", "enum": short}]}
+    return {"anyOf": [choice, {"type": "string", "enum": short}]} if short else choice
 
 
-def _schema(registry: Registry, kind: str, name: str, mode: Mode) -> Schema | None:
+def _schema(registry: Registry, kind: str, name: str) -> Schema | None:
     cls = registry.components[name]
     try:
-        schema = cls.model_json_schema(mode=mode, ref_template=f"#/$defs/{name}/$defs/{{model}}")
+        schema = cls.model_json_schema(ref_template=f"#/$defs/{name}/$defs/{{model}}")
         json.dumps(schema, allow_nan=False)
     except KeyboardInterrupt:
         raise

@@ -190,8 +190,6 @@ class Quantity:
                 number[keyword] = getattr(self, field)
         if self.unit != "1":
             number["description"] = f"in {self.unit}"
-        if handler.mode == "serialization":
-            return {**number, "x-unit": self.unit}
         text = {"type": "string", "description": f"with a unit, as in '{_example(self.unit)}'"}
         return {"anyOf": [number, text], "x-unit": self.unit}
 

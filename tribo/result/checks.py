@@ -47,13 +47,6 @@ _JSON: dict[str, object] = {
     "notices": [str],
     "worn_through": [_PASSED],
 }
-_FRICTION = ("friction_force", "friction_energy")
-_LATER = {
-    prefix + name
-    for prefix in ("", "history_")
-    for name in ("plastic_area", "load", "load_distance", "cycle_error", *_FRICTION)
-} | {*ROUGHNESS, TRACK_PLASTIC}
-"""Variables that older files lack, or those without a body that is rough or yields."""
 _LIKE = {STATE: "wear_depth", EFFECT: "wear_depth", TRACK_STATE: TRACK, BETWEEN: "pressure"}
 """By kind, the variable that a field of a model has the dimensions of."""
 
@@ -73,8 +66,6 @@ def interpreting(name: str) -> Iterator[None]:
 def read_attributes(attributes: Mapping[str, Any]) -> dict[str, Any]:
     """Return the attributes of a file with their JSON read; ValueError if one is wrong."""
     read = dict(attributes)
-    # Older files lack it.
-    read.setdefault("worn_through", "[]")
     for name, pattern in _JSON.items():
         try:
             read[name] = json.loads(read[name])
@@ -106,7 +97,11 @@ def read_attributes(attributes: Mapping[str, Any]) -> dict[str, Any]:
 
 def read_variables(file: h5py.File, bodies: tuple[str, ...]) -> dict[str, Variable]:
     """Return the variables of a file, none of them read; ValueError if they do not fit."""
-    table = {name: v for name, v in FIXED.items() if name in file or name not in _LATER}
+    table = {
+        name: v
+        for name, v in FIXED.items()
+        if name in file or name not in (*ROUGHNESS, TRACK_PLASTIC)
+    }
     if not {"track_x", TRACK} & file.keys():
         del table["track_x"], table[TRACK]
     for name, values in file.items():

@@ -86,7 +86,7 @@ def renamed_image(image: BytesIO, names: Mapping[str, str]) -> BytesIO:
         case["bodies"] = {names[name]: body for name, body in case["bodies"].items()}
         file.attrs["case"] = json.dumps(case)
         file["body"][...] = list(case["bodies"])
-        passed = json.loads(file.attrs.get("worn_through", "[]"))
+        passed = json.loads(file.attrs["worn_through"])
         renamed = [{**each, "body": names[each["body"]]} for each in passed]
         file.attrs["worn_through"] = json.dumps(renamed)
         for dataset in file.values():

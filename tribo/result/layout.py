@@ -63,6 +63,7 @@ def attributes(run: RunInfo) -> dict[str, Any]:
         "case": json.dumps(run.case),
         "provenance": json.dumps(run.provenance),
         "notices": "[]",
+        "worn_through": "[]",
     }
     return {name: value for name, value in values.items() if value is not None}
 

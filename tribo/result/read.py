@@ -33,7 +33,6 @@ if TYPE_CHECKING:
 
 SAME_TIME = 1e-9
 """How far a time may be off that of a save, relative to the last one."""
-_LISTED = 8
 
 
 class Result:
@@ -82,12 +81,9 @@ class Result:
         if not self._file:
             return f"<Result {self.name}: closed>"
         times = self.times
-        listed = [f"{time:g}" for time in times]
-        if len(listed) > _LISTED:
-            listed = [*listed[: _LISTED - 2], "…", listed[-1]]
         saves = f"{len(times)} save{'' if len(times) == 1 else 's'}"
-        at = f" at {', '.join(listed)} s" if listed else ""
-        return f"<Result {self.name}: {self.status}, {saves}{at}>"
+        until = f" up to {times[-1]:g} s" if len(times) else ""
+        return f"<Result {self.name}: {self.status}, {saves}{until}>"
 
     def __enter__(self) -> Self:
         return self
@@ -266,9 +262,7 @@ class Result:
         A body's are called ``bodies.NAME.max_wear_depth_m``; the history has a rough one's Sa too.
         """
         prefix = "" if name == "saves" else "history_"
-        # One that a file lacks was not recorded yet when that was made.
-        missing = np.full(self._scalars[prefix + "time"].shape, np.nan)
-        columns = {c.label: self._scalars.get(prefix + c.name, missing) for c in COLUMNS}
+        columns = {c.label: self._scalars[prefix + c.name] for c in COLUMNS}
         for index, body in enumerate(self.body_names):
             for part in BODY_COLUMNS:
                 values = self._scalars[prefix + part.name]

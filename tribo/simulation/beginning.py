@@ -54,13 +54,11 @@ def first_state(model: Model) -> State:
         carried = result.saves()[save]
     for name, body in bodies.items():
         bodies[name] = replace(body, law={k: found.get((name, k), v) for k, v in body.law.items()})
-    # Older files lack it; their load was constant.
-    load_distance = result.system.load * carried["distance_m"]
     places = {key: _place(model, key) for key in model.between}
     between = {key: found[at, key] for key, at in places.items() if (at, key) in found}
     state = replace(
         first_contact(model, bodies, between),
-        load_distance=carried.get("load_distance_N_m", load_distance),
+        load_distance=carried["load_distance_N_m"],
         friction_energy=carried.get("friction_energy_J", 0.0),
     )
     return state.with_notice(
@@ -129,14 +127,6 @@ def _worn(model: Model, result: Result, name: str, save: int) -> BodyState:
     else:
         plastic = _along_track(result, TRACK_PLASTIC, name, save)
         kept = [track, np.zeros_like(track) if plastic is None else plastic]
-        along = {field.name for field in result.fields_of(TRACK_STATE, name).values()}
-        yielded = result.saves()[save]["bodies"][name]["max_plastic_depth_m"] > 0
-        if (yielded and plastic is None) or set(body.state) - along:
-            raise CaseError(
-                f"{result.name} is of an older tribo, which kept of what has yielded, and of what "
-                f"a law remembers, only the part of {name} in the window; run its case again",
-                PLACE,
-            )
     wear = _on_rows(kept[0], rows, nx)
     if wear is None:
         dx = model.grid.spacing[0]
