@@ -66,6 +66,22 @@ def test_it_is_in_balance(on, caught):
     assert thickness == pytest.approx(lambert, rel=1e-4, abs=0)
 
 
+@pytest.mark.parametrize(("length", "caught"), [(1e9, 1.0), (0.5, 1.0), (0.5, 0.4)])
+def test_flat_bodies_meet_on_debris_that_fills(length, caught):
+    case = pin(length=length, caught=caught, fills=True)
+    with Simulation(case).run() as result:
+        first, *_, last = result.saves()
+        thickness = result.field("debris_thickness", -1)
+        bodies = last["bodies"].values()
+        worn = sum(body["max_wear_depth_m"] for body in bodies)
+        volume = sum(body["wear_volume_m3"] for body in bodies)
+    assert thickness == pytest.approx(balance(length, caught)[0], rel=1e-4, abs=0)
+    sunk = last["approach_m"] - first["approach_m"]
+    np.testing.assert_allclose(sunk, worn - thickness, rtol=1e-9, atol=1e-9 * worn)
+    # Nothing leaves: all that the pin and the whole track lost is under the pin.
+    assert length < 1e9 or thickness == pytest.approx(volume / SIDE**2, rel=3e-5, abs=0)
+
+
 def test_debris_that_stays_ends_wear_as_a_logarithm():
     # Nothing leaves: dt/ds = K p exp(−t/t₀), so that t = t₀ ln(1 + K p s/t₀).
     thickness, worn = end(pin(length=1e9))

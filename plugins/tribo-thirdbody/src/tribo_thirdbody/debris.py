@@ -1,6 +1,7 @@
 """Debris between the bodies: fed by wear, left behind by sliding, and bearing load."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Annotated
 
 import numpy as np
@@ -13,18 +14,12 @@ THICKNESS = Field("debris_thickness", "m", "Height of debris, without pores.", a
 class Debris(Effect):
     """dt/ds = c (r₁ + r₂) − t/λ: what both bodies lose per metre, less what leaves the contact.
 
-    Debris carries the part 1 − exp(−t/t₀) of the pressure and does not wear what it lies on, so
-    that wear in proportion to pressure falls by exp(−t/t₀). Under an even pressure p that wears
-    both together by K p s, it tends to t₀ W(c λ K p/t₀), with Lambert's function W.
+    Debris carries the part 1 − exp(−t/t₀) of the pressure and does not wear what it lies on. Under
+    an even pressure p that wears both by K p s, it tends to t₀ W(c λ K p/t₀), with Lambert's W.
+    Valid where it stays for many diameters of its particles, leaves in proportion to its amount,
+    and is too soft to abrade.
 
-    Valid where debris stays between the bodies for many diameters of its particles, flows out in
-    proportion to its amount, and is soft or mobile enough not to abrade.
-
-    References
-    ----------
-    Godet, M. (1984), The third-body approach: a mechanical view of wear, Wear 100, 437-452.
-    Fillot, N., Iordanoff, I., Berthier, Y. (2007), Wear modeling and the third body concept, Wear
-    262, 949-957.
+    Sources: Godet (1984), Wear 100, 437-452; Fillot et al. (2007), Wear 262, 949-957.
     """
 
     model_config = ConfigDict(
@@ -40,9 +35,15 @@ class Debris(Effect):
     """Part c of what is worn that becomes debris; the rest leaves at once."""
     on: str | None = None
     """The body on which it lies; in the contact, between both, if left out."""
+    fills: bool = False
+    """Whether the bodies meet on it, at its height without pores, or as if it gave way."""
 
-    state_fields = (THICKNESS,)
     provides = (LOAD_SHARE,)
+
+    @property
+    def state_fields(self) -> tuple[Field, ...]:  # type: ignore[override]
+        """The height of the debris."""
+        return (replace(THICKNESS, fills=self.fills),)
 
     def carrier(self) -> str | None:
         """Return the body on which it lies."""
