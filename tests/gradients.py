@@ -1,15 +1,25 @@
-"""A run repeated with the same steps, by which gradients are checked."""
+"""Runs repeated with the same steps, by which gradients are checked, and mutants of the code."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from functools import cached_property
+from inspect import signature
 
 import numpy as np
+from paper_models import K, archard, case, flat, half_space, motion, named, sphere, steel
 
+from tribo.case import Case
+from tribo.core.grid import Grid
 from tribo.simulation.assembly import assemble
 from tribo.simulation.march import begin, march
+from tribo.simulation.positions import composed
+from tribo.stepping.implicit import Implicit
 from tribo.stepping.step import rested, rests, start_sliding
+from tribo.study.gradient.gradient import gradient
 from tribo.study.gradient.local import localised
 from tribo.study.gradient.objective import View
 from tribo.study.gradient.parameters import Stops, changed, find
+from tribo.wear.power import Power
+from tribo.wear.running_in import RunningIn, Smoothing
 
 
 def taken(model):
@@ -56,3 +66,140 @@ def difference(base, steps, objective, numbers, maps, part):
         worn = {name: by * change for name, change in maps.get("worn_before", {}).items()}
         found.append(repeated(replace(model, gaps=tuple(gaps)), base, steps, objective, worn))
     return (found[0] - found[1]) / (2 * part)
+
+
+@dataclass(frozen=True, eq=False)
+class Kind:
+    """A kind of run: what is differentiated, in which numbers, and the part they are varied by."""
+
+    case: Case
+    objective: object
+    paths: list
+    part: float
+
+    @cached_property
+    def varied(self):
+        """Random changes of all inputs, and the difference along them."""
+        model, random = composed(self.case), np.random.default_rng(0)
+        numbers = {path: random.uniform(0.5, 1.5) for path in self.paths}
+        own = {name: (each.rows, model.grid.cells[1]) for name, each in model.exposures.items()}
+        sizes = {"wear_rate": 1.0, "height": 1e-8}
+        if model.system.cap is None:
+            # What a run begins with would yield anew.
+            sizes["worn_before"] = 1e-8
+        maps = {
+            which: {
+                name: size * random.uniform(0.5, 1.5, shape)
+                for name, shape in own.items()
+                if name in model.laws or which != "wear_rate"
+            }
+            for which, size in sizes.items()
+        }
+        steps = taken(model)
+        return numbers, maps, difference(model, steps, self.objective, numbers, maps, self.part)
+
+    def off(self):
+        """By how much the gradient misses the difference, relative to it."""
+        numbers, maps, direct = self.varied
+        found = gradient(self.case, self.objective, self.paths)
+        follows = sum(by * found.relative[path] * found.value for path, by in numbers.items())
+        for which, of_bodies in maps.items():
+            for name, change in of_bodies.items():
+                follows += float(np.sum(getattr(found, which)[name] * change))
+        return abs(follows - direct) / abs(direct)
+
+
+CLOSE = 1e-6
+"""As near as differences of runs come, whose contacts are solved to 1e-12."""
+WINDOW = Grid(("0.5 mm", "0.5 mm"), (16, 16))
+ODD = Grid(("0.46875 mm", "0.5 mm"), (15, 16))
+"""With one deepest cell in each row, where two would have a derivative to each side."""
+TIGHT = half_space(tolerance=1e-12)
+BASE = ["load.normal", "bodies.ball.wear.k", "bodies.disk.wear.k", "kinematics.frequency"]
+SHAPE = ["bodies.ball.surface.radius", "bodies.ball.material.young", "bodies.disk.material.poisson"]
+
+
+def few(**values):
+    """Steps so long that a run has a handful of them."""
+    return Implicit(
+        **{"depth_tolerance": 0.1, "pressure_tolerance": 0.5, "settle": 1, "max_passes": 500}
+        | values
+    )
+
+
+def power(exponent):
+    return Power(k=K, p_exponent=exponent, reference_pressure="1 GPa")
+
+
+def pair(ball, disk, hardness=(None, None)):
+    return [
+        named("ball", sphere(), steel(hardness[0]), ball),
+        named("disk", flat(), steel(hardness[1]), disk),
+    ]
+
+
+def run(**changes):
+    parts = {"grid": WINDOW, "load": 20.0, "contact": TIGHT, "stepping": few()}
+    return case(**{**parts, "kinematics": motion(duration=20), **changes})
+
+
+def resolved(**changes):
+    return motion(
+        **{"stroke": "0.125 mm", "positions": 5, "frequency": 100, "duration": 20} | changes
+    )
+
+
+STAGES = ["load.normal.0.normal", "load.normal.1.normal", "load.normal.2.normal"]
+HARD = "bodies.disk.material.hardness"
+RAMP = [
+    {"at": 0, "normal": 10.0},
+    {"at": 10, "normal": 20.0},
+    {"until": 15, "normal": 40.0},
+    {"until": 21, "normal": 20.0},
+]
+FRESH = RunningIn(law=archard(), factor=4.0, over="1 GPa m")
+SMOOTH = Smoothing(law=archard(), factor=3.0, roughness="0.4 um", settled="0.1 um", depth="0.2 um")
+OF_FRESH = ["bodies.ball.wear.over", "bodies.ball.wear.factor", "bodies.ball.wear.law.k"]
+OF_SMOOTH = ["bodies.disk.wear.roughness", "bodies.disk.wear.depth", "bodies.disk.wear.law.k"]
+LONG = few(nonlinear_tolerance=1e-13, cycle_tolerance=1e-12)
+
+
+def without(name):
+    """A method that is given 0 in place of one of its arguments."""
+
+    def made(method):
+        given = signature(method)
+
+        def mutant(*values):
+            bound = given.bind(*values)
+            bound.arguments[name] = 0 * bound.arguments[name]
+            return method(*bound.args)
+
+        return mutant
+
+    return made
+
+
+def nothing(method):
+    return lambda *values: None
+
+
+def zero(method):
+    return lambda *values: 0.0 * method(*values)
+
+
+def unfelt(which):
+    """A method whose responses leave out one of their parts."""
+    return lambda method: (
+        lambda *given: [
+            replace(each, **{which: 0 * getattr(each, which)}) for each in method(*given)
+        ]
+    )
+
+
+def forgotten(method):
+    def mutant(*given):
+        found, states = method(*given)
+        return found, [0 * state for state in states]
+
+    return mutant

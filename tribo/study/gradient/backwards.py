@@ -4,28 +4,29 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
 from tribo.contact.projection import CELLS, over
 from tribo.core.arrays import Array, readonly
-from tribo.core.box import Box, whole
+from tribo.core.box import Box
 from tribo.core.contact import ContactSolution, Residuals
 from tribo.core.errors import CaseError
-from tribo.core.fields import FRICTION_COEFFICIENT, LOAD_SHARE, PLACE_X, PLACE_Y
+from tribo.core.fields import LOAD_SHARE
 from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.model import Model
-from tribo.stepping.evolution import course, loaded
+from tribo.stepping.evolution import Course, course
 from tribo.stepping.implicit import Implicit
+from tribo.stepping.memory import Memory, first_memory
 from tribo.stepping.step import worn_depths
-from tribo.study.gradient.course import Slopes, slopes
-from tribo.study.gradient.linear import StepSystem, carriers
+from tribo.study.gradient.course import Increment, plain
+from tribo.study.gradient.linear import StepSystem, carriers, carriers_between
 from tribo.study.gradient.local import WatchedLaw
 from tribo.study.gradient.objective import Seeds
 from tribo.study.gradient.parameters import Chain, Known
-from tribo.study.gradient.tape import Enveloped, Gave, Pressed, Saved, Tape
-
-KNOWN = {FRICTION_COEFFICIENT.name, PLACE_X.name, PLACE_Y.name}
+from tribo.study.gradient.remembering import Remembering
+from tribo.study.gradient.tape import Enveloped, Gave, Pressed, Saved, Slid, Tape
 
 
 def covered(model: Model) -> Model:
@@ -44,23 +45,24 @@ def covered(model: Model) -> Model:
             "motion's own end",
             "stop.depth",
         )
-    between = {field.name for effect in model.case.effects for field in effect.provides}
-    for name, law in model.laws.items():
-        if beyond := set(law.requires) - (KNOWN - between):
-            raise CaseError(
-                f"{law.component.type!r} follows {', '.join(sorted(beyond))} of effects, through "
-                "which no gradient goes",
-                f"bodies.{name}.wear",
-            )
-    if LOAD_SHARE.name in between:
-        raise CaseError("an effect that carries load has no gradient", "effects")
-    if any(law.bottoms for law in model.laws.values()) and any(
-        law.state_fields for law in model.laws.values()
-    ):
-        raise CaseError("gradients go through layers, or laws that remember, not both", "bodies")
+    given = {
+        field.name
+        for effect in model.case.effects
+        for field in (*effect.provides, *effect.state_fields)
+    }
+    laws = model.laws.values()
+    followed = LOAD_SHARE.name in given or any(set(law.requires) & given for law in laws)
+    followed = followed or any(field.fills for f in model.effects for field in f.state_fields)
+    if any(law.bottoms for law in laws) and (followed or any(law.state_fields for law in laws)):
+        raise CaseError(
+            "gradients go through layers, or laws that remember or follow effects, not both",
+            "bodies",
+        )
     if model.contact.operator(model.system, model.gap <= np.min(model.gap)) is None:
         raise CaseError(f"{model.contact.type!r} does not state its operator", "contact.type")
-    return assemble(varied(model.case, effects=())) if model.effects else model
+    if followed or not model.effects:
+        return model
+    return assemble(varied(model.case, effects=()))
 
 
 @dataclass(frozen=True)
@@ -126,10 +128,16 @@ class _Back:
         self.wear = {name: np.zeros(shape) for name, shape in own.items()}
         self.height = {name: np.zeros(shape) for name, shape in own.items()}
         self.factor = {name: np.zeros(own[name]) for name in model.laws}
-        self.states = {
-            name: {key: np.zeros(own[name]) for key in law.initial_state}
-            for name, law in model.laws.items()
-        }
+        self.between = carriers_between(model, self.carriers)
+        # An increment of each body alone, unless they share what lies between them.
+        self.together = bool(model.effects or model.filling)
+        self.states = Memory(
+            {
+                name: {key: np.zeros(own[name]) for key in law.initial_state}
+                for name, law in model.laws.items()
+            },
+            {key: np.zeros_like(first) for key, first in first_memory(model).items()},
+        )
         self.plastic = {
             name: np.zeros(cells if self.carriers[name].weights is not None else own[name])
             for name, share in model.plastic_share.items()
@@ -178,61 +186,96 @@ class _Back:
             full = pressure >= model.system.cap * (1 - 1e-12)
 
         contacts = [_contact(each) for each in window]
-        through: dict[str, Slopes] = {}
-        given, fixed, bodies = np.zeros_like(pressure), np.zeros_like(pressure), []
+        increments: list[Increment] = []
         if slid is not None:
             for law in self.laws.values():
                 law.seen.clear()
             known = course(model, slid.before, contacts, slid.increment, slid.moment, slid.plan)
             seen = {name: frozenset(law.seen) for name, law in self.laws.items()}
             step = Known(known, worn_depths(model, known.rates, slid.increment), seen)
-            for name, after in self.states.items():
-                carrier = self.carriers[name]
-                of_body = through[name] = slopes(model, name, carrier, contacts, slid, known, after)
-                steep = of_body.pressure[here]
-                bodies.append((carrier, steep))
-                given += of_body.given[here] + steep * carrier.seen(self.wear[name], box)
+            increments = self._increments(contacts, slid, known)
+        fixed = np.zeros_like(pressure)
         weights = np.where(self.shares > 0, self.shares, 1.0)
-        if pressed is not None:
-            given += pressed[here] / over(weights)
+        looked = np.zeros_like(window) if pressed is None else pressed / over(weights)
         if yielded and record.overlap is not None:
             fixed = self._gave(record, yielded)[here] * full / over(weights)
-        system = StepSystem(operator, box, self.shares, bodies, (pressure > 0) & ~full)
-        z, mean, left = system.solve(given, fixed, self.start[here])
+        free = (pressure > 0) & ~full
+        bodies = [(own, steep[here]) for each in increments for own, steep in each.bodies]
+        wear = partial(self._of_wear, increments[0], box) if slid and self.together else None
+        system = StepSystem(operator, box, self.shares, bodies, free, wear)
+        given = looked + sum(each.back(self.wear, self._of(each)).pressure for each in increments)
+        z = system.solve(given[here], fixed, self.start[here])
         self.start = np.zeros_like(self.start)
         self.start[here] = z
-        y = over(self.shares) * z
+        y, stiff = over(self.shares) * z, operator.apply(z)
 
         self._shift(y, box)
-        self.stiffness += float(np.sum(y * operator.apply(pressure)))
+        self.stiffness += float(np.sum(over(self.shares) * stiff * pressure))
+        behind = [each.back(self.wear, self._of(each)) for each in increments]
+        left = (looked + sum(each.pressure for each in behind))[here] - stiff
+        mean = np.sum(left * free, CELLS) / np.maximum(free.sum(CELLS), 1)
         self.cap += float(np.sum(over(self.shares) * (left - over(mean)) * full))
-        if slid is not None and any(self.states.values()):
-            told = loaded(model, contacts, slid.increment, slid.moment, 0.0)
-            mean = mean - (0.0 if told is contacts else self._of_load(window, through))
         by_load = self.shares * mean / model.grid.cell_area
         for at, chain in enumerate(self.chains):
             self.sums[at] += chain.by_load(record, by_load)
             if slid is not None:
                 self.sums[at] += chain.by_wear(slid, contacts, step, self.wear, self.states)
-        for name, of_body in through.items():
-            wear = self.wear[name]
-            self.factor[name] += wear * of_body.factor
-            self.wear[name] = wear * of_body.worn
-            self.states[name] = {
-                key: before + wear * of_body.state[key] for key, before in of_body.before.items()
-            }
+        for each in behind:
+            for name, factor in each.factor.items():
+                self.factor[name] += factor
+                self.wear[name] = each.wear[name]
+            laws = {**self.states.laws, **each.states.laws}
+            self.states = replace(self.states, laws=laws)
+            if self.together:
+                self.states = each.states
 
-    def _of_load(self, window: Array, through: Mapping[str, Slopes]) -> Array:
-        """Return what of the derivative in the pressures is one in their sum, by position.
+    def _increments(
+        self, contacts: Sequence[ContactSolution], slid: Slid, known: Course
+    ) -> list[Increment]:
+        """Return an increment in the parts that have nothing to do with each other."""
+        laws, found = self.model.laws, list[Increment]()
+        remembers = bool(known.memory.values)
+        for names in [list(laws)] if self.together else [[name] for name in laws]:
+            model = replace(self.model, laws={name: laws[name] for name in names})
+            own = {name: slid.before.laws[name] for name in names}
+            kept = [self.carriers[name] for name in names for _ in own[name]]
+            kept += self.between.values()
+            if remembers or self.together:
+                alone = replace(slid, before=replace(slid.before, laws=own))
+                found.append(
+                    Remembering(
+                        model, self.carriers, kept, contacts, alone, remembers, self.model.advances
+                    )
+                )
+            else:
+                found.append(plain(model, self.carriers[names[0]], contacts, slid, known))
+        return found
 
-        Along a step with something to remember, pressures are told in proportion to the load.
-        """
-        of_pressure, all_cells = np.zeros_like(window), whole(self.model.grid.cells)
-        for name, of_body in through.items():
-            seen = self.carriers[name].seen(self.wear[name], all_cells)
-            of_pressure += of_body.pressure * seen + of_body.given
-        total: Array = np.sum(window * of_pressure, CELLS) / np.sum(window, CELLS)
-        return total
+    def _of(self, increment: Increment) -> Memory:
+        """Return the derivatives in what is remembered by the bodies of an increment."""
+        return replace(self.states, laws={name: self.states.laws[name] for name in increment.names})
+
+    def _of_wear(self, increment: Increment, box: Box, z: Array) -> Array:
+        """Return what the wear and the filling that pressures make add to the adjoint of K."""
+        y = over(self.shares) * z
+        wear = {name: self.carriers[name].gathered(y, box) for name in self.model.laws}
+        zeros = [np.zeros_like(value) for value in self.states.values]
+        states = self._filled(self.states.with_values(iter(zeros)), y, box)
+        found: Array = increment.back(wear, states).pressure[(slice(None), *box.slices)]
+        return found
+
+    def _filled(self, states: Memory, y: Array, box: Box) -> Memory:
+        """Return derivatives in what is remembered, with those through what fills the gap."""
+        for name, key in self.model.filling:
+            carrier = self.between[key] if name is None else self.carriers[name]
+            of = states.between if name is None else states.laws[name]
+            new = {**of, key: of[key] - carrier.gathered(y, box)}
+            states = (
+                replace(states, between=new)
+                if name is None
+                else replace(states, laws={**states.laws, name: new})
+            )
+        return states
 
     def _shift(self, y: Array, box: Box) -> None:
         """Take what a solve says of the gaps."""
@@ -245,6 +288,7 @@ class _Back:
             elif name in self.plastic:
                 self.plastic[name][box.slices] -= np.sum(y, axis=0)
         self.gap[:, *box.slices] -= y
+        self.states = self._filled(self.states, -y, box)
 
     def _gave(self, record: Pressed, places: Sequence[int]) -> Array:
         """Return the derivative in the overlap at each position, shape (positions, nx, ny)."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,7 +11,7 @@ import scipy.fft
 from tribo.contact.operator import Operator
 from tribo.contact.projection import CELLS, over
 from tribo.core.arrays import Array, Mask, add_from, rows_from
-from tribo.core.box import Box
+from tribo.core.box import Box, whole
 from tribo.core.errors import CaseError, NumericalError
 from tribo.simulation.model import Model
 
@@ -63,6 +63,43 @@ class Carrier:
         return np.stack(
             [rows_from(own[:, columns], start + along.start, rows) for start in self.starts]
         )
+
+    @property
+    def part(self) -> Array | float:
+        """What a cell counts for in the mean rate of its point."""
+        return 1.0 if self.weights is None else self.weights
+
+    def mean(self, rate: Array, shares: Array) -> Array:
+        """Return the mean of a rate in the cells, by position, over each point of the body."""
+        return self.gathered(over(shares) * self.part * rate, whole(rate.shape[1:]))
+
+
+@dataclass(frozen=True)
+class Uniform(Carrier):
+    """Where one number lies that stands for all of the window."""
+
+    def gathered(self, parts: Array, box: Box) -> Array:
+        """Return the sum of fields on a box, shape (1, 1)."""
+        return np.sum(parts).reshape(1, 1)
+
+    def seen(self, own: Array, box: Box) -> Array:
+        """Return the number at each cell of a box, by position."""
+        return np.broadcast_to(own, (len(self.starts), *box.shape))
+
+
+def carriers_between(model: Model, of_bodies: Mapping[str, Carrier]) -> dict[str, Carrier]:
+    """Return where what effects remember lies, by its name."""
+    found: dict[str, Carrier] = {}
+    rows, starts = model.grid.cells[0], [0] * len(model.cycle)
+    for key, (effect, field) in model.between.items():
+        if field.uniform:
+            even = np.full(model.grid.cells, 1 / np.prod(model.grid.cells))
+            found[key] = Uniform(1, starts, even)
+        elif effect.carrier is None:
+            found[key] = Carrier(rows, starts, None)
+        else:
+            found[key] = of_bodies[effect.carrier]
+    return found
 
 
 def carriers(model: Model) -> dict[str, Carrier]:
@@ -118,6 +155,8 @@ class StepSystem:
         Of each body that wears: its `Carrier`, and r', shape (positions, nx, ny), in m/Pa.
     free : ndarray of bool, shape (positions, nx, ny)
         The cells whose pressure lies between its bounds.
+    wear : callable, optional
+        Given z, A z − K z where that is more than `bodies` say, which then only precondition.
     mirrored : bool, optional
         Whether each position stands for another too, that mirrors it along x; the last for itself.
     """
@@ -127,11 +166,14 @@ class StepSystem:
     shares: Array
     bodies: Sequence[tuple[Carrier, Array]]
     free: Mask
+    wear: Map | None = None
     mirrored: bool = False
 
     def apply(self, z: Array) -> Array:
         """Return A z on all of the box."""
         found = self.operator.apply(z)
+        if self.wear is not None:
+            return found + self.wear(z)
         if self.bodies:
             weighed = over(self.shares) * z
             for carrier, slope in self.bodies:
@@ -141,8 +183,8 @@ class StepSystem:
                 found = found + slope * carrier.seen(own, self.box)
         return found
 
-    def solve(self, given: Array, fixed: Array, start: Array) -> tuple[Array, Array, Array]:
-        """Return z, and the μ and what is left of `given` − A z, which is μ on the free cells.
+    def solve(self, given: Array, fixed: Array, start: Array) -> Array:
+        """Return z, with which `given` − A z is one number on the free cells of each position.
 
         Parameters
         ----------
@@ -154,10 +196,7 @@ class StepSystem:
             A z to start from.
         """
         if self._mirrors(given, fixed):
-            z, mean, left = self._one_side().solve(
-                *(a[: self._half] for a in (given, fixed, start))
-            )
-            return _both(z), np.concatenate([mean, mean[-2::-1]]), _both(left)
+            return _both(self._one_side().solve(*(a[: self._half] for a in (given, fixed, start))))
         count = self.free.sum(CELLS)
         if np.any((count == 0) & (np.sum(fixed, CELLS) != 0)):
             raise NumericalError(
@@ -190,9 +229,7 @@ class StepSystem:
         if scale > 0 and _norm(residual) > TOLERANCE * scale:
             method = self._conjugate if self.is_symmetric else _minimal
             z = z + method(applied, preconditioned, residual, TOLERANCE * scale)
-            left = given - self.apply(z)
-        mean = np.sum(left * self.free, axis=CELLS) * share
-        return z, mean, left
+        return z
 
     @property
     def _half(self) -> int:
@@ -213,7 +250,13 @@ class StepSystem:
     def _mirrors(self, given: Array, fixed: Array) -> bool:
         """Whether each position mirrors another along x, and the middle one itself."""
         beside = 2 * self.box.first[0] + self.box.shape[0] - self.box.window[0]
-        if self.mirrored or len(self.shares) < 3 or len(self.shares) % 2 == 0 or beside:
+        if (
+            self.wear
+            or self.mirrored
+            or len(self.shares) < 3
+            or len(self.shares) % 2 == 0
+            or beside
+        ):
             return False
         for carrier, _ in self.bodies:
             rest = carrier.rows - self.box.window[0]
@@ -229,6 +272,8 @@ class StepSystem:
     @property
     def is_symmetric(self) -> bool:
         """Whether A is symmetric in the product Σ ωₘ zₘᵀ qₘ."""
+        if self.wear is not None:
+            return False
         for carrier, slope in self.bodies:
             local = carrier.weights is None and len(self.shares) == 1
             inside = slope[self.free]

@@ -18,6 +18,7 @@ from tribo.core.words import did_you_mean, suggestion
 from tribo.simulation.assembly import assemble
 from tribo.simulation.model import Model
 from tribo.stepping.evolution import Course, course
+from tribo.stepping.memory import Memory
 from tribo.stepping.rates import Moment
 from tribo.stepping.step import worn_depths
 from tribo.study.gradient.local import SPEED, localised
@@ -34,7 +35,7 @@ ANY = "*"
 HOW = ("grid", "stepping")
 """Parts of a case that say how it is computed, and have no derivative."""
 MOVES = "it moves the positions of the cycle by whole cells"
-NOT_PHYSICS = (*HOW, "output", "stop", "begin", "effects", "observers", "requires")
+NOT_PHYSICS = (*HOW, "output", "stop", "begin", "observers", "requires")
 """Parts of a case whose numbers are left out unless they are named."""
 
 
@@ -123,7 +124,7 @@ class Chain:
         contacts: Sequence[ContactSolution],
         known: Known,
         wear: Mapping[str, Array],
-        states: Mapping[str, Mapping[str, Array]],
+        states: Memory,
     ) -> float:
         """Return what comes through a step under given contacts.
 
@@ -164,11 +165,10 @@ class Chain:
                 ]
                 depths = worn_depths(each.model, rates, increment)
             through = sum(float(np.sum(wear[name] * depth)) for name, depth in depths.items())
-            through += sum(
-                float(np.sum(states[name][key] * values))
-                for name in laws
-                for key, values in after.memory.laws[name].items()
-            )
+            asked = replace(states, laws={name: states.laws[name] for name in laws})
+            if laws:
+                pairs = zip(asked.values, after.memory.values, strict=True)
+                through += sum(float(np.sum(seed * value)) for seed, value in pairs)
             total += each.weight * through
         return total
 
@@ -177,7 +177,7 @@ class Chain:
         gap: Array,
         stiffness: float,
         cap: float,
-        states: Mapping[str, Mapping[str, Array]],
+        states: Memory,
     ) -> float:
         """Return what comes through shapes, moduli, the hardness and what laws begin with."""
         total = 0.0
@@ -191,7 +191,10 @@ class Chain:
                 through += cap * model.system.cap
             for name in each.wears:
                 for key, first in model.laws[name].initial_state.items():
-                    through += first * float(np.sum(states[name][key]))
+                    through += first * float(np.sum(states.laws[name][key]))
+            if each.wears:
+                for key, (effect, _) in model.between.items():
+                    through += effect.initial_state[key] * float(np.sum(states.between[key]))
             total += each.weight * through
         return total
 
@@ -328,22 +331,26 @@ def _wears(base: Model, model: Model) -> dict[str, frozenset[str]]:
     """Return the bodies that wear otherwise under given contacts, and through what."""
     one, other = base.case, model.case
     everything = dict.fromkeys(model.laws, frozenset({LAW}))
-    if one.load != other.load and any(law.initial_state for law in model.laws.values()):
+    keeps = model.between or any(law.initial_state for law in model.laws.values())
+    if one.load != other.load and keeps:
         # What is remembered follows the load along a step.
         return everything
-    if one.friction != other.friction:
+    if one.friction != other.friction or one.effects != other.effects:
         return everything
     if one.kinematics != other.kinematics or not np.array_equal(
         Stops.of(base).times, Stops.of(model).times
     ):
         # Rows that slide further wear more, whatever their law looks at.
-        if any(position.reach is not None for position in model.cycle):
+        if model.effects or any(position.reach is not None for position in model.cycle):
             return everything
         return dict.fromkeys(model.laws, frozenset({SPEED}))
     found = {}
     for name in model.laws:
         was, now = one.bodies[name], other.bodies[name]
-        if (was.wear, was.layers) != (now.wear, now.layers):
+        same_law = (was.wear, was.layers) == (now.wear, now.layers)
+        if model.effects and not (same_law and was.material == now.material):
+            return everything
+        if not same_law:
             found[name] = frozenset({LAW})
         elif was.material != now.material:
             found[name] = frozenset(

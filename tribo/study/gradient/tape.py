@@ -29,7 +29,7 @@ IN_MEMORY = 1 << 26
 class Slid:
     """How a step slid: from a time (s) on, and by an increment (m), to a moment.
 
-    `before` is what laws remembered, and `plan` how the step was divided to follow that.
+    `before` is what laws and effects remembered, and `plan` how the step was divided for that.
     """
 
     time: float
@@ -131,6 +131,12 @@ def recorded(model: Model, looked_at: Sequence[float], tape: Tape) -> dict[float
         tape.append(Saved(0.0))
     for accepted in march(telling, state):
         before, state = state, accepted.state
+        if model.between and state.distance == before.distance:
+            raise CaseError(
+                f"what an effect remembers changes over a rest, as before {state.time:g} s: no "
+                "gradient goes through that",
+                "effects",
+            )
         _keep(tape, model, heard, "before", state.time, before.time)
         if accepted.save and state.time in looked_at:
             states[state.time] = state
@@ -171,7 +177,7 @@ def _written(event: Event, model: Model, load: str, time: float) -> Record:
         # Only in layers a law depends on how deep its body is worn.
         worn = {name: event.before.worn[name] for name, law in model.laws.items() if law.bottoms}
         laws = {name: event.before.laws[name] for name in model.laws}
-        before = Memory(laws, {}, worn)
+        before = Memory(laws, event.before.between if model.effects else {}, worn)
         slid = Slid(event.time, event.increment, event.moment, before, event.plan)
     contacts = event.contacts
     region = reduce(union, (bounds(contact.pressure > 0) for contact in contacts))

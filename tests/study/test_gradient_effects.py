@@ -1,0 +1,204 @@
+"""The gradient of a run whose laws follow what lies between the bodies."""
+
+import numpy as np
+import pytest
+from gradients import (
+    BASE,
+    CLOSE,
+    FRESH,
+    LONG,
+    SHAPE,
+    Kind,
+    few,
+    forgotten,
+    pair,
+    resolved,
+    run,
+    unfelt,
+    without,
+    zero,
+)
+from paper_models import K, archard, motion
+
+from tribo.core.errors import CaseError
+from tribo.core.fields import LOAD_SHARE, Field
+from tribo.effects.effect import Effect
+from tribo.study.gradient import backwards, linear, parameters, remembering
+from tribo.study.gradient.gradient import gradient
+from tribo.study.gradient.objective import Depth, Volume
+from tribo.wear.archard import Archard
+from tribo.wear.modified import times
+
+
+class Grains(Effect):
+    """What wear leaves, which lifts the bodies apart and takes its part of the load."""
+
+    type = "grains"
+    begins: float = 2e-8
+    cover: float = 1e-6
+    stays: float = 2.0
+    on: str | None = None
+    state_fields = (Field("grains", "m", "Height of grains.", at_least=0, fills=True),)
+    provides = (LOAD_SHARE,)
+
+    def carrier(self):
+        return self.on
+
+    def initial_state(self):
+        return {"grains": self.begins}
+
+    def fields(self, contact):
+        share = -np.expm1(-contact.state["grains"] / self.cover)
+        return {"load_share": dict.fromkeys(contact.materials, share)}
+
+    def state_rates(self, contact):
+        caught = sum(contact.wear_rates.values())
+        leaves = contact.state["grains"] / self.stays * (contact.pressure > 0)
+        return {"grains": contact.speed * (caught - leaves)}
+
+
+class Heat(Effect):
+    """A temperature after the load and the area of the contact, and of a bulk that warms."""
+
+    type = "heat"
+    flash: float = 1e-2
+    capacity: float = 2.0
+    provides = (Field("temperature", "K", "Above that around."),)
+    state_fields = (Field("bulk", "K", "Of the bodies, above that around.", uniform=True),)
+
+    def power(self, contact):
+        return 0.1 * contact.speed * np.sum(contact.pressure) * contact.grid.cell_area
+
+    def fields(self, contact):
+        p = contact.pressure
+        area = np.sum(p) ** 2 / np.sum(p**2) * contact.grid.cell_area
+        found = contact.state["bulk"] + self.flash * self.power(contact) / np.sqrt(area)
+        return {"temperature": dict.fromkeys(contact.materials, found)}
+
+    def state_rates(self, contact):
+        rate = (self.power(contact) - 0.005 * contact.state["bulk"]) / self.capacity
+        return {"bulk": np.reshape(rate, (1, 1))}
+
+
+class Softens(Archard):
+    type = "softens"
+    requires = ("temperature",)
+
+    def rate(self, local):
+        return times(np.exp(0.02 * local.fields["temperature"]), super().rate(local))
+
+
+class Blurs(Effect):
+    """A temperature that follows the pressure beside each point."""
+
+    type = "blurs"
+    provides = Heat.provides
+
+    def fields(self, contact):
+        beside = 1e-8 * np.roll(contact.pressure, 3, axis=1)
+        return {"temperature": dict.fromkeys(contact.materials, beside)}
+
+
+SLOW = few(nonlinear_tolerance=1e-11, cycle_tolerance=1e-11)
+"""What fills the gap has no slope, and a step takes many passes."""
+OF_GRAINS = [f"effects.0.{name}" for name in ("begins", "cover", "stays")]
+KINDS = {
+    "grains": Kind(
+        run(effects=[Grains()], kinematics=motion(duration=4), stepping=SLOW),
+        Depth("disk"),
+        [*BASE, *SHAPE, *OF_GRAINS],
+        1e-5,
+    ),
+    "grains, positions": Kind(
+        run(
+            kinematics=resolved(duration=0.5, waveform="sinusoidal"),
+            bodies=pair(FRESH, archard()),
+            effects=[Grains(on="disk")],
+            stepping=SLOW,
+        ),
+        Depth("disk", 5e-5),
+        ["load.normal", *SHAPE, *OF_GRAINS],
+        1e-5,
+    ),
+    "heat": Kind(
+        run(
+            load=[{"at": 0, "normal": 10.0}, {"at": 4, "normal": 20.0}],
+            bodies=pair(Softens(k=K), archard()),
+            effects=[Heat()],
+            kinematics=motion(duration=4),
+            stepping=LONG,
+        ),
+        Depth("ball"),
+        [
+            *("load.normal.0.normal", "load.normal.1.normal", "kinematics.frequency"),
+            *("effects.0.flash", "effects.0.capacity", "bodies.ball.wear.k", *SHAPE),
+        ],
+        1e-5,
+    ),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", KINDS)
+def test_it_is_that_of_the_same_steps(kind):
+    assert KINDS[kind].off() < CLOSE
+
+
+def unheard(method):
+    """What an effect makes of the wear of bodies, left out."""
+
+    def mutant(self, states, passed, found):
+        depths = range(len(self.model.laws))
+        return [[rate * (at == i) for i, rate in enumerate(found)] for at in depths]
+
+    return mutant
+
+
+MUTANTS = [
+    ("grains", remembering.Remembering, "_by_pressure", unfelt("own")),
+    ("grains", remembering.Remembering, "_back", forgotten),
+    ("grains", remembering.Remembering, "_by_factor", unheard),
+    ("grains", backwards._Back, "_filled", lambda _: lambda self, states, *given: states),
+    ("grains", backwards._Back, "_of_wear", zero),
+    ("grains", parameters.Chain, "by_rest", without("gap")),
+    ("heat", remembering.Remembering, "_by_pressure", unfelt("load")),
+    ("heat", remembering.Remembering, "_by_pressure", unfelt("square")),
+    ("heat", linear.Uniform, "gathered", zero),
+]
+
+
+@pytest.mark.parametrize(("kind", "owner", "method", "change"), MUTANTS)
+def test_each_term_counts(monkeypatch, kind, owner, method, change):
+    monkeypatch.setattr(owner, method, change(getattr(owner, method)))
+    try:
+        missed = KINDS[kind].off()
+    except CaseError:
+        # The changes of all parts together are not what the mutant says of each.
+        return
+    assert missed > 10 * CLOSE
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"effects": [Blurs()]}, "what 'blurs' makes of a point follows other points"),
+        (
+            {
+                "effects": [Heat()],
+                "kinematics": motion(
+                    duration=3,
+                    frequency=[
+                        {"until": 1, "frequency": 25},
+                        {"until": 2, "frequency": 0},
+                        {"until": 3, "frequency": 25},
+                    ],
+                ),
+            },
+            "over a rest",
+        ),
+    ],
+)
+def test_what_is_not_covered_is_refused(changes, message):
+    bodies = pair(Softens(k=K), archard())
+    with pytest.raises(CaseError, match=message):
+        gradient(run(bodies=bodies, stepping=LONG, **changes), Volume("ball"), [])

@@ -1,0 +1,127 @@
+"""What a gradient is asked for, what it refuses, and fits that use it."""
+
+import numpy as np
+import pytest
+from gradients import BASE, CLOSE, HARD, Kind, pair, resolved, run
+from paper_models import K, archard, states
+from scipy.optimize import minimize
+
+from tribo.case import Stop
+from tribo.contact.winkler import Winkler
+from tribo.core.errors import CaseError
+from tribo.core.fields import Field
+from tribo.effects.effect import Effect
+from tribo.simulation.positions import composed
+from tribo.stepping.explicit import Explicit
+from tribo.study.gradient import tape
+from tribo.study.gradient.gradient import ValueAndGradient, gradient
+from tribo.study.gradient.objective import Deepest, Depth, Misfit, Volume
+from tribo.study.gradient.sensitivity import sensitivity
+
+
+class Turns(Effect):
+    type = "turns"
+    state_fields = (Field("turns", "m", "Distance slid.", uniform=True),)
+
+    def state_rates(self, contact):
+        return {"turns": np.full((1, 1), contact.speed)}
+
+
+@pytest.mark.parametrize(
+    "path", ["contact.tolerance", "grid.size.0", "stepping.depth_tolerance", "stepping.settle"]
+)
+def test_how_a_run_is_computed_has_no_derivative(path):
+    with pytest.raises(CaseError, match=f"{path}: says how the run is computed"):
+        gradient(run(), Volume("ball"), [path])
+
+
+def test_a_hardness_of_both_bodies_is_named_once():
+    case = run(bodies=pair(archard(), archard(), ("2 GPa", "2 GPa")))
+    with pytest.raises(CaseError, match=r"either may be the softer; name both, as bodies\.\*"):
+        gradient(case, Volume("disk"), [HARD])
+    both = "bodies.*.material.hardness"
+    assert gradient(case, Depth("disk"), [both])[both] == 0
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"stepping": Explicit(time_step=1.0)}, "stepping.type: gradients go through implicit"),
+        ({"stop": Stop(depth="1 um")}, "stop.depth: a run that a depth ends has another length"),
+    ],
+)
+def test_what_is_not_covered_is_refused(changes, message):
+    with pytest.raises(CaseError, match=message):
+        gradient(run(**changes), Volume("ball"), [])
+
+
+@pytest.mark.parametrize(
+    ("path", "message"),
+    [
+        ("bodies.ball.wear.K", "bodies.ball.wear.K: is no number with decimals in this case"),
+        ("kinematics.stroke", "moves the positions of the cycle by whole cells"),
+        ("bodies.*.wear.k", "stands for different numbers"),
+    ],
+)
+def test_a_number_without_derivative_is_refused(path, message):
+    case = run(kinematics=resolved(), bodies=pair(archard(), archard(2 * K)))
+    with pytest.raises(CaseError, match=message):
+        gradient(case, Volume("ball"), [path])
+
+
+def test_without_paths_all_numbers_count_and_the_rest_says_why():
+    found = gradient(run(kinematics=resolved()), Depth("disk"))
+    assert found["bodies.disk.wear.k"] > 0
+    assert str(found).startswith("bodies.disk.wear.k ")
+    assert "whole cells" in found.refused["kinematics.stroke"]
+    with pytest.raises(CaseError, match="whole cells"):
+        found["kinematics.stroke"]
+
+
+def test_effects_that_no_law_follows_have_no_part_in_it():
+    found, alone = (
+        gradient(run(effects=effects), Volume("ball"), ["load.normal"])
+        for effects in ([Turns()], [])
+    )
+    assert found.parameters == alone.parameters
+
+
+def test_a_coarse_run_tells_what_rules_the_depth():
+    fine = gradient(run(), Deepest("ball")).relative
+    found = sensitivity(composed(run()))
+    assert found.body == "ball"
+    assert list(found.percent) == sorted(found.percent, key=lambda path: -abs(found.percent[path]))
+    assert found.percent["load.normal"] == pytest.approx(fine["load.normal"], abs=0.1)
+
+
+def test_a_save_that_is_not_there_is_refused():
+    with pytest.raises(CaseError, match="nothing is saved at 3 s"):
+        gradient(run(), {3.0: Volume("ball")}, [])
+
+
+def test_a_tape_goes_to_disk_and_reads_the_same(monkeypatch):
+    monkeypatch.setattr(tape, "IN_MEMORY", 1)
+    assert Kind(run(contact=Winkler()), Depth("ball"), BASE, 1e-5).off() < CLOSE
+
+
+def test_scipy_finds_what_made_a_scar():
+    made = run(save_times=(20.0,), bodies=pair(archard(1.3 * K), archard(0.8 * K)))
+    last = states(composed(made))[-1]
+    looks = Misfit("disk", last.bodies["disk"].wear, 1e-8)
+    paths = ["bodies.ball.wear.k", "bodies.disk.wear.k"]
+    fit = ValueAndGradient(run(stepping=made.stepping), looks, paths)
+    value, slope = fit(fit.start)
+    ahead = fit(fit.start + 1e-5)[0]
+    assert (ahead - value) / 1e-5 == pytest.approx(sum(slope), rel=1e-2)
+    found = minimize(fit, fit.start, jac=True, method="BFGS", options={"gtol": 1e-4})
+    np.testing.assert_allclose(np.exp(found.x), [1.3, 0.8], rtol=1e-2)
+
+
+def test_factors_on_the_wear_rate_are_unknowns_too():
+    case, factor = run(), 1.7
+    fit = ValueAndGradient(case, Volume("ball"), (), ["ball"])
+    value, slope = fit(fit.start + np.log(factor))
+    assert value == pytest.approx(
+        factor * gradient(case, Volume("ball"), []).value, rel=1e-9, abs=0
+    )
+    assert np.sum(slope) == pytest.approx(value, rel=1e-9, abs=0)
