@@ -3,15 +3,11 @@
 import numpy as np
 import pytest
 from strangers import laws
-from strangers.oxidation import OxideFilm
 from strangers.protected import Protected
 from strangers.running_in import RunningIn
 from strangers.transition import Transition
 
 from tribo import CaseError, Registry, Simulation
-from tribo.case import Case
-from tribo.config.load import validate_case
-from tribo.config.schema import json_schema
 
 CONFIGS = {
     Protected: {"k": "1e-15 1/Pa"},
@@ -96,53 +92,14 @@ def test_oxide_halves_the_wear_where_its_power_is_reached(registry):
     assert worn[0] < 0.5 * worn[1]
 
 
-@pytest.mark.slow
-@LAWS
-def test_it_is_in_the_provenance(law, results):
-    told = results[law].provenance["components"]
-    assert told["bodies.disk.wear"]["type"] == law.type
-    assert told["bodies.disk.wear"]["class"] == f"{law.__module__}.{law.__qualname__}"
-    effects = [told[place]["type"] for place in told if place.startswith("effects")]
-    assert effects == ([OxideFilm.type] if law.requires else [])
-
-
 def test_a_missing_effect_is_named_with_the_law_and_its_place(registry):
     with pytest.raises(CaseError) as caught:
         Simulation(case(Protected, effects=[]), registry=registry)
     message = str(caught.value)
     assert message.startswith("bodies.ball.wear: wear law 'stranger.protected' needs ")
     assert "stranger_oxide" in message
-    assert "these do: 'stranger.oxide_film' (" in message
 
 
 def test_what_an_effect_requires_of_the_case_is_named_too(registry):
     with pytest.raises(CaseError, match=r"'stranger\.oxide_film' needs a coefficient of friction"):
         Simulation(case(Protected, friction=None), registry=registry)
-
-
-@LAWS
-def test_it_is_in_the_registry_and_in_the_schema(law, registry):
-    assert law.type in registry.names("wear_law")
-    config = json_schema(Case, registry)["$defs"][law.type]["properties"]
-    assert config["type"]["const"] == law.type
-    for key in CONFIGS[law]:
-        assert config[key]["x-unit"]
-        assert config[key]["description"]
-
-
-@pytest.mark.parametrize(
-    ("change", "path", "words"),
-    [
-        ({"type": "strnger.transition"}, "", "did you mean 'stranger.transition'?"),
-        ({"type": "strnger.transition"}, "", "stranger.transition (strangers.laws 1.0)"),
-        ({"k": "5 mm"}, "bodies.ball.wear.k: ", "an inverse pressure [1/Pa] is needed"),
-        ({"kk": 1}, "bodies.ball.wear.kk: ", "did you mean 'k'?"),
-    ],
-)
-def test_it_takes_part_in_messages(change, path, words, registry):
-    tables = case(Transition)
-    tables["bodies"]["ball"]["wear"] = {**tables["bodies"]["ball"]["wear"], **change}
-    with pytest.raises(CaseError) as caught:
-        validate_case(tables, registry=registry)
-    assert str(caught.value).startswith(path)
-    assert words in str(caught.value)

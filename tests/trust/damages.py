@@ -1,7 +1,4 @@
-"""Damage result files in every way and see what reading them gives.
-
-PYTHONPATH=tests python -m trust.damages --count 1000 --seed 1
-"""
+"""Damage result files in every way and see what reading them gives."""
 
 import os
 import random
@@ -13,7 +10,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from click.testing import CliRunner
-from trust.trial import command, start, whole
+from trust.trial import start, whole
 
 from tribo import CaseError, Result
 from tribo.cli.show import show
@@ -46,10 +43,6 @@ class Damages:
         """Return how many files there were, and how many ended how."""
         ends = self.ends()
         return {"files": sum(ends.values()), **{name: ends[name] for name in NAMES.values()}}
-
-    def __str__(self):
-        lines = [f"{kind:12}{end:16}{n}" for (kind, end), n in sorted(self.counts.items())]
-        return "\n".join([*lines, f"{'all':12}{dict(self.ends())}"])
 
 
 def flip(data, chance):
@@ -142,7 +135,3 @@ def judge(path, expected, _):
         # What cannot be read must not be shown as sound either.
         os._exit(REFUSED if shown.exception is not None else WRONG)
     os._exit(HARMLESS if found == expected else WRONG)
-
-
-if __name__ == "__main__":
-    command(__doc__, damage_and_read, 1000)

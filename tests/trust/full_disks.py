@@ -1,7 +1,4 @@
-"""Let runs meet a full disk, make room, and go on with them.
-
-PYTHONPATH=tests python -m trust.full_disks --count 40 --seed 1
-"""
+"""Let runs meet a full disk, make room, and go on with them."""
 
 import random
 import resource
@@ -9,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from trust.trial import command, contents, resume, run, same, start, whole
+from trust.trial import contents, resume, run, same, start, whole
 
 from tribo import Result
 
@@ -80,7 +77,3 @@ def limited(room):
         run(path, pipe)
 
     return worked
-
-
-if __name__ == "__main__":
-    command(__doc__, fill_and_resume, 40)

@@ -1,7 +1,4 @@
-"""Kill runs at random moments and go on with them.
-
-PYTHONPATH=tests python -m trust.kills --count 100 --seed 1
-"""
+"""Kill runs at random moments and go on with them."""
 
 import random
 import sys
@@ -11,7 +8,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from trust.damages import flip
-from trust.trial import command, contents, dying, resume, run, same, start, whole
+from trust.trial import contents, dying, resume, run, same, start, whole
 
 from tribo import CaseError, Result
 from tribo.result.checkpoint import RunFolder
@@ -135,7 +132,3 @@ def _readable(path):
         print(error, file=sys.stderr)
         return False
     return True
-
-
-if __name__ == "__main__":
-    command(__doc__, kill_and_resume, 100)

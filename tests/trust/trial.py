@@ -1,6 +1,5 @@
 """The run that the trials are made with, and how one of them is watched."""
 
-import argparse
 import os
 import signal
 import sys
@@ -167,13 +166,3 @@ def whole(folder):
     path = Path(folder) / "whole.h5"
     simulation().run(path).close()
     return path
-
-
-def command(about, trial, count):
-    """Make a trial from the command line."""
-    parser = argparse.ArgumentParser(description=about)
-    parser.add_argument("--count", type=int, default=count)
-    parser.add_argument("--seed", type=int, default=1)
-    done = trial(**vars(parser.parse_args()))
-    print(done)
-    sys.exit(not done.good)

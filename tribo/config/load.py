@@ -51,19 +51,10 @@ def load_case(
 
 
 def validate_case(data: Mapping[str, Any], *, registry: Registry | None = None) -> Case:
-    """Turn tables into a case.
+    """Turn tables, as a TOML file has them, into a case.
 
-    Parameters
-    ----------
-    data : Mapping
-        The tables of a case, as a TOML file has them.
-    registry : Registry, optional
-        Where to look components up; the installed plugins if left out.
-
-    Raises
-    ------
-    CaseError
-        If anything in `data` is wrong; one line for each error.
+    Components are looked up in `registry`, the installed plugins if left out. `CaseError`, with a
+    line for each error, if anything is wrong.
     """
     known = registry or default_registry()
     requires = data.get("requires")

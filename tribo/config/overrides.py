@@ -17,27 +17,13 @@ from tribo.core.words import shown
 def apply_settings(
     data: Mapping[str, Any], settings: Mapping[str, Any] | Sequence[str] | str
 ) -> dict[str, Any]:
-    """Return `data` with values replaced.
+    """Return `data`, tables as read from TOML, with values replaced; it is left unchanged.
 
-    Setting ``type`` to another one drops the other keys of the table, which
-    belong to the former type. Such changes are made first, in any order of
-    `settings`; of several values for one path, the last counts.
-
-    Parameters
-    ----------
-    data : Mapping
-        Tables as read from TOML; left unchanged.
-    settings : Mapping, sequence of str or str
-        Values by path, as TOML would give them, or texts ``"path=value"``, as
-        ``"effects.0.rate=2"``, whose value is read as TOML or else as text;
-        one text stands for a list of one.
-        Missing tables are added; unknown keys are left to the validation.
-
-    Raises
-    ------
-    CaseError
-        If a text is not of that form, or a path leads through a value that is
-        not a table.
+    `settings` are values by path, as TOML would give them, or texts ``"effects.0.rate=2"``, whose
+    value is read as TOML or else as text. Setting ``type`` to another one drops the other keys of
+    the table, which belong to the former type; such changes are made first, in any order. Of
+    several values for one path the last counts. Missing tables are added; unknown keys are left to
+    the validation. `CaseError` if a path leads through a value that is not a table.
     """
     if isinstance(settings, str):
         settings = [settings]

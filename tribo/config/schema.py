@@ -18,19 +18,11 @@ Schema = dict[str, Any]
 
 
 def json_schema(model: type[BaseModel], registry: Registry | None = None) -> Schema:
-    """Return the JSON schema of a table that components are part of.
+    """Return the JSON schema of a table that components are part of, as of `tribo.Case`.
 
-    Each kind of component has a definition of its name, as
-    ``#/$defs/wear_law``: the choice among those that the registry has. A
-    component that cannot be imported, or whose own schema cannot be made, is
-    left out, with a warning that names its plugin.
-
-    Parameters
-    ----------
-    model : type
-        A pydantic model, as `tribo.Case`.
-    registry : Registry, optional
-        Where components are looked up; the installed plugins if left out.
+    Each kind of component has a definition of its name, as ``#/$defs/wear_law``: the choice among
+    those that the registry has. A component that cannot be imported, or whose own schema cannot be
+    made, is left out, with a warning that names its plugin.
     """
     known = registry or default_registry()
     for plugin in known.load_all():

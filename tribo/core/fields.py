@@ -58,17 +58,8 @@ class Field:
 def check_declared(owner: object, who: str) -> None:
     """Check the fields that a class provides or keeps, and the names of those that it requires.
 
-    Parameters
-    ----------
-    owner : object
-        A class, whose properties are those of its objects only, or an object.
-    who : str
-        What messages call it.
-
-    Raises
-    ------
-    TypeError
-        If they are not tuples of `Field`, each with a name of its own, and of names.
+    `TypeError`, in which the class is called `who`, if they are not tuples of `Field`, each with a
+    name of its own, and of names. Of properties only objects have the answer.
     """
     for attribute in ("provides", "state_fields"):
         fields, where = getattr(owner, attribute, ()), f"{who}.{attribute}"

@@ -35,19 +35,10 @@ def write_whole(path: Path, text: str) -> None:
 def replace_file(
     path: Path, *parts: bytes | memoryview, fresh: Path | None = None, sync: bool = False
 ) -> None:
-    """Replace a file, whole or not at all.
+    """Replace a file by `parts`, whole or not at all.
 
-    Parameters
-    ----------
-    path : Path
-        The file to replace, or to make.
-    *parts : bytes or memoryview
-        What it is to hold.
-    fresh : Path, optional
-        Where to write in the meantime, in the same file system; beside `path`
-        if left out.
-    sync : bool, optional
-        Whether to wait until the new file would survive a power failure.
+    It is written to `fresh` in the meantime, in the same file system, or beside `path`. With `sync`
+    the new file would survive a power failure once this returns.
     """
     fresh = fresh or path.with_name(path.name + ".new")
     try:

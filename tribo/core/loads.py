@@ -114,19 +114,10 @@ class Load(Table):
         return along
 
     def shares_at(self, places: Array, reach: float) -> tuple[float, ...]:
-        """Return the load at places along the stroke, as multiples of `normal`.
+        """Return the load at `places` along the stroke, as multiples of `normal`.
 
-        Parameters
-        ----------
-        places : ndarray, shape (positions,)
-            Where the body that passes is, from the middle, in m.
-        reach : float
-            How far a place may lie beyond those given, in m.
-
-        Raises
-        ------
-        CaseError
-            If one lies further off.
+        A place, in m from the middle, may lie `reach` (m) beyond those given; `CaseError` if one
+        lies further off.
         """
         if not self.along:
             return (1.0,) * len(places)

@@ -60,25 +60,10 @@ _AFTER_COMMA = re.compile(r",\d")
 
 
 def parse(text: str, unit: str) -> float:
-    """Convert a number with a unit to SI.
+    """Return a text such as ``"5 mm"`` or ``"1e-6 mm^3/(N m)"`` in an SI unit, rounded once.
 
-    Parameters
-    ----------
-    text : str
-        A number and a unit, as ``"5 mm"``, ``"1e-6 mm^3/(N m)"`` or
-        ``"90 degC"``.
-    unit : str
-        The SI unit of the result, as ``"m"``; ``"1"`` for none.
-
-    Returns
-    -------
-    float
-        The quantity in `unit`, rounded once.
-
-    Raises
-    ------
-    CaseError
-        If `text` cannot be read or has another dimension than `unit`.
+    `CaseError` if it cannot be read, or has another dimension than `unit`, which is ``"1"`` for
+    none.
     """
     match = _NUMBER.fullmatch(text.strip()) if len(text) <= _LONGEST else None
     if match is not None and _AFTER_COMMA.match(match[2]):

@@ -139,18 +139,9 @@ class RunFolder:
         self.previous.replace(self.checkpoint)
 
     def read_checkpoint(self, case: Mapping[str, object]) -> tuple[Checkpoint, str]:
-        """Return the newest sound checkpoint of a case.
+        """Return the newest sound checkpoint of a case, and what is damaged of a newer one.
 
-        Returns
-        -------
-        tuple of Checkpoint and str
-            A checkpoint that is whole, as all its parts are, and what is
-            damaged of a newer one; empty if nothing is.
-
-        Raises
-        ------
-        CaseError
-            If there is none, or none that is sound and of this case.
+        It is whole, as all its parts are. `CaseError` if there is none of this case.
         """
         damage = []
         for path in (self.checkpoint, self.previous):

@@ -15,25 +15,7 @@ from tribo.result.read import Result
 
 
 def export_csv(result: Result, folder: Path) -> list[Path]:
-    """Write CSV files with units in their column names.
-
-    Parameters
-    ----------
-    result : Result
-        What to write.
-    folder : Path
-        Where to; it is made if need be.
-
-    Returns
-    -------
-    list of Path
-        The files: history.csv, saves.csv, profiles_x.csv, profiles_y.csv.
-
-    Raises
-    ------
-    OutputError
-        If they cannot be written.
-    """
+    """Write history, saves and profiles as CSV files, with units in their column names."""
     tables: dict[str, Mapping[str, Array]] = {
         "history": result.table("history"),
         "saves": result.table("saves"),

@@ -46,16 +46,8 @@ def filled_image(
 ) -> BytesIO:
     """Return a whole file in memory: HDF5 may crash where it meets a full disk.
 
-    Parameters
-    ----------
-    empty : bytes
-        The file as `empty_image` returned it.
-    parts : iterable of dict
-        What the run has added, in order, as `tribo.result.layout.part_of` makes it.
-    saves, steps : int
-        How many rows these have in all.
-    **changed
-        Attributes that change.
+    Into the file that `empty_image` returned goes what the run has added, in order, as
+    `tribo.result.layout.part_of` makes it, of so many saves and steps in all; attributes change.
     """
     image = BytesIO(empty)
     with h5py.File(image, "r+") as file:

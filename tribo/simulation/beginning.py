@@ -28,14 +28,8 @@ def first_state(model: Model) -> State:
     """Return the state before any sliding: the first contact, of worn bodies if the case says so.
 
     Wear, load times distance and what laws and effects remember go on from the result that the
-    case begins with; time and distance begin anew.
-
-    Raises
-    ------
-    CaseError
-        If the contact does not fit the window, or the result does not fit the case.
-    NumericalError
-        If the solver fails.
+    case begins with; time and distance begin anew. `CaseError` if the contact does not fit the
+    window, or the result the case.
     """
     begin = model.case.begin
     if begin is None:

@@ -13,11 +13,8 @@ from tribo.effects.effect import Effect
 def in_order(case: Case) -> tuple[Effect, ...]:
     """Return the effects of a case so that each comes after those that provide what it requires.
 
-    Raises
-    ------
-    CaseError
-        If an effect or a wear law requires what nothing provides, or a field but the share of the
-        load is provided twice, or has the name of what a wear law remembers.
+    `CaseError` if an effect or a wear law requires what nothing provides, or a field but the share
+    of the load is provided twice, or has the name of what a wear law remembers.
     """
     known = {PLACE_X.name, PLACE_Y.name}
     of_laws = {f.name for b in case.bodies.values() if b.wear for f in b.wear.state_fields}

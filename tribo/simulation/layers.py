@@ -19,14 +19,7 @@ class LayeredLaw(GuardedLaw):
 
     It is told in the state which share of an increment each point spends in each layer. What laws
     remember belongs to the point: it changes by the law of the layer that wears, and a field that
-    two of them have goes on from one to the other.
-
-    Parameters
-    ----------
-    laws : sequence of GuardedLaw
-        Each with its own material.
-    thicknesses : sequence of float
-        Of all but the last, in m.
+    two of them have goes on from one to the other. Thicknesses, in m, are of all but the last.
     """
 
     def __init__(self, laws: Sequence[GuardedLaw], thicknesses: Sequence[float]) -> None:
@@ -57,13 +50,7 @@ class LayeredLaw(GuardedLaw):
 
 
 def _state(laws: Sequence[GuardedLaw]) -> tuple[tuple[Field, ...], dict[str, float]]:
-    """Return the state fields of all laws and what they begin with, each name once.
-
-    Raises
-    ------
-    CaseError
-        If two of them begin with different values.
-    """
+    """Return the state fields of all laws and what they begin with, each name once."""
     fields: dict[str, Field] = {}
     first: dict[str, float] = {}
     for law in laws:
