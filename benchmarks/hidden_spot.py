@@ -77,13 +77,17 @@ def spot(cells: int) -> dict[str, object]:
     apart, cell = np.hypot(x - AT[0], y - AT[1]), model.grid.spacing[0]
     true = np.where(apart < RADIUS, SPOT, 1.0)
     worn(model, true)
-    started = process_time()
+    began = process_time()
     depth = worn(model, true)
-    alone = process_time() - started
+    alone = process_time() - began
     noisy = depth + NOISE * np.random.default_rng(1).standard_normal(depth.shape)
     started = process_time()
     fitted = fit_maps(test, {"ball": (noisy, NOISE)}, {"ball": PRIOR})
     spent = process_time() - started
+    # The machine may be slower by now.
+    started = process_time()
+    worn(model, true)
+    alone = 0.5 * (alone + process_time() - started)
     found = fitted.maps["ball"]
     factor, deep = found.factor, depth > DEEP * depth.max()
     inside, rest = apart < RADIUS - cell, (apart > RADIUS + cell) & deep

@@ -28,26 +28,17 @@ _ERRORS = 2.0
 
 @dataclass(frozen=True, eq=False)
 class Choice:
-    """Several cases calibrated to the same data, and what these say of them.
-
-    Parameters
-    ----------
-    cases : DataFrame
-        A row a case, the best first: `case`, its name; `bic`, Schwarz's
-        criterion: −2 ln L + p ln n for p parameters and n values; `weight`, the
-        probability that follows where all were as likely before; `left_out`,
-        the log-likelihood of each test foretold from the others, in sum, NaN
-        where the others do not determine a parameter; `parameters`, their
-        number.
-    calibrations : dict of Calibration
-        By the name of the case.
-    verdict : str
-        What the data say, in a sentence.
-    """
+    """Several cases calibrated to the same data, and what these say of them."""
 
     cases: pd.DataFrame
+    """A row a case, the best first: `case`, its name; `bic`, Schwarz's criterion, −2 ln L + p ln n
+    for p parameters and n values; `weight`, the probability that follows where all were as likely
+    before; `left_out`, the log-likelihood of each test foretold from the others, in sum, NaN where
+    the others do not determine a parameter; `parameters`, their number."""
     calibrations: Mapping[str, Calibration]
+    """By the name of the case."""
     verdict: str
+    """What the data say, in a sentence."""
 
     def as_json(self) -> dict[str, Any]:
         """Return it as plain data in SI units; what is not given is NaN."""

@@ -8,6 +8,7 @@ import numpy as np
 from scipy.linalg import solve_triangular
 from scipy.optimize import least_squares, minimize_scalar
 from scipy.special import log_ndtr
+from scipy.stats import multivariate_normal
 
 from tribo.core.arrays import Array, Mask
 
@@ -140,12 +141,18 @@ class Linearised:
         lower = np.maximum(self.problem.lower, self.point - reach)
         return lower, np.minimum(self.problem.upper, self.point + reach)
 
-    def least(self, start: Array) -> Array:
-        """Return the least-squares point within the bounds and a leap."""
-        tight = {"xtol": 1e-10, "ftol": 1e-10, "gtol": 1e-10}
+    def least(self, start: Array, rows: Mask | slice = slice(None)) -> Array:
+        """Return the least-squares point of rows of the data within the bounds and a leap."""
         ends = self.bounds(LEAP)
-        start = np.clip(start, *ends)
-        found = least_squares(self.residuals, start, self.jacobian, ends, **tight)
+        found = least_squares(
+            lambda point: self.residuals(point)[rows],
+            np.clip(start, *ends),
+            lambda point: self.jacobian(point)[rows],
+            ends,
+            xtol=1e-10,
+            ftol=1e-10,
+            gtol=1e-10,
+        )
         return np.asarray(found.x)
 
     def best(self) -> tuple[Linearised, Array]:
@@ -198,55 +205,33 @@ class Linearised:
     def deviance(self, point: Array) -> float:
         """Return twice the negative logarithm of the likelihood at a point."""
         values = ~self.problem.below
-        return float(
-            np.sum(self.residuals(point) ** 2)
-            - 2 * np.sum(np.log(self._inverse(values)))
-            + np.sum(values) * np.log(2 * np.pi)
-        )
-
-    def only(self, rows: Mask) -> Linearised:
-        """Return the model with some of the data, whole tests, and nothing else."""
-        problem, n = self.problem, len(rows)
-        weights = self.weights[rows] if self.weights.ndim == 1 else self.weights[rows][:, rows]
-        return replace(
-            self,
-            problem=replace(
-                problem,
-                observed=problem.observed[rows],
-                sigma=problem.sigma[rows],
-                below=problem.below[rows],
-                specimen=problem.specimen[rows],
-                logged=problem.logged[:n][rows],
-            ),
-            responses=self.responses[:n][rows],
-            slopes=self.slopes[:n][rows],
-            weights=weights,
-        )
+        scale = np.sum(np.log(2 * np.pi / self._inverse(values) ** 2))
+        return float(np.sum(self.residuals(point) ** 2) + scale)
 
     def left_out(self) -> Array:
         """Return the log-likelihood of each test foretold from all others, shape (tests,).
 
         NaN if those do not determine a parameter; none of a single test.
         """
-        found = []
+        found, below, n = [], self.problem.below, len(self.problem.observed)
         tests = np.unique(self.problem.specimen)
-        for specimen in tests if len(tests) > 1 else []:
-            rows = self.problem.specimen == specimen
-            rest, own = self.only(~rows), self.only(rows)
-            point = rest.least(self.point)
-            rest = replace(rest, point=point, responses=rest.at(point))
-            root = root_covariance(rest.sensitivity())
+        for test in tests if len(tests) > 1 else []:
+            own = self.problem.specimen == test
+            point = self.least(self.point, ~own)
+            rest = replace(self, point=point, responses=self.at(point))
+            root = root_covariance(rest.sensitivity()[~own])
             # How far the estimate puts each value off, beside its own scatter.
-            apart = weigh(own.weights, own.effects(point)) @ root
-            values = ~own.problem.below
-            covariance = np.where(np.outer(values, values), apart @ apart.T, 0.0)
-            covariance[np.diag_indices(len(values))] = 1 + np.sum(apart**2, axis=1)
-            broader = solve_triangular(
-                np.linalg.cholesky(covariance), np.eye(len(values)), lower=True
-            )
-            weighed = replace(own, weights=weigh(own.weights.T, broader.T).T)
+            apart = weigh(self.weights, rest.effects(point)) @ root
+            off = weigh(self.weights, rest.responses[:n] - self.problem.observed)
+            values, limits = own & ~below, own & below
+            broader = np.sqrt(1 + np.sum(apart[limits] ** 2, axis=1))
+            likelihood = np.sum(log_ndtr(-off[limits] / broader))
+            if np.any(values):
+                covariance = np.eye(np.sum(values)) + apart[values] @ apart[values].T
+                likelihood += multivariate_normal.logpdf(off[values], cov=covariance)
+                likelihood += np.sum(np.log(self._inverse(values)))
             known = np.max(np.sum(root**2, axis=1)) < _UNKNOWN**2
-            found.append(-0.5 * weighed.deviance(point) if known else np.nan)
+            found.append(likelihood if known else np.nan)
         return np.array(found)
 
     def _inverse(self, rows: Mask) -> Array:

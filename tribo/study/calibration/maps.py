@@ -17,6 +17,7 @@ from scipy.special import chdtrc, ndtri
 from tribo.case import Case
 from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError
+from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.march import begin, march
 from tribo.simulation.model import Model
 from tribo.simulation.run import Simulation
@@ -31,8 +32,11 @@ STEP = 1e-2
 EACH, LITTLE = 10, 0.2
 """Every so many products with the information of the data it is seen whether each of them still
 gave so much of a number that the data determine."""
-ROUGHLY, ITERATIONS, MEMORY, FALL = 10, 100, 30, 1e-6
-"""Steps of L-BFGS before them, at most after them, those remembered, and the fall that ends it."""
+ROUGHLY, ITERATIONS, MEMORY, FALL = 10, 100, 30, 0.05
+"""Steps of L-BFGS before them, at most after them, those remembered, and the fall of the negative
+logarithm of the probability that ends it."""
+FINE = 0.125
+"""Largest cell, in correlation lengths, of a grid that is halved to begin on."""
 EXHAUSTED = 1e-9
 """Part of a new direction that counts as none."""
 UNLIKELY = 0.01
@@ -152,6 +156,8 @@ def fit_maps(
     projected on a Krylov space, by products that are each a run and a pass back, until these
     hardly tell more. What lies beyond is left to the prior, so that they come out too large rather
     than too small. The other steps are taken in directions that this makes about equally wide.
+    Where cells are far smaller than the correlation lengths, all this is done on a coarser grid
+    first, whose waves are the long ones of the finer.
 
     `depths` are by the name of the body the depth worn off at the end, in m, of the shape of
     `View.wear`, NaN where it was not measured, and its standard deviation. With more products,
@@ -163,32 +169,15 @@ def fit_maps(
     Bui-Thanh, T. et al. (2013), A computational framework for infinite-dimensional Bayesian
     inverse problems, SIAM J. Sci. Comput. 35, A2494-A2523.
     """
-    waves = _Waves(Simulation(case).model, depths, priors)
-    fit = ValueAndGradient(waves.model, waves.misfit, (), list(depths))
-    made = 0
+    misfits: list[float] = []
 
-    def posterior(z: Array) -> tuple[float, Array]:
-        nonlocal made
-        value, slope = fit(waves.logs(z))
-        made += 1
-        on_run(made, 2 * value)
-        return value + 0.5 * float(np.sum(z * z)), waves.back(slope) + z
+    def tell(misfit: float) -> None:
+        misfits.append(misfit)
+        on_run(len(misfits), misfit)
 
-    near = _least(posterior, waves.size, ROUGHLY)
-    with closing(Tape()) as tape:
-        product = waves.products(waves.logs(near), tape)
-        basis, values = _krylov(product, waves.size, products, lambda k: on_run(made + k, math.nan))
-    less = (1 + values) ** -0.5 - 1
-
-    def rounded(y: Array) -> Array:
-        """Return amplitudes of such by which the posterior is about as wide in all directions."""
-        return np.asarray(y + np.sum((less * np.sum(basis * y, axis=1))[:, None] * basis, axis=0))
-
-    def sphere(y: Array) -> tuple[float, Array]:
-        value, slope = posterior(near + rounded(y))
-        return value, rounded(slope)
-
-    logs = waves.logs(near + rounded(_least(sphere, waves.size, ITERATIONS)))
+    waves = _Waves(Simulation(case).model, depths, priors, tell)
+    z, basis, values = waves.fitted(products)
+    logs = waves.logs(z)
     residuals = waves.residuals(waves.run(logs))
     taken = sum(
         value / (1 + value) * waves.logs(vector) ** 2
@@ -206,10 +195,11 @@ def fit_maps(
             waves.model.grid.spacing,
         )
     read = sum(int(np.sum(~np.isnan(each))) for each in residuals.values())
+    made = int(np.sum(np.isnan(misfits)))
     return FittedMaps(
         maps=maps,
-        gradients=made,
-        products=len(values),
+        gradients=len(misfits) - made,
+        products=made,
         chi_square=sum(float(np.nansum(each**2)) for each in residuals.values()),
         degrees_of_freedom=read - float(np.sum(values / (1 + values))),
     )
@@ -223,10 +213,10 @@ class _Waves:
         model: Model,
         depths: Mapping[str, tuple[Array, float]],
         priors: Mapping[str, Prior],
+        tell: Callable[[float], None],
     ) -> None:
-        self.model, self.depths = model, depths
-        exposures = model.exposures
-        self.shapes = {name: (exposures[name].rows, model.grid.cells[1]) for name in depths}
+        self.model, self.depths, self.priors, self.tell = model, depths, priors, tell
+        self.shapes = {name: (model.exposures[name].rows, model.grid.cells[1]) for name in depths}
         self.amplitudes, self.parts, self.size = {}, {}, 0
         for name, shape in self.shapes.items():
             if depths[name][0].shape != shape:
@@ -237,6 +227,72 @@ class _Waves:
             self.amplitudes[name] = priors[name].amplitudes(shape, model.grid.spacing)
             self.parts[name] = slice(self.size, self.size + shape[0] * shape[1])
             self.size = self.parts[name].stop
+        self.gradient = ValueAndGradient(model, self.misfit, (), list(depths))
+
+    def halved(self) -> _Waves | None:
+        """Return them on half as many cells; None if those were too large for the maps."""
+        case, grid = self.model.case, self.model.grid
+        cells = (grid.cells[0] // 2, grid.cells[1] // 2)
+        lengths = [prior.length for prior in self.priors.values()]
+        if max(grid.spacing) > FINE * min(lengths) or self.model.rough or case.begin is not None:
+            return None
+        model = assemble(varied(case, grid=grid.model_copy(update={"cells": cells})))
+        depths = {}
+        for name, (depth, sigma) in self.depths.items():
+            shape = (model.exposures[name].rows, cells[1])
+            blocks = [n // m for n, m in zip(depth.shape, shape, strict=True)]
+            if depth.shape != (shape[0] * blocks[0], shape[1] * blocks[1]):
+                return None
+            split = depth.reshape(shape[0], blocks[0], shape[1], blocks[1])
+            depths[name] = split.mean(axis=(1, 3)), sigma / (blocks[0] * blocks[1]) ** 0.5
+        return _Waves(model, depths, self.priors, self.tell)
+
+    def raised(self, coarse: _Waves, z: Array) -> Array:
+        """Return amplitudes of another grid's waves on this one, without the shorter waves."""
+        found = np.zeros(self.size)
+        for name, part in self.parts.items():
+            rows, columns = coarse.shapes[name]
+            whole = found[part].reshape(self.shapes[name])
+            whole[:rows, :columns] = z[coarse.parts[name]].reshape(rows, columns)
+        return found
+
+    def fitted(self, products: int) -> tuple[Array, Array, Array]:
+        """Return the most probable amplitudes, and eigenvectors and -values of the information."""
+        coarse = self.halved()
+        if coarse is None:
+            near = self.least(np.zeros(self.size), ROUGHLY)
+            with closing(Tape()) as tape:
+                basis, values = _krylov(self.products(self.logs(near), tape), self.size, products)
+        else:
+            near, basis, values = coarse.fitted(products)
+            near = self.raised(coarse, near)
+            basis = np.array([self.raised(coarse, each) for each in basis])
+        return self.least(near, ITERATIONS, basis, (1 + values) ** -0.5 - 1), basis, values
+
+    def least(
+        self, near: Array, steps: int, basis: Array | None = None, less: Array | None = None
+    ) -> Array:
+        """Return the most probable amplitudes, or where so many steps lead to, by L-BFGS.
+
+        In directions in which the posterior is about as wide: along the rows of the basis by a
+        part `less` narrower than the prior.
+        """
+
+        def rounded(y: Array) -> Array:
+            if basis is None or less is None:
+                return y
+            along = less * np.sum(basis * y, axis=1)
+            return np.asarray(y + np.sum(along[:, None] * basis, axis=0))
+
+        def posterior(y: Array) -> tuple[float, Array]:
+            z = near + rounded(y)
+            value, slope = self.gradient(self.logs(z))
+            self.tell(2 * value)
+            return value + 0.5 * float(np.sum(z * z)), rounded(self.back(slope) + z)
+
+        options = {"maxiter": steps, "ftol": 2 * FALL / self.size, "maxcor": MEMORY}
+        found = minimize(posterior, 0 * near, jac=True, method="L-BFGS-B", options=options)
+        return np.asarray(near + rounded(found.x))
 
     def logs(self, z: Array) -> Array:
         """Return the logarithms of the factors of amplitudes."""
@@ -293,21 +349,13 @@ class _Waves:
                 change = (moved.wear(name) - end.wear(name)) / (step * sigma**2)
                 seeds[name] = np.where(np.isnan(depth), 0.0, change)
             found = swept_back(model, tape, {time: Seeds(seeds)}, [])
+            self.tell(math.nan)
             return self.back(np.concatenate([found.wear_rate[name].ravel() for name in seeds]))
 
         return product
 
 
-def _least(objective: Callable[[Array], tuple[float, Array]], size: int, steps: int) -> Array:
-    """Return the least point from 0 on, or where so many steps lead to."""
-    options = {"maxiter": steps, "ftol": FALL, "maxcor": MEMORY}
-    found = minimize(objective, np.zeros(size), jac=True, method="L-BFGS-B", options=options)
-    return np.asarray(found.x)
-
-
-def _krylov(
-    product: Callable[[Array], Array], size: int, most: int, tell: Callable[[int], None]
-) -> tuple[Array, Array]:
+def _krylov(product: Callable[[Array], Array], size: int, most: int) -> tuple[Array, Array]:
     """Return approximate eigenvectors, as rows, and eigenvalues, by Lanczos' method."""
     vector = np.random.default_rng(0).standard_normal(size)
     basis, images = np.empty((2, min(most, size), size))
@@ -323,7 +371,6 @@ def _krylov(
             break
         basis[i] = vector / left
         images[i] = vector = product(basis[i])
-        tell(i + 1)
         if (i + 1) % EACH and i + 1 < len(basis):
             continue
         values, turned = _projected(basis[: i + 1], images[: i + 1])

@@ -28,80 +28,53 @@ AT_BOUND = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class Calibration:
-    """Estimates, the data behind them, and predictions; in SI units.
-
-    Parameters
-    ----------
-    level : float
-        Probability with which each interval is to cover the truth.
-    runs : int
-        Simulations that it took.
-    parameters : DataFrame
-        A row a parameter, in the order asked for: `path`, `unit`, `value`;
-        `lower` and `upper`, the ends of its interval, infinite or 0 where the
-        data do not bound it; `resolution_share`, the part of its variance that
-        comes from instruments' resolution; `resolution_limit`, how far it may
-        be off through resolution alone, in the worst case, relative to
-        `value`; `held`, whether it lies on one of its bounds, so that it has no
-        interval; `lower` and `upper` are then its bounds; `limited`, whether only limits of
-        detection tell of it: `upper` is then all that is known, and `value` as good as none.
-    data : DataFrame
-        A row a measured value: `test`, empty for one of the case as it is;
-        `body`, `quantity`, `time_s`, `position_m` of a
-        profile's point, `unit`, `measured`, `below` for a limit that the
-        reading was below, `sigma`, `computed`, and
-        `residual`, computed less measured, in units of `sigma`: the standard
-        deviation of the measured value, with which the grid gives the computed
-        one, and from test to test. That of a limit is √(−2 ln Φ(z)) for a
-        computed value z standard deviations below it.
-    predictions : DataFrame
-        What else the fitted case gives at the end of each test: `test`,
-        `body`, `quantity`, `unit`, `value`, `lower`, `upper`; in the mean, where
-        tests scatter. The interval is open, 0 to infinity,
-        where it depends on a parameter that a bound holds.
-    chi_square : float
-        Sum of the squared residuals, limits left out, in standard deviations of
-        what is independent where tests scatter.
-    degrees_of_freedom : int
-        Values, limits left out, less the parameters that they depend on and no
-        bound holds.
-    repeatability : float
-        Relative standard deviation of the parameters from test to test.
-    repeatability_estimated : bool
-        Whether it is estimated from tests alike, rather than stated or 0.
-    fitted : dict
-        The tables of each test's case with the estimates, by the name of the test.
-    correlation : ndarray, shape (p, p)
-        Between the logarithms of the parameters.
-    singular_values : ndarray, shape (p,)
-        Of the derivatives of the residuals by the logarithms of the
-        parameters, largest first: each is the number of standard deviations
-        by which a change by a factor e would show in the data.
-    bic : float
-        Schwarz's criterion, −2 ln L + p ln n, with the repeatability as a
-        parameter where it is estimated.
-    left_out : ndarray, shape (tests,)
-        Log-likelihood of each test foretold from all others; NaN where those do
-        not determine a parameter, none of a single test.
-    notes : tuple of str
-        Remarks on what the data can tell.
-    """
+    """Estimates, the data behind them, and predictions; in SI units."""
 
     level: float
+    """Probability with which each interval is to cover the truth."""
     runs: int
+    """Simulations that it took."""
     parameters: pd.DataFrame
+    """A row a parameter, in the order asked for: `path`, `unit`, `value`; `lower` and `upper`, the
+    ends of its interval, infinite or 0 where the data do not bound it; `resolution_share`, the part
+    of its variance that comes from instruments' resolution; `resolution_limit`, how far it may be
+    off through resolution alone, in the worst case, relative to `value`; `held`, whether it lies on
+    one of its bounds, which `lower` and `upper` then are; `limited`, whether only limits of
+    detection tell of it: `upper` is then all that is known, and `value` as good as none."""
     data: pd.DataFrame
+    """A row a measured value: `test`, empty for one of the case as it is; `body`, `quantity`,
+    `time_s`, `position_m` of a profile's point, `unit`, `measured`, `below` for a limit that the
+    reading was below, `sigma`, `computed`, and `residual`, computed less measured, in units of
+    `sigma`: the standard deviation of the measured value, with which the grid gives the computed
+    one, and from test to test. That of a limit is √(−2 ln Φ(z)) for a computed value z standard
+    deviations below it."""
     predictions: pd.DataFrame
+    """What else the fitted case gives at the end of each test, in the mean, where tests scatter:
+    `test`, `body`, `quantity`, `unit`, `value`, `lower`, `upper`; 0 and infinite where it depends
+    on a parameter that a bound holds."""
     chi_square: float
+    """Sum of the squared residuals, limits left out, in standard deviations of what is independent
+    where tests scatter."""
     degrees_of_freedom: int
+    """Values, limits left out, less the parameters that they depend on and no bound holds."""
     repeatability: float
+    """Relative standard deviation of the parameters from test to test."""
     repeatability_estimated: bool
+    """Whether it is estimated from tests alike, rather than stated or 0."""
     fitted: Mapping[str, Mapping[str, Any]]
+    """The tables of each test's case with the estimates, by the name of the test."""
     correlation: Array
+    """Between the logarithms of the parameters."""
     singular_values: Array
+    """Of the derivatives of the residuals by the logarithms of the parameters, largest first: the
+    standard deviations by which a change by a factor e would show in the data."""
     bic: float
+    """Schwarz's criterion, −2 ln L + p ln n, the repeatability a parameter where estimated."""
     left_out: Array
+    """Log-likelihood of each test foretold from all others; NaN where those do not determine a
+    parameter, none of a single test."""
     notes: tuple[str, ...]
+    """Remarks on what the data can tell."""
 
     @property
     def settings(self) -> dict[str, float]:

@@ -27,29 +27,20 @@ _RIDGE, _POWER = 1e-12, 4
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """The fewest tests of each kind that give intervals as short as wanted.
-
-    Parameters
-    ----------
-    level : float
-        Probability of the intervals.
-    within : float
-        Half of an interval that was wanted, relative to the value.
-    runs : int
-        Simulations that it took.
-    tests : DataFrame
-        A row a kind: `test`, its name, and `count`.
-    parameters : DataFrame
-        A row a parameter: `path`; `half_width` expected of its interval,
-        relative to the value; `freedom`, the degrees of freedom with which its
-        variance will be known, infinite without scatter from test to test.
-    """
+    """The fewest tests of each kind that give intervals as short as wanted."""
 
     level: float
+    """Probability of the intervals."""
     within: float
+    """Half of an interval that was wanted, relative to the value."""
     runs: int
+    """Simulations that it took."""
     tests: pd.DataFrame
+    """A row a kind: `test`, its name, and `count`."""
     parameters: pd.DataFrame
+    """A row a parameter: `path`; `half_width` expected of its interval, relative to the value;
+    `freedom`, the degrees of freedom with which its variance will be known, infinite without
+    scatter from test to test."""
 
     def as_json(self) -> dict[str, Any]:
         """Return it as plain data."""
