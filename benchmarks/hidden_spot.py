@@ -37,6 +37,8 @@ PRIOR = Prior(spread=0.4, length=60e-6)
 DEEP = 0.3
 """Of the largest depth, beyond which the rest is judged."""
 LEVEL = 0.95
+SHOWN = 64
+"""Blocks of cells, along an edge, whose mean factor is kept."""
 MOTION = {"type": "reciprocating", "stroke": "2 mm", "frequency": 25, "duration": 200}
 MOTION |= {"positions": "average"}
 
@@ -82,7 +84,7 @@ def spot(cells: int) -> dict[str, object]:
     alone = process_time() - began
     noisy = depth + NOISE * np.random.default_rng(1).standard_normal(depth.shape)
     started = process_time()
-    fitted = fit_maps(test, {"ball": (noisy, NOISE)}, {"ball": PRIOR})
+    fitted = fit_maps(test, {"ball": (noisy, NOISE)}, {"ball": PRIOR}, products=150)
     spent = process_time() - started
     # The machine may be slower by now.
     started = process_time()
@@ -93,6 +95,7 @@ def spot(cells: int) -> dict[str, object]:
     inside, rest = apart < RADIUS - cell, (apart > RADIUS + cell) & deep
     lower = (factor < np.sqrt(SPOT)) & deep
     low, high = found.interval(LEVEL)
+    shown = factor.reshape(SHOWN, cells // SHOWN, SHOWN, cells // SHOWN)
     return {
         "cells": cells,
         "unknowns": depth.size,
@@ -107,8 +110,7 @@ def spot(cells: int) -> dict[str, object]:
         "misfit_per_cell": fitted.chi_square / depth.size,
         "p_value": fitted.p_value,
         "half_width_um": 0.5e6 * model.grid.size[0],
-        "factor": np.round(factor, 3).tolist(),
-        "deviation": np.round(found.deviation, 3).tolist(),
+        "factor": np.round(shown.mean(axis=(1, 3)), 3).tolist(),
     }
 
 
@@ -154,10 +156,10 @@ if __name__ == "__main__":
     parser.add_argument("--json", type=Path)
     given = parser.parse_args()
     warnings.simplefilter("ignore", TriboWarning)
-    found = coverage(given.labs, given.cells or 18) if given.labs else [spot(given.cells or 64)]
+    found = coverage(given.labs, given.cells or 18) if given.labs else [spot(given.cells or 256)]
     for outcome in found:
         for name, value in outcome.items():
-            if name not in ("factor", "deviation"):
+            if name != "factor":
                 print(f"{name:16} {value}")
         if given.json:
             given.json.write_text(json.dumps(outcome) + "\n")

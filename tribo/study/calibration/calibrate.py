@@ -83,12 +83,11 @@ def calibrate(
     problem = posed.problem()
 
     def responses(values: Array) -> Array:
-        found = posed.run(values).responses
+        found = posed.fitted_to(values)
         if on_run is not None:
             misfit = problem.residuals(found, 1 / problem.sigma)
             on_run(posed.made, float(np.sum(misfit**2)))
-        # A prediction of 0 is left out.
-        return np.where(problem.logged & (found <= 0), 1.0, found)
+        return found
 
     try:
         fitted = fit(responses, problem, posed.start)

@@ -358,30 +358,26 @@ class _Waves:
 def _krylov(product: Callable[[Array], Array], size: int, most: int) -> tuple[Array, Array]:
     """Return approximate eigenvectors, as rows, and eigenvalues, by Lanczos' method."""
     vector = np.random.default_rng(0).standard_normal(size)
-    basis, images = np.empty((2, min(most, size), size))
-    values, known, turned = np.zeros(0), 0.0, np.zeros((0, 0))
-    for i in range(len(basis)):
-        whole = np.sqrt(np.sum(vector**2))
+    basis = images = np.empty((0, size))
+    projected, known = np.empty((0, 0)), 0.0
+    while len(basis) < min(most, size):
+        whole = np.sum(vector**2)
         for _ in range(2):
-            along = np.sum(basis[:i] * vector, axis=1)
-            vector = vector - np.sum(along[:, None] * basis[:i], axis=0)
-        left = np.sqrt(np.sum(vector**2))
-        if left <= EXHAUSTED * whole:
-            values, turned = _projected(basis[:i], images[:i])
+            along = np.sum(basis * vector, axis=1)
+            vector = vector - np.sum(along[:, None] * basis, axis=0)
+        left = np.sum(vector**2)
+        if left <= EXHAUSTED**2 * whole:
             break
-        basis[i] = vector / left
-        images[i] = vector = product(basis[i])
-        if (i + 1) % EACH and i + 1 < len(basis):
-            continue
-        values, turned = _projected(basis[: i + 1], images[: i + 1])
-        former, known = known, float(np.sum(values / (1 + values)))
-        if known - former < LITTLE * EACH:
-            break
-    return turned.T @ basis[: len(values)], values
-
-
-def _projected(basis: Array, images: Array) -> tuple[Array, Array]:
-    """Return eigenvalues and eigenvectors of a product in the space of a basis."""
-    projected = basis @ images.T
-    values, turned = np.linalg.eigh(0.5 * (projected + projected.T))
-    return np.maximum(values, 0.0), turned
+        basis = np.vstack([basis, vector / left**0.5])
+        vector = product(basis[-1])
+        images = np.vstack([images, vector])
+        projected = basis @ images.T
+        projected = 0.5 * (projected + projected.T)
+        if len(basis) % EACH == 0:
+            # Σ λ/(1 + λ) over its eigenvalues.
+            inverse = np.linalg.inv(np.eye(len(basis)) + projected)
+            former, known = known, len(basis) - float(np.trace(inverse))
+            if known - former < LITTLE * EACH:
+                break
+    values, turned = np.linalg.eigh(projected)
+    return turned.T @ basis, np.maximum(values, 0.0)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
@@ -152,30 +153,22 @@ class Measured(Table):
         given = self.value if isinstance(self.value, tuple) else [self.value] * len(self.values)
         return np.array([isinstance(each, Below) for each in given])
 
-    @property
-    def tests(self) -> int:
-        """How many tests the values are of."""
-        return 1 if self.quantity in PROFILES else len(self.values)
-
-    def rows(self) -> Iterator[dict[str, Any]]:
-        """Yield the values one by one, as `Measurements.table` has them."""
+    def rows(self) -> pd.DataFrame:
+        """Return the values, a row each, as `Measurements.table` has them."""
         step_sigma, step_most = self.from_resolution
-        at = self.position or (None,) * len(self.values)
-        for i, value in enumerate(self.values):
-            yield {
-                "specimen": 0 if self.position else i,
-                "body": self.body,
-                "quantity": self.quantity,
-                "time_s": self.time,
-                "position_m": at[i],
-                "unit": QUANTITIES[self.quantity].unit,
-                "measured": value,
-                "below": bool(self.below[i]),
-                "sigma": self.sigma,
-                "step": self.resolution or 0.0,
-                "step_sigma": step_sigma,
-                "step_most": step_most,
-            }
+        values = pd.DataFrame({"measured": self.values, "below": self.below})
+        return values.assign(
+            specimen=0 if self.position else values.index,
+            body=self.body,
+            quantity=self.quantity,
+            time_s=math.nan if self.time is None else self.time,
+            position_m=self.position or math.nan,
+            unit=QUANTITIES[self.quantity].unit,
+            sigma=self.sigma,
+            step=self.resolution or 0.0,
+            step_sigma=step_sigma,
+            step_most=step_most,
+        )
 
     @property
     def from_resolution(self) -> tuple[float, float]:
@@ -259,17 +252,17 @@ class Measurements(Table):
         `step_sigma` and `step_most` are the standard deviation and the largest
         error due to the resolution, `step`.
         """
-        rows: list[dict[str, Any]] = []
-        specimens = 0
+        tables, specimens = [], 0
         for of, (place, test) in enumerate(self.tests.items()):
-            for i, entry in enumerate(test.measured):
-                rows += [
-                    {"place": f"{place}measured[{i}]", "test": test.name, "of": of, **row}
-                    | {"specimen": specimens + row["specimen"]}
-                    for row in entry.rows()
-                ]
-            specimens += max(entry.tests for entry in test.measured)
-        return pd.DataFrame(rows).astype({"time_s": float, "position_m": float})
+            named = [
+                entry.rows().assign(place=f"{place}measured[{i}]")
+                for i, entry in enumerate(test.measured)
+            ]
+            one = pd.concat(named).assign(test=test.name, of=of)
+            one["specimen"] += specimens
+            specimens = int(one["specimen"].max()) + 1
+            tables.append(one)
+        return pd.concat(tables, ignore_index=True)
 
     @model_validator(mode="after")
     def _some(self) -> Self:

@@ -120,7 +120,7 @@ def outcome(fitted: Linearised, posed: Posed, level: float) -> Calibration:
     spare = max(int(np.sum(~problem.below)) - int(np.sum(told & ~held)), 0)
     positive = np.all([made.responses > 0 for made in posed.runs.values()], axis=0)
     rows = []
-    for i, (test, each) in enumerate(posed.predicted, len(data)):
+    for i, each in enumerate(posed.predicted.itertuples(), len(data)):
         if not positive[i]:
             continue
         value, ends = float(fitted.responses[i]), (0.0, math.inf)
@@ -129,7 +129,8 @@ def outcome(fitted: Linearised, posed: Posed, level: float) -> Calibration:
             by = math.sqrt(chdtri(1, 1 - level)) * float(last.read_off[i])
             least = 0.0 if np.any(fitted.slopes[i][limited] > NOTABLE) else value - below
             ends = max(value - math.hypot(value - least, by), 0.0), value + math.hypot(above, by)
-        rows.append((test, each.body, each.quantity, QUANTITIES[each.quantity].unit, value, *ends))
+        unit = QUANTITIES[each.quantity].unit
+        rows.append((each.test, each.body, each.quantity, unit, value, *ends))
     columns = ["test", "body", "quantity", "unit", "value", "lower", "upper"]
     return Calibration(
         level=level,

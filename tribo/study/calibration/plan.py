@@ -54,7 +54,7 @@ def plan_tests(
     *,
     level: float = 0.95,
     registry: Registry | None = None,
-    on_run: Callable[[int], None] | None = None,
+    on_run: Callable[[int], object] = id,
 ) -> Plan:
     """Return the fewest tests that determine each parameter of a case as well as wanted.
 
@@ -108,10 +108,9 @@ def plan_tests(
     posed = Posed.of(case, asked, registry)
 
     def responses(values: Array) -> Array:
-        found = posed.run(values).responses
-        if on_run is not None:
-            on_run(posed.made)
-        return np.where(found > 0, found, 1.0)
+        found = posed.fitted_to(values)
+        on_run(posed.made)
+        return found
 
     computed = responses(posed.start)
     problem = posed.problem()
@@ -120,8 +119,7 @@ def plan_tests(
     check_effect(here)
     sensitivity = here.sensitivity()
     kinds = []
-    for bench in posed.tested:
-        own = posed.data.loc[bench.rows, "specimen"]
+    for _, own in posed.data.groupby("bench")["specimen"]:
         rows = own.index[own == own.min()]
         kinds.append(sensitivity[rows].T @ sensitivity[rows])
     search = Search(np.array(kinds), within, level, asked.repeatability > 0)

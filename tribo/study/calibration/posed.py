@@ -15,7 +15,7 @@ import pandas as pd
 from tribo.case import Case
 from tribo.config.load import case_tables, validate_case
 from tribo.config.overrides import apply_settings
-from tribo.core.arrays import Array
+from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError, NumericalError, TriboWarning
 from tribo.registry.registry import Registry
 from tribo.simulation.model import Model
@@ -35,10 +35,13 @@ from tribo.study.calibration.quantities import (
 )
 from tribo.study.variation import unknown_body, valid_case
 
+READ = ["body", "quantity", "time_s", "position_m"]
+"""Columns of the data that say what is read off a run."""
+
 
 @dataclass(frozen=True)
 class Bench:
-    """One case among the tests, and all that is read off its runs."""
+    """One case among the tests."""
 
     name: str
     """Of the first test."""
@@ -46,11 +49,14 @@ class Bench:
     tables: Mapping[str, Any]
     """The case, with what the readings need."""
     model: Model
-    rows: list[int]
-    """The measured numbers, by their row in `Measurements.table`."""
-    measured: list[Reading]
-    predicted: list[Reading]
-    """What is not measured but known at the end."""
+
+
+class Run(NamedTuple):
+    """Responses of a run, their standard deviations due to the grid, and its notices."""
+
+    responses: Array
+    read_off: Array
+    notices: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -61,6 +67,8 @@ class Posed:
     parameters: list[Parameter]
     data: pd.DataFrame
     """As `Measurements.table` has it, with `bench`, and `edge`: the σ of a computed diameter."""
+    predicted: pd.DataFrame
+    """What is read off at the end but was not measured: `bench`, `test` and `READ`."""
     repeatability: float | None
     """From test to test; None if it is to be estimated."""
     registry: Registry | None
@@ -88,23 +96,16 @@ class Posed:
         axis = data["quantity"].map(AXES).fillna(0).astype(int)
         spacing = np.array([bench.model.grid.spacing for bench in tested])
         data["edge"] = np.where(diameter, EDGES * spacing[data["bench"], axis], 0.0)
-        repeated = data[~data["below"]].groupby(
-            ["bench", "body", "quantity", "time_s", "position_m"], dropna=False
-        )["specimen"]
+        seen = data[~data["below"]].groupby(["bench", *READ], dropna=False)["specimen"]
         repeatability = asked.repeatability
-        if repeatability is None and not np.any(repeated.nunique() > 1):
+        if repeatability is None and not np.any(seen.nunique() > 1):
             repeatability = 0.0
-        return cls(tested, parameters, data, repeatability, registry)
+        return cls(tested, parameters, data, _predicted(tested, data), repeatability, registry)
 
     @property
     def start(self) -> Array:
         """Where the fit begins, rounded as in the fit, which works with logarithms."""
         return np.exp(np.log([p.start for p in self.parameters]))
-
-    @property
-    def predicted(self) -> list[tuple[str, Reading]]:
-        """What is read off but was not measured, with the name of its test."""
-        return [(bench.name, each) for bench in self.tested for each in bench.predicted]
 
     @property
     def made(self) -> int:
@@ -116,16 +117,14 @@ class Posed:
         key = values.tobytes()
         if key in self.runs:
             return self.runs[key]
-        count = len(self.data)
-        responses, read_off = np.empty((2, count + len(self.predicted)))
+        asked = pd.concat([self.data, self.predicted], ignore_index=True)
+        responses, read_off = np.empty((2, len(asked)))
         notices: dict[str, None] = {}
-        for i, bench in enumerate(self.tested, 1):
-            name = f"run {self.made + i}"
-            wanted = [*bench.measured, *bench.predicted]
-            made = make_run(bench.tables, self.parameters, values, wanted, self.registry, name)
-            rows = [*bench.rows, *range(count, count + len(bench.predicted))]
-            count += len(bench.predicted)
-            responses[rows], read_off[rows] = made.responses, made.read_off
+        for i, own in asked.groupby("bench"):
+            wanted = [Reading(*row) for row in own[READ].itertuples(index=False)]
+            tables, name = self.tested[i].tables, f"run {self.made + i + 1}"
+            made = make_run(tables, self.parameters, values, wanted, self.registry, name)
+            responses[own.index], read_off[own.index] = made.responses, made.read_off
             notices |= dict.fromkeys(made.notices)
         nothing = self.data["position_m"].isna() & (responses[: len(self.data)] <= 0)
         for each in self.data[nothing].itertuples():
@@ -137,10 +136,20 @@ class Posed:
         self.runs[key] = Run(responses, read_off, tuple(notices))
         return self.runs[key]
 
+    def fitted_to(self, values: Array) -> Array:
+        """Return the responses for a fit; 1 for a prediction of 0, which is left out."""
+        found = self.run(values).responses
+        return np.where(self.logged & (found <= 0), 1.0, found)
+
+    @property
+    def logged(self) -> Mask:
+        """Which responses are near to power laws of the parameters: all but depths of profiles."""
+        quantities = pd.concat([self.data["quantity"], self.predicted["quantity"]])
+        return np.asarray(~quantities.isin(PROFILES))
+
     def problem(self) -> Problem:
         """Return what is to be fitted; how well the grid gives the data, the first run says."""
         data, parameters, read_off = self.data, self.parameters, self.run(self.start).read_off
-        quantities = [*data["quantity"], *(each.quantity for _, each in self.predicted)]
         return Problem(
             names=tuple(p.path for p in parameters),
             observed=data["measured"].to_numpy(),
@@ -148,7 +157,7 @@ class Posed:
             below=data["below"].to_numpy(),
             specimen=data["specimen"].to_numpy(),
             repeatability=self.repeatability,
-            logged=np.array([name not in PROFILES for name in quantities]),
+            logged=self.logged,
             lower=np.array([math.log(p.lower) if p.lower > 0 else -math.inf for p in parameters]),
             upper=np.array([math.log(p.upper) for p in parameters]),
         )
@@ -161,7 +170,7 @@ def _benches(
     registry: Registry | None,
 ) -> list[Bench]:
     """Return the cases of the tests, those alike as one, and add the column `bench` to the data."""
-    cases: dict[str, tuple[Tested, Case, Model]] = {}
+    found: dict[str, tuple[Tested, Case, Model]] = {}
     of = []
     given = validate_case(tables, registry=registry).output.save_times
     for place, test in tests.items():
@@ -170,40 +179,45 @@ def _benches(
             case = valid_case(tables, {**test.set, "output.save_times": []}, registry)
         except CaseError as error:
             raise error if not place else CaseError(str(error), f"{place}set") from None
-        key = repr(case)
-        cases.setdefault(key, (test, case, Simulation(case, registry).model))
-        of.append([*cases].index(key))
+        if (key := repr(case)) not in found:
+            if test.name in [other.name for other, *_ in found.values()]:
+                raise CaseError(
+                    f"two tests that differ are called {test.name!r}; rename one", "test"
+                )
+            found[key] = test, case, Simulation(case, registry).model
+        of.append([*found].index(key))
         for i, entry in enumerate(test.measured):
-            _check_entry(cases[key][2], entry, f"{place}measured[{i}]")
+            _check_entry(found[key][2], entry, f"{place}measured[{i}]")
     data["bench"] = np.array(of)[data["of"]]
-    found: list[Bench] = []
-    for number, (test, case, model) in enumerate(cases.values()):
-        own = data[data["bench"] == number]
-        columns = own[["body", "quantity", "time_s", "position_m"]]
-        measured = [Reading(*row) for row in columns.itertuples(index=False)]
-        kept = {
-            "output.save_times": sorted(own["time_s"].dropna().unique().tolist()),
-            "observers": [],
-            **chosen(case, model),
-        }
+    benches = []
+    for (test, case, model), (_, times) in zip(
+        found.values(), data.groupby("bench")["time_s"], strict=True
+    ):
         changed = apply_settings(tables, test.set)
         reached = [time for time in given if time <= model.end_time]
         if len(reached) < len(given):
             changed = apply_settings(changed, {"output.save_times": reached})
-        if test.name in [other.name for other in found]:
-            raise CaseError(f"two tests that differ are called {test.name!r}; rename one", "test")
-        ready, predicted = apply_settings(changed, kept), _not_measured(model, measured)
-        rows = [*own.index]
-        found.append(Bench(test.name, changed, ready, model, rows, measured, predicted))
-    return found
+        kept = {"output.save_times": sorted(times.dropna().unique().tolist()), "observers": []}
+        ready = apply_settings(changed, {**kept, **chosen(case, model)})
+        benches.append(Bench(test.name, changed, ready, model))
+    return benches
 
 
-class Run(NamedTuple):
-    """Responses of a run, their standard deviations due to the grid, and its notices."""
-
-    responses: Array
-    read_off: Array
-    notices: tuple[str, ...]
+def _predicted(tested: Sequence[Bench], data: pd.DataFrame) -> pd.DataFrame:
+    """Return `Posed.predicted`."""
+    ends = np.array([bench.model.end_time for bench in tested])
+    at_end = data[~(data["time_s"] < ends[data["bench"]] * (1 - 1e-12))]
+    known = {*at_end[["bench", "body", "quantity"]].itertuples(index=False, name=None)}
+    rows = [
+        (i, bench.name, body, quantity, math.nan, math.nan)
+        for i, bench in enumerate(tested)
+        for body in bench.model.bodies
+        for quantity in QUANTITIES
+        if quantity not in PROFILES
+        and (i, body, quantity) not in known
+        and not unavailable(bench.model, body, quantity)
+    ]
+    return pd.DataFrame(rows, columns=["bench", "test", *READ])
 
 
 def make_run(
@@ -253,20 +267,3 @@ def _check_entry(model: Model, entry: Measured, place: str) -> None:
                 f"{1e3 * half:g} mm from the centre",
                 f"{place}.position",
             )
-
-
-def _not_measured(model: Model, measured: Sequence[Reading]) -> list[Reading]:
-    """Return all quantities at the end of the run that were not measured."""
-    known = {
-        (entry.body, entry.quantity)
-        for entry in measured
-        if not entry.time_s < model.end_time * (1 - 1e-12)
-    }
-    return [
-        Reading(body, quantity)
-        for body in model.bodies
-        for quantity in QUANTITIES
-        if quantity not in PROFILES
-        and (body, quantity) not in known
-        and not unavailable(model, body, quantity)
-    ]
