@@ -95,14 +95,6 @@ def test_export_writes_csv_with_units_in_the_column_names(ran):
     assert {"time_s", "x_m", "pressure_Pa", "bodies.ball.wear_depth_m"} <= {*profiles[0]}
 
 
-def test_existing_output_needs_force(ran):
-    folder, _ = ran
-    done = tribo("run", "my.toml", *QUICK, cwd=folder)
-    assert done.returncode == 2
-    assert "--force" in done.stderr
-    assert tribo("run", "my.toml", *QUICK, "--force", cwd=folder).returncode == 0
-
-
 @pytest.mark.parametrize("name", list(TEMPLATES))
 def test_a_template_is_the_example_of_its_name_and_names_the_next_command(tmp_path, name):
     done = tribo("new", name, "my.toml", cwd=tmp_path)

@@ -53,11 +53,6 @@ def test_a_table_becomes_the_component_its_type_names(dummies, validate):
     assert rig.observers == (dummies.Counter(), dummies.Counter(every=2))
 
 
-def test_an_instance_passes_through(dummies):
-    wear = dummies.Linear(k=1e-15)
-    assert dummies.Body(material=MATERIAL, wear=wear).wear is wear
-
-
 @pytest.mark.parametrize("options", [{}, {"exclude_defaults": True}, {"exclude_unset": True}])
 def test_what_is_written_can_be_read_back(dummies, validate, options):
     rig = validate(DATA)
@@ -66,16 +61,6 @@ def test_what_is_written_can_be_read_back(dummies, validate, options):
     assert validate(dumped) == rig
     text, context = rig.model_dump_json(**options), {"registry": dummies.registry()}
     assert dummies.Rig.model_validate_json(text, context=context) == rig
-
-
-def test_options_of_dumping_reach_into_a_component(validate):
-    rig = validate(DATA)
-    assert rig.model_dump(exclude_defaults=True)["observers"] == (
-        {"type": "counter"},
-        {"type": "counter", "every": 2},
-    )
-    dumped = rig.model_dump(exclude={"bodies": {"ball": {"wear": {"k"}}}})
-    assert dumped["bodies"]["ball"]["wear"] == {"type": "linear", "passes": 3}
 
 
 def test_without_a_context_the_default_registry_is_asked(dummies, monkeypatch):

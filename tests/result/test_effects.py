@@ -129,8 +129,3 @@ def test_a_run_does_not_resume_with_effects_that_provide_other_fields(tmp_path):
     changed = Simulation(model(Renamed(power=POWER)))
     with pytest.raises(CaseError, match=f"provide film, but the result keeps {OXIDE}"):
         changed.resume(stopped, allow_changed=True)
-
-
-def test_a_run_without_effects_keeps_none():
-    body = Simulation(small()).run().body("ball")
-    assert (body.effects, body.effect_fields) == ({}, ())

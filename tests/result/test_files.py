@@ -118,12 +118,6 @@ def test_a_save_out_of_range_is_refused_with_how_many_there_are(path, save):
         ball.surface(save)
 
 
-def test_saves_count_from_either_end(path):
-    with Result.open(path) as result:
-        np.testing.assert_array_equal(result.field("pressure", -1), result.field("pressure", 2))
-        np.testing.assert_array_equal(result.field("pressure", -3), result.field("pressure", 0))
-
-
 def test_the_wear_depth_of_a_save_is_that_of_the_body(path):
     with Result.open(path) as result:
         for name in ("ball", "disk"):

@@ -41,14 +41,6 @@ def test_it_is_read_back_with_unit_and_meaning(path):
     assert np.all(disk.state["slip"] == disk.state["slip"][:, :1])
 
 
-def test_it_lies_in_the_file_as_the_wear_depth_does(path):
-    with Result.open(path) as result:
-        slip = result.dataset.slip
-        assert slip.dims == result.dataset.wear_depth.dims
-        assert slip.attrs["units"] == "m"
-        assert "slid" in slip.attrs["long_name"]
-
-
 @pytest.mark.slow
 def test_what_one_law_does_not_keep_is_nan_there_and_a_taken_name_gets_its_kind(tmp_path):
     class Named(RunningIn):
@@ -76,12 +68,6 @@ def test_it_is_exported_in_the_profiles(path, tmp_path):
         rows = list(csv.DictReader(file))
     slips = [float(row["bodies.disk.state.slip_m"]) for row in rows]
     assert max(slips[:48]) == 0 < max(slips[48:96]) < max(slips[96:])
-
-
-def test_a_law_without_state_keeps_none():
-    bodies = [named("ball", sphere(), steel(), archard()), named("disk", flat(), steel())]
-    with Simulation(case(bodies=bodies)).run() as result:
-        assert result.body("ball").state == result.body("disk").state == {}
 
 
 def test_the_predicted_size_counts_it(path):

@@ -1,11 +1,9 @@
 """Where each model of a result came from, and when it counts as another."""
 
 import io
-import json
 import os
 import subprocess
 import sys
-from copy import deepcopy
 from pathlib import Path
 from typing import ClassVar
 
@@ -16,7 +14,6 @@ from rich.console import Console
 
 from tribo import CaseError, Simulation
 from tribo.cli.tables import print_provenance
-from tribo.component import Component
 from tribo.core.errors import PluginError
 from tribo.result.provenance import changed_components, origin, provenance, stated_facts
 from tribo.result.read import Result
@@ -92,22 +89,11 @@ def test_a_change_is_told_by_what_differs(changes, words):
     assert old != new
 
 
-def test_only_what_differs_is_told():
-    ((_, old, new),) = changed_components(made(), made(version="9.9", editable=True))
-    assert "source code" not in old + new
-    assert "editable" not in old + new
-
-
 def test_a_component_more_or_less_is_a_change():
     fewer = made()
     del fewer["components"]["contact"]
     ((_, old, new),) = changed_components(fewer, made())
     assert (old, new[:6]) == ("not there", "tribo.")
-
-
-def test_all_of_it_is_plain_data():
-    data = provenance({"ball": origin(stated())})
-    assert json.loads(json.dumps(data)) == data
 
 
 def test_a_run_does_not_go_on_with_another_file_behind_its_surface(tmp_path, monkeypatch):
@@ -130,11 +116,6 @@ def test_facts_that_are_not_text_are_an_error_that_names_the_component(facts):
     wrong = Wrong(radius="5 mm")
     with pytest.raises(PluginError, match=r"'sphere' states .* as its facts"):
         stated_facts(wrong)
-
-
-def test_most_components_state_nothing():
-    assert Component.facts(archard()) == {}
-    assert deepcopy(stated_facts(archard())) == {}
 
 
 PIPED = """

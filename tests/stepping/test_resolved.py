@@ -220,7 +220,9 @@ def test_an_average_that_is_not_the_rate_itself_is_refused_where_a_body_has_rows
 
 def test_a_body_that_stays_may_have_one_row_for_all_beside_one_that_passes():
     class Row(Stationary):
-        rows = 1
+        def __init__(self, grid):
+            super().__init__(grid)
+            self.rows = 1
 
         def average(self, rate):
             return np.mean(rate, axis=0, keepdims=True)

@@ -56,11 +56,7 @@ READ = "could not read its keys: "
 configured("leaves_early", SystemExit(0), READ + "SystemExit: 0")
 configured("says_nothing", ValueError(), "refused its keys without saying why")
 configured("refuses", CaseError("these exclude each other"), "these exclude each other")
-ZOO.bad(
-    "has_no_device", Watcher, READ + "OSError: no device", 2, __init__=raising(OSError("no device"))
-)
 ZOO.bad("is_offline", Watcher, "raised ConnectionError", facts=raising(ConnectionError("offline")))
-ZOO.bad("states_numbers", Watcher, "facts, not text by text", facts=lambda self: {"size": 3})
 
 
 class CannotBeWritten(Watcher):
@@ -81,17 +77,10 @@ def failing_late(self, snapshot):
         raise KeyError("step")
 
 
-def setting(self, snapshot):
-    snapshot.state.time = 0.0
-
-
 for name, words, parts in (
     ("fails_at_start", "raised OSError: no screen", {"on_start": raising(OSError("no screen"))}),
     ("fails_at_a_step", "raised KeyError: 'step'", {"on_step": failing_late}),
-    ("fails_at_a_save", "raised RuntimeError", {"on_save": staticmethod(raising(RuntimeError(7)))}),
-    ("leaves", "raised SystemExit: 1", {"on_step": raising(SystemExit(1))}),
     ("presses", "read-only", {"on_step": lambda self, s: writing(s.state.contact.pressure)}),
-    ("sets_the_clock", "raised FrozenInstanceError", {"on_save": setting}),
 ):
     ZOO.bad(name, Watcher, words, saved=True, **parts)
 
@@ -111,16 +100,10 @@ def holed(self, grid):
 for name, words, height in (
     ("column", "of body 'ball' gave a height", lambda s, grid: Sphere.height(s, grid)[:, :1]),
     ("holed", "a height map that is not finite in 1 cells", holed),
-    ("no_height", "a NoneType", lambda s, grid: None),
     ("no_scan", "FileNotFoundError: scan.opd", raising(FileNotFoundError("scan.opd"))),
-    ("wordless", "raised CaseError and says no more", raising(CaseError(""))),
 ):
     ZOO.bad(name, Ball, words, height=height)
-for name, words, curvature in (
-    ("one_curvature", "not an array of shape (2,): 3", lambda self: 3),
-    ("curvature_nan", "not finite in 1 cells", lambda self: (200.0, np.nan)),
-    ("no_curvature", "raised AttributeError", lambda self: self.no_such_thing),
-):
+for name, words, curvature in (("one_curvature", "not an array of shape (2,): 3", lambda self: 3),):
     ZOO.bad(name, Ball, words, curvature=property(curvature))
 
 # Effects.
@@ -141,21 +124,14 @@ class Heat(Effect):
 for name, words, fields in (
     ("no_fields", "instead of its fields", lambda self, contact: None),
     ("forgets_the_field", "gave no 'zoo_heat' for body 'ball'", lambda self, contact: {}),
-    (
-        "no_bodies",
-        "gave no 'zoo_heat' for body 'ball'",
-        lambda self, contact: {"zoo_heat": contact.pressure},
-    ),
 ):
     ZOO.bad(name, Heat, words, saved=True, fields=fields)
 for name, words, heat in (
     ("short_heat", "not an array of shape (32, 32)", lambda self, pressure: pressure[1:]),
-    ("heat_nan", "not finite in", lambda self, pressure: pressure * np.nan),
     ("heat_raises", "raised KeyError: 'steel'", raising(KeyError("steel"))),
     ("heat_writes", "read-only", lambda self, pressure: writing(pressure)),
 ):
     ZOO.bad(name, Heat, words, saved=True, heat=heat)
-ZOO.bad("unfit_heat", Heat, "raised TypeError", check=staticmethod(raising(TypeError("not these"))))
 
 # Wear laws.
 
@@ -186,7 +162,6 @@ def rated(change):
 for name, words, spoilt in (
     ("no_rate", "of body 'ball' gave a NoneType", lambda self, good, local: None),
     ("rate_nan", "not finite in", rated(lambda r, local: {"depth_rate": r.depth_rate * np.nan})),
-    ("endless", "not finite in", rated(lambda r, local: {"depth_slope": r.depth_slope * np.inf})),
     ("short_rate", "of shape", rated(lambda r, local: {"depth_rate": r.depth_rate[1:]})),
     ("grows", "gave a negative", rated(lambda r, local: {"depth_rate": -r.depth_rate})),
     (
@@ -196,19 +171,14 @@ for name, words, spoilt in (
     ),
     ("rate_writes", "read-only", rated(lambda r, local: writing(local.pressure))),
     ("rate_raises", "raised KeyError: 'oops'", raising(KeyError("oops"))),
-    ("rate_leaves", "raised SystemExit: 0", staticmethod(raising(SystemExit(0)))),
     ("state_is_7", "gave a int as rates of its state", rated(lambda r, _: {"state_rates": 7})),
 ):
     ZOO.bad(name, Law, words, saved=True, spoilt=spoilt)
-for name, words, rates in (
-    ("state_in_words", "a rate of 'slid' that is not an array", {"slid": "far"}),
-    ("forgets_its_state", "no rate for its state field 'slid'", {}),
-):
+for name, words, rates in (("forgets_its_state", "no rate for its state field 'slid'", {}),):
     spoilt = rated(lambda r, local, rates=rates: {"state_rates": rates})
     ZOO.bad(name, Slides, words, saved=True, spoilt=spoilt)
 ZOO.bad("starts_nowhere", Slides, "but starts with {}", initial_state=lambda self: {})
 ZOO.bad("starts_nan", Slides, "an initial 'slid'", initial_state=lambda self: {"slid": np.nan})
-ZOO.bad("unfit_law", Law, "raised TypeError", check=raising(TypeError("no material")))
 
 # Contact solvers.
 
@@ -246,12 +216,6 @@ def focused(s):
     return {"pressure": pressure}
 
 
-def from_start(self, problem, start=None):
-    if start is not None:
-        start.pressure[:] = 0
-    return Solver.solve(self, problem, start)
-
-
 def used_again(self, problem, start=None):
     answer = Solver.solve(self, problem, start)
     if start is None:
@@ -264,7 +228,6 @@ def used_again(self, problem, start=None):
 for name, words, spoilt in (
     ("no_solution", "NoneType instead of", lambda self, s, problem: None),
     ("short", "of shape (31, 32)", solution(lambda s: {"pressure": s.pressure[1:]})),
-    ("complex_p", "complex128", solution(lambda s: {"pressure": s.pressure + 0j})),
     ("nan_p", "1 cells", solution(lambda s: {"pressure": point(s.pressure, corner=np.nan)})),
     (
         "adhesive",
@@ -274,23 +237,12 @@ for name, words, spoilt in (
     ("too_hard", "above the hardness of 2e+09 Pa", solution(focused)),
     ("too_strong", "carries 100.01 N", solution(lambda s: {"pressure": 1.0001 * s.pressure})),
     ("no_approach", "an approach that is not", solution(lambda s: {"approach": np.nan})),
-    ("nan_overlap", "in 1 cells", solution(lambda s: {"overlap": point(s.overlap, corner=np.nan)})),
     ("no_residuals", "instead of Residuals", solution(lambda s: {"residuals": None})),
-    (
-        "residual_nan",
-        "a residual of force that is not",
-        solution(lambda s: {"residuals": replace(s.residuals, force=np.nan)}),
-    ),
-    ("counts_in_words", "a number of iterations", solution(lambda s: {"iterations": "many"})),
     ("divides", "raised ZeroDivisionError: division by zero", lambda self, s, problem: 1 / 0),
     ("mute", "raised NumericalError", raising(NumericalError())),
     ("gives_up", "it did not like it", raising(NumericalError("it did not like it"))),
     ("unspeakable", "(its message cannot be shown)", raising(Unspeakable())),
-    ("solve_leaves", "raised SystemExit: 0", raising(SystemExit(0))),
     ("writes_gap", "read-only", lambda self, s, problem: writing(problem.gap)),
-    ("writes_wear", "read-only", lambda self, s, problem: writing(problem.wear.local)),
 ):
     ZOO.bad(name, Solver, words, saved=True, spoilt=spoilt)
-ZOO.bad("writes_start", Solver, "read-only", saved=True, solve=from_start)
 ZOO.bad("uses_its_answer_again", Solver, "read-only", saved=True, solve=used_again)
-ZOO.bad("unfit_solver", Solver, "raised KeyError: 'no'", check=raising(KeyError("no")))

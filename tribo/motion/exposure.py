@@ -31,10 +31,8 @@ class Exposure(ABC):
     None where the body has no rows but those of the window, or one for all. In a window that
     repeats, rows are counted round."""
 
-    @property
-    @abstractmethod
-    def rows(self) -> int:
-        """Cells along x on the body's own surface; 1 where every point of a track sees the same."""
+    rows: int
+    """Cells along x on the body's own surface; 1 where every point of a track sees the same."""
 
     @property
     def averaged(self) -> bool:
@@ -81,11 +79,7 @@ class Stationary(Exposure):
 
     def __init__(self, grid: Grid) -> None:
         self._grid = grid
-
-    @property
-    def rows(self) -> int:
-        """Cells along x on the body."""
-        return self._grid.cells[0]
+        self.rows = grid.cells[0]
 
     def average(self, rate: Array) -> Array:
         """Return `rate` itself: every point sees its own."""
@@ -185,13 +179,8 @@ class Passing(Stationary):
     def __init__(self, grid: Grid, starts: Sequence[int], length: float) -> None:
         super().__init__(grid)
         self.starts = tuple(starts)
-        self._rows = grid.period or grid.cells[0] + max(starts)
+        self.rows = grid.period or grid.cells[0] + max(starts)
         self._length = length if grid.period is None else min(length, grid.size[0])
-
-    @property
-    def rows(self) -> int:
-        """Cells along x on the body."""
-        return self._rows
 
     def compliance(self, derivative: Array, pressure: Array) -> WearCompliance:
         """Return that of the average, which takes all positions to change alike.

@@ -81,7 +81,10 @@ class GuardedMotion(Guard[Kinematics]):
 
     def _try(self, exposure: Exposure, where: str, grid: Grid) -> None:
         """Hold an exposure to its contract, which is the same at each call."""
-        rate, own = readonly(np.ones(grid.cells)), (exposure.rows, grid.cells[1])
+        rate, own = (
+            readonly(np.ones(grid.cells)),
+            (self.ask(getattr, exposure, "rows"), grid.cells[1]),
+        )
         mean = self.ask(exposure.average, rate)
         if exposure.starts is None:
             mean = self.field(f"an average {where}", mean, own, at_least=0.0)
