@@ -173,7 +173,7 @@ class Registry:
         """Return the usable names of one kind as text, each with its plugin."""
         text = self._by_plugin(self.names(kind)) or "none"
         waiting = self._by_plugin(self.waiting)
-        return f"{text}; of plugins not imported yet: {waiting}" if waiting else text
+        return f"{text}; of any kind, in plugins not imported yet: {waiting}" if waiting else text
 
     def _by_plugin(self, names: Iterable[str]) -> str:
         by_plugin = defaultdict(list)

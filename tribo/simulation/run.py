@@ -337,7 +337,10 @@ def _checked_output(output: str | Path | None, overwrite: bool) -> Path | None:
         )
     # Unlike Path.exists it does not raise where a name is too long.
     if os.path.exists(path) and not overwrite:
-        raise CaseError(f"{path} {_held(path)}; choose another with -o, or replace it with --force")
+        raise CaseError(
+            f"{path} {_held(path)}; choose another with -o, or replace it with --force (in Python "
+            "overwrite=True)"
+        )
     if os.path.exists(path) and not os.path.isfile(path):
         raise CaseError(
             f"{path} is not a file that could be replaced; give a file name, as "
