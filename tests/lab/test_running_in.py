@@ -14,6 +14,7 @@ from tribo.cli.show import show
 from tribo.lab.roughness import roughness
 from tribo.lab.running_in import (
     contact_roughness,
+    groove_length,
     outlined,
     rough_bodies,
     scar_cells,
@@ -48,6 +49,17 @@ def run(path, *overrides):
 
 def shown(path, *options):
     return CliRunner().invoke(show, [str(path), *options], catch_exceptions=False).stdout
+
+
+@pytest.mark.parametrize("contact", ["dcfft", "periodic"])
+def test_a_resolved_groove_has_ends_in_a_window_that_repeats_too(tmp_path, contact):
+    resolved = ["kinematics.stroke='0.2 mm'", "kinematics.positions=7", "kinematics.duration='9 s'"]
+    grid = ["grid.size='1.2 mm'", "grid.cells=32", "output.save_times=[0, 9]"]
+    with run(tmp_path / "run.h5", *resolved, *grid, f"contact.type='{contact}'") as result:
+        contacts = [result.field("pressure", save).any(axis=1) for save in (0, -1)]
+        length = groove_length(result, "disk")
+    first, last = (1.2e-3 / 32 * np.count_nonzero(rows) for rows in contacts)
+    assert first + 0.1e-3 < length < last + 0.25e-3
 
 
 def test_a_scar_has_its_unworn_valleys_too():

@@ -90,11 +90,15 @@ def rough_bodies(result: Result) -> list[str]:
 
 
 def groove_length(result: Result, name: str) -> float | None:
-    """Return how long a body's groove is on its track at the end, in m; None of an average."""
-    if TRACK not in dir(result):
+    """Return how long a body's groove is on its track at the end, in m; None if all along it."""
+    if TRACK in dir(result):
+        depth = np.nan_to_num(result.field(TRACK, len(result.times) - 1, name))
+    elif result.case.get("kinematics", {}).get("positions", "average") != "average":
+        # In a window that repeats.
+        depth = result.body(name).wear_depth[-1]
+    else:
         return None
-    depth = np.nan_to_num(result.field(TRACK, len(result.times) - 1, name))
-    return diameter(depth, 0, result.grid.spacing[0]) if depth.any() else None
+    return None if depth.all() else diameter(depth, 0, result.grid.spacing[0])
 
 
 def worn_surfaces(result: Result, name: str) -> list[dict[str, Any]]:
