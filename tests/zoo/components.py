@@ -236,7 +236,11 @@ for name, words, spoilt in (
     ),
     ("too_hard", "above the hardness of 2e+09 Pa", solution(focused)),
     ("too_strong", "carries 100.01 N", solution(lambda s: {"pressure": 1.0001 * s.pressure})),
-    ("no_approach", "an approach that is not", solution(lambda s: {"approach": np.nan})),
+    (
+        "no_approach",
+        "gave an approach, a number",
+        solution(lambda s: {"approach": np.nan}),
+    ),
     ("no_residuals", "instead of Residuals", solution(lambda s: {"residuals": None})),
     ("divides", "raised ZeroDivisionError: division by zero", lambda self, s, problem: 1 / 0),
     ("mute", "raised NumericalError", raising(NumericalError())),

@@ -7,7 +7,6 @@ from zoo.motions import Slide
 from zoo_keeper import Zoo, case_of, expect_harmless, expect_one_message
 
 from tribo import CaseError, DcFft, Result, Simulation
-from tribo.core.errors import PluginError
 
 
 @pytest.mark.filterwarnings("ignore:invalid value:RuntimeWarning")
@@ -43,13 +42,6 @@ def test_the_last_good_state_is_kept(run):
     assert 0 < last["distance_m"] < 2
     volume = last["bodies"]["ball"]["wear_volume_m3"]
     assert volume == pytest.approx(3e-16 * 100 * last["distance_m"], rel=1e-10, abs=0)
-
-
-def test_python_is_told_the_same(tmp_path):
-    (divides,) = (bad.cls for bad in ZOO.kept if bad.cls.__name__ == "divides")
-    (tmp_path / "case.toml").write_text(case_of(divides))
-    with pytest.raises(PluginError, match=r"zoo\.divides.*ZeroDivisionError"):
-        Simulation(tmp_path / "case.toml", ZOO.registry()).run()
 
 
 @pytest.mark.parametrize(

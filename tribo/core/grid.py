@@ -62,8 +62,7 @@ class Grid(Table):
     @property
     def cell_area(self) -> float:
         """Area of a cell, in m²."""
-        dx, dy = self.spacing
-        return dx * dy
+        return (self.size[0] / self.cells[0]) * (self.size[1] / self.cells[1])
 
     @property
     def period(self) -> int | None:

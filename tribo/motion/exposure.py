@@ -80,6 +80,7 @@ class Stationary(Exposure):
     def __init__(self, grid: Grid) -> None:
         self._grid = grid
         self.rows = grid.cells[0]
+        self._cell_area = grid.cell_area
 
     def average(self, rate: Array) -> Array:
         """Return `rate` itself: every point sees its own."""
@@ -91,7 +92,7 @@ class Stationary(Exposure):
 
     def volume(self, depth: Array) -> float:
         """Return the integral of `depth` over the body's rows, in m³."""
-        return float(np.sum(depth)) * self._grid.cell_area
+        return float(np.sum(depth)) * self._cell_area
 
     def compliance(self, derivative: Array, pressure: Array) -> WearCompliance:
         """Return the derivative as a local compliance."""

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from hashlib import sha256
 from importlib import metadata
-from itertools import takewhile
+from os.path import commonprefix
 from pathlib import Path
 from typing import Any
 
@@ -134,12 +134,6 @@ def _code(package: str) -> str:
     return digest.hexdigest() if files else ""
 
 
-def _shared(left: Sequence[str], right: Sequence[str]) -> int:
-    """Return how many parts two dotted paths share from their beginning."""
-    pairs = zip(left, right, strict=False)
-    return sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], pairs))
-
-
 @cache
 def _named_modules() -> tuple[tuple[list[str], metadata.Distribution], ...]:
     """Return the modules that entry points name, in parts, each with its distribution."""
@@ -156,13 +150,10 @@ def _distribution(module: str) -> metadata.Distribution | None:
     # An editable installation lists no packages, but its entry points name modules. Of
     # distributions that share a namespace, that of the longest common path is meant.
     parts = module.split(".")
-    best: tuple[int, metadata.Distribution | None] = (0, None)
-    for named, distribution in _named_modules():
-        common = _shared(named, parts)
-        if common > best[0]:
-            best = common, distribution
-    if best[1] is not None:
-        return best[1]
+    named = [each for each in _named_modules() if each[0][0] == parts[0]]
+    if named:
+        # Of parts, not of characters.
+        return max(named, key=lambda each: len(commonprefix([each[0], parts])))[1]  # noqa: RUF071
     names = metadata.packages_distributions().get(parts[0], [])
     return metadata.distribution(names[0]) if names else None
 

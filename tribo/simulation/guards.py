@@ -220,17 +220,11 @@ class GuardedSolver(Guard[ContactSolver]):
                 f"{self} gave a pressure of {np.max(pressure[above]):.9g} Pa, above the hardness "
                 f"of {np.min(cap):.9g} Pa that it says it honours"
             )
-        claimed = [
-            self.number(f"a residual of {what}", value)
-            for what, value in vars(answer.residuals).items()
-        ]
-        return ContactSolution(
-            pressure=pressure,
-            approach=self.number("an approach", answer.approach),
-            overlap=overlap,
-            iterations=int(self.number("a number of iterations", answer.iterations)),
-            residuals=Residuals(abs(carried / problem.load - 1), *claimed[1:]),
-        )
+        told = [answer.approach, answer.iterations, *vars(answer.residuals).values()]
+        what = "an approach, a number of iterations and residuals"
+        approach, iterations, _, *claimed = self.field(what, told, (len(told),)).tolist()
+        residuals = Residuals(abs(carried / problem.load - 1), *claimed)
+        return ContactSolution(pressure, approach, overlap, int(iterations), residuals)
 
 
 def _initial_state(

@@ -143,7 +143,12 @@ def track_average(model: Model, state: State) -> tuple[float, float, float, floa
     """Return half-width, depth, approach (m), ratio of volumes for `Kinematics.limitation`."""
     depths = [float(np.max(state.bodies[name].wear)) for name in model.changing]
     half_width = half_widths(state.contact, model.grid)[0]
-    ratio = _volume_ratio(model, state)
+    # Worn off the bodies that stay over that off those that are swept.
+    lost = {True: 0.0, False: 0.0}
+    for name, body in state.bodies.items():
+        lost[name in model.swept] += model.exposures[name].volume(body.wear)
+    stays, swept = lost[False], lost[True]
+    ratio = stays / swept if swept else (np.inf if stays else 1.0)
     return half_width, max(depths, default=0.0), state.reference_depth, ratio
 
 
@@ -155,16 +160,6 @@ def average_matters(model: Model, half_width: float) -> bool:
 def _is_endless(model: Model, half_width: float) -> bool:
     """Whether the contact goes on into the next period of what repeats along x."""
     return model.contact.periodic and 2 * half_width > model.grid.size[0] * (1 - 1e-9)
-
-
-def _volume_ratio(model: Model, state: State) -> float:
-    """Return the volume worn off the bodies that stay over that off those that are swept."""
-    lost = {True: 0.0, False: 0.0}
-    for name, body in state.bodies.items():
-        lost[name in model.swept] += model.exposures[name].volume(body.wear)
-    if lost[True] == 0:
-        return 1.0 if lost[False] == 0 else np.inf
-    return lost[False] / lost[True]
 
 
 def coarse_cycle(model: Model, state: State) -> str | None:
