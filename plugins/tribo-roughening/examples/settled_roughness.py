@@ -39,7 +39,7 @@ def case(sq, wear=None, *, cells=32, particles=4, layers=6):
             "plate": {"surface": "flat", "material": STEEL},
         },
         "contact": {"type": "periodic"},
-        "stepping": {"type": "implicit", "nonlinear_tolerance": 1e-5},
+        "stepping": {"type": "implicit", "depth_tolerance": 5e-5, "nonlinear_tolerance": 1e-5},
         "kinematics": {
             "type": "unidirectional",
             "speed": "1 m/s",

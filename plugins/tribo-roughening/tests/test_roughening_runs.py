@@ -28,6 +28,13 @@ class Stop(Observer):
             raise KeyboardInterrupt
 
 
+def quick(*given, **sizes):
+    """Return a case at the default tolerance, for what does not depend on it."""
+    data = case(*given, **sizes)
+    del data["stepping"]["depth_tolerance"]
+    return data
+
+
 def plain_loop(height, size, layers, increments):
     """Return what a patch in full contact is worn to: small explicit steps, mode by mode."""
     count = len(height)
@@ -59,16 +66,16 @@ def test_it_wears_as_a_plain_loop_of_small_steps_does():
         assert result.saves()[-1]["contact_area_m2"] == pytest.approx(32e-6**2, rel=1e-9, abs=0)
     size = 2 * DIAMETER
     loop = plain_loop(height, size, 2, 1000)
-    # The second is 3 %, and 0.2 % in ten times the steps: of first order.
+    # The second is 0.8 %, and 3 % with the default depth_tolerance: of first order in the steps.
     assert worn.mean() == pytest.approx(loop.mean(), rel=1e-3, abs=0)
-    assert np.std(worn - loop) < 0.04 * loop.std()
+    assert np.std(worn - loop) < 0.01 * loop.std()
 
 
 @pytest.mark.slow
 def test_a_patch_settles_at_a_roughness_of_its_own():
     settled = []
     for beginning in (160e-9, 20e-9):
-        with Simulation(case(beginning, cells=16, layers=4)).run() as result:
+        with Simulation(quick(beginning, cells=16, layers=4)).run() as result:
             patch = result.body("patch")
             sa = [parameters(patch.surface(save)).Sa_m for save in range(6, len(result.times))]
             depth = patch.wear_depth[-1]
@@ -79,7 +86,7 @@ def test_a_patch_settles_at_a_roughness_of_its_own():
     assert settled[0] == pytest.approx(settled[1], rel=0.25, abs=0)
     assert min(settled) > 5e-9
     # The same patch under Archard's law alone is polished away.
-    archard = EXAMPLE["roughnesses"](case(160e-9, EXAMPLE["ARCHARD"], cells=16, layers=4))
+    archard = EXAMPLE["roughnesses"](quick(160e-9, EXAMPLE["ARCHARD"], cells=16, layers=4))
     assert archard[-1] < 0.05 * min(settled)
 
 
@@ -97,7 +104,7 @@ def test_two_bodies_that_slide_over_each_other_each_know_their_own_depth(monkeyp
 
 @pytest.mark.slow
 def test_a_run_resumed_has_the_same_bits(tmp_path):
-    data = case(20e-9, cells=16, particles=2, layers=1)
+    data = quick(20e-9, cells=16, particles=2, layers=1)
     with Simulation(data).run(tmp_path / "whole.h5") as whole:
         needed = whole.body("patch").wear_depth
     path = tmp_path / "stopped.h5"
