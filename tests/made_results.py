@@ -11,7 +11,6 @@ from tribo.core.measures import (
     centre,
     contact_area,
     half_widths,
-    plastic_area,
 )
 from tribo.core.state import BodyInfo, BodyState, RunInfo, Snapshot, State
 from tribo.lab.running_in import contact_roughness
@@ -166,7 +165,7 @@ def _snapshot(time, bodies, plastic, power, shape, grid, texture, cap, relief, f
             half_width_x=width,
             half_width_y=breadth,
             area=contact_area(pressure, grid),
-            plastic_area=plastic_area(pressure, cap, grid),
+            plastic_area=0.0 if cap is None else contact_area(pressure >= cap, grid),
             approach=1e-6,
             residuals=SETTLED,
             contact_solves=1,

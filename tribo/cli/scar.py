@@ -103,6 +103,7 @@ def _surface(text: str) -> Surface:
 
 def _print(found: MeasuredScar) -> None:
     from tribo.cli.console import Console, titled
+    from tribo.cli.tables import inferred_table
 
     laid, console = found.registration, Console()
     table = titled("Scar, with standard uncertainties", "", "±")
@@ -121,12 +122,7 @@ def _print(found: MeasuredScar) -> None:
             table.add_row(name, shown, "" if sure is None else f"{sure:.2g}")
     console.print(table)
     if found.inferred:
-        table = titled("Volume by a lab's formulas, and how far that is off", "mm³", "%")
-        for each in found.inferred:
-            name = f"{each.body}: {each.method}" + (f" ({each.standard})" * bool(each.standard))
-            off = f"{100 * each.relative_error:+.0f}"
-            table.add_row(name, f"{1e9 * each.volume_m3:.4g}", off)
-        console.print(table)
+        console.print(inferred_table(found.inferred))
     shifts = ", ".join(
         f"{1e6 * shift:.3g} µm along {axis}"
         + (" (the maps do not tell)" if math.isinf(sure) else f" ± {1e6 * sure:.2g}")

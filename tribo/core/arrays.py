@@ -50,13 +50,6 @@ def rows_from(field: Array, first: int, count: int) -> Array:
     return np.concatenate([field[first:], field[:beyond]])
 
 
-def laid_from(part: Array, first: int, rows: int) -> Array:
-    """Return a field with `part` from row `first` on, as `rows_from` counts them, and 0 beside."""
-    field = np.zeros((rows, *part.shape[1:]))
-    add_from(field, part, first)
-    return field
-
-
 def add_from(field: Array, part: Array, first: int) -> None:
     """Add `part` to a field in place, from row `first` on, as `rows_from` counts them."""
     first %= len(field)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from tribo.core.arrays import Array, Region
+from tribo.core.arrays import Array, Mask
 from tribo.core.contact import ContactSolution, Residuals
 from tribo.core.grid import Grid
 
@@ -82,31 +82,19 @@ def centre(field: Array) -> float:
 
 def half_widths(contact: ContactSolution, grid: Grid) -> tuple[float, float]:
     """Half the extent of {p > 0} along x and along y, in m."""
-    along, across = lengths(contact.extent, grid)
-    return 0.5 * along, 0.5 * across
+    (rows, columns), (dx, dy) = contact.extent, grid.spacing
+    return 0.5 * (rows.stop - rows.start) * dx, 0.5 * (columns.stop - columns.start) * dy
 
 
-def contact_area(pressure: Array, grid: Grid) -> float:
-    """Area of the cells that carry pressure, in m²."""
+def contact_area(pressure: Array | Mask, grid: Grid) -> float:
+    """Area of the cells that carry pressure, or that a mask has, in m²."""
     return int(np.count_nonzero(pressure > 0)) * grid.cell_area
-
-
-def plastic_area(pressure: Array, cap: Array | float | None, grid: Grid) -> float:
-    """Area of the cells whose pressure is at the cap, in m²."""
-    return 0.0 if cap is None else int(np.count_nonzero(pressure >= cap)) * grid.cell_area
 
 
 def reaches_border(pressure: Array) -> bool:
     """Whether the contact reaches the border of the window."""
     edges = pressure[0], pressure[-1], pressure[:, 0], pressure[:, -1]
     return any(bool((edge > 0).any()) for edge in edges)
-
-
-def lengths(region: Region, grid: Grid) -> tuple[float, float]:
-    """Lengths of a region of the window along x and along y, in m."""
-    rows, columns = region
-    dx, dy = grid.spacing
-    return (rows.stop - rows.start) * dx, (columns.stop - columns.start) * dy
 
 
 def vertex(three: Array) -> float:

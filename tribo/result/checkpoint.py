@@ -232,13 +232,3 @@ def _checkpoint(data: dict[str, Any]) -> Checkpoint:
 def _contact(data: dict[str, Any]) -> ContactSolution:
     """Return a solved contact from plain data."""
     return ContactSolution(residuals=Residuals(**data.pop("residuals")), **data)
-
-
-def tidied(result: Path) -> bool:
-    """Remove the folder of a run that was killed just as it ended; False if there is none."""
-    folder = RunFolder(result.resolve())
-    if not folder.path.is_dir():
-        return False
-    folder.lock()
-    folder.remove()
-    return True

@@ -108,13 +108,3 @@ ROUGHNESS_COLUMNS = tuple(
     )
 )
 """The columns that the history has besides, where a body is rough; NaN for one that is not."""
-
-INVARIANTS = (
-    "force_error",
-    "complementarity_error",
-    "penetration_error",
-    "volume_error",
-    "regrowth",
-    "chattering",
-)
-"""The columns that are 0 where all that must hold holds exactly."""

@@ -10,8 +10,6 @@ from typing import Any
 import numpy as np
 
 from tribo.core.arrays import Array, middle_rows
-from tribo.core.contact import ContactSystem
-from tribo.core.grid import Grid
 from tribo.core.measures import Measures
 from tribo.core.state import RunInfo, Snapshot, State
 from tribo.result.columns import BODY_COLUMNS, COLUMNS, ROUGHNESS_COLUMNS
@@ -66,19 +64,6 @@ def attributes(run: RunInfo) -> dict[str, Any]:
         "worn_through": "[]",
     }
     return {name: value for name, value in values.items() if value is not None}
-
-
-def system_of(attributes: Mapping[str, Any], cells: tuple[int, int]) -> ContactSystem:
-    """Return the contact system that `attributes` of a run were written of."""
-    lx, ly = map(float, attributes["window_m"])
-    cap, curved = attributes.get("cap_Pa"), attributes.get("curvature_1_m")
-    return ContactSystem(
-        Grid((lx, ly), cells),
-        float(attributes["modulus_Pa"]),
-        float(attributes["load_N"]),
-        None if cap is None else float(cap),
-        None if curved is None else (float(curved[0]), float(curved[1])),
-    )
 
 
 def _fixed() -> dict[str, Variable]:

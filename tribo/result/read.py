@@ -21,8 +21,8 @@ from tribo.core.grid import Grid
 from tribo.core.words import did_you_mean, suggestion
 from tribo.result import checks
 from tribo.result.body import BodyResult, checked_save
-from tribo.result.columns import BODY_COLUMNS, COLUMNS, INVARIANTS, ROUGHNESS_COLUMNS, labelled
-from tribo.result.layout import BETWEEN, EFFECT, STATE, system_of
+from tribo.result.columns import BODY_COLUMNS, COLUMNS, ROUGHNESS_COLUMNS, labelled
+from tribo.result.layout import BETWEEN, EFFECT, STATE
 from tribo.result.opening import source_of
 from tribo.result.sealed import write_sealed
 
@@ -164,8 +164,16 @@ class Result:
     @property
     def system(self) -> ContactSystem:
         """Window, load, contact modulus, pressure cap and initial curvature."""
-        cells = len(self._scalars["x"]), len(self._scalars["y"])
-        return system_of(self._header, cells)
+        header, cells = self._header, (len(self._scalars["x"]), len(self._scalars["y"]))
+        lx, ly = map(float, header["window_m"])
+        cap, curved = header.get("cap_Pa"), header.get("curvature_1_m")
+        return ContactSystem(
+            Grid((lx, ly), cells),
+            float(header["modulus_Pa"]),
+            float(header["load_N"]),
+            None if cap is None else float(cap),
+            None if curved is None else (float(curved[0]), float(curved[1])),
+        )
 
     @property
     def grid(self) -> Grid:
@@ -354,7 +362,7 @@ class Result:
         return {
             column.label: float(np.max(self._scalars[f"history_{column.name}"], initial=0))
             for column in COLUMNS
-            if column.name in INVARIANTS
+            if column.path.startswith(("residuals.", "invariants."))
         }
 
     def fields_of(self, kind: str, body: str | None = None) -> dict[str, Field]:

@@ -10,7 +10,6 @@ from tribo.core.measures import (
     centre,
     contact_area,
     half_widths,
-    plastic_area,
 )
 from tribo.core.state import State
 from tribo.lab.running_in import contact_roughness
@@ -52,7 +51,8 @@ def measure(model: Model, state: State) -> Measures:
         half_width_x=width,
         half_width_y=breadth,
         area=contact_area(touched, model.grid),
-        plastic_area=plastic_area(touched, cap, model.grid),
+        # At the cap.
+        plastic_area=0.0 if cap is None else contact_area(touched >= cap, model.grid),
         approach=state.contact.approach - model.closest,
         residuals=state.contact.residuals,
         contact_solves=state.contact_solves,

@@ -12,7 +12,7 @@ import numpy as np
 from tribo.case import Body, Case
 from tribo.component import components
 from tribo.contact.solver import ContactSolver
-from tribo.core.arrays import Array, laid_from, readonly, rows_from
+from tribo.core.arrays import Array, add_from, readonly, rows_from
 from tribo.core.contact import ContactSystem
 from tribo.core.fields import PLACE_X, PLACE_Y, Field
 from tribo.core.grid import Grid
@@ -260,4 +260,6 @@ class Model:
         exposure = self.exposures[name]
         if exposure.starts is None:
             return field
-        return laid_from(field, exposure.starts[position], exposure.rows)
+        own = np.zeros((exposure.rows, *field.shape[1:]))
+        add_from(own, field, exposure.starts[position])
+        return own

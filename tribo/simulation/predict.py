@@ -13,7 +13,6 @@ from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError, NumericalError, PluginError
 from tribo.core.measures import Measures
 from tribo.core.notices import worn_through
-from tribo.core.state import State
 from tribo.lab.first_contact import HertzContact, hertz_contact
 from tribo.result.provenance import stated_facts
 from tribo.simulation.beginning import first_state
@@ -93,21 +92,31 @@ def predict(model: Model) -> Prediction:
     hertz = None if model.case.begin else hertz_contact(model.system)
     dx, dy = model.grid.spacing
     coarse = _coarse_run(model, first)
-    last = coarse.last
+    last, lx, ly = coarse.last, *(1e3 * edge for edge in model.grid.size)
     holds = None if last is None else _inside(model, last) or model.may_reach_edge
     across = None if hertz is None else (2 * hertz.half_width_x / dx, 2 * hertz.half_width_y / dy)
-    unstable, warned = _first_step(model, state)
-    # In the order in which a run would come upon them.
-    stopping = [
-        (CaseError.exit_code, unstable),
-        (NumericalError.exit_code, _unsettled(model, state)),
-        (NumericalError.exit_code, _outgrown(model, coarse) if holds is False else None),
+    # In the order in which a run would come upon them, with the exit codes that it would have.
+    stopping, warned = [], None
+    try:
+        warned = model.stepping.check(model, state)
+    except CaseError as error:
+        stopping.append((error.exit_code, f"the run would stop at once: {error}"))
+    try:
+        start_sliding(model, state)
+    except NumericalError as error:
+        words = f"the run would stop when sliding starts: {error}"
+        stopping.append((error.exit_code, words))
+    if holds is False:
+        when = "" if coarse.outgrown is None else f", at about {coarse.outgrown:.3g} s"
+        words = (
+            f"the contact outgrows the window of {lx:.4g} × {ly:.4g} mm, and the run would "
+            f"stop there{when}: make grid.size larger (and grid.cells with it)"
+        )
+        stopping.append((NumericalError.exit_code, words))
+    if coarse.error is not None:
         # What a coarse grid alone cannot carry through, a finer one may.
-        (
-            coarse.error.exit_code if isinstance(coarse.error, PluginError) else 0,
-            f"a trial run on a coarse grid failed: {coarse.error}" if coarse.error else None,
-        ),
-    ]
+        code = coarse.error.exit_code if isinstance(coarse.error, PluginError) else 0
+        stopping.append((code, f"a trial run on a coarse grid failed: {coarse.error}"))
     problems = (
         *unusual(model.case),
         few_cells(model, state.contact),
@@ -138,7 +147,7 @@ def predict(model: Model) -> Prediction:
         file_size=BARE_FILE + size_of_fields(model.case, model.exposures),
         facts={place: stated for place, stated in facts.items() if stated},
         problems=tuple(problem for problem in problems if problem is not None),
-        exit_code=next((code for code, text in stopping if text is not None and code), 0),
+        exit_code=next((code for code, _ in stopping if code), 0),
     )
 
 
@@ -152,31 +161,6 @@ def _bounds(system: ContactSystem) -> tuple[HertzContact, HertzContact] | None:
         hertz_contact(replace(bare, modulus=surface_modulus(system))),
     )
     return None if below is None or above is None else (below, above)
-
-
-def _unsettled(model: Model, state: State) -> str | None:
-    try:
-        start_sliding(model, state)
-    except NumericalError as error:
-        return f"the run would stop when sliding starts: {error}"
-    return None
-
-
-def _first_step(model: Model, state: State) -> tuple[str | None, str | None]:
-    """Return why the run would stop at its first step, and what it would warn of."""
-    try:
-        return None, model.stepping.check(model, state)
-    except CaseError as error:
-        return f"the run would stop at once: {error}", None
-
-
-def _outgrown(model: Model, coarse: CoarseRun) -> str:
-    lx, ly = model.grid.size
-    when = "" if coarse.outgrown is None else f", at about {coarse.outgrown:.3g} s"
-    return (
-        f"the contact outgrows the window of {1e3 * lx:.4g} × {1e3 * ly:.4g} mm, and the run would "
-        f"stop there{when}: make grid.size larger (and grid.cells with it)"
-    )
 
 
 def _inside(model: Model, measures: Measures) -> bool:

@@ -21,7 +21,7 @@ from tribo.observers.observer import Observer
 from tribo.observers.recorder import Recorder
 from tribo.registry.plugins import Plugin
 from tribo.registry.registry import Registry, default_registry
-from tribo.result.checkpoint import tidied
+from tribo.result.checkpoint import RunFolder
 from tribo.result.provenance import changed_components, origin, provenance
 from tribo.result.read import Result
 from tribo.simulation.audience import Audience
@@ -153,9 +153,13 @@ class Simulation:
             case = result.case
         listed = "; ".join(f"{place} was {old}, is {new}" for place, old, new in changes)
         if done:
-            if not tidied(path):
+            folder = RunFolder(path.resolve())
+            if not folder.path.is_dir():
                 told = f", with other components: {listed}" if changes else ""
                 raise CaseError(f"{path} is done{told}; there is nothing to resume")
+            # It was killed just as it ended.
+            folder.lock()
+            folder.remove()
             return partial(Result.open, path)
         if changes and not allow_changed:
             raise CaseError(
