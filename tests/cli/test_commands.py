@@ -127,14 +127,20 @@ def test_check_begins_with_its_verdict(case):
     # As the report of the run words it.
     assert "94 % of the pressure at which the softer body first" in done.stdout
     assert max(map(len, done.stdout.splitlines())) <= 80
-    small = [*LARGE_STROKE, *setting("grid.size=0.9 mm", "grid.cells=64")]
+    assert "depth of ball, for 1 % more of:" in done.stdout
+    small = [*LARGE_STROKE, *setting("grid.size=0.9 mm", "grid.cells=64", "stop.depth=1 mm")]
     done = tribo("check", "my.toml", *small)
     assert (done.returncode, done.stderr) == (3, "error: a run of my.toml would stop on its way\n")
     verdict, first, *_ = done.stdout.splitlines()
     assert verdict == "my.toml would stop on its way:"
     assert first.startswith("  - the contact outgrows the window of 0.9 × 0.9 mm")
-    (problem,) = json.loads(tribo("check", "my.toml", *small, "--json").stdout)["problems"]
-    assert problem in " ".join(done.stdout.split())
+    data, told = json.loads(tribo("check", "my.toml", *small, "--json").stdout), done.stdout.split()
+    (problem,) = data["problems"]
+    assert problem in " ".join(told)
+    assert data["sensitivity"] is None
+    why = data["sensitivity_refused"]
+    assert why.startswith("stop.depth: a run that a depth ends has another length")
+    assert f"which numbers rule the depth not told: {why}" in " ".join(told)
 
 
 @pytest.mark.slow

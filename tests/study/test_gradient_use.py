@@ -17,6 +17,7 @@ from tribo.study.gradient import tape
 from tribo.study.gradient.gradient import ValueAndGradient, gradient
 from tribo.study.gradient.objective import Deepest, Depth, Misfit, Volume
 from tribo.study.gradient.sensitivity import sensitivity
+from tribo.wear.archard import Archard
 
 
 class Turns(Effect):
@@ -69,6 +70,20 @@ def test_a_number_without_derivative_is_refused(path, message):
         gradient(case, Volume("ball"), [path])
 
 
+def test_a_refusal_names_its_place_once():
+    class Exact(Archard):
+        type = "exact"
+
+        def check(self, material):
+            if self.k != K:
+                raise CaseError("only one is known", "bodies.ball.wear.k")
+
+    case = run(bodies=pair(Exact(k=K), archard()))
+    with pytest.raises(CaseError) as refused:
+        gradient(case, Volume("ball"), ["bodies.*.wear.k"])
+    assert str(refused.value) == "bodies.*.wear.k: has no derivative here: only one is known"
+
+
 def test_without_paths_all_numbers_count_and_the_rest_says_why():
     found = gradient(run(kinematics=resolved()), Depth("disk"))
     assert found["bodies.disk.wear.k"] > 0
@@ -88,10 +103,22 @@ def test_effects_that_no_law_follows_have_no_part_in_it():
 
 def test_a_coarse_run_tells_what_rules_the_depth():
     fine = gradient(run(), Deepest("ball")).relative
-    found = sensitivity(composed(run()))
+    found = sensitivity(composed(run()), 1e-4)
     assert found.body == "ball"
     assert list(found.percent) == sorted(found.percent, key=lambda path: -abs(found.percent[path]))
     assert found.percent["load.normal"] == pytest.approx(fine["load.normal"], abs=0.1)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"stop": Stop(depth="1 um")}, "stop.depth: a run that a depth ends"),
+        ({"bodies": pair(archard(0), None)}, "bodies: no body wears"),
+    ],
+)
+def test_where_nothing_is_told_there_is_a_reason(changes, message):
+    with pytest.raises(CaseError, match=message):
+        sensitivity(composed(run(**changes)), 1e-4)
 
 
 def test_a_save_that_is_not_there_is_refused():

@@ -49,9 +49,16 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
 
     model = Simulation(load_case(case, overrides=overrides)).model
     prediction = predict(model)
-    ruled = sensitivity(model) if prediction.last else None
+    ruled: Sensitivity | str = "the trial on a coarse grid did not reach the end"
+    if prediction.last:
+        try:
+            ruled = sensitivity(model, prediction.first.half_width_x)
+        except (CaseError, NumericalError) as error:
+            ruled = str(error)
     if as_json:
-        echo_json({**asdict(prediction), "sensitivity": ruled and asdict(ruled)})
+        refused = ruled if isinstance(ruled, str) else None
+        told = None if isinstance(ruled, str) else asdict(ruled)
+        echo_json({**asdict(prediction), "sensitivity": told, "sensitivity_refused": refused})
     else:
         _print(case, model, prediction, ruled)
     for kind in (CaseError, NumericalError):
@@ -59,7 +66,7 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
             raise kind(f"a run of {case} would stop on its way")
 
 
-def _print(case: Path, model: Model, prediction: Prediction, ruled: Sensitivity | None) -> None:
+def _print(case: Path, model: Model, prediction: Prediction, ruled: Sensitivity | str) -> None:
     console = Console()
     verdict = "is valid, but:" if prediction.problems else "is valid."
     if prediction.exit_code:
@@ -67,12 +74,12 @@ def _print(case: Path, model: Model, prediction: Prediction, ruled: Sensitivity 
     console.print(f"{case} {verdict}", markup=False, soft_wrap=True)
     console.print(_rows(("  -", problem) for problem in prediction.problems))
     console.print(_rows((f"  {name}", text) for name, text in _facts(model, prediction)))
-    if ruled is not None:
+    if isinstance(ruled, str):
+        console.print(_rows([("  which numbers rule the depth", f"not told: {ruled}")]))
+    else:
         console.print(f"  depth of {ruled.body}, for 1 % more of:", markup=False)
         first = list(ruled.percent.items())[:SHOWN]
         console.print(_rows((f"    {path}", f"{percent:+.2f} %") for path, percent in first))
-    elif prediction.last:
-        console.print("  which numbers rule the depth: no gradient on a coarse grid of this case")
     for place, facts in prediction.facts.items():
         console.print(f"  {place}:", markup=False)
         console.print(_rows((f"    {name}", text) for name, text in facts.items()))

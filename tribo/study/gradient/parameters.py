@@ -296,7 +296,9 @@ def chain(
             for model, (_, weight), of_model in zip(models, scheme, stops, strict=True)
         ]
         return Chain(path, value, variants, base, Stops.of(base))
-    why = str(error).removeprefix(f"{path}: ")
+    why = error.errors()[0]["msg"] if isinstance(error, ValidationError) else str(error)
+    for place in (path, *(".".join(map(str, place)) for place in places)):
+        why = why.removeprefix(f"{place}: ")
     raise CaseError(f"has no derivative here: {why}", path)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -36,21 +35,47 @@ class Sensitivity:
     percent: dict[str, float]
 
 
-def sensitivity(model: Model) -> Sensitivity | None:
+def sensitivity(model: Model, half_width_x: float) -> Sensitivity:
     """Return which numbers rule the largest depth of a run, from one on a coarse grid.
 
-    None where such a run, or a gradient through it, is not to be had.
+    Parameters
+    ----------
+    model : Model
+        The composed case.
+    half_width_x : float
+        Half the extent of its first contact along x, in m.
+
+    Raises
+    ------
+    CaseError
+        If there is no gradient through the case, or nothing wears.
+    NumericalError
+        If the run on a coarse grid fails.
     """
-    if not model.contact.accepts_wear_compliance or model.case.begin is not None:
-        return None
-    half_width = np.inf if model.contact.periodic else 0.0
-    margin = 1.0 if model.may_reach_edge else MARGINS[0]
-    with suppress(CaseError, NumericalError):
-        return _of_coarse(coarsened(model.case, CELLS, margin, half_width))
-    return None
+    if not model.contact.accepts_wear_compliance:
+        raise CaseError(
+            f"{model.contact.type!r} takes explicit steps, through which no gradient goes",
+            "contact.type",
+        )
+    if model.case.begin is not None:
+        raise CaseError("the wear that a run begins with is left out on a coarse grid", "begin")
+    resolved = np.inf if model.contact.periodic else half_width_x
+    wide = 1.0 if model.may_reach_edge else MARGINS[0]
+    failed: CaseError | NumericalError | None = None
+    # The average of the stroke is the cheapest, but has not all surfaces.
+    for cells, margin, half_width in (
+        (CELLS, wide, np.inf if model.contact.periodic else 0.0),
+        (2 * CELLS, 1.0, resolved),
+    ):
+        try:
+            return _of_coarse(coarsened(model.case, cells, margin, half_width))
+        except (CaseError, NumericalError) as error:
+            failed = failed or error
+    assert failed is not None
+    raise failed
 
 
-def _of_coarse(model: Model) -> Sensitivity | None:
+def _of_coarse(model: Model) -> Sensitivity:
     deepest: list[str] = []
 
     def largest(view: View) -> tuple[float, Seeds]:
@@ -60,7 +85,7 @@ def _of_coarse(model: Model) -> Sensitivity | None:
 
     found = gradient(model, largest)
     if not found.value > 0:
-        return None
+        raise CaseError("no body wears", "bodies")
     ranked = sorted(found.relative.items(), key=lambda item: -abs(item[1]))
     percent = {path: float(value) for path, value in ranked if abs(value) >= LEAST}
     return Sensitivity(deepest[0], percent)
