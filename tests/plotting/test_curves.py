@@ -26,7 +26,7 @@ def test_columns_of_the_history_are_drawn_over_the_path():
     np.testing.assert_allclose(pressure.lines[0].get_ydata(), 1e-6 * history["max_pressure_Pa"])
     worn = 1e9 * history["bodies.ball.wear_volume_m3"]
     np.testing.assert_allclose(volume.lines[0].get_ydata(), worn)
-    assert pressure.get_ylabel() == "max pressure\n(MPa)"
+    assert pressure.get_ylabel() == "largest pressure\n(MPa)"
     assert volume.get_ylabel() == "ball wear volume\n(mm³)"
     assert volume.get_xlabel() == "distance (m)"
     with pytest.raises(CaseError, match=r"no column 'max_presure_Pa'.* max_pressure_Pa"):

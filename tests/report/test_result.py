@@ -19,6 +19,7 @@ from tribo.report.fields import charts
 from tribo.report.reduced import Blocks, block_means
 from tribo.report.result import result_page
 from tribo.report.sentence import read_verified, sentence
+from tribo.templates import template
 
 
 def unpacked(page):
@@ -91,6 +92,33 @@ def test_it_quotes_the_uncertainty_that_a_study_found(tmp_path):
     study.write_text("[]")
     with pytest.raises(tribo.CaseError, match=r"--verified: .* is not what 'tribo verify CASE"):
         read_verified(study, result)
+
+
+def test_a_body_without_wear_is_in_no_study(tmp_path):
+    study = tmp_path / "study.json"
+    with made(worn=(True, False)) as result:
+        volume = result.saves()[-1]["bodies"]["ball"]["wear_volume_m3"]
+        row = {"name": "ball: volume", "unit": "m^3", "value": volume, "uncertainty": 0.0}
+        study.write_text(json.dumps({"estimates": [row]}))
+        assert read_verified(study, result) == [row]
+
+
+@pytest.mark.slow
+def test_it_says_which_numbers_rule_the_depth_or_why_not(tmp_path):
+    settings = [
+        "grid.cells=48",
+        "grid.size='1.1 mm'",
+        "kinematics.duration='20 s'",
+        "output.save_times=[]",
+    ]
+    (tmp_path / "case.toml").write_text(template("ball_on_disk"), encoding="utf-8")
+    with tribo.load_case(tmp_path / "case.toml", overrides=settings).run() as result:
+        page = result_page(result)
+    shares = dict(re.findall(r'<th scope="row">([\w.]+)</th><td>([+−][\d.]+) %</td>', page))
+    assert set(shares) >= {"load.normal", "kinematics.stroke"}
+    assert shares["kinematics.duration"] == shares["kinematics.frequency"]
+    with made() as result:
+        assert "<p>Not known for this case: " in result_page(result)
 
 
 @pytest.mark.parametrize("shape", SHAPES)

@@ -68,12 +68,17 @@ def hertz_contact(system: ContactSystem) -> HertzContact | None:
     return HertzContact(a, b, p0, approach, ratio)
 
 
-def first_hertz(result: Result) -> HertzContact | None:
-    """Return Hertz's contact for the first save of a result; None also of bodies worn by then."""
+def first_hertz(result: Result) -> HertzContact | str:
+    """Return Hertz's contact for the first save of a result, or why there is none."""
+    if result.case.get("begin"):
+        return "the bodies were worn already"
     layers = (each for body in result.case["bodies"].values() for each in body.get("layers", ()))
     # A result's system does not keep them.
-    elastic = any(each.get(key) is not None for each in layers for key in ("young", "poisson"))
-    return None if elastic or result.case.get("begin") else hertz_contact(result.system)
+    if any(each.get(key) is not None for each in layers for key in ("young", "poisson")):
+        return "a body has an elastic layer"
+    if result.system.curvature is None:
+        return "the surfaces state no curvature"
+    return hertz_contact(result.system) or "the contact is flat"
 
 
 def computed_pressure(

@@ -115,10 +115,9 @@ def _first_contact(result: Result) -> tuple[FirstContact, str]:
     largest = save["max_pressure_Pa"]
     pressure, words = computed_pressure(system, largest, save["centre_pressure_Pa"])
     hertz = first_hertz(result)
-    if hertz is None:
+    if isinstance(hertz, str):
         return FirstContact(None, largest, None), (
-            f"First contact: {words}; no closed form to compare: the surfaces state no curvature, "
-            "the contact is flat, a body has an elastic layer, or the bodies were worn already."
+            f"First contact: {words}; no closed form to compare, as {hertz}."
         )
     p0, ratio = hertz.peak_pressure, None
     words = f"First contact: {words}, Hertz {1e-6 * p0:.1f} MPa"

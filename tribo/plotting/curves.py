@@ -235,6 +235,7 @@ def column_label(name: str, values: Array) -> tuple[str, float]:
     """Return what an axis says of a column, with the unit for its values, and the unit's size."""
     (unit, end), factor = _unit(name, values)
     words = name.removesuffix(end).replace("_", " ").replace(".", " ").removeprefix("bodies ")
+    words = words.replace("max ", "largest ")
     return (f"{words} ({unit})" if unit else words), factor
 
 

@@ -49,7 +49,7 @@ def pressure_map(result: Result, save: int = -1) -> Figure:
     without lines. A long one is drawn wider than it is, and the axis says how
     much.
     """
-    pressure, hertz = result.field("pressure", save), first_hertz(result)
+    pressure, hertz = result.field("pressure", save), _hertz(result)
     highest = float(np.max(pressure))
     unit = fitting("Pa", highest)
     values = pressure / size(unit)
@@ -80,7 +80,7 @@ def pressure_sections(result: Result) -> Figure:
     strip begins where a body in contact ends, at which the pressure may peak.
     """
     count = number_of_saves(result)
-    grid, hertz, cap = result.grid, first_hertz(result), result.system.cap
+    grid, hertz, cap = result.grid, _hertz(result), result.system.cap
     reach = _reach(hertz)
     fields = [result.field("pressure", i) for i in range(count)]
     touched = np.asarray(np.any([field > 0 for field in fields], axis=0))
@@ -223,6 +223,11 @@ def _draw_first_contact(shown: Map, hertz: HertzContact) -> Line2D:
     draw = shown.axes.axhline if np.isinf(a) else shown.axes.axvline
     lines = [draw(end, **look) for end in (-min(a, b), min(a, b))]
     return lines[0]
+
+
+def _hertz(result: Result) -> HertzContact | None:
+    hertz = first_hertz(result)
+    return None if isinstance(hertz, str) else hertz
 
 
 def _reach(hertz: HertzContact | None) -> list[float]:

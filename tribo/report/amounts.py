@@ -12,6 +12,7 @@ from tribo.core.dimensions import scale
 from tribo.core.errors import CaseError
 from tribo.core.material import Material
 from tribo.core.units import quantities
+from tribo.lab.conversion import in_mm3_per_newton_metre
 from tribo.registry.registry import default_registry
 
 _UNITS = {
@@ -29,6 +30,8 @@ def amount(value: float, unit: str) -> str:
     """Return a value, in SI, with the largest unit in which it is 1 or more."""
     if unit == "1":
         return f"{value:.4g}"
+    if unit == "1/Pa":
+        return f"{value:.4g} 1/Pa = {in_mm3_per_newton_metre(value):.4g} mm³/(N·m)"
     known = _UNITS.get(unit, (unit,))
     fitting = next((u for u in known if abs(value) >= float(scale(u)[0])), known[-1])
     factor = float(scale(fitting)[0]) if unit in _UNITS else 1.0

@@ -17,7 +17,7 @@ from tribo.config.write import to_toml
 from tribo.core.errors import CaseError
 from tribo.plotting.curves import fit_picture
 from tribo.report.page import check_installed, render, stills
-from tribo.report.result import CITATION
+from tribo.report.result import CITATION, facts
 from tribo.report.tables import for_page
 from tribo.result.provenance import environment
 from tribo.study.calibration.outcome import DATA, Calibration
@@ -78,6 +78,7 @@ def calibration_page(found: Calibration, title: str) -> str:
         citation=CITATION.format(version=packages.get("tribo", "")),
         case="\n".join(_cases(found)),
         whose=" as fitted",
+        facts=[each for tables in [*found.fitted.values()][:1] for each in facts(tables)],
         data=None,
     )
 

@@ -13,7 +13,7 @@ from tribo.plotting.units import time_labels
 from tribo.report.curves import history, moments, sections, thinned
 from tribo.report.fields import pressure_maps
 from tribo.report.page import check_installed, render, stills
-from tribo.report.result import cited
+from tribo.report.result import cited, facts
 from tribo.report.sentence import DEPTHS, VOLUMES, quoted
 from tribo.report.tables import for_page
 from tribo.study.comparison import Comparison
@@ -73,6 +73,7 @@ def comparison_page(comparison: Comparison) -> str:
         citation=cited(first),
         case=to_toml(first.case),
         whose=f" of {comparison.reference}",
+        facts=facts(first.case),
         data=data,
     )
 

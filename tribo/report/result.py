@@ -9,6 +9,7 @@ from typing import Any
 from tribo.case import Layer
 from tribo.cli.tables import inferred_table, roughness_table, saves_table, wear_table
 from tribo.config.write import to_toml
+from tribo.core.errors import CaseError, NumericalError
 from tribo.core.material import Material
 from tribo.lab.report import LabReport, lab_report
 from tribo.lab.running_in import rough_bodies
@@ -21,9 +22,12 @@ from tribo.report.page import check_installed, render, stills
 from tribo.report.sentence import Estimate, read_verified, sentence, trust
 from tribo.report.tables import PageTable, for_page
 from tribo.result.read import Result
+from tribo.simulation.run import Simulation
+from tribo.study.gradient.sensitivity import sensitivity
 
 LONGEST_CASE = 200_000
 """Characters of a case that a report holds; one with a measured surface has millions."""
+MOST_NUMBERS = 8
 CITATION = (
     "tribo {version}, MIT licence. Its model: J. Andersson, A. Almqvist and R. Larsson, "
     "Simulation of a wear experiment, 29 April 2010."
@@ -46,13 +50,14 @@ def result_page(result: Result, verified: Path | None = None) -> str:
         remarks=_remarks(result, lab),
         notes=result.notices,
         drawing=drawing(case, swept) if _is_whole(case) else "",
-        facts=_facts(case),
+        facts=facts(case),
         data=charts(result),
         stills=stills(result_pictures(result)),
+        ruled=_ruled(result),
         held=_held(result),
         provenance=_provenance(result),
         citation=cited(result),
-        case=_case_text(case),
+        case=case_text(case),
     )
 
 
@@ -75,6 +80,22 @@ def _tables(result: Result, lab: LabReport, estimates: Sequence[Estimate]) -> li
     if lab.inferred:
         tables.append(for_page(inferred_table(lab.inferred)))
     return tables
+
+
+def _ruled(result: Result) -> dict[str, Any]:
+    """Return which numbers of the case rule the largest depth, or why that is not known."""
+    try:
+        model = Simulation(result.case).model
+        found = sensitivity(model, result.saves()[0]["contact_half_width_x_m"])
+    except (CaseError, NumericalError) as error:
+        return {"why": str(error), "rows": []}
+    longest = max(map(abs, found.percent.values()), default=1.0)
+    rows = [
+        {"path": path, "percent": f"{percent:+.2f} %".replace("-", "−"), "size": size}
+        for path, percent in [*found.percent.items()][:MOST_NUMBERS]
+        for size in [round(100 * abs(percent) / longest)]
+    ]
+    return {"body": found.body, "rows": rows}
 
 
 def _uncertainty(row: Estimate) -> str:
@@ -106,21 +127,21 @@ def _is_whole(case: Mapping[str, Any]) -> bool:
     return len(case["bodies"]) == 2 and {"load", "kinematics"} <= case.keys()
 
 
-def _facts(case: Mapping[str, Any]) -> list[tuple[str, str]]:
+def facts(case: Mapping[str, Any]) -> list[tuple[str, str]]:
     """Return the numbers of a case in words, by what they are of."""
-    facts = []
+    found = []
     for name, body in case["bodies"].items():
         if body.get("surface"):
-            facts.append((f"{name}, surface", component_words(body["surface"])))
+            found.append((f"{name}, surface", component_words(body["surface"])))
         if body.get("material"):
-            facts.append((f"{name}, material", value_words(body["material"], Material)))
+            found.append((f"{name}, material", value_words(body["material"], Material)))
         if body.get("wear"):
-            facts.append((f"{name}, wear", component_words(body["wear"])))
+            found.append((f"{name}, wear", component_words(body["wear"])))
         for i, layer in enumerate(body.get("layers") or (), start=1):
-            facts.append((f"{name}, layer {i} from the top", value_words(layer, Layer)))
+            found.append((f"{name}, layer {i} from the top", value_words(layer, Layer)))
     if "load" in case:
-        facts.append(("normal load", load_words(case["load"])))
-    facts += [
+        found.append(("normal load", load_words(case["load"])))
+    found += [
         (part, component_words(case[part]))
         for part in ("kinematics", "contact", "stepping")
         if case.get(part)
@@ -129,9 +150,9 @@ def _facts(case: Mapping[str, Any]) -> list[tuple[str, str]]:
     if "size" in grid and "cells" in grid:
         size = " × ".join(f"{1e3 * edge:.4g}" for edge in grid["size"])
         cells = " × ".join(map(str, grid["cells"]))
-        facts.append(("window", f"{size} mm, {cells} cells"))
-    facts += [("effect", component_words(effect)) for effect in case.get("effects") or ()]
-    return facts
+        found.append(("window", f"{size} mm, {cells} cells"))
+    found += [("effect", component_words(effect)) for effect in case.get("effects") or ()]
+    return found
 
 
 def _provenance(result: Result) -> list[tuple[str, str]]:
@@ -152,7 +173,8 @@ def _provenance(result: Result) -> list[tuple[str, str]]:
     return rows
 
 
-def _case_text(case: Mapping[str, Any]) -> str:
+def case_text(case: Mapping[str, Any]) -> str:
+    """Return a case as TOML, or a word on one that is too long for a report."""
     text = to_toml(case)
     if len(text) <= LONGEST_CASE:
         return text

@@ -15,7 +15,7 @@ from tribo.core.errors import CaseError
 from tribo.plotting.curves import column_label, curves_by, sweep_pictures
 from tribo.report.page import check_installed, render, stills
 from tribo.report.reduced import plain
-from tribo.report.result import cited
+from tribo.report.result import case_text, cited, facts
 from tribo.report.sentence import DEPTHS, VOLUMES, quoted
 from tribo.report.tables import PageTable
 from tribo.result.read import Result
@@ -46,7 +46,7 @@ def sweep_page(folder: Path) -> str:
     except (OSError, ValueError, KeyError) as error:
         raise CaseError(f"{folder / RUNS} is not the table of a sweep: {error}") from error
     with Result.open(folder / RESULTS / str(first)) as result:
-        bodies, citation = result.body_names, cited(result)
+        bodies, citation, case = result.body_names, cited(result), result.case
         made = ", ".join(f"{name} {v}" for name, v in result.provenance["packages"].items())
     measures = [
         column
@@ -69,8 +69,9 @@ def sweep_page(folder: Path) -> str:
         always=False,
         provenance=[("folder", str(folder.name)), ("made with", made)],
         citation=citation,
-        case="",
-        whose="",
+        case=case_text(case),
+        whose=f" of run {done.iloc[0]['run']}",
+        facts=facts(case),
         data={"history": _curves(done, names, measures)},
     )
 

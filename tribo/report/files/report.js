@@ -71,6 +71,7 @@ function scaled(text, values) {
 
 /** Return where a legend goes: above the curves if it is short, else below, with room for it. */
 function legend(curves) {
+  if (curves.length === 1 && !curves[0].name) return { showlegend: false };
   const length = curves.reduce((sum, { name }) => sum + name.length + 6, 0);
   if (length < 48) return { showlegend: true };
   const room = 22 * Math.ceil(length / 48);
@@ -147,6 +148,10 @@ function drawSection(plot, section, save, moment, fixed) {
   }), CONFIG);
 }
 
+/** Of the box of a surface, whose sides are about 1. */
+const HEIGHT = 0.55;
+const METRES = { m: 1, mm: 1e-3, "µm": 1e-6, nm: 1e-9 };
+
 function drawSurface(plot, data, surface, save, moment, camera) {
   const map = data.maps[surface.map];
   const depth = map.values[save];
@@ -155,6 +160,10 @@ function drawSurface(plot, data, surface, save, moment, camera) {
   const [ux, uy] = map.units;
   const span = (list) => list[list.length - 1] - list[0] || 1;
   const ratio = map.alike ? Math.min(Math.max(span(map.y) / span(map.x), 0.4), 2.5) : 0.6;
+  const size = 1.25 / Math.sqrt(0.5 * (1 + ratio * ratio));
+  const rise = extreme([height], Math.max, -Infinity) - extreme([height], Math.min, Infinity);
+  const times = HEIGHT / rise / METRES[map.unit] / (size / span(map.x) / METRES[ux]);
+  const enlarged = rise > 0 && isFinite(times) ? ` ${Number(times.toPrecision(2)).toLocaleString("en")} times` : "";
   const trace = {
     type: "surface", x: map.x, y: map.y, z: rows(map, height), surfacecolor: rows(map, depth),
     cmin: Math.min(0, extreme(map.values, Math.min, 0)), cmax: deepest || 1, colorscale: ON_WHITE,
@@ -163,10 +172,10 @@ function drawSurface(plot, data, surface, save, moment, camera) {
   };
   plot.setAttribute("aria-label",
     `Worn surface of ${surface.name} in 3-D at ${moment}: worn down by up to ${map.largest[save]} ${map.unit}.`);
-  return Plotly.react(plot, [trace], layout(`Surface of ${surface.name}, heights enlarged`, {
+  return Plotly.react(plot, [trace], layout(`Surface of ${surface.name}, heights enlarged${enlarged}`, {
     height: 480, margin: { l: 0, r: 0, t: 44, b: 0 }, dragmode: "turntable",
     scene: {
-      camera, aspectmode: "manual", aspectratio: { x: 1.3, y: 1.3 * ratio, z: 0.55 },
+      camera, aspectmode: "manual", aspectratio: { x: size, y: size * ratio, z: HEIGHT },
       xaxis: { title: { text: `x (${ux})` } }, yaxis: { title: { text: `y (${uy})` } },
       zaxis: { title: { text: `height (${map.unit})` } },
     },
@@ -210,7 +219,9 @@ async function showMoments(data) {
     at("surface").textContent = "This browser draws no 3-D: its WebGL is off. The maps above have the same depths.";
     document.querySelectorAll("#bodies, #turning .buttons").forEach((part) => part.remove());
   }
-  let camera = { eye: { x: 1.3, y: -1.5, z: 1.0 }, center: { x: 0, y: 0, z: -0.15 } };
+  // A narrow page shows less to both sides.
+  const far = Math.max(1, 700 / (at("surface")?.clientWidth || 700));
+  let camera = { eye: { x: 1.3 * far, y: -1.5 * far, z: far }, center: { x: 0, y: 0, z: -0.15 } };
   let shown = 0;
   choices(at("bodies") ?? document.createElement("p"), "body", surfaces.map(({ name }) => name), (i) => {
     shown = i;
