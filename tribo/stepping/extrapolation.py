@@ -75,10 +75,10 @@ def integrated(
 ) -> tuple[Values, Values, Plan]:
     """Return states after an increment, what other rates come to over it, and how it was divided.
 
-    Each part is solved by Euler steps, extrapolated; where that is not accurate, by such that are
-    linearly implicit, each state in itself; and where that is not either, or leaves the limits of
-    a state, in two halves. States that relax over far less than a part come to rest there. Rates
-    that jump would need parts without end: they are integrated less accurately.
+    Each part is solved by Euler steps, extrapolated; where that is not accurate, by exponential
+    ones, exact for a state that relaxes linearly; and where that is not either, or leaves the
+    limits of a state, in two halves. States that relax over far less than a part come to rest
+    there. Rates that jump would need parts without end: they are integrated less accurately.
 
     Parameters
     ----------
@@ -109,7 +109,8 @@ def integrated(
     ----------
     Deuflhard, P., Hairer, E., Zugck, J. (1987), One-step and extrapolation methods for
     differential-algebraic systems, Numer. Math. 51, 501-516. Hairer, E., Wanner, G. (1996),
-    Solving Ordinary Differential Equations II, section IV.9.
+    Solving Ordinary Differential Equations II, section IV.9. Hochbruck, M., Ostermann, A. (2010),
+    Exponential integrators, Acta Numerica 19, 209-286.
     """
     plan = plan or Plan()
     count, values = len(start), list(start)
@@ -221,7 +222,7 @@ def _extrapolated(
                 total + step * rate for total, rate in zip(sums, found[len(start) :], strict=True)
             ]
             states = [
-                state + step * rate / (1 - step * slope)
+                state + step * rate * relaxed(step * slope)
                 for state, rate, slope in zip(states, found, relaxing, strict=False)
             ]
         column = [[*states, *sums]]
@@ -256,6 +257,14 @@ def _jump(
         if off > JUMP * size:
             worst = max(worst, off * length / (float(np.sum(np.abs(total))) + size * length))
     return worst
+
+
+def relaxed(rise: Array | float) -> Array:
+    """Return the mean of a rate that changes e-fold exp(rise) over a step: (exp(rise) − 1)/rise."""
+    small = np.abs(rise) < NUDGE
+    safe = np.where(small, 1.0, rise)
+    mean: Array = np.where(small, 1 + 0.5 * np.asarray(rise), np.expm1(safe) / safe)
+    return mean
 
 
 def relaxing(

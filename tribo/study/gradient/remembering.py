@@ -17,7 +17,7 @@ from tribo.core.contact import ContactSolution
 from tribo.core.fields import Field
 from tribo.simulation.model import Model
 from tribo.stepping.evolution import loaded
-from tribo.stepping.extrapolation import PLAIN, RELAXING, Limits, relaxing
+from tribo.stepping.extrapolation import PLAIN, RELAXING, Limits, relaxed, relaxing
 from tribo.stepping.memory import Memory
 from tribo.study.gradient.course import Before, pressed, stacked
 from tribo.study.gradient.linear import Carrier
@@ -27,6 +27,8 @@ from tribo.study.gradient.tape import Slid
 
 FINE = 1e-6
 """Part of the largest value by which what is remembered is varied."""
+SMALL = 1e-4
+"""Rise below which the derivative of its mean is that of its series."""
 
 
 class _Place(NamedTuple):
@@ -324,7 +326,7 @@ class Remembering:
         for taken in range(1, steps + 1):
             means = self._means(row[-1].found)
             states = [
-                state + step * mean / (1 - step * slope)
+                state + step * mean * relaxed(step * slope)
                 for state, mean, slope in zip(states, means, of_states, strict=True)
             ]
             if taken < steps:
@@ -344,7 +346,7 @@ class Remembering:
 
         for part in reversed(self._parts):
             before = [np.zeros_like(seed) for seed in after]
-            relaxed = [np.zeros_like(seed) for seed in after]
+            bends = [np.zeros_like(seed) for seed in after]
             stages = [len(row) for row in part.rows]
             for steps, row in zip(stages, part.rows, strict=True):
                 counts = _counts(steps, stages)
@@ -354,10 +356,9 @@ class Remembering:
                     means = self._means(rates.found)
                     deep = [step * counts * seed for seed in depth]
                     for at, slope in enumerate(part.relaxing):
-                        moved = step / (1 - step * slope)
-                        relaxed[at] += seeds[at] * means[at] * moved**2
+                        bends[at] += seeds[at] * means[at] * step**2 * _steeper(step * slope)
                     each = [
-                        seed * step / (1 - step * slope)
+                        seed * step * relaxed(step * slope)
                         for seed, slope in zip(seeds, part.relaxing, strict=True)
                     ]
                     found, states = self._behind(rates, [*deep, *each])
@@ -368,7 +369,7 @@ class Remembering:
                 for where, sign in ((rates, 1.0), (part.rows[0][0], -1.0)):
                     seeds = [np.zeros_like(seed) for seed in (*depth, *after)]
                     falls = np.asarray(part.relaxing[at]) < 0
-                    seeds[len(depth) + at] = sign * falls * relaxed[at] / by
+                    seeds[len(depth) + at] = sign * falls * bends[at] / by
                     found, states = self._behind(where, seeds)
                     add(found)
                     before = [old + state for old, state in zip(before, states, strict=True)]
@@ -407,6 +408,13 @@ class Remembering:
             for kept, inside, slopes in zip(self.kept, rates.inside, rates.by_state, strict=True)
         ]
         return [own, load, square, *factors], states
+
+
+def _steeper(rise: Array | float) -> Array:
+    """Return the derivative of `relaxed`."""
+    small = np.abs(rise) < SMALL
+    safe = np.where(small, 1.0, rise)
+    return np.where(small, 0.5 + np.asarray(rise) / 3, (np.exp(safe) - relaxed(safe)) / safe)
 
 
 def _counts(steps: int, stages: Sequence[int]) -> float:
