@@ -176,6 +176,16 @@ class ContactSolverChecks(Checks):
         overlaps = np.any(solution.overlap)
         require(not overlaps, "there is overlap although the cap is not reached")
 
+    def cap_of_each_point_is_kept(self) -> None:
+        """A map of one cap is that cap, and each point bears no more than its own."""
+        apply_if(self._make().takes_cap_map, "takes_cap_map is False")
+        cap = 0.6 * float(np.max(self._plain.pressure))
+        needed, even = self._solve(cap=cap), self._solve(cap=cap, caps=np.full(GRID.cells, cap))
+        expect_close("pressure under an even cap", even.pressure, needed.pressure, TOLERANCE)
+        left = GRID.mesh[0] + np.zeros(GRID.cells) < 0
+        halves = self._solve(cap=cap, caps=np.where(left, 0.8 * cap, cap))
+        require(np.max(halves.pressure) > 0.9 * cap, "no point bears more than the lowest cap")
+
     def _apply_if_capped(self) -> None:
         apply_if(self._make().honours_cap, "honours_cap is False")
 

@@ -211,6 +211,7 @@ def problem(
     gap: Array | None = None,
     load: float = LOAD,
     cap: float | None = None,
+    caps: Array | None = None,
     wear: WearCompliance | None = None,
 ) -> ContactProblem:
     """Return a contact problem: steel on steel."""
@@ -225,7 +226,7 @@ def problem(
         materials=dict.fromkeys(BODIES, material),
     )
     gap = ball(GRID) if gap is None else gap
-    return locked(ContactProblem(system, gap, load, wear))
+    return locked(ContactProblem(system, gap, load, wear, caps))
 
 
 def run(

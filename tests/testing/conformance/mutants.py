@@ -212,6 +212,7 @@ MUTANTS += wrong(
         },
     ),
     ("pressure_stays_below_the_cap", answer(lambda s, start: {"overlap": 0 * s.overlap})),
+    ("cap_of_each_point_is_kept", {"takes_cap_map": True}),
     ("cap_out_of_reach_does_nothing", of_system(lambda s: {"cap": s.cap and 0.4 * s.cap})),
     ("no_mode_is_stiffer_than_stated", {"smallest_compliance": longest_wave}),
 )
