@@ -156,6 +156,14 @@ class Registry:
             self._load(plugin)
         return [plugin for plugin in usable if not plugin.usable]
 
+    def providers(self, fields: set[str]) -> list[str]:
+        """Return the effects of imported plugins that provide any of `fields`, as text."""
+        return [
+            f"{name!r} ({self.claimants(name)[0]})"
+            for name in self.names("effect")
+            if fields & {field.name for field in getattr(self.components[name], "provides", ())}
+        ]
+
     def ask(self, hook: str, **arguments: object) -> list[Any]:
         """Return the answers of the imported plugins to a hook, in the order of the plugins."""
         try:

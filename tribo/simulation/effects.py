@@ -43,7 +43,7 @@ def in_order(case: Case) -> tuple[Effect, ...]:
             first = waiting[0]
             missing = sorted(set(first.requires) - known - of_laws) or [LOAD_SHARE.name]
             text = _missing(f"effect {first.type!r}", missing, waiting)
-            raise CaseError(text, "effects")
+            raise MissingFieldError(text, "effects", missing)
         shared = (
             {LOAD_SHARE.name} if any(LOAD_SHARE.name in _provided(e) for e in ordered) else set()
         )
@@ -57,7 +57,7 @@ def in_order(case: Case) -> tuple[Effect, ...]:
         for law in body.laws():
             if missing := sorted(set(law.requires) - known):
                 text = _missing(f"wear law {law.type!r}", missing, [])
-                raise CaseError(text, f"bodies.{name}.wear")
+                raise MissingFieldError(text, f"bodies.{name}.wear", missing)
     return tuple(ordered)
 
 
@@ -68,6 +68,14 @@ def _provided(effect: Effect) -> set[str]:
 def _twice(field: Field, effect: Effect) -> CaseError:
     text = f"{field.name!r} is provided twice, the second time by {effect.type!r}; keep one"
     return CaseError(text, "effects")
+
+
+class MissingFieldError(CaseError):
+    """A law or an effect needs fields that nothing provides."""
+
+    def __init__(self, message: str, path: str, missing: Sequence[str]) -> None:
+        super().__init__(message, path)
+        self.missing = set(missing)
 
 
 def _missing(who: str, missing: Sequence[str], waiting: Sequence[Effect]) -> str:

@@ -27,6 +27,7 @@ from tribo.result.read import Result
 from tribo.simulation.audience import Audience
 from tribo.simulation.beginning import checksum
 from tribo.simulation.doubt import doubting
+from tribo.simulation.effects import MissingFieldError
 from tribo.simulation.guard import calling
 from tribo.simulation.interrupt import interrupts_held
 from tribo.simulation.march import begin, march
@@ -308,8 +309,13 @@ def _model(
         case = load_case(case, registry=known)
     elif not isinstance(case, Case):
         case = validate_case(case, registry=known)
-    with doubting(case):
-        return composed(case), known.plugins
+    try:
+        with doubting(case):
+            return composed(case), known.plugins
+    except MissingFieldError as error:
+        if providers := known.providers(error.missing):
+            raise CaseError(f"{error}; these do: {', '.join(providers)}") from error
+        raise
 
 
 def _announce(before: Sequence[Notice], after: Sequence[Notice]) -> None:
