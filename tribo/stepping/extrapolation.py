@@ -210,6 +210,7 @@ def _extrapolated(
     samples: list[Sequence[Array]] = [first]
     for stage, steps in enumerate(stages):
         step = length / steps
+        slides = [step * relaxed(step * slope) for slope in relaxing]
         states = list(start)
         found = rates(start, 0.0, 1 / steps) if of_steps and steps > 1 else first
         sums = [np.zeros_like(rate) for rate in first[len(start) :]]
@@ -222,8 +223,8 @@ def _extrapolated(
                 total + step * rate for total, rate in zip(sums, found[len(start) :], strict=True)
             ]
             states = [
-                state + step * rate * relaxed(step * slope)
-                for state, rate, slope in zip(states, found, relaxing, strict=False)
+                state + slide * rate
+                for state, rate, slide in zip(states, found, slides, strict=False)
             ]
         column = [[*states, *sums]]
         for back, before in enumerate(row, start=1):
@@ -261,10 +262,8 @@ def _jump(
 
 def relaxed(rise: Array | float) -> Array:
     """Return the mean of a rate that changes e-fold exp(rise) over a step: (exp(rise) − 1)/rise."""
-    small = np.abs(rise) < NUDGE
-    safe = np.where(small, 1.0, rise)
-    mean: Array = np.where(small, 1 + 0.5 * np.asarray(rise), np.expm1(safe) / safe)
-    return mean
+    rise = np.asarray(rise)
+    return np.divide(np.expm1(rise), rise, out=np.ones_like(rise), where=rise != 0)
 
 
 def relaxing(
