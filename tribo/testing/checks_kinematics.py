@@ -73,7 +73,12 @@ class KinematicsChecks(Checks):
         """Each body is exposed; averages have one value for all x where a track sees the same."""
         rate = samples.hertz_pressure(GRID)
         for exposure in self._exposures().values():
-            exposure.volume(exposure.average(rate))
+            mean = exposure.average(rate)
+            require(
+                exposure.swept or np.array_equal(mean, rate),
+                "the average of a body that is not swept is not the rate itself",
+            )
+            exposure.volume(mean)
             exposure.envelope(_field(exposure))
             exposure.compliance(rate, rate)
 
@@ -87,16 +92,8 @@ class KinematicsChecks(Checks):
             positions, exposures = len(motion.cycle(grid)), motion.exposures(grid, BODIES)
             starts = {name: e.starts for name, e in exposures.items() if e.starts is not None}
             apply_if(starts, "its bodies have no rows of their own")
-            for name, rows in starts.items():
-                first, last = min(rows), max(rows) + GRID.cells[0]
-                whole, period = exposures[name].rows, grid.period
-                told = len(rows) == positions
-                require(told, f"{name!r} has {len(rows)} starts for {positions} positions")
-                require(
-                    first >= 0 and last <= whole if period is None else whole == period,
-                    f"the window, of period {period}, covers rows {first} to {last} of {name!r}, "
-                    f"which has {whole}",
-                )
+            for name in starts:
+                motion.check_starts(exposures[name], positions, grid)
 
     def path_never_shrinks(self) -> None:
         """The sliding distance never decreases, also where the motion turns round."""
