@@ -100,3 +100,25 @@ def test_the_result_has_its_share_of_the_load():
         thickness = result.field("debris_thickness", -1)
         share = result.body("disk").effects["load_share"][-1]
     np.testing.assert_allclose(share, -np.expm1(-thickness / COVER), rtol=1e-12)
+
+
+def ball(effects):
+    """A ball on a disk over 6 m, both wearing: how many contacts are solved."""
+    case = pin()
+    case["grid"], case["load"] = {"size": "0.4 mm", "cells": 24}, {"normal": 5}
+    case["bodies"] = {name: {**body} for name, body in case["bodies"].items()}
+    case["bodies"]["pin"]["surface"] = {"type": "sphere", "radius": "5 mm"}
+    for body in case["bodies"].values():
+        body["wear"] = {"type": "archard", "k": 3.11e-16}
+    case |= {"contact": "dcfft", "effects": effects}
+    case["kinematics"]["distance"] = 6
+    with Simulation(case).run() as result:
+        return result.totals()["contact_solves"]
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::tribo.TriboWarning")
+@pytest.mark.parametrize(("length", "times"), [("0.5 m", 3), ("50 mm", 4)])
+def test_it_takes_a_few_times_the_solves_of_archards_law(length, times):
+    debris = {"type": "thirdbody.debris", "ejection_length": length, "cover": "50 nm"}
+    assert ball([debris]) <= times * ball([])
