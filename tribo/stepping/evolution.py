@@ -75,7 +75,7 @@ def course(
         return Course(rates, shared, begun=begun if layered else None)
     of_model = partial(_rates, model, before, list(layered), contacts, increment, moment)
     start = [*before.values, *layered.values()]
-    limits = _limits(model, before)
+    limits = limits_of(model, before)
     limits += [Limits(-np.inf, np.inf, f"the depth of {name!r}", relaxes=False) for name in layered]
     values, depths, taken = integrated(
         of_model, start, increment, limits, plan, of_steps=bool(layered) or model.advances
@@ -135,7 +135,7 @@ def rested_memory(model: Model, state: State, time: float) -> Memory:
         changes = resting_rates(model, state.contacts, replace(before, between=between), now)
         return [changes[key] for key in between]
 
-    limits = _limits(model, Memory({}, before.between))
+    limits = limits_of(model, Memory({}, before.between))
     start = [*before.between.values()]
     values, _, _ = integrated(rates, start, rest, limits, of_steps=model.advances)
     return replace(before, between=dict(zip(before.between, values, strict=True)))
@@ -203,7 +203,7 @@ def loaded(
     return found
 
 
-def _limits(model: Model, memory: Memory) -> list[Limits]:
+def limits_of(model: Model, memory: Memory) -> list[Limits]:
     """Return the limits of all that is remembered, in the order of `Memory.values`."""
     of_laws = [
         (field, f"{model.laws[name]}")

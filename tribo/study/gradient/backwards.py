@@ -19,12 +19,11 @@ from tribo.simulation.model import Model
 from tribo.stepping.evolution import Course, course
 from tribo.stepping.implicit import Implicit
 from tribo.stepping.memory import Memory, first_memory
-from tribo.stepping.step import worn_depths
-from tribo.study.gradient.course import Increment, plain
+from tribo.study.gradient.course import Plain, plain
 from tribo.study.gradient.linear import StepSystem, carriers, carriers_between
 from tribo.study.gradient.local import WatchedLaw
 from tribo.study.gradient.objective import Seeds
-from tribo.study.gradient.parameters import Chain, Known
+from tribo.study.gradient.parameters import Chain
 from tribo.study.gradient.remembering import Remembering
 from tribo.study.gradient.tape import Enveloped, Gave, Pressed, Saved, Slid, Tape
 
@@ -63,6 +62,9 @@ def covered(model: Model) -> Model:
     if followed or not model.effects:
         return model
     return assemble(varied(model.case, effects=()))
+
+
+Increment = Plain | Remembering
 
 
 @dataclass(frozen=True)
@@ -192,7 +194,6 @@ class _Back:
                 law.seen.clear()
             known = course(model, slid.before, contacts, slid.increment, slid.moment, slid.plan)
             seen = {name: frozenset(law.seen) for name, law in self.laws.items()}
-            step = Known(known, worn_depths(model, known.rates, slid.increment), seen)
             increments = self._increments(contacts, slid, known)
         fixed = np.zeros_like(pressure)
         weights = np.where(self.shares > 0, self.shares, 1.0)
@@ -203,7 +204,7 @@ class _Back:
         bodies = [(own, steep[here]) for each in increments for own, steep in each.bodies]
         wear = partial(self._of_wear, increments[0], box) if slid and self.together else None
         system = StepSystem(operator, box, self.shares, bodies, free, wear)
-        given = looked + sum(each.back(self.wear, self._of(each)).pressure for each in increments)
+        given = looked + sum(each.back(self.wear, self.states).pressure for each in increments)
         z = system.solve(given[here], fixed, self.start[here])
         self.start = np.zeros_like(self.start)
         self.start[here] = z
@@ -211,7 +212,7 @@ class _Back:
 
         self._shift(y, box)
         self.stiffness += float(np.sum(over(self.shares) * stiff * pressure))
-        behind = [each.back(self.wear, self._of(each)) for each in increments]
+        behind = [each.back(self.wear, self.states) for each in increments]
         left = (looked + sum(each.pressure for each in behind))[here] - stiff
         mean = np.sum(left * free, CELLS) / np.maximum(free.sum(CELLS), 1)
         self.cap += float(np.sum(over(self.shares) * (left - over(mean)) * full))
@@ -219,7 +220,7 @@ class _Back:
         for at, chain in enumerate(self.chains):
             self.sums[at] += chain.by_load(record, by_load)
             if slid is not None:
-                self.sums[at] += chain.by_wear(slid, contacts, step, self.wear, self.states)
+                self.sums[at] += chain.by_wear(slid, contacts, known, seen, self.wear, self.states)
         for each in behind:
             for name, factor in each.factor.items():
                 self.factor[name] += factor
@@ -250,10 +251,6 @@ class _Back:
             else:
                 found.append(plain(model, self.carriers[names[0]], contacts, slid, known))
         return found
-
-    def _of(self, increment: Increment) -> Memory:
-        """Return the derivatives in what is remembered by the bodies of an increment."""
-        return replace(self.states, laws={name: self.states.laws[name] for name in increment.names})
 
     def _of_wear(self, increment: Increment, box: Box, z: Array) -> Array:
         """Return what the wear and the filling that pressures make add to the adjoint of K."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Protocol
 
 import numpy as np
 
@@ -42,27 +41,6 @@ class Before:
     factor: Mapping[str, Array]
 
 
-class Increment(Protocol):
-    """An increment of some bodies, under given contacts."""
-
-    @property
-    def names(self) -> Sequence[str]:
-        """The bodies."""
-        ...
-
-    @property
-    def bodies(self) -> Sequence[tuple[Carrier, Array]]:
-        """Of each its carrier, and the derivative of a point's depth in the pressures of its cells.
-
-        By the share of the position, shape (positions, nx, ny), in m/Pa.
-        """
-        ...
-
-    def back(self, wear: Mapping[str, Array], states: Memory) -> Before:
-        """Return derivatives before it from those in the depths and what is remembered after."""
-        ...
-
-
 @dataclass(frozen=True)
 class Plain:
     """An increment of a body of which each cell follows its own pressure alone.
@@ -78,13 +56,8 @@ class Plain:
     worn: Array | float
 
     @property
-    def names(self) -> Sequence[str]:
-        """The body."""
-        return [self.name]
-
-    @property
     def bodies(self) -> Sequence[tuple[Carrier, Array]]:
-        """Its carrier and slope."""
+        """Its carrier, and the derivative of a point's depth in the pressures of its cells."""
         return [(self.carrier, self.slope)]
 
     def back(self, wear: Mapping[str, Array], states: Memory) -> Before:

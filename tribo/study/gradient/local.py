@@ -51,18 +51,6 @@ class LocalLaw(GuardedLaw):
         return times(self._factor[cells], self._law.rate(local, over))
 
 
-class Faster(GuardedLaw):
-    """A law of a body, times a factor on the depth that it wears."""
-
-    def __init__(self, law: GuardedLaw, factor: float) -> None:
-        vars(self).update(vars(law))
-        self._law, self._factor = law, factor
-
-    def rate(self, local: LocalConditions, over: float = 0.0) -> WearRate:
-        """Return the law's rate, its depth times the factor."""
-        return times(self._factor, self._law.rate(local, over))
-
-
 class WatchedLaw(GuardedLaw):
     """A law of a body that notes in `seen` which properties of its material, and `SPEED`, it read.
 

@@ -65,24 +65,13 @@ class Variant:
     """A model with a number changed, and its weight in the derivative.
 
     `wears` has the bodies whose wear under given contacts differs, and what of their laws it may be
-    that does: the `LAW` itself, or only properties of their material or the `SPEED`. `same_path`
-    tells whether points pass through the contact as they do without the change.
+    that does: the `LAW` itself, or only properties of their material or the `SPEED`.
     """
 
     model: Model
     weight: float
     stops: Stops
     wears: Mapping[str, frozenset[str]]
-    same_path: bool
-
-
-@dataclass(frozen=True)
-class Known:
-    """A step gone through once more: its course, the depths it wore, and what laws looked at."""
-
-    course: Course
-    worn: Mapping[str, Array]
-    seen: Mapping[str, Set[str]]
 
 
 @dataclass(frozen=True)
@@ -122,22 +111,24 @@ class Chain:
         self,
         slid: Slid,
         contacts: Sequence[ContactSolution],
-        known: Known,
+        known: Course,
+        seen: Mapping[str, Set[str]],
         wear: Mapping[str, Array],
         states: Memory,
     ) -> float:
         """Return what comes through a step under given contacts.
 
-        `wear` and `states` are the derivatives in the depth and in what laws remember after it.
+        `known` is what it came to, and `seen` what each law read for it; `wear` and `states` are
+        the derivatives in the depth and in what is remembered after it.
         """
-        total, memory = 0.0, known.course.memory
+        total, memory = 0.0, known.memory
         remembers = bool(memory.values or memory.shares)
         for each in self.variants:
             # A law that the number does not enter need not be asked about it again.
             laws = {
                 name: each.model.laws[name]
                 for name, through in each.wears.items()
-                if remembers or LAW in through or through & known.seen[name]
+                if remembers or LAW in through or through & seen[name]
             }
             wears = {name for name, through in each.wears.items() if SPEED in through} | set(laws)
             if not wears:
@@ -150,20 +141,16 @@ class Chain:
             )
             increment = distance - began
             moment = Moment(ended, distance, increment / (ended - begun))
-            after = known.course
+            after = known
             if laws:
                 model = replace(each.model, laws=laws)
                 before = replace(slid.before, laws={name: slid.before.laws[name] for name in laws})
                 after = course(model, before, contacts, increment, moment, slid.plan)
-            if each.same_path and not laws:
-                longer = increment / slid.increment
-                depths = {name: longer * known.worn[name] for name in wears}
-            else:
-                rates = [
-                    {name: (of if name in laws else was)[name] for name in wears}
-                    for of, was in zip(after.rates, known.course.rates, strict=True)
-                ]
-                depths = worn_depths(each.model, rates, increment)
+            rates = [
+                {name: (of if name in laws else was)[name] for name in wears}
+                for of, was in zip(after.rates, known.rates, strict=True)
+            ]
+            depths = worn_depths(each.model, rates, increment)
             through = sum(float(np.sum(wear[name] * depth)) for name, depth in depths.items())
             asked = replace(states, laws={name: states.laws[name] for name in laws})
             if laws:
@@ -292,7 +279,7 @@ def chain(
             for name, through in _wears(base, model).items():
                 wears[name] = wears.get(name, frozenset()) | through
         variants = [
-            Variant(model, weight / step, of_model, wears, _same_path(base, model))
+            Variant(model, weight / step, of_model, wears)
             for model, (_, weight), of_model in zip(models, scheme, stops, strict=True)
         ]
         return Chain(path, value, variants, base, Stops.of(base))
@@ -372,16 +359,6 @@ def changed(value: Any, place: Sequence[Any], number: float) -> Any:
     if isinstance(value, Mapping):
         return {**value, key: changed(value[key], rest, number)}
     return tuple(changed(v, rest, number) if i == key else v for i, v in enumerate(value))
-
-
-def _same_path(base: Model, model: Model) -> bool:
-    trial = np.random.default_rng(0).random(base.grid.cells)
-    return all(
-        one.share == other.share for one, other in zip(base.cycle, model.cycle, strict=True)
-    ) and all(
-        np.array_equal(exposure.average(trial), model.exposures[name].average(trial))
-        for name, exposure in base.exposures.items()
-    )
 
 
 def _check_smooth(higher: Model, base: Model, lower: Model, path: str) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial, reduce
-from math import inf, prod
+from math import prod
 from typing import NamedTuple
 
 import numpy as np
@@ -14,14 +14,13 @@ from tribo.contact.projection import CELLS, over
 from tribo.core.arrays import Array
 from tribo.core.box import Box, whole
 from tribo.core.contact import ContactSolution
-from tribo.core.fields import Field
 from tribo.simulation.model import Model
-from tribo.stepping.evolution import loaded
+from tribo.stepping.evolution import limits_of, loaded
 from tribo.stepping.extrapolation import PLAIN, RELAXING, Limits, relaxed, relaxing
 from tribo.stepping.memory import Memory
 from tribo.study.gradient.course import Before, pressed, stacked
 from tribo.study.gradient.linear import Carrier
-from tribo.study.gradient.local import Faster
+from tribo.study.gradient.local import localised
 from tribo.study.gradient.response import NUDGE, Arrays, Response, check_sum, local, shared
 from tribo.study.gradient.tape import Slid
 
@@ -81,17 +80,13 @@ class Remembering:
 
     def back(self, wear: Mapping[str, Array], states: Memory) -> Before:
         """Return derivatives before it from those in the depths and what is remembered after."""
+        states = replace(states, laws={name: states.laws[name] for name in self.model.laws})
         (own, load, square, *factor), before = self._back(
             [wear[name] for name in self.model.laws], states.values
         )
         factors = dict(zip(self.model.laws, factor, strict=True))
         pressure = own + load + square * self._pressure
         return Before(pressure, wear, states.with_values(iter(before)), factors)
-
-    @property
-    def names(self) -> Sequence[str]:
-        """The bodies."""
-        return list(self.model.laws)
 
     @cached_property
     def bodies(self) -> Sequence[tuple[Carrier, Array]]:
@@ -164,42 +159,19 @@ class Remembering:
             zeros = [np.zeros_like(rate) for rate in found]
             return [[*zeros[:at], found[at], *zeros[at + 1 :]] for at in range(len(names))]
         of_bodies = []
-        for name in names:
-            higher, lower = (
-                self._asked(
-                    states,
-                    place,
-                    model=replace(
-                        self.model,
-                        laws={**self.model.laws, name: Faster(self.model.laws[name], factor)},
-                    ),
-                )
-                for factor in (1 + NUDGE, 1 - NUDGE)
+        for name, carrier in zip(names, self._own, strict=True):
+            ones = np.ones((carrier.rows, self.model.grid.cells[1]))
+            ends = (
+                self._asked(states, place, model=localised(self.model, {name: by * ones}))
+                for by in (1 + NUDGE, 1 - NUDGE)
             )
-            of_bodies.append(
-                [(up - down) / (2 * NUDGE) for up, down in zip(higher, lower, strict=True)]
-            )
+            pairs = zip(*ends, strict=True)
+            of_bodies.append([(up - down) / (2 * NUDGE) for up, down in pairs])
         return of_bodies
 
     @cached_property
     def _limits(self) -> list[Limits]:
-        before, model = self.slid.before, self.model
-        fields: list[Field] = [
-            field
-            for name, of_law in before.laws.items()
-            for key in of_law
-            for field in model.laws[name].state_fields
-            if field.name == key
-        ]
-        fields += [model.between[key][1] for key in before.between]
-        return [
-            Limits(
-                -inf if field.at_least is None else field.at_least,
-                inf if field.at_most is None else field.at_most,
-                field.name,
-            )
-            for field in fields
-        ]
+        return limits_of(self.model, self.slid.before)
 
     def _held(self, states: Sequence[Array]) -> Arrays:
         pairs = zip(states, self._limits, strict=True)
