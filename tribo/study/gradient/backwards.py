@@ -69,18 +69,9 @@ Increment = Plain | Remembering
 
 @dataclass(frozen=True)
 class Sensitivities:
-    """Derivatives of an objective.
+    """Derivatives of an objective: in each parameter, and by body at each cell of its surface.
 
-    Parameters
-    ----------
-    parameters : sequence of float
-        In each parameter.
-    wear_rate : Mapping[str, ndarray]
-        In a factor on each body's wear rate, at each cell of its own surface.
-    height : Mapping[str, ndarray]
-        In each body's height outward, on its own surface.
-    worn_before : Mapping[str, ndarray]
-        In the depth worn off each body at the beginning, on its own surface.
+    Those are in a factor on its wear rate, in its height outward and in the depth worn before.
     """
 
     parameters: Sequence[float]

@@ -21,18 +21,10 @@ from tribo.study.gradient.tape import Slid
 
 @dataclass(frozen=True)
 class Before:
-    """The derivatives of an objective in what an increment began with and depends on.
+    """The derivatives of an objective in what an increment depends on.
 
-    Parameters
-    ----------
-    pressure : ndarray, shape (positions, nx, ny)
-        In the pressures, by the share of each position.
-    wear : Mapping[str, ndarray]
-        In the depth worn before, by body.
-    states : Memory
-        In what was remembered before.
-    factor : Mapping[str, ndarray]
-        In a factor, 1 here, on the wear rate of each body.
+    In the pressures, shape (positions, nx, ny), by the share of each position; in the depths worn
+    and what was remembered before; and in a factor, 1 here, on the wear rate of each body.
     """
 
     pressure: Array

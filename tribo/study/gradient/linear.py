@@ -29,14 +29,9 @@ MOST, RESTART = 400, 60
 class Carrier:
     """How a body's own surface meets the window.
 
-    Parameters
-    ----------
-    rows : int
-        Cells along x on the body's own surface.
-    starts : sequence of int
-        The row of it at which the window begins, at each position.
-    weights : ndarray, shape (nx, ny), or None
-        With which an average takes the cells of a row; None where points keep their own.
+    It has `rows` cells along x, and the window begins at the row `starts` of it at each position.
+    `weights`, shape (nx, ny), are those with which an average takes the cells of a row; None where
+    points keep their own.
     """
 
     rows: int
@@ -143,22 +138,10 @@ class StepSystem:
 
         (A z)ₘ = K zₘ + Σ over bodies r'ₘ Tₘ Σₙ Tₙᵀ ωₙ zₙ
 
-    Parameters
-    ----------
-    operator : Operator
-        K on the box.
-    box : Box
-        The part of the window.
-    shares : ndarray, shape (positions,)
-        ω.
-    bodies : sequence of tuple
-        Of each body that wears: its `Carrier`, and r', shape (positions, nx, ny), in m/Pa.
-    free : ndarray of bool, shape (positions, nx, ny)
-        The cells whose pressure lies between its bounds.
-    wear : callable, optional
-        Given z, A z − K z where that is more than `bodies` say, which then only precondition.
-    mirrored : bool, optional
-        Whether each position stands for another too, that mirrors it along x; the last for itself.
+    `operator` is K on the `box`, `bodies` has of each that wears its carrier and r', shape
+    (positions, nx, ny), in m/Pa, and `free` the cells whose pressure is between its bounds. `wear`
+    gives A z − K z where that is more than `bodies` say, which then only precondition. `mirrored`
+    tells whether each position also stands for one that mirrors it along x; the last for itself.
     """
 
     operator: Operator
@@ -186,14 +169,7 @@ class StepSystem:
     def solve(self, given: Array, fixed: Array, start: Array) -> Array:
         """Return z, with which `given` − A z is one number on the free cells of each position.
 
-        Parameters
-        ----------
-        given : ndarray, shape (positions, nx, ny)
-            What A z is on the free cells, but for μ of each position.
-        fixed : ndarray, of the same shape
-            z on the other cells; the sum of z over all is 0.
-        start : ndarray, of the same shape
-            A z to start from.
+        On the other cells it is `fixed`, and its sum over all is 0; `start` is one to start from.
         """
         if self._mirrors(given, fixed):
             return _both(self._one_side().solve(*(a[: self._half] for a in (given, fixed, start))))

@@ -76,20 +76,10 @@ class Variant:
 
 @dataclass(frozen=True)
 class Chain:
-    """What one number of a case changes, by differences of models that differ in it.
+    """What the number at a path of a case changes, by differences of models that differ in it.
 
-    Parameters
-    ----------
-    path : str
-        Where the number stands.
-    value : float
-        What it is.
-    variants : sequence of Variant
-        Whose weighted sum is the derivative.
-    base : Model
-        The model of the case itself.
-    stops : Stops
-        Its own.
+    The weighted sum over `variants` is the derivative; `base` is the model of the case itself, and
+    `stops` are its own.
     """
 
     path: str

@@ -43,20 +43,9 @@ class Slid:
 class Pressed:
     """The contacts of a cycle, in a region of the window that holds all their pressure.
 
-    Parameters
-    ----------
-    region : tuple of slice
-        Where they lie.
-    pressure : ndarray, shape (positions, rows, columns)
-        In Pa.
-    overlap : ndarray, of the same shape, or None
-        Depth by which the bodies overlap at the hardness, in m; None where nothing yields.
-    load : str
-        The method of `tribo.core.loads.Loads` that gave their loads.
-    times : tuple of float
-        What it was asked for, in s.
-    slid : Slid or None
-        The step that wore the bodies under them; None if none did.
+    Pressures, and depths by which the bodies overlap at the hardness (None where nothing yields),
+    have the shape (positions, rows, columns). The method `load` of `tribo.core.loads.Loads` gave
+    their loads when asked for `times` (s), and the step `slid` wore the bodies under them, if any.
     """
 
     region: Region
