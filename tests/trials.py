@@ -17,7 +17,7 @@ import warnings
 from importlib import metadata
 from pathlib import Path
 
-from fuzz.fuzzing import check_needs, fuzz
+from fuzz.fuzzing import fuzz
 from rich.console import Console
 from rich.table import Table
 from trust.damages import damage_and_read
@@ -70,7 +70,6 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--json", type=Path, default=FIGURES, help="docs/_data/trust.json")
     given = parser.parse_args()
-    check_needs(parser)
     # Those of tribo are about coarse grids, which trials have.
     warnings.simplefilter("ignore")
     console, table, rows = Console(), Table("trial", "holds", "figures"), []

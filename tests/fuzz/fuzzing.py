@@ -14,7 +14,6 @@ from collections import Counter
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass, field
-from importlib.util import find_spec
 from queue import SimpleQueue
 from tempfile import TemporaryDirectory
 
@@ -130,22 +129,12 @@ def fuzz(count, seed, *, workers=None, numbers=None):
     return fuzz
 
 
-def check_needs(parser):
-    """Leave, with what to install, before anything starts that could not end."""
-    if find_spec("SurfaceTopography") is None:
-        parser.error(
-            "SurfaceTopography is not installed, which surface files are read with; run: pip "
-            "install -r requirements-dev.txt"
-        )
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=1000)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", type=int, help="the number of one case")
     given = parser.parse_args()
-    check_needs(parser)
     numbers = None if given.only is None else [given.only]
     done = fuzz(given.count, given.seed, numbers=numbers)
     print(done)

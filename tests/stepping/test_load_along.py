@@ -2,15 +2,12 @@
 
 import numpy as np
 import pytest
-from contact_problems import pressed
-from paper_models import FOUNDATION, K, case, foundation, last, motion, small
+from paper_models import K, case, foundation, last, motion, small
+from stroke import GRID, STROKE, plain_loop
 
-from tribo import CaseError, Grid, Implicit, Load, Periodic, Place, Simulation, Stage
+from tribo import CaseError, Implicit, Load, Periodic, Place, Simulation, Stage
 from tribo.simulation.predict import predict
 
-GRID = Grid((1.2e-3, 0.75e-3), (32, 20))
-STROKE = 12 * GRID.spacing[0]
-"""Three half-widths of the first contact."""
 HALVED = [(-6, 0.5), (-3, 1.0), (3, 1.0), (6, 0.5)]
 """Cells from the middle of the stroke, and the load there."""
 
@@ -23,23 +20,6 @@ def along(pairs=HALVED):
 def loaded(load, positions="cells", duration=200, **changes):
     kinematics = motion(stroke=STROKE, duration=duration, positions=positions)
     return small(grid=GRID, contact=foundation(), kinematics=kinematics, load=load, **changes)
-
-
-def plain_loop(distance, shares, steps=1500):
-    """Wear ball and disk by forward Euler under a load of its own at each cell of the stroke."""
-    (nx, ny), (dx, dy) = GRID.cells, GRID.spacing
-    x, y = GRID.mesh
-    ball, disk = np.zeros((nx, ny)), np.zeros((nx + 12, ny))
-    gap = 5e-3 - np.sqrt(25e-6 - x**2 - y**2)
-    path = np.full(13, 1 / 12)
-    path[[0, -1]] /= 2
-    for length in distance * np.diff(np.linspace(0, 1, steps + 1) ** 1.5):
-        gaps = np.stack([gap + ball + disk[at : at + nx] for at in range(13)])
-        p = FOUNDATION * pressed(gaps, 100 * shares / (dx * dy * FOUNDATION))
-        ball += K * length * np.einsum("i,ijk->jk", path, p)
-        for at in range(13):
-            disk[at : at + nx] += K * length * path[at] * p[at]
-    return ball, disk
 
 
 @pytest.mark.slow

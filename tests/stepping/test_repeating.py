@@ -1,6 +1,7 @@
 """A cycle resolved in a window that repeats: bodies that pass come in again at the other end."""
 
 import re
+from itertools import product
 
 import numpy as np
 import pytest
@@ -133,26 +134,21 @@ def test_which_body_is_called_moving_changes_nothing():
         np.testing.assert_allclose(found, expected, atol=2e-3 * expected.max())
 
 
-@pytest.mark.parametrize(
-    "kinematics", [strokes(6), strokes(40, positions=5), strokes(40.3), track(positions=5)]
-)
-def test_two_flats_wear_evenly(kinematics):
-    state = last(repeating(kinematics, contact=Periodic(), bodies=bodies(flat(), flat())))
-    depth = K * LOAD / (GRID.size[0] * GRID.size[1]) * state.distance
-    for body in state.bodies.values():
-        np.testing.assert_allclose(body.wear, depth, rtol=1e-10)
-
-
 SINE = {"waveform": "sinusoidal"}
 PATH = [(0, 0), (1, 50 * DX), (2, 50 * DX), (5, -3.3 * DX), (6, 0)]
 
 
-@pytest.mark.parametrize("cells", [(1, 1), (2, 1), (5, 3)])
+MOTIONS = [strokes(6), strokes(40, positions=5), strokes(40.3), track(positions=5)]
+IN_FEW_CELLS = [track(), strokes(37, positions=5, **SINE)]
+IN_FEW_CELLS += [Measured(path=PATH, cycles=50, positions="cells")]
+
+
 @pytest.mark.parametrize(
-    "kinematics",
-    [track(), strokes(37, positions=5, **SINE), Measured(path=PATH, cycles=50, positions="cells")],
+    ("kinematics", "cells"),
+    [(kinematics, GRID.cells) for kinematics in MOTIONS]
+    + list(product(IN_FEW_CELLS, [(1, 1), (2, 1), (5, 3)])),
 )
-def test_a_window_may_have_few_cells(cells, kinematics):
+def test_two_flats_wear_evenly_in_windows_of_many_cells_or_few(kinematics, cells):
     grid = Grid(GRID.size, cells)
     flats = bodies(flat(), flat())
     state = last(repeating(kinematics, grid=grid, contact=Periodic(), bodies=flats))

@@ -2,9 +2,7 @@
 
 import numpy as np
 import pytest
-from contact_problems import pressed
 from paper_models import (
-    FOUNDATION,
     K,
     archard,
     case,
@@ -18,6 +16,7 @@ from paper_models import (
     sphere,
     steel,
 )
+from stroke import GRID, STROKE, plain_loop
 
 from tribo import (
     CaseError,
@@ -37,33 +36,11 @@ from tribo.motion.exposure import Stationary
 from tribo.plotting.profiles import along_track
 from tribo.stepping.step import first_contact, undeformed
 
-GRID = Grid((1.2e-3, 0.75e-3), (32, 20))
-STROKE = 12 * GRID.spacing[0]
-"""Three half-widths of the first contact."""
-
 
 def resolved(positions="cells", **changes):
     kinematics = motion(stroke=STROKE, duration=600, positions=positions)
     parts = {"grid": GRID, "contact": foundation(), "kinematics": kinematics, **changes}
     return small(**parts)
-
-
-def plain_loop(distance, stroke=12, steps=3000):
-    """Wear ball and disk cell by cell of the stroke, each cycle jump by forward Euler."""
-    (nx, ny), (dx, dy) = GRID.cells, GRID.spacing
-    x, y = GRID.mesh
-    ball, disk = np.zeros((nx, ny)), np.zeros((nx + stroke, ny))
-    gap = 5e-3 - np.sqrt(25e-6 - x**2 - y**2)
-    share = np.full(stroke + 1, 1 / stroke)
-    share[[0, -1]] /= 2
-    slid = distance * np.diff(np.linspace(0, 1, steps + 1) ** 1.5)
-    for length in slid:
-        gaps = np.stack([gap + ball + disk[at : at + nx] for at in range(stroke + 1)])
-        p = FOUNDATION * pressed(gaps, 100 / (dx * dy * FOUNDATION))
-        ball += K * length * np.einsum("i,ijk->jk", share, p)
-        for at in range(stroke + 1):
-            disk[at : at + nx] += K * length * share[at] * p[at]
-    return ball, disk
 
 
 @pytest.fixture(scope="module")
@@ -73,7 +50,7 @@ def every_cell():
 
 @pytest.mark.slow
 def test_both_bodies_wear_as_in_a_plain_loop_over_the_cells_of_the_stroke(every_cell):
-    ball, disk = plain_loop(every_cell.distance)
+    ball, disk = plain_loop(every_cell.distance, steps=3000)
     for found, expected in ((every_cell.bodies["ball"], ball), (every_cell.bodies["disk"], disk)):
         assert found.wear.shape == expected.shape
         assert np.max(np.abs(found.wear - expected)) < 5e-3 * expected.max()

@@ -112,7 +112,6 @@ def drawing_numpy(self, grid):
     return Hill.height(self, grid) + 0 * np.random.rand()  # noqa: NPY002
 
 
-MUTANTS += wrong(Law, ("nothing_is_printed", {"rate": rate(lambda r, local: print("rate") or r)}))
 MUTANTS += wrong(Hill, ("no_global_random_numbers", {"height": drawing_numpy}))
 
 
@@ -253,7 +252,6 @@ def as_if_it_stayed(self, derivative, pressure):
 
 MUTANTS += wrong(
     Motion,
-    ("speeds_share_the_path", {"speeds": lambda self: [(-0.1, 0.5), (0.3, 0.5)]}),
     ("exposures_fit_a_run", exposed(swept=False)),
     (
         "averages_are_linear",
