@@ -80,10 +80,10 @@ from tribo.result.read import open as open
 from tribo.simulation.run import Simulation as Simulation
 from tribo.stepping.explicit import Explicit as Explicit
 from tribo.stepping.implicit import Implicit as Implicit
+from tribo.study.calibration.calibrate import Calibration as Calibration
 from tribo.study.calibration.calibrate import calibrate as calibrate
 from tribo.study.calibration.choice import Choice as Choice
 from tribo.study.calibration.choice import choose_case as choose_case
-from tribo.study.calibration.outcome import Calibration as Calibration
 from tribo.study.calibration.plan import Plan as Plan
 from tribo.study.calibration.plan import plan_tests as plan_tests
 from tribo.study.comparison import Comparison as Comparison

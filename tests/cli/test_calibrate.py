@@ -15,7 +15,7 @@ from tribo.cli.calibrate import estimates_table
 from tribo.cli.main import tribo as main
 from tribo.config.load import load_case
 from tribo.core.errors import CaseError
-from tribo.study.calibration.outcome import Calibration
+from tribo.study.calibration.calibrate import Calibration
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 QUICK = ["--set", "grid.cells=24", "--set", "contact.type=winkler"]

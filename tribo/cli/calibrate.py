@@ -16,9 +16,9 @@ from rich.table import Table
 
 from tribo.cli.console import Console, titled
 from tribo.cli.options import JSON, PATH, SET, echo_json
+from tribo.study.calibration.calibrate import Calibration
 from tribo.study.calibration.choice import Choice
 from tribo.study.calibration.measured import Measurements
-from tribo.study.calibration.outcome import Calibration
 from tribo.study.calibration.plan import Plan
 from tribo.study.calibration.quantities import in_si, in_words, percent
 

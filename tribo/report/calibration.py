@@ -20,7 +20,7 @@ from tribo.report.page import check_installed, render, stills
 from tribo.report.result import CITATION, facts
 from tribo.report.tables import for_page
 from tribo.result.provenance import environment
-from tribo.study.calibration.outcome import DATA, Calibration
+from tribo.study.calibration.calibrate import DATA, Calibration
 from tribo.study.calibration.quantities import in_si
 
 

@@ -12,7 +12,7 @@ from tribo.report.page import write_page
 from tribo.report.result import result_page
 from tribo.report.sweep import RUNS, sweep_page
 from tribo.result.read import Result
-from tribo.study.calibration.outcome import Calibration
+from tribo.study.calibration.calibrate import Calibration
 from tribo.study.comparison import Comparison, compare
 from tribo.study.sweeping.sweep import Sweep
 

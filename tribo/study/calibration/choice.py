@@ -15,9 +15,8 @@ from tribo.case import Case
 from tribo.config.load import case_tables, validate_case
 from tribo.core.errors import CaseError, TriboError
 from tribo.registry.registry import Registry
-from tribo.study.calibration.calibrate import calibrate
+from tribo.study.calibration.calibrate import Calibration, calibrate
 from tribo.study.calibration.measured import Measurements, read_measurements
-from tribo.study.calibration.outcome import Calibration
 from tribo.study.calibration.parameters import is_number
 from tribo.study.calibration.quantities import in_words
 
@@ -80,11 +79,8 @@ def choose_case(
 
     References
     ----------
-    Schwarz, G. (1978), Estimating the dimension of a model, Ann. Stat. 6,
-    461-464. Kass, R. E. and Raftery, A. E. (1995), Bayes factors, J. Am. Stat.
-    Assoc. 90, 773-795. Vehtari, A., Gelman, A. and Gabry, J. (2017), Practical
-    Bayesian model evaluation using leave-one-out cross-validation, Stat. Comput.
-    27, 1413-1432.
+    Schwarz (1978), Ann. Stat. 6, 461-464. Kass and Raftery (1995), J. Am. Stat. Assoc. 90, 773-795.
+    Vehtari, Gelman and Gabry (2017), Stat. Comput. 27, 1413-1432.
     """
     if len(cases) < 2:
         raise CaseError("give two cases or more to choose from")

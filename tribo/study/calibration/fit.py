@@ -15,35 +15,29 @@ from tribo.study.calibration.linearised import Linearised, Problem, root_covaria
 
 STEP = 0.2
 """Relative change of a parameter for a difference; a scar must grow by more than rounding."""
-FAR = np.log(2.0)
-"""How far, in the logarithm, slopes are trusted before they are differenced anew."""
-FORETOLD = 0.3
-"""Error of a foretold change, relative to it, up to which slopes are kept."""
+FAR, FORETOLD = np.log(2.0), 0.3
+"""How far, in the logarithm, slopes are trusted, and up to which error of what they foretold."""
 REACH = np.log(1e4)
 """How far an interval is followed; beyond, the data leave it open."""
 SETTLED, HARDLY = 0.01, 0.1
 """Change of the data, in standard deviations, that ends the fit; the second if χ² stays the same.
-
-The first is also the part of χ² that counts as a fall.
-"""
+The first is also the part of χ² that counts as a fall."""
 NO_EFFECT = 1e-3
 """Change of a datum, in standard deviations, per change of a parameter by e: nothing to learn."""
 UNSEEN = 0.01
 """What is computed for a loss that was not seen, in parts of its limit."""
-NOTABLE = 0.01
+ABOVE_ROUNDING = 0.01
 """Relative change of a datum, per change of a parameter by e, that is above rounding."""
 MOST_ROUNDS, MOST_IN_VAIN = 12, 4
 """Rounds, and rounds without a lower misfit, after which a fit is given up."""
 
 
 def fit(model: Callable[[Array], Array], problem: Problem, start: Array) -> Linearised:
-    """Fit the parameters by Gauss-Newton steps in logarithms, with few runs of the model.
+    """Return the model about its last run, whose parameters are the estimate.
 
-    Each step minimises χ² on the model linearised about the last run. Its
-    slopes are differences, taken anew where they foretold a step badly or were
-    taken far from the estimate. Returns the model about the last run, whose
-    parameters are the estimate. CaseError if a parameter changes none of the
-    data; NumericalError if the estimate does not settle.
+    By Gauss-Newton steps in logarithms, each to the least χ² of the linearised model. Its slopes
+    are differences, taken anew where they foretold a step badly or were taken far away. CaseError
+    if a parameter changes none of the data; NumericalError if the estimate does not settle.
     """
     known = np.log(start)
     here = differenced(model, problem, known, model(np.exp(known)))
@@ -83,14 +77,12 @@ def fit(model: Callable[[Array], Array], problem: Problem, start: Array) -> Line
 
 
 def interval(here: Linearised, direction: Array, level: float) -> tuple[float, float]:
-    """Return the interval of direction · point, relative to its value at the surrogate's run.
+    """Return the interval of direction · point, relative to its value at the last run.
 
-    By the profile likelihood: the least and the largest value at the points
-    whose χ² is at most its minimum plus the quantile of χ²₁, or that of t²
-    where the repeatability is estimated. It does not depend on how the
-    parameters are scaled and keeps within the bounds; infinite where the data
-    leave it open. The direction is a unit vector for a parameter, or the slopes
-    of a response.
+    By the profile likelihood: the least and the largest value at the points within the bounds
+    whose χ² is at most its minimum plus the quantile of χ²₁, or that of t² where the repeatability
+    is estimated; infinite where the data leave it open. The direction is a unit vector for a
+    parameter, or the slopes of a response.
     """
     best = here.least(here.point)
     freedom = here.freedom(direction)

@@ -50,10 +50,9 @@ class Problem:
         return np.log(responses, out=responses.copy(), where=self.logged)
 
     def residuals(self, responses: Array, weights: Array) -> Array:
-        """Return residuals whose sum of squares is twice the negative log-likelihood.
+        """Return residuals, in standard deviations; their squares are −2 ln of the likelihood.
 
-        Of a value the misfit in standard deviations; of a limit of detection
-        √(−2 ln Φ(z)), where the computed value lies z standard deviations below.
+        That of a limit of detection is √(−2 ln Φ(z)), z being how far below it the value lies.
         """
         found = weigh(weights, responses[: len(self.observed)] - self.observed)
         found[self.below] = np.sqrt(-2 * log_ndtr(-found[self.below]))
@@ -62,9 +61,7 @@ class Problem:
     def together(self, effects: Array) -> Array:
         """Return the covariance of the data per squared repeatability, shape (n, n).
 
-        A test's parameters are off by factors of their own, so that all that
-        was measured in it is off together. A limit of detection counts as a
-        test of its own.
+        All that was measured in a test is off together; a limit of detection is a test of its own.
         """
         same = (self.specimen[:, None] == self.specimen) & ~(self.below[:, None] | self.below)
         same |= np.eye(len(self.observed), dtype=bool)
@@ -73,11 +70,7 @@ class Problem:
 
 @dataclass(frozen=True)
 class Linearised:
-    """The model near a run: power laws where `Problem.logged`, else linear in the logarithms.
-
-    Worn volumes, depths and widths go as powers of the wear coefficients: the
-    volume by Archard's law exactly as the first.
-    """
+    """The model near a run: power laws where `Problem.logged`, else linear in the logarithms."""
 
     problem: Problem
     point: Array
@@ -180,13 +173,8 @@ class Linearised:
     def freedom(self, direction: Array) -> float:
         """Return the degrees of freedom with which the variance of direction · point is known.
 
-        By Satterthwaite: 2 g²/Var(g) with the variance g and that of the
-        estimated repeatability. Infinite if that is stated.
-
-        References
-        ----------
-        Satterthwaite, F. E. (1946), An approximate distribution of estimates
-        of variance components, Biometrics Bulletin 2, 110-114.
+        2 g²/Var(g) with the variance g (Satterthwaite 1946, Biometrics Bulletin 2, 110-114);
+        infinite if the repeatability is stated.
         """
         if self.problem.repeatability is not None:
             return np.inf

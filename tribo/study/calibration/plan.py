@@ -58,20 +58,18 @@ def plan_tests(
 ) -> Plan:
     """Return the fewest tests that determine each parameter of a case as well as wanted.
 
-    By the Fisher information of the case's own values: each kind of test adds
-    its own, G ᵀ V⁻¹ G, with V from the uncertainties and the repeatability. Tests
-    are added, and exchanged between kinds, as shortens the longest interval
-    most. The intervals are those that `calibrate` gives on average when it
-    estimates the repeatability from the tests.
+    By the Fisher information of the case's own values, Gᵀ V⁻¹ G with V from the uncertainties and
+    the repeatability: tests are added, and exchanged between kinds, as shortens the longest
+    interval most (Fedorov 1972, Theory of Optimal Experiments). The intervals are those that
+    `calibrate` gives on average when it estimates the repeatability from the tests.
 
     Parameters
     ----------
     case : Case, Mapping, str or Path
         A case with likely parameters, its tables, or its TOML file.
     measured : Measurements, Mapping, str or Path
-        What is to be measured, as for `calibrate`; values may be left out. The
-        entries of `test` are the kinds to choose from. Must state the
-        repeatability.
+        What is to be measured, as for `calibrate`, values left out, and the repeatability. The
+        entries of `test` are the kinds to choose from.
     within : float
         Half of the interval that is wanted, relative to the value, as 0.1.
     level : float, optional
@@ -88,10 +86,6 @@ def plan_tests(
         1000 tests are not enough.
     NumericalError
         If a run fails.
-
-    References
-    ----------
-    Fedorov, V. V. (1972), Theory of Optimal Experiments, Academic Press.
     """
     if not 0 < level < 1 or not 0 < within < 1:
         raise CaseError(
