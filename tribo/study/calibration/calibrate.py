@@ -16,7 +16,6 @@ from tribo.case import Case
 from tribo.config.overrides import apply_settings
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, NumericalError
-from tribo.registry.registry import Registry
 from tribo.study.calibration.fit import ABOVE_ROUNDING, NO_EFFECT, fit, interval
 from tribo.study.calibration.linearised import Linearised, root_covariance, weigh
 from tribo.study.calibration.measured import Measurements
@@ -113,7 +112,6 @@ def calibrate(
     measured: Measurements | Mapping[str, Any] | str | Path,
     *,
     level: float = 0.95,
-    registry: Registry | None = None,
     on_run: Callable[[int, float], None] | None = None,
 ) -> Calibration:
     """Fit parameters of a case to wear that was measured in one test or several.
@@ -130,8 +128,6 @@ def calibrate(
         is to be fitted; or its TOML file.
     level : float, optional
         Probability with which each interval is to cover the truth.
-    registry : Registry, optional
-        Where to look components up; the installed plugins if left out.
     on_run : callable, optional
         Called after each round of runs with the number of runs and their misfit χ².
 
@@ -150,7 +146,7 @@ def calibrate(
     """
     if not 0 < level < 1:
         raise CaseError(f"the level, {level:g}, must lie between 0 and 1, as 0.95 does")
-    posed = Posed.of(case, measured, registry)
+    posed = Posed.of(case, measured)
     for each in posed.data[posed.data["measured"].isna()].itertuples():
         more = ", or before and after" if each.quantity == "mass" else ""
         raise CaseError(f"give value{more}", each.place)

@@ -14,7 +14,6 @@ import pandas as pd
 from tribo.case import Case
 from tribo.config.load import case_tables, validate_case
 from tribo.core.errors import CaseError, TriboError
-from tribo.registry.registry import Registry
 from tribo.study.calibration.calibrate import Calibration, calibrate
 from tribo.study.calibration.measured import Measurements, read_measurements
 from tribo.study.calibration.parameters import is_number
@@ -51,7 +50,6 @@ def choose_case(
     measured: Measurements | Mapping[str, Any] | str | Path,
     *,
     level: float = 0.95,
-    registry: Registry | None = None,
     on_run: Callable[[str, int, float], None] | None = None,
 ) -> Choice:
     """Calibrate several cases to the same data, and say for which of them these speak.
@@ -64,8 +62,6 @@ def choose_case(
         As for `calibrate`. Of the parameters to fit a case takes those it has.
     level : float, optional
         Probability of the intervals.
-    registry : Registry, optional
-        Where to look components up; the installed plugins if left out.
     on_run : callable, optional
         Called after each round of runs with the name of the case, the number of
         its runs and their misfit χ².
@@ -87,7 +83,7 @@ def choose_case(
     asked = read_measurements(measured)
     fitted = {}
     for name, case in cases.items():
-        known = validate_case(case_tables(case), registry=registry)
+        known = validate_case(case_tables(case))
         fitted[name] = tuple(entry for entry in asked.fit if is_number(known, entry.path))
     for i, entry in enumerate(asked.fit):
         if not any(entry in own for own in fitted.values()):
@@ -99,7 +95,7 @@ def choose_case(
         tell = None if on_run is None else partial(on_run, name)
         own = asked.model_copy(update={"fit": fitted[name]})
         try:
-            found[name] = calibrate(case, own, level=level, registry=registry, on_run=tell)
+            found[name] = calibrate(case, own, level=level, on_run=tell)
         except TriboError as error:
             raise type(error)(f"{name}: {error}") from error
     rows = pd.DataFrame(

@@ -16,7 +16,6 @@ from tribo.core.errors import CaseError, located
 from tribo.core.table import Table
 from tribo.core.units import Quantity
 from tribo.lab.heights import Heights, read_heights
-from tribo.registry.registry import Registry
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.maps import FittedMaps, Prior, fit_maps
 from tribo.study.variation import unknown_body
@@ -40,16 +39,11 @@ class Mapped(Table):
     length: Annotated[float, Quantity("m", above=0)]
     """Correlation length: the distance at which coefficients are still much alike."""
 
-    def heights(self) -> Heights:
-        """Read the map; CaseError if it cannot be."""
-        return read_heights(self.depth, None if self.pitch is None else (self.pitch, self.pitch))
-
 
 def calibrate_maps(
     case: Case | Mapping[str, Any] | str | Path,
     mapped: Mapping[str, Mapped],
     *,
-    registry: Registry | None = None,
     on_run: Callable[[int, float], None] = lambda count, misfit: None,
 ) -> FittedMaps:
     """Find where the wear coefficients of bodies differ from those of a case, from depth maps.
@@ -57,8 +51,7 @@ def calibrate_maps(
     As `fit_maps`, with the maps by their place in the file, for messages.
     """
     model = Simulation(
-        validate_case(case_tables(case), registry=registry).model_copy(update={"observers": ()}),
-        registry,
+        validate_case(case_tables(case)).model_copy(update={"observers": ()}),
     ).model
     depths: dict[str, tuple[Array, float]] = {}
     priors = {}
@@ -71,7 +64,8 @@ def calibrate_maps(
             raise CaseError(f"{entry.body!r} does not wear in this case", f"{place}.body")
         shape = model.exposures[entry.body].rows, model.grid.cells[1]
         with located(f"{place}.depth"):
-            depth = on_cells(entry.heights(), shape, model.grid.spacing)
+            pitch = None if entry.pitch is None else (entry.pitch, entry.pitch)
+            depth = on_cells(read_heights(entry.depth, pitch), shape, model.grid.spacing)
         depths[entry.body] = depth, entry.uncertainty
         priors[entry.body] = Prior(entry.spread, entry.length)
     return fit_maps(model, depths, priors, on_run=on_run)

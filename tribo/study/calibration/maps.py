@@ -83,8 +83,6 @@ class LocalMap:
     deviation: Array
     prior: Array
     """Its standard deviation, and that of the prior."""
-    residual: Array
-    """The computed less the measured depth, in standard deviations; NaN without a measured one."""
     spacing: tuple[float, float]
     """Edge lengths of a cell, in m."""
 
@@ -191,7 +189,6 @@ def fit_maps(
             logs[part].reshape(shape),
             np.sqrt(np.maximum(left, 0.0)),
             prior,
-            residuals[name],
             waves.model.grid.spacing,
         )
     read = sum(int(np.sum(~np.isnan(each))) for each in residuals.values())
@@ -327,8 +324,7 @@ class _Waves:
 
     def local(self, logs: Array) -> Model:
         """Return the model with factors of these logarithms."""
-        parts = {n: np.exp(logs[part]).reshape(self.shapes[n]) for n, part in self.parts.items()}
-        return localised(self.model, parts)
+        return localised(self.model, self.gradient.at(logs)[1])
 
     def run(self, logs: Array) -> View:
         """Return the end of a run with factors of these logarithms."""

@@ -14,7 +14,6 @@ from scipy.special import ndtri, stdtrit
 from tribo.case import Case
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
-from tribo.registry.registry import Registry
 from tribo.study.calibration.fit import check_effect, differenced
 from tribo.study.calibration.measured import Measurements, read_measurements
 from tribo.study.calibration.posed import Posed
@@ -53,7 +52,6 @@ def plan_tests(
     within: float,
     *,
     level: float = 0.95,
-    registry: Registry | None = None,
     on_run: Callable[[int], object] = id,
 ) -> Plan:
     """Return the fewest tests that determine each parameter of a case as well as wanted.
@@ -74,8 +72,6 @@ def plan_tests(
         Half of the interval that is wanted, relative to the value, as 0.1.
     level : float, optional
         Probability with which each interval is to cover the truth.
-    registry : Registry, optional
-        Where to look components up; the installed plugins if left out.
     on_run : callable, optional
         Called after each round of runs with the number of runs.
 
@@ -99,7 +95,7 @@ def plan_tests(
             "instruments count",
             "repeatability",
         )
-    posed = Posed.of(case, asked, registry)
+    posed = Posed.of(case, asked)
 
     def responses(values: Array) -> Array:
         found = posed.fitted_to(values)

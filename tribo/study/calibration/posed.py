@@ -17,7 +17,6 @@ from tribo.config.load import case_tables, validate_case
 from tribo.config.overrides import apply_settings
 from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError, NumericalError, TriboWarning
-from tribo.registry.registry import Registry
 from tribo.simulation.model import Model
 from tribo.simulation.positions import chosen
 from tribo.simulation.run import Simulation
@@ -71,7 +70,6 @@ class Posed:
     """What is read off at the end but was not measured: `bench`, `test` and `READ`."""
     repeatability: float | None
     """From test to test; None if it is to be estimated."""
-    registry: Registry | None
     runs: dict[bytes, Run] = field(default_factory=dict)
     """What has been run, by the bytes of the parameters."""
 
@@ -80,15 +78,14 @@ class Posed:
         cls,
         case: Case | Mapping[str, Any] | str | Path,
         measured: Measurements | Mapping[str, Any] | str | Path,
-        registry: Registry | None = None,
     ) -> Posed:
         """Read a case and measured values; CaseError if they are wrong or do not fit together."""
         tables, asked = case_tables(case), read_measurements(measured)
         if asked.map:
             raise CaseError("asks for local coefficients; see calibrate_maps", "map")
-        base = validate_case(tables, registry=registry)
+        base = validate_case(tables)
         data = asked.table()
-        tested = _benches(tables, asked.tests, data, registry)
+        tested = _benches(tables, asked.tests, data)
         parameters = find_parameters(base, asked.fit, data["body"].unique())
         for place, test in asked.tests.items():
             check_set(parameters, test.set, f"{place}set")
@@ -100,7 +97,7 @@ class Posed:
         repeatability = asked.repeatability
         if repeatability is None and not np.any(seen.nunique() > 1):
             repeatability = 0.0
-        return cls(tested, parameters, data, _predicted(tested, data), repeatability, registry)
+        return cls(tested, parameters, data, _predicted(tested, data), repeatability)
 
     @property
     def start(self) -> Array:
@@ -123,7 +120,7 @@ class Posed:
         for i, own in asked.groupby("bench"):
             wanted = [Reading(*row) for row in own[READ].itertuples(index=False)]
             tables, name = self.tested[i].tables, f"run {self.made + i + 1}"
-            made = make_run(tables, self.parameters, values, wanted, self.registry, name)
+            made = make_run(tables, self.parameters, values, wanted, name)
             responses[own.index], read_off[own.index] = made.responses, made.read_off
             notices |= dict.fromkeys(made.notices)
         nothing = self.data["position_m"].isna() & (responses[: len(self.data)] <= 0)
@@ -167,16 +164,15 @@ def _benches(
     tables: Mapping[str, Any],
     tests: Mapping[str, Tested],
     data: pd.DataFrame,
-    registry: Registry | None,
 ) -> list[Bench]:
     """Return the cases of the tests, those alike as one, and add the column `bench` to the data."""
     found: dict[str, tuple[Tested, Case, Model]] = {}
     of = []
-    given = validate_case(tables, registry=registry).output.save_times
+    given = validate_case(tables).output.save_times
     for place, test in tests.items():
         try:
             # A test may end before times at which the case is saved.
-            case = valid_case(tables, {**test.set, "output.save_times": []}, registry)
+            case = valid_case(tables, {**test.set, "output.save_times": []})
         except CaseError as error:
             raise error if not place else CaseError(str(error), f"{place}set") from None
         if (key := repr(case)) not in found:
@@ -184,7 +180,7 @@ def _benches(
                 raise CaseError(
                     f"two tests that differ are called {test.name!r}; rename one", "test"
                 )
-            found[key] = test, case, Simulation(case, registry).model
+            found[key] = test, case, Simulation(case).model
         of.append([*found].index(key))
         for i, entry in enumerate(test.measured):
             _check_entry(found[key][2], entry, f"{place}measured[{i}]")
@@ -225,7 +221,6 @@ def make_run(
     parameters: Sequence[Parameter],
     values: Array,
     wanted: Sequence[Reading],
-    registry: Registry | None = None,
     name: str = "run",
 ) -> Run:
     """Run a case with other values of its parameters, and read numbers off the result."""
@@ -238,8 +233,8 @@ def make_run(
         # The calibration has the notices of the last run.
         warnings.simplefilter("ignore", TriboWarning)
         try:
-            case = validate_case(apply_settings(tables, settings), registry=registry)
-            result = Simulation(case, registry).run()
+            case = validate_case(apply_settings(tables, settings))
+            result = Simulation(case).run()
         except (CaseError, NumericalError) as error:
             named = ", ".join(f"{path} = {value:.4g}" for path, value in settings.items())
             raise type(error)(f"{name}, with {named}: {error}") from error
