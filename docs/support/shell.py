@@ -28,12 +28,28 @@ def sh(command: str, code: int = 0, lines: int | None = None) -> None:
         text=True,
         check=False,
     )
-    # Progress, which depends on how fast the machine is.
-    progress = r"(?m)^(?:[\d.e+]+ s of [\d.e+]+ s, step|run and pass back) \d+.*\n?"
-    output = re.sub(progress, "", done.stdout.replace(" left at least", ""))
-    output = re.sub(r"(?m)^(run \d+: .*), \d+ s$", r"\1", output).splitlines()
     if done.returncode != code:
         raise RuntimeError(f"{command} exited with {done.returncode}:\n{done.stdout}")
+    _show(command, done.stdout, lines)
+
+
+def here(command: str, lines: int | None = None) -> None:
+    """Run ``tribo …`` as `sh` does, but in this process, which spares its start."""
+    from click.testing import CliRunner
+
+    from tribo.cli.main import tribo
+
+    ended = CliRunner(env={"COLUMNS": COLUMNS}).invoke(tribo, shlex.split(command)[1:])
+    if ended.exit_code:
+        raise RuntimeError(f"{command}:\n{ended.output}") from ended.exception
+    _show(command, ended.output, lines)
+
+
+def _show(command: str, printed: str, lines: int | None) -> None:
+    # Progress, which depends on how fast the machine is.
+    progress = r"(?m)^(?:[\d.e+]+ s of [\d.e+]+ s, step|run and pass back) \d+.*\n?"
+    output = re.sub(progress, "", printed.replace(" left at least", ""))
+    output = re.sub(r"(?m)^(run \d+: .*), \d+ s$", r"\1", output).splitlines()
     if lines is not None and len(output) > lines:
         output = [*output[:lines], "…"]
     print(f"$ {command}")
