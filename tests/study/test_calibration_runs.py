@@ -1,6 +1,8 @@
 """A calibration gives back what the data were made with, and says what they cannot tell."""
 
+import json
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -59,7 +61,7 @@ def true_run():
 
 @pytest.fixture(scope="module")
 def fine_run():
-    with run_with(**{"grid.cells": 96}) as result:
+    with run_with(**{"grid.cells": 64}) as result:
         yield result
 
 
@@ -278,6 +280,26 @@ def test_a_scar_of_another_shape_than_the_model_gives_is_noticed():
     found = calibrate(CASE, {"measured": [entry], "fit": fitting(BALL_K)})
     assert found.p_value < 1e-3
     assert any("follow a pattern" in note for note in found.notes)
+
+
+def test_a_groove_that_ends_with_its_stroke_is_noticed():
+    """The paper's hour, resolved: losses and groove known to 2 %, the average 18 % too deep."""
+    file = Path(__file__).parents[2] / "docs" / "_data" / "resolved_hour.json"
+    rows = json.loads(file.read_text())["tables"]["resolved hour"]
+    (groove,) = (
+        row["groove_um"] * 1e-6
+        for row in rows
+        if (row["case"], row["positions"], row["cells"]) == ("equal coefficients", 33, 96)
+    )
+    loss = BALL * LOAD * 360 * DENSITY
+    data = [measured(body, "mass", loss, 0.02) for body in ("ball", "disk")]
+    data.append(measured("disk", "depth", groove, 0.02))
+    hour = on_springs("ball_on_disk", {"grid": {"size": "1.4 mm", "cells": 24}})
+    hour["stepping"]["depth_tolerance"] = 0.1
+    found = calibrate(hour, {"measured": data})
+    assert found.chi_square == pytest.approx(38, abs=8)
+    assert found.p_value < 1e-6
+    assert any(note.startswith("data and model disagree") for note in found.notes)
 
 
 def test_a_failing_run_says_with_what_and_what_may_be_off():
