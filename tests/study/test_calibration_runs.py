@@ -246,8 +246,7 @@ def test_what_a_coarse_grid_cannot_tell_is_left_uncertain(fine_run):
     """Estimates and predictions cover what made the data, though those are far more exact."""
     scars = [("ball", "scar_along"), ("ball", "scar_across"), ("disk", "depth")]
     data = [measured(*each, computed(fine_run, *each), 1e-5) for each in scars]
-    case = apply_settings(CASE, {"grid.cells": 24})
-    found = calibrate(case, {"measured": data, "fit": fitting(*TRUE, start=2e-16)})
+    found = calibrate(CASE, {"measured": data, "fit": fitting(*TRUE, start=2e-16)})
     for each in found.parameters.itertuples():
         assert each.lower < TRUE[each.path] < each.upper
     for each in found.predictions.itertuples():

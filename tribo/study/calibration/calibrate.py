@@ -30,10 +30,7 @@ DATA += ["measured", "below", "sigma", "computed", "residual"]
 AT_BOUND = 1e-6
 """Relative distance below which an estimate counts as on its bound."""
 NOTABLE, TOO_FAR = 5.0, 300.0
-"""Factors between measured and computed: mentioned if a run fails, refused.
-
-A prefix is a factor of 1000; a start may be off by a few on top of it.
-"""
+"""Factors between measured and computed: mentioned if a run fails, refused. A prefix is 1000."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,26 +42,23 @@ class Calibration:
     runs: int
     """Simulations that it took."""
     parameters: pd.DataFrame
-    """A row a parameter, in the order asked for: `path`, `unit`, `value`; `lower` and `upper`, the
-    ends of its interval, infinite or 0 where the data do not bound it; `resolution_share`, the part
-    of its variance that comes from instruments' resolution; `resolution_limit`, how far it may be
-    off through resolution alone, in the worst case, relative to `value`; `held`, whether it lies on
-    one of its bounds, which `lower` and `upper` then are; `limited`, whether only limits of
-    detection tell of it: `upper` is then all that is known, and `value` as good as none."""
+    """A row each: `path`, `unit`, `value`; `lower` and `upper`, the ends of its interval, infinite
+    or 0 where the data do not bound it; `resolution_share`, the part of its variance that comes
+    from instruments' resolution; `resolution_limit`, how far it may be off through that alone,
+    relative to `value`; `held`, whether it lies on one of its bounds, which `lower` and `upper`
+    then are; `limited`, whether only limits of detection tell of it: `upper` is all that is known.
+    """
     data: pd.DataFrame
     """A row a measured value: `test`, empty for one of the case as it is; `body`, `quantity`,
-    `time_s`, `position_m` of a profile's point, `unit`, `measured`, `below` for a limit that the
-    reading was below, `sigma`, `computed`, and `residual`, computed less measured, in units of
-    `sigma`: the standard deviation of the measured value, with which the grid gives the computed
-    one, and from test to test. That of a limit is √(−2 ln Φ(z)) for a computed value z standard
-    deviations below it."""
+    `time_s`, `position_m` of a profile's point, `unit`, `measured`, `below` for a limit, `sigma`,
+    of the measurement, the grid, and from test to test, `computed`, and `residual`, computed less
+    measured in units of `sigma`; of a limit z of them above the computed value √(−2 ln Φ(z))."""
     predictions: pd.DataFrame
     """What else the fitted case gives at the end of each test, in the mean, where tests scatter:
     `test`, `body`, `quantity`, `unit`, `value`, `lower`, `upper`; 0 and infinite where it depends
     on a parameter that a bound holds."""
     chi_square: float
-    """Sum of the squared residuals, limits left out, in standard deviations of what is independent
-    where tests scatter."""
+    """Sum of the squared residuals, limits left out, made independent where tests scatter."""
     degrees_of_freedom: int
     """Values, limits left out, less the parameters that they depend on and no bound holds."""
     repeatability: float
@@ -76,13 +70,11 @@ class Calibration:
     correlation: Array
     """Between the logarithms of the parameters."""
     singular_values: Array
-    """Of the derivatives of the residuals by the logarithms of the parameters, largest first: the
-    standard deviations by which a change by a factor e would show in the data."""
+    """Standard deviations by which a change by a factor e would show in the data, largest first."""
     bic: float
     """Schwarz's criterion, −2 ln L + p ln n, the repeatability a parameter where estimated."""
     left_out: Array
-    """Log-likelihood of each test foretold from all others; NaN where those do not determine a
-    parameter, none of a single test."""
+    """Log-likelihood of each test foretold from all others; NaN where those do not suffice."""
     notes: tuple[str, ...]
     """Remarks on what the data can tell."""
 
@@ -93,10 +85,7 @@ class Calibration:
 
     @property
     def p_value(self) -> float | None:
-        """Probability of a misfit at least as large by chance.
-
-        None without data to spare, and where they tell the repeatability.
-        """
+        """Probability of so large a misfit; None where no data are left to tell."""
         if self.degrees_of_freedom == 0 or self.repeatability_estimated:
             return None
         return float(chdtrc(self.degrees_of_freedom, self.chi_square))
@@ -175,10 +164,9 @@ def calibrate(
 
 
 def far_off(data: pd.DataFrame, computed: Array, parameters: Sequence[Parameter]) -> list[str]:
-    """Return a sentence for each entry that is several times larger or smaller than computed.
+    """Return a sentence for each entry that is several times what the first run gives, or a part.
 
-    `computed` begins with the data as the first run gives them. CaseError if
-    the factor is above 300, one line per entry.
+    CaseError if the factor is above 300, one line per entry.
     """
     given = ", ".join(f"{p.path} = {in_si(p.start, p.unit)}" for p in parameters)
     sizes = data[["unit", "sigma", "below"]].assign(

@@ -60,11 +60,8 @@ def choose_case(
         By name the cases, their tables, or their TOML files.
     measured : Measurements, Mapping, str or Path
         As for `calibrate`. Of the parameters to fit a case takes those it has.
-    level : float, optional
-        Probability of the intervals.
-    on_run : callable, optional
-        Called after each round of runs with the name of the case, the number of
-        its runs and their misfit χ².
+    level, on_run
+        As for `calibrate`; the name of the case is told before the number of its runs.
 
     Raises
     ------

@@ -49,12 +49,8 @@ SILENT = 0.9
 class Prior:
     """What is known of ln(k/k₀) at each cell before anything is measured: a Gaussian field.
 
-    Its covariance is that of Whittle, s² (r/ℓ) K₁(r/ℓ), with reflecting ends, where it is larger.
-    A cosine transform takes its root. At the distance ℓ 0.60 of the correlation is left.
-
-    References
-    ----------
-    Whittle, P. (1954), On stationary processes in the plane, Biometrika 41, 434-449.
+    Its covariance is that of Whittle (1954, Biometrika 41, 434-449), s² (r/ℓ) K₁(r/ℓ), with
+    reflecting ends, where it is larger. At the distance ℓ 0.60 of the correlation is left.
     """
 
     spread: float
@@ -151,21 +147,15 @@ def fit_maps(
 
     The most probable ones, by L-BFGS with exact gradients in waves of the prior. Their standard
     deviations are linearised after its first steps: the information of the data, Jᵀ V⁻¹ J, is
-    projected on a Krylov space, by products that are each a run and a pass back, until these
-    hardly tell more. What lies beyond is left to the prior, so that they come out too large rather
-    than too small. The other steps are taken in directions that this makes about equally wide.
-    Where cells are far smaller than the correlation lengths, all this is done on a coarser grid
-    first, whose waves are the long ones of the finer.
+    projected on a Krylov space (Bui-Thanh et al. 2013, SIAM J. Sci. Comput. 35, A2494-A2523), by
+    products that are each a run and a pass back, at most so many. What lies beyond is left to the
+    prior, so that they come out too large rather than too small. The other steps are taken in
+    directions that this makes about equally wide. Where cells are far smaller than the correlation
+    lengths, all this is done on a coarser grid first, whose waves are the long ones of the finer.
 
     `depths` are by the name of the body the depth worn off at the end, in m, of the shape of
-    `View.wear`, NaN where it was not measured, and its standard deviation. With more products,
-    at most so many, standard deviations come out smaller. `on_run` is called after each gradient
-    or product with their number and the misfit χ², NaN of a product.
-
-    References
-    ----------
-    Bui-Thanh, T. et al. (2013), A computational framework for infinite-dimensional Bayesian
-    inverse problems, SIAM J. Sci. Comput. 35, A2494-A2523.
+    `View.wear`, NaN where it was not measured, and its standard deviation. `on_run` is called after
+    each gradient or product with their number and the misfit χ², NaN of a product.
     """
     misfits: list[float] = []
 
@@ -271,8 +261,7 @@ class _Waves:
     ) -> Array:
         """Return the most probable amplitudes, or where so many steps lead to, by L-BFGS.
 
-        In directions in which the posterior is about as wide: along the rows of the basis by a
-        part `less` narrower than the prior.
+        The posterior is a part `less` narrower than the prior along the rows of the basis.
         """
 
         def rounded(y: Array) -> Array:

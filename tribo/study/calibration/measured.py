@@ -172,11 +172,7 @@ class Measured(Table):
 
     @property
     def from_resolution(self) -> tuple[float, float]:
-        """Standard deviation and largest error that follow from the resolution.
-
-        A reading is off by up to half a step, evenly: step/√12. A mass lost is
-        the difference of two: step/√6, and at most a whole step.
-        """
+        """Standard deviation and largest error of a reading, or of the difference of two."""
         step = self.resolution or 0.0
         readings = 2 if self.quantity == "mass" else 1
         return step * np.sqrt(readings / 12), step * readings / 2
@@ -247,10 +243,9 @@ class Measurements(Table):
     def table(self) -> pd.DataFrame:
         """Return the measured numbers in SI, one row each.
 
-        `place` is the entry in the file, `test` the name of its test, `of` the
-        index of that in `tests`, and `specimen` that of the single test;
-        `step_sigma` and `step_most` are the standard deviation and the largest
-        error due to the resolution, `step`.
+        `place` is the entry in the file, `test` the name of its test, `of` the index of that in
+        `tests`, `specimen` that of the single test; `step_sigma` and `step_most` are the standard
+        deviation and the largest error due to the resolution, `step`.
         """
         tables, specimens = [], 0
         for of, (place, test) in enumerate(self.tests.items()):

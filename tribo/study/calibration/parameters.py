@@ -22,9 +22,7 @@ class Parameter(NamedTuple):
 
     path: str
     unit: str
-    """Its SI unit; ``"1"`` for none."""
     start: float
-    """Where the fit begins."""
     lower: float
     upper: float
     """Its bounds; 0 and infinity for none."""

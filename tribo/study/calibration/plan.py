@@ -63,15 +63,13 @@ def plan_tests(
 
     Parameters
     ----------
-    case : Case, Mapping, str or Path
-        A case with likely parameters, its tables, or its TOML file.
+    case, level
+        As for `calibrate`; the case has likely parameters.
     measured : Measurements, Mapping, str or Path
-        What is to be measured, as for `calibrate`, values left out, and the repeatability. The
-        entries of `test` are the kinds to choose from.
+        What is to be measured, values left out, and the repeatability. The entries of `test` are
+        the kinds to choose from.
     within : float
         Half of the interval that is wanted, relative to the value, as 0.1.
-    level : float, optional
-        Probability with which each interval is to cover the truth.
     on_run : callable, optional
         Called after each round of runs with the number of runs.
 
@@ -132,8 +130,7 @@ class Search:
     def expected(self, counts: Array) -> tuple[Array, Array]:
         """Return half of each interval, and the degrees of freedom, of so many tests a kind.
 
-        As `Linearised.freedom`, where tests of a kind scatter by J Jᵀ with J their
-        weighted slopes, so that powers of the information are all it takes.
+        As `Linearised.freedom`, where tests of a kind scatter by J Jᵀ with their weighted slopes J.
         """
         once, twice, thrice = (
             np.sum(counts[:, None, None] * np.linalg.matrix_power(self.kinds, power), axis=0)

@@ -17,7 +17,7 @@ from tribo.result.export import profile
 from tribo.result.read import Result
 from tribo.simulation.model import Model
 
-EDGES, DEPTHS = 0.15, 1e-3
+EDGES, DEPTHS = 0.2, 2e-3
 """Standard deviations of a computed diameter, in cells, and of a depth, in parts of the largest."""
 
 
@@ -116,7 +116,7 @@ def _crown(result: Result, body: BodyResult, save: int) -> tuple[float, float]:
     spacing = result.grid.spacing[1]
     half = 0.5 * diameter(body.wear_depth[save], 1, spacing)
     slopes = np.interp([-half, half], result.grid.y, np.gradient(height + depth, spacing))
-    return crown(height, depth), 0.5 * EDGES * spacing * float(np.mean(np.abs(slopes)))
+    return crown(height, depth), 0.375 * EDGES * spacing * float(np.mean(np.abs(slopes)))
 
 
 def unavailable(model: Model, body: str, name: str) -> str:
