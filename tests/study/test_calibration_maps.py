@@ -1,6 +1,7 @@
 """A local coefficient is found where the depth tells it, and left to the prior elsewhere."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,7 +18,7 @@ from tribo.lab.heights import Heights
 from tribo.simulation.march import begin, march
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.mapped import on_cells
-from tribo.study.calibration.maps import Prior, fit_maps
+from tribo.study.calibration.maps import Prior, _Waves, fit_maps
 from tribo.study.calibration.measured import read_measurements
 from tribo.study.gradient.local import localised
 from tribo.study.gradient.objective import View
@@ -27,6 +28,7 @@ CASE = apply_settings(
     {"grid.cells": 16, "stepping.depth_tolerance": 0.1, "bodies.disk.wear.k": 9e-15},
 )
 NOISE = 10e-9
+DATA = Path(__file__).parents[2] / "docs" / "_data"
 
 
 def worn(factor):
@@ -78,6 +80,23 @@ def test_the_prior_is_the_field_that_it_says():
         along = np.sum(spectrum * waves, axis=1) / variance.size
         assert along[0] == pytest.approx(0.16)
         assert along[1:] == pytest.approx(0.16 * far[1:] / 4 * kv(1, far[1:] / 4), abs=4e-3)
+
+
+def test_waves_on_half_the_cells_are_the_long_ones_of_the_whole():
+    """And depths are means of four, known twice as well."""
+    model = Simulation(validate_case(apply_settings(CASE, {"grid.cells": 32}))).model
+    depth = np.random.default_rng(2).standard_normal((32, 32))
+    fine = _Waves(model, {"ball": (depth, 1e-8)}, {"ball": Prior(0.4, 0.3e-3)}, print)
+    coarse = fine.halved()
+    z = np.zeros((16, 16))
+    z[:3, :3] = np.random.default_rng(3).standard_normal((3, 3))
+    logs = fine.logs(fine.raised(coarse, z.ravel())).reshape(16, 2, 16, 2).mean(axis=(1, 3))
+    assert coarse.logs(z.ravel()) == pytest.approx(logs.ravel(), abs=0.02 * np.ptp(logs))
+    means, sigma = coarse.depths["ball"]
+    assert means[3, 5] == pytest.approx(depth[6:8, 10:12].mean())
+    assert sigma == 0.5e-8
+    # Cells are now larger than an eighth of the length.
+    assert coarse.halved() is None
 
 
 @pytest.mark.slow
@@ -138,3 +157,16 @@ def test_wrong_maps_are_told(data, words):
 def test_maps_coarser_than_the_grid_are_refused():
     with pytest.raises(CaseError, match=r"larger than cells, 1 × 1 µm; lower grid\.cells"):
         on_cells(Heights(np.zeros((16, 16)), (3e-6, 3e-6)), (16, 16), (1e-6, 1e-6))
+
+
+def test_the_hidden_spot_is_found_and_intervals_cover():
+    """As `benchmarks/hidden_spot.py` wrote it, in the time of fewer than 200 runs."""
+    spot, shares = (
+        json.loads((DATA / name).read_text()) for name in ("hidden_spot.json", "map_coverage.json")
+    )
+    assert spot["cells"] == 256
+    assert spot["time_in_runs"] < 200
+    assert [spot["in_spot"][0], spot["rest"][0]] == pytest.approx([1, 1], abs=0.05)
+    assert spot["both"] == spot["spot_cells"][0]
+    for share in (spot["covered"], shares["deep"]):
+        assert 0.93 <= share <= 0.97

@@ -17,8 +17,7 @@ from tribo.result.export import profile
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.calibrate import calibrate, far_off
 from tribo.study.calibration.measured import read_measurements
-from tribo.study.calibration.parameters import Parameter, find_parameters
-from tribo.study.calibration.posed import make_run
+from tribo.study.calibration.posed import Parameter, find_parameters, make_run
 from tribo.study.calibration.quantities import Reading, percent, read
 
 TRUE = {"bodies.ball.wear.k": 3.11e-16, "bodies.disk.wear.k": 1.5e-16}

@@ -20,8 +20,7 @@ from tribo.study.calibration.fit import ABOVE_ROUNDING, NO_EFFECT, fit, interval
 from tribo.study.calibration.linearised import Linearised, root_covariance, weigh
 from tribo.study.calibration.measured import Measurements
 from tribo.study.calibration.notes import notes
-from tribo.study.calibration.parameters import Parameter
-from tribo.study.calibration.posed import Posed
+from tribo.study.calibration.posed import Parameter, Posed
 from tribo.study.calibration.quantities import QUANTITIES, in_si, plain
 
 DATA = ["test", "body", "quantity", "time_s", "position_m", "unit"]
@@ -113,8 +112,7 @@ def calibrate(
     case : Case, Mapping, str or Path
         A case, its tables, or its TOML file.
     measured : Measurements, Mapping, str or Path
-        What was measured, in the case or in tests that differ from it, and what
-        is to be fitted; or its TOML file.
+        What was measured in it or in other tests, and what is to be fitted; or its TOML file.
     level : float, optional
         Probability with which each interval is to cover the truth.
     on_run : callable, optional
@@ -127,11 +125,8 @@ def calibrate(
 
     Raises
     ------
-    CaseError
-        If the case or the measured values are wrong, do not fit together, or
-        are too few.
-    NumericalError
-        If a run fails or the estimates do not settle.
+    CaseError, NumericalError
+        If the case or the measured values are wrong, or a run fails, or estimates do not settle.
     """
     if not 0 < level < 1:
         raise CaseError(f"the level, {level:g}, must lie between 0 and 1, as 0.95 does")

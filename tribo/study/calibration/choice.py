@@ -16,7 +16,8 @@ from tribo.config.load import case_tables, validate_case
 from tribo.core.errors import CaseError, TriboError
 from tribo.study.calibration.calibrate import Calibration, calibrate
 from tribo.study.calibration.measured import Measurements, read_measurements
-from tribo.study.calibration.parameters import is_number
+from tribo.study.calibration.notes import UNLIKELY
+from tribo.study.calibration.posed import is_number
 from tribo.study.calibration.quantities import in_words
 
 STRONG = 6.0
@@ -65,10 +66,8 @@ def choose_case(
 
     Raises
     ------
-    CaseError
+    CaseError, NumericalError
         If there are fewer than two cases, or one cannot be calibrated.
-    NumericalError
-        If a run fails or estimates do not settle.
 
     References
     ----------
@@ -124,7 +123,7 @@ def _verdict(rows: pd.DataFrame, found: Mapping[str, Calibration]) -> str:
         by = others[0].bic - best.bic
         told = f"the data speak for {best.case}: Schwarz's criterion is lower by {by:.3g} or more"
         wrong = found[best.case].p_value
-        if wrong is not None and wrong < 0.01:
+        if wrong is not None and wrong < UNLIKELY:
             told += f"; yet {best.case} does not describe them either (p = {wrong:.1g})"
         return told
     names = " and ".join([best.case, *(name for name, _ in doubts)])
@@ -139,8 +138,7 @@ def _telling(found: Mapping[str, Calibration], first: str, second: str) -> str:
     both = found[first].predictions.merge(found[second].predictions, on=keys)
     if not len(both):
         return ""
-    apart = np.abs(np.log(both["value_x"] / both["value_y"]))
-    each = both.loc[apart.idxmax()]
+    each = both.loc[np.abs(np.log(both["value_x"] / both["value_y"])).idxmax()]
     where = f" in {each.test}" if each.test else ""
     values = [in_words(each.quantity, value) for value in (each.value_x, each.value_y)]
     return (

@@ -86,17 +86,15 @@ def interval(here: Linearised, direction: Array, level: float) -> tuple[float, f
     """
     best = here.least(here.point)
     freedom = here.freedom(direction)
-    known = np.isinf(freedom)
-    rise = float(chdtri(1, 1 - level) if known else stdtrit(freedom, 0.5 + 0.5 * level) ** 2)
+    t = stdtrit(freedom, 0.5 + 0.5 * level)
+    rise = float(chdtri(1, 1 - level) if np.isinf(freedom) else t**2)
     least = float(np.sum(here.residuals(best) ** 2))
     root = root_covariance(here.sensitivity())
     # With point = best + root z, χ² rises to first order by |z|².
     gradient = np.sum(direction[:, None] * root, axis=0)
     spread = float(np.sqrt(np.sum(gradient**2)))
-    if spread > REACH:
-        return -np.inf, np.inf
-    if spread == 0:
-        return 0.0, 0.0
+    if spread > REACH or spread == 0:
+        return (-np.inf, np.inf) if spread else (0.0, 0.0)
     lower, upper = here.bounds(2 * REACH / np.clip(np.max(np.abs(direction)), 0.05, 1.0))
 
     def point(z: Array) -> Array:

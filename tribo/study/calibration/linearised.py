@@ -12,14 +12,11 @@ from scipy.stats import multivariate_normal
 
 from tribo.core.arrays import Array, Mask
 
-LEAP = np.log(100.0)
-"""How far a parameter may move between two runs."""
-REPEATABILITIES = 1e-3, 3.0
-"""Least and largest that is estimated."""
+LEAP, REPEATABILITIES = np.log(100.0), (1e-3, 3.0)
+"""How far a parameter may move between two runs; least and largest that is estimated."""
 FAINT = 0.1
 """Change of the data, in standard deviations, per change by e, that tells as good as nothing."""
-_PASSES, _SAME = 30, 1e-5
-_RIDGE = 1e-12
+_PASSES, _SAME, _RIDGE = 30, 1e-5, 1e-12
 _UNKNOWN = 10.0
 """Standard deviation of a logarithm from which a parameter is not determined."""
 
@@ -29,14 +26,12 @@ class Problem:
     """What is fitted: p parameters, to n data, which the first n of m responses answer to."""
 
     names: tuple[str, ...]
-    """What the parameters are called in messages."""
     observed: Array
     sigma: Array
     """Measured values and their standard deviations, shape (n,)."""
     below: Mask
-    """Where the value is a limit of detection that the reading was below, shape (n,)."""
     specimen: Array
-    """Of which test a value is, shape (n,)."""
+    """Where the value is a limit of detection, and of which test it is, shape (n,)."""
     repeatability: float | None
     """Relative standard deviation of the parameters from test to test; None to estimate it."""
     logged: Mask
@@ -74,9 +69,8 @@ class Linearised:
 
     problem: Problem
     point: Array
-    """Logarithms of the parameters of the run, shape (p,)."""
     responses: Array
-    """What the run gave, shape (m,)."""
+    """Logarithms of the parameters of the run, shape (p,), and what it gave, shape (m,)."""
     slopes: Array
     """Derivatives by the logarithms of the parameters, shape (m, p): of logarithms where logged."""
     weights: Array
@@ -257,10 +251,7 @@ def weigh(weights: Array, values: Array) -> Array:
 
 
 def root_covariance(jacobian: Array) -> Array:
-    """Return a root B of the covariance (JᵀJ)⁻¹ = B Bᵀ, shape (p, p).
-
-    Where the data tell nothing it is very large, but finite.
-    """
+    """Return a root B of the covariance (JᵀJ)⁻¹ = B Bᵀ, shape (p, p); finite in any case."""
     size = np.sqrt(np.sum(jacobian**2, axis=0)) + _RIDGE
     _, values, directions = np.linalg.svd(jacobian / size, full_matrices=False)
     return np.asarray(directions.T / np.sqrt(values**2 + _RIDGE) / size[:, None])

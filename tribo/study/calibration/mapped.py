@@ -46,10 +46,7 @@ def calibrate_maps(
     *,
     on_run: Callable[[int, float], None] = lambda count, misfit: None,
 ) -> FittedMaps:
-    """Find where the wear coefficients of bodies differ from those of a case, from depth maps.
-
-    As `fit_maps`, with the maps by their place in the file, for messages.
-    """
+    """Do as `fit_maps`, with the maps by their place in the file, for messages."""
     model = Simulation(
         validate_case(case_tables(case)).model_copy(update={"observers": ()}),
     ).model

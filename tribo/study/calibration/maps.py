@@ -21,6 +21,7 @@ from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.march import begin, march
 from tribo.simulation.model import Model
 from tribo.simulation.run import Simulation
+from tribo.study.calibration.notes import UNLIKELY
 from tribo.study.gradient.backwards import swept_back
 from tribo.study.gradient.gradient import ValueAndGradient
 from tribo.study.gradient.local import localised
@@ -30,19 +31,13 @@ from tribo.study.gradient.tape import Tape, recorded
 STEP = 1e-2
 """Largest change of a logarithm for the derivative of all depths along a direction."""
 EACH, LITTLE = 10, 0.2
-"""Every so many products with the information of the data it is seen whether each of them still
-gave so much of a number that the data determine."""
+"""Products with the information of the data until it is seen what each told, and what is little."""
 ROUGHLY, ITERATIONS, MEMORY, FALL = 10, 100, 30, 0.05
-"""Steps of L-BFGS before them, at most after them, those remembered, and the fall of the negative
-logarithm of the probability that ends it."""
+"""Steps of L-BFGS before, at most after, remembered; and the fall of −ln p that ends it."""
 FINE = 0.125
 """Largest cell, in correlation lengths, of a grid that is halved to begin on."""
-EXHAUSTED = 1e-9
-"""Part of a new direction that counts as none."""
-UNLIKELY = 0.01
-"""Probability of so large a misfit below which data and model are said to disagree."""
-SILENT = 0.9
-"""Part of the prior's standard deviation above which the data say nothing of a place."""
+EXHAUSTED, SILENT = 1e-9, 0.9
+"""Part of a new direction that is none, and of the prior's spread where the data say nothing."""
 
 
 @dataclass(frozen=True)
@@ -54,9 +49,8 @@ class Prior:
     """
 
     spread: float
-    """The standard deviation s."""
     length: float
-    """The length ℓ, in m."""
+    """The standard deviation s, and the length ℓ, in m."""
 
     def amplitudes(self, shape: tuple[int, int], spacing: tuple[float, float]) -> Array:
         """Return the standard deviations of cosine waves, of the shape of the map."""
@@ -75,10 +69,9 @@ class LocalMap:
     """The factor on a body's wear coefficient at each cell of its surface, shape (rows, ny)."""
 
     logs: Array
-    """The most probable ln(k/k₀)."""
     deviation: Array
     prior: Array
-    """Its standard deviation, and that of the prior."""
+    """The most probable ln(k/k₀), its standard deviation, and that of the prior."""
     spacing: tuple[float, float]
     """Edge lengths of a cell, in m."""
 
@@ -109,8 +102,7 @@ class FittedMaps:
     """Gradients, and products with the Hessian, that it took."""
     chi_square: float
     degrees_of_freedom: float
-    """Cells that were measured, less what the data determine: Σ λ/(1 + λ) over the eigenvalues
-    of their information, in units of the prior's."""
+    """Cells that were measured, less Σ λ/(1 + λ) over the eigenvalues of the information."""
 
     @property
     def p_value(self) -> float:
@@ -220,8 +212,8 @@ class _Waves:
         """Return them on half as many cells; None if those were too large for the maps."""
         case, grid = self.model.case, self.model.grid
         cells = (grid.cells[0] // 2, grid.cells[1] // 2)
-        lengths = [prior.length for prior in self.priors.values()]
-        if max(grid.spacing) > FINE * min(lengths) or self.model.rough or case.begin is not None:
+        shortest = min(prior.length for prior in self.priors.values())
+        if max(grid.spacing) > FINE * shortest or self.model.rough or case.begin is not None:
             return None
         model = assemble(varied(case, grid=grid.model_copy(update={"cells": cells})))
         depths = {}

@@ -26,10 +26,8 @@ class Below(float):
     """A limit that a value is below, as ``"< 0.1 mg"``."""
 
 
-FINEST = 1e-6
-"""Smallest uncertainty, relative to the value: runs are good to about a thousandth."""
-_BEYOND_NOISE = 3.0
-"""Standard deviations below 0 from which noise does not explain a mean."""
+FINEST, _BEYOND_NOISE = 1e-6, 3.0
+"""Smallest relative uncertainty; standard deviations below 0 at which no noise explains a mean."""
 
 
 class Measured(Table):
@@ -50,11 +48,9 @@ class Measured(Table):
     ]
     """What was measured; what a body lost, the diameters of its scar, its largest depth."""
     value: float | tuple[float, ...] | None = None
-    """The value, with its unit; for a profile a list of depths, for tests alike one of values.
+    """The value, with its unit, or below a limit, ``"< 0.1 mg"``; none of a test that is planned.
 
-    Of a test that is planned it is left out.
-
-    A loss that was not seen is less than the smallest that would have been: ``"< 0.1 mg"``.
+    For a profile a list of depths, for tests alike one of values.
     """
     before: Annotated[float, Quantity("kg", above=0)] | None = None
     """Instead of the value of a mass: the balance's reading before the test."""
@@ -227,10 +223,7 @@ class Measurements(Table):
     map: tuple[Mapped, ...] = ()
     """Depth maps, instead, to which local coefficients are fitted."""
     repeatability: Annotated[float, Quantity("1", at_least=0, below=3)] | None = None
-    """Relative standard deviation of the fitted parameters from test to test.
-
-    If left out it is estimated where tests were repeated, and else 0.
-    """
+    """Relative standard deviation of the parameters from test to test; estimated if left out."""
 
     @property
     def tests(self) -> dict[str, Tested]:

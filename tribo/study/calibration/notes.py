@@ -17,19 +17,16 @@ UNLIKELY = 0.01
 """Probability of so large a misfit below which data and model are said to disagree."""
 HARDLY, NOT_AT_ALL = 0.2, 0.01
 """How far apart the effects of parameters are: 1 is at right angles, 0 is the same."""
-_TAKES_PART = 0.3
-_MOST = 0.5
-_ALIKE = 3.0
-"""Standard deviations by which residuals of neighbours are correlated more than noise is."""
+_TAKES_PART, _MOST, _ALIKE = 0.3, 0.5, 3.0
+"""The last: standard deviations by which residuals of neighbours are alike more than noise is."""
 
 
 def notes(
     estimates: pd.DataFrame, data: pd.DataFrame, jacobian: Array, spare: int | None
 ) -> list[str]:
-    """Return the notes on estimates and data, one or two sentences each.
+    """Return notes, with the derivatives of the residuals by the logarithms of the parameters.
 
-    `jacobian` are the derivatives of the residuals by the logarithms of the parameters, `spare` the
-    degrees of freedom of χ², None where the data tell their own scatter.
+    `spare` are the degrees of freedom of χ², None where the data tell their own scatter.
     """
     return [
         *_on_parameters(estimates, data, jacobian),

@@ -29,9 +29,8 @@ class Plan:
     """The fewest tests of each kind that give intervals as short as wanted."""
 
     level: float
-    """Probability of the intervals."""
     within: float
-    """Half of an interval that was wanted, relative to the value."""
+    """Probability of the intervals, and the half that was wanted, relative to the value."""
     runs: int
     """Simulations that it took."""
     tests: pd.DataFrame
@@ -75,24 +74,16 @@ def plan_tests(
 
     Raises
     ------
-    CaseError
-        If the case or the tests are wrong, the repeatability is missing, or
-        1000 tests are not enough.
-    NumericalError
-        If a run fails.
+    CaseError, NumericalError
+        If the case or the tests are wrong, 1000 are not enough, or a run fails.
     """
     if not 0 < level < 1 or not 0 < within < 1:
-        raise CaseError(
-            f"the level, {level:g}, and the half of the interval, {within:g}, must lie between 0 "
-            "and 1, as 0.95 and 0.1 do"
-        )
+        told = f"the level, {level:g}, and the half of the interval, {within:g}, must lie between 0"
+        raise CaseError(f"{told} and 1, as 0.95 and 0.1 do")
     asked = read_measurements(measured)
     if asked.repeatability is None:
-        raise CaseError(
-            "say how far tests alike scatter, as repeatability = 0.2 for 20 %; 0 if only the "
-            "instruments count",
-            "repeatability",
-        )
+        told = "say how far tests alike scatter, as repeatability = 0.2 for 20 %; 0 if only the "
+        raise CaseError(f"{told}instruments count", "repeatability")
     posed = Posed.of(case, asked)
 
     def responses(values: Array) -> Array:
@@ -105,8 +96,7 @@ def plan_tests(
     point = np.log(posed.start)
     here = differenced(responses, problem, point, computed).weighed(point, asked.repeatability)
     check_effect(here)
-    sensitivity = here.sensitivity()
-    kinds = []
+    sensitivity, kinds = here.sensitivity(), []
     for _, own in posed.data.groupby("bench")["specimen"]:
         rows = own.index[own == own.min()]
         kinds.append(sensitivity[rows].T @ sensitivity[rows])
@@ -159,8 +149,7 @@ class Search:
             counts = min((counts + one for one in np.eye(len(counts), dtype=int)), key=self._size)
             while (better := min(self._exchanged(counts), key=self._size)) is not counts:
                 counts = better
-            longest = np.max(self.expected(counts)[0])
-            if longest <= self.within:
+            if (longest := np.max(self.expected(counts)[0])) <= self.within:
                 return counts
         raise CaseError(
             f"{MOST} tests are not enough for ±{100 * self.within:g} %, but give "

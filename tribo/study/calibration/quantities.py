@@ -26,9 +26,8 @@ class WornQuantity(NamedTuple):
 
     unit: str
     shown: str
-    """The unit it is shown in."""
     per_unit: float
-    """How many of those make one in SI."""
+    """The unit it is shown in, and how many of those make one in SI."""
     of: Literal["both", "stationary", "swept"] = "both"
     """Which bodies have it: those that stay in the contact, or are swept through it."""
 
@@ -47,9 +46,8 @@ QUANTITIES = {
 }
 """By the name in a file of measured values."""
 AXES = {"scar_along": 0, "scar_across": 1, "profile_along": 0, "profile_across": 1}
-"""The axis that a diameter or a profile follows."""
 PROFILES = ("profile_along", "profile_across")
-"""Depths at several positions along a line through the centre of the contact."""
+"""The axis that a diameter or a profile follows; those are depths at several positions along it."""
 
 
 class Reading(NamedTuple):
