@@ -1,5 +1,6 @@
 """Temperature and wear in runs of the whole program: implicit steps, stroke averages."""
 
+import json
 import math
 import runpy
 import tomllib
@@ -7,7 +8,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
+from click.testing import CliRunner
 from tribo import CaseError, ContactConditions, Simulation
+from tribo.cli.main import tribo
 
 from tribo_thermal.flash import Flash
 from tribo_thermal.plugin import EXAMPLE, tribo_figures, tribo_lab_rows
@@ -153,3 +157,20 @@ def test_the_lab_is_told_the_temperature_that_the_wear_followed():
     assert ball.value == disk.value
     # The first contact is the smallest, and so the hottest; its rise is that of a lone source.
     assert config.ambient - 273.15 + 5 < ball.value < config.ambient - 273.15 + 50
+
+
+def test_the_temperature_is_shown_drawn_exported_and_in_the_dataset(tmp_path):
+    file = tmp_path / "warm.h5"
+    Simulation(case(duration=20)).run(file).close()
+    for command in ("export", "plot"):
+        done = CliRunner().invoke(tribo, [command, str(file)], catch_exceptions=False)
+        assert done.exit_code == 0, done.output
+    shown = CliRunner().invoke(tribo, ["show", str(file), "--json"], catch_exceptions=False)
+    told = json.loads(shown.stdout)["saves"][-1]["bodies"]["ball"]["effects"]["temperature_K"]
+    with xr.open_dataset(file) as dataset:
+        stored = dataset.temperature.sel(body="ball").isel(time=-1)
+        assert told["max"] == pytest.approx(float(stored.max()))
+    made = {path.name for path in tmp_path.rglob("*") if path.is_file()}
+    assert any("temperature" in name and name.endswith(".png") for name in made), made
+    tables = "".join(p.read_text() for p in tmp_path.rglob("*.csv"))
+    assert "temperature_K" in tables
