@@ -93,26 +93,33 @@ class CycleCompliance:
         dx : float
             Length of a cell; the depth does not depend on it.
         """
-        weighed = self.shares[:, None, None] * pressure
-        depth = np.zeros_like(pressure)
-        count = self.rows.stop - self.rows.start
-        for compliance, starts in self.bodies:
-            first = [start + self.rows.start for start in starts]
-            own = np.zeros_like(compliance)
-            for part, row in zip(weighed, first, strict=True):
-                add_from(own, part, row)
-            if self.mirrored:
-                own = own + own[::-1]
+        first, count = self.rows.start, self.rows.stop - self.rows.start
+        starts = [rows for _, rows in self.bodies]
+        worn = [np.zeros_like(compliance) for compliance, _ in self.bodies]
+        # All bodies at one position after the other: its part stays in the processor's cache.
+        for share, part, *rows in zip(self.shares, pressure, *starts, strict=True):
+            weighed = share * part
+            for own, row in zip(worn, rows, strict=True):
+                add_from(own, weighed, first + row)
+        if self.mirrored:
+            worn = [own + own[::-1] for own in worn]
+        for own, (compliance, _) in zip(worn, self.bodies, strict=True):
             own *= compliance
-            for part, row in zip(depth, first, strict=True):
-                part += rows_from(own, row, count)
+        depth = np.zeros_like(pressure)
+        for part, *rows in zip(depth, *starts, strict=True):
+            for own, row in zip(worn, rows, strict=True):
+                part += rows_from(own, first + row, count)
         return depth
 
     def on(self, box: Box) -> CycleCompliance:
         """Return what of it lies on a box of the window."""
         along, columns = box.slices
+        return replace(self.beside(columns), rows=along)
+
+    def beside(self, columns: slice) -> CycleCompliance:
+        """Return what of it lies on some columns."""
         bodies = [(compliance[:, columns], starts) for compliance, starts in self.bodies]
-        return replace(self, bodies=bodies, rows=along)
+        return replace(self, bodies=bodies)
 
     def typical(self, length: float) -> tuple[float, float]:
         """Return its means, in m/Pa: of what a cell wears, and of what all rows do."""

@@ -230,6 +230,22 @@ class Model:
         mean = exposure.average(rate)
         return mean if exposure.starts is None else self.spread(name, mean, position)
 
+    def add_average(
+        self, name: str, total: Array | None, rate: Array, position: int, part: float
+    ) -> Array:
+        """Return a part of `average` added to `total`, in place where the body has rows of its own.
+
+        Without a total it is that part, as a new array.
+        """
+        exposure = self.exposures[name]
+        mean = part * exposure.average(rate)
+        if total is None:
+            return self.spread(name, mean, position)
+        if exposure.starts is None:
+            return total + mean
+        add_from(total, mean, exposure.starts[position])
+        return total
+
     def under(self, name: str, field: Array, position: int) -> Array:
         """Return what lies in the window of a field on a body's own surface, at a position.
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import reduce
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tribo.core.arrays import Array
+from tribo.core.arrays import Array, union
 from tribo.core.contact import ContactSolution, CycleCompliance, WearCompliance
 from tribo.core.fields import WearRate
 from tribo.stepping.rates import CycleRates
@@ -36,7 +37,12 @@ class LinearWear:
         """Return the depth worn at each position, shape (positions, nx, ny), in m."""
         pressure = np.stack([contact.pressure for contact in contacts])
         if self.coupling is not None:
-            return self.coupling.depth(pressure, dx)
+            # Elsewhere nothing wears.
+            columns = reduce(union, (contact.extent for contact in contacts))[1]
+            depth = np.zeros_like(pressure)
+            loaded = pressure[..., columns]
+            depth[..., columns] = self.coupling.beside(columns).depth(loaded, dx)
+            return depth
         pairs = zip(self.alone, pressure, strict=True)
         return np.stack([part.depth(p, dx) if part else np.zeros_like(p) for part, p in pairs])
 
@@ -77,14 +83,14 @@ def _coupling(
     bodies = []
     for name in rates[0]:
         shape = (model.exposures[name].rows, model.grid.cells[1])
-        weighed, load, nearby = np.zeros(shape), np.zeros(shape), np.zeros(shape)
+        weighed, load, nearby = np.zeros(shape), np.zeros(shape), np.zeros(shape[1])
         for position, (share, contact) in enumerate(zip(shares, contacts, strict=True)):
             pressure, slope = contact.pressure, rates[position][name].depth_slope
-            weighed += share * model.average(name, slope * pressure, position)
+            weighed = model.add_average(name, weighed, slope * pressure, position, share)
             load += share * model.spread(name, pressure, position)
-            np.maximum(nearby, model.average(name, slope, position), out=nearby)
+            np.maximum(nearby, np.max(model.exposures[name].average(slope), axis=0), out=nearby)
         # A point that is yet to be touched has the slope that its law gives near it, on its row.
-        slope = np.where(load > 0, weighed / np.where(load > 0, load, 1.0), np.max(nearby, axis=0))
+        slope = np.where(load > 0, weighed / np.where(load > 0, load, 1.0), nearby)
         starts = model.exposures[name].starts or [0] * len(shares)
         bodies.append((increment * slope, starts))
     return CycleCompliance(shares, bodies, slice(0, model.grid.cells[0]))

@@ -213,8 +213,7 @@ def worn_depths(
         share = model.cycle[position].share if shares is None else float(shares[position])
         slid = increment * share
         for name, rate in of_bodies.items():
-            part = slid * model.average(name, rate.depth_rate, position)
-            worn[name] = worn[name] + part if name in worn else part
+            worn[name] = model.add_average(name, worn.get(name), rate.depth_rate, position, slid)
     return worn
 
 
