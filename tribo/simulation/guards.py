@@ -60,16 +60,21 @@ class GuardedLaw(Guard[WearLaw]):
     bottoms: tuple[float, ...] = ()
     """Depths at which layers end, in m, where a body has any (`tribo.simulation.layers`)."""
     advances = False
-    """Whether it may know the exact mean of its rate."""
+    """Whether it knows the exact mean of its rate."""
 
     def __init__(self, law: WearLaw, body: str, material: Material) -> None:
         super().__init__(law, body)
         self.material = material
         self.requires = law.requires
         self.state_fields = law.state_fields
-        self.advances = type(law).advance is not WearLaw.advance
         self.ask(law.check, material)
         self.initial_state = _initial_state(self, law.state_fields, self.ask(law.initial_state))
+        # Whether it does is a matter of the law's configuration.
+        self.advances = type(law).advance is not WearLaw.advance and not law.requires
+        if self.advances:
+            state = {name: np.full((1, 1), value) for name, value in self.initial_state.items()}
+            unloaded = LocalConditions(np.zeros((1, 1)), 1.0, material, {}, state)
+            self.advances = self.ask(law.advance, unloaded, 1.0) is not None
 
     def rate(self, local: LocalConditions, over: float = 0.0) -> WearRate:
         """Return the law's rate at the shape of the pressure, its slope not negative.

@@ -14,7 +14,7 @@ from tribo.component import components
 from tribo.contact.solver import ContactSolver
 from tribo.core.arrays import Array, add_from, readonly, rows_from
 from tribo.core.contact import ContactSystem
-from tribo.core.fields import PLACE_X, PLACE_Y, Field
+from tribo.core.fields import FRICTION_COEFFICIENT, LOAD_SHARE, PLACE_X, PLACE_Y, Field
 from tribo.core.grid import Grid
 from tribo.core.loads import Loads
 from tribo.core.measures import between_cells
@@ -89,21 +89,25 @@ class Model:
 
     @cached_property
     def advances(self) -> bool:
-        """Whether all that remember may know the mean of their rates, at points that stay.
+        """Whether all that remember know the mean of their rates over an increment.
 
-        A point that is swept sees many pressures, of which a closed form knows one.
+        At points that stay (one that is swept sees many pressures, of which a closed form knows
+        one) and where nothing follows what an effect remembers, as a closed form does not see what
+        another makes of it within the increment.
         """
-        of_laws = [
+        lasting = [effect for effect in self.effects if effect.initial_state]
+        kept = {f.name for effect in lasting for f in (*effect.state_fields, *effect.provides)}
+        followed = {LOAD_SHARE.name, FRICTION_COEFFICIENT.name}
+        followed.update(*(law.requires for law in self.laws.values()))
+        followed.update(*(effect.requires for effect in self.effects))
+        if len(self.cycle) > 1 or kept & followed:
+            return False
+        known = [
             law.advances and name not in self.swept
             for name, law in self.laws.items()
             if law.initial_state
-        ]
-        known = of_laws + [
-            effect.advances and effect.carrier not in self.swept
-            for effect in self.effects
-            if effect.initial_state
-        ]
-        return len(self.cycle) == 1 and bool(known) and all(known)
+        ] + [effect.advances and effect.carrier not in self.swept for effect in lasting]
+        return bool(known) and all(known) and not any(body is None for body, _ in self.filling)
 
     @cached_property
     def filling(self) -> tuple[tuple[str | None, str], ...]:
