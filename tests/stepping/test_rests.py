@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from paper_models import K, foundation, motion, small, states
+from paper_models import K, archard, foundation, motion, pin, small, states
 
-from tribo import Load, Simulation, Stage
+from tribo import Effect, Field, Load, Simulation, Stage
 from tribo.motion.unidirectional import Unidirectional
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
@@ -70,3 +70,38 @@ def test_a_load_may_rise_as_the_motion_comes_to_rest_and_goes_on(ramp):
     for name, body in last.bodies.items():
         volume = model.exposures[name].volume(body.wear)
         assert volume == pytest.approx(K * last.load_distance, rel=1e-9, abs=0)
+
+
+class Grows(Effect):
+    """A layer on one half of the pin that grows under pressure, at rest too: dt/dt = r p."""
+
+    type = "test.grows_in_time"
+    state_fields = (Field("grown", "m", "Height of a layer.", at_least=0, fills=True),)
+    carrying: bool = False
+
+    def state_rates(self, contact):
+        side = 1.0 if self.carrying else contact.grid.mesh[0] > 0
+        return {"grown": 1e-18 * side * contact.pressure}
+
+
+def test_what_grows_at_rest_follows_the_load_of_each_moment():
+    ramp = Stage(until=4, normal=40), Stage(at=9, normal=80), Stage(until=15, normal=80)
+    case = pin(
+        law=archard(1e-18),
+        effects=[Grows(carrying=True)],
+        kinematics=pauses(),
+        load=Load(normal=ramp),
+    )
+    last = states(case)[-1]
+    # 10 MPa for 4 s, up to 20 MPa in 5 s, and for 6 s more.
+    assert last.between["grown"] == pytest.approx(1e-18 * 1e6 * (40 + 75 + 120), rel=1e-6, abs=0)
+
+
+def test_bodies_meet_at_rest_on_what_has_grown_there():
+    case = pin(law=archard(1e-20), effects=[Grows()], kinematics=pauses(), save_times=(4, 9))
+    with Simulation(case).run() as result:
+        pressures = [result.field("pressure", save) for save in (1, 2)]
+        heights = [result.field("grown", save) for save in (1, 2)]
+    for pressure, height in zip(pressures, heights, strict=True):
+        bearing = 1e15 * (height - np.mean(height))
+        np.testing.assert_allclose(pressure - np.mean(pressure), bearing, rtol=1e-3, atol=10.0)

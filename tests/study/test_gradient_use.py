@@ -6,7 +6,7 @@ from gradients import BASE, CLOSE, HARD, Kind, pair, resolved, run
 from paper_models import K, archard, states
 from scipy.optimize import minimize
 
-from tribo.case import Stop
+from tribo.case import Layer, Stop
 from tribo.contact.winkler import Winkler
 from tribo.core.errors import CaseError
 from tribo.core.fields import Field
@@ -44,11 +44,18 @@ def test_a_hardness_of_both_bodies_is_named_once():
     assert gradient(case, Depth("disk"), [both])[both] == 0
 
 
+def coated(hardness):
+    ball, disk = pair(archard(), archard(), ("2 GPa", "2 GPa"))
+    layer = Layer(thickness="1 um", wear=archard(), hardness=hardness)
+    return [(ball[0], ball[1].model_copy(update={"layers": (layer,)})), disk]
+
+
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
         ({"stepping": Explicit(time_step=1.0)}, "stepping.type: gradients go through implicit"),
         ({"stop": Stop(depth="1 um")}, "stop.depth: a run that a depth ends has another length"),
+        ({"bodies": coated("1 GPa")}, "bodies: gradients go through one hardness"),
     ],
 )
 def test_what_is_not_covered_is_refused(changes, message):

@@ -132,7 +132,8 @@ def rested_memory(model: Model, state: State, time: float) -> Memory:
         between = dict(zip(before.between, values, strict=True))
         over = step * rest if model.advances else 0.0
         now = Moment(time - (1 - passed) * rest, state.distance, 0.0, over)
-        changes = resting_rates(model, state.contacts, replace(before, between=between), now)
+        contacts = loaded(model, state.contacts, time - 0.5 * rest, time, passed)
+        changes = resting_rates(model, contacts, replace(before, between=between), now)
         return [changes[key] for key in between]
 
     limits = limits_of(model, Memory({}, before.between))
@@ -160,7 +161,7 @@ def _rates(
     moment = end.back((1 - passed) * increment)
     if model.advances:
         moment = replace(moment, over=step * increment)
-    contacts = loaded(model, contacts, increment, end, passed)
+    contacts = loaded(model, contacts, end.back(0.5 * increment).time, end.time, passed)
     each = iter(values)
     now = before.with_values(each)
     if layered:
@@ -185,18 +186,20 @@ def _rates(
 def loaded(
     model: Model,
     contacts: Sequence[ContactSolution],
-    increment: float,
-    end: Moment,
+    middle: float,
+    end: float,
     passed: float,
 ) -> Sequence[ContactSolution]:
-    """Return contacts with pressures in proportion to the load where a part has passed."""
-    # A load that jumps as the increment begins is told apart in its middle.
-    middle = model.loads.before(end.back(0.5 * increment).time)
-    last = model.loads.before(end.time)
-    if middle == last:
+    """Return contacts with pressures in proportion to the load where a part has passed.
+
+    Of an increment or a rest that has its `middle` and its `end` at these times, in s.
+    """
+    # A load that jumps as it begins is told apart in its middle.
+    halfway, last = model.loads.before(middle), model.loads.before(end)
+    if halfway == last:
         return contacts
     cell, found = model.grid.cell_area, []
-    for contact, half, whole in zip(contacts, middle, last, strict=True):
+    for contact, half, whole in zip(contacts, halfway, last, strict=True):
         load = whole + 2 * (1 - passed) * (half - whole)
         share = load / (float(np.sum(contact.pressure)) * cell)
         found.append(replace(contact, pressure=readonly(share * contact.pressure)))

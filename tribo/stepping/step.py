@@ -168,13 +168,13 @@ def load_changes(model: Model, begin: float, end: float) -> bool:
 
 def rested(model: Model, state: State, time: float) -> State:
     """Return `state` at a later time (s), under the load of then."""
-    loads = model.loads.before(time)
-    if loads != model.loads.before(state.time):
-        state = _under(model, state, loads)
     between = rested_memory(model, state, time).between
-    return replace(
-        state, time=time, between=between, steps=state.steps + 1, invariants=Invariants()
-    )
+    loads = model.loads.before(time)
+    anew = loads != model.loads.before(state.time) or any(body is None for body, _ in model.filling)
+    state = replace(state, between=between)
+    if anew:
+        state = _under(model, state, loads)
+    return replace(state, time=time, steps=state.steps + 1, invariants=Invariants())
 
 
 def start_sliding(model: Model, state: State) -> State:

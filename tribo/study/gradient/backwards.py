@@ -57,6 +57,8 @@ def covered(model: Model) -> Model:
             "gradients go through layers, or laws that remember or follow effects, not both",
             "bodies",
         )
+    if model.hardness:
+        raise CaseError("gradients go through one hardness; leave that of layers out", "bodies")
     if model.contact.operator(model.system, model.gap <= np.min(model.gap)) is None:
         raise CaseError(f"{model.contact.type!r} does not state its operator", "contact.type")
     if followed or not model.effects:

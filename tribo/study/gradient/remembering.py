@@ -120,7 +120,8 @@ class Remembering:
         contacts = self.contacts if pressure is None else pressed(self.contacts, pressure)
         if not self.along:
             return contacts
-        return loaded(self.model, contacts, self.slid.increment, self.slid.moment, place.passed)
+        end, half = self.slid.moment, 0.5 * self.slid.increment
+        return loaded(self.model, contacts, end.back(half).time, end.time, place.passed)
 
     def _asked(
         self,
