@@ -1,6 +1,7 @@
 """Effects that carry load or set the friction, and the work of friction."""
 
 import numpy as np
+import paper_models
 import pytest
 from paper_models import (
     K,
@@ -12,6 +13,7 @@ from paper_models import (
     named,
     small,
     sphere,
+    states,
     steel,
 )
 
@@ -29,6 +31,7 @@ from tribo.core.errors import PluginError
 from tribo.motion.unidirectional import Unidirectional
 from tribo.stepping.explicit import Explicit
 from tribo.wear.power import Power
+from tribo.wear.running_in import RunningIn
 
 
 class Film(Effect):
@@ -204,3 +207,22 @@ def test_friction_has_one_source():
 def test_without_friction_its_columns_are_empty():
     with run() as result:
         assert np.isnan(result.table("history")["friction_energy_J"]).all()
+
+
+class Late(Film):
+    """One that carries its part from a time on."""
+
+    type = "test.late"
+    after: float
+
+    def fields(self, contact):
+        share = self.share * (contact.time > self.after) * np.ones_like(contact.pressure)
+        return {LOAD_SHARE.name: dict.fromkeys(contact.materials, share)}
+
+
+def test_a_law_with_a_closed_form_sees_a_film_that_comes_within_a_step():
+    law = RunningIn(law=archard(), factor=1, over="0.2 GPa m")
+    last = states(paper_models.pin(law=law, effects=[Late(share=0.9, after=4)]))[-1]
+    # It slides 1 m at 0.1 m/s.
+    worn = K * 10e6 * (0.4 + 0.1 * 0.6)
+    assert last.bodies["pin"].wear == pytest.approx(worn, rel=1e-4, abs=0)

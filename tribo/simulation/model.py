@@ -92,21 +92,24 @@ class Model:
         """Whether all that remember know the mean of their rates over an increment.
 
         At points that stay (one that is swept sees many pressures, of which a closed form knows
-        one) and where nothing follows what an effect remembers, as a closed form does not see what
-        another makes of it within the increment.
+        one) and where nothing follows an effect, as a closed form does not see what that comes to
+        within the increment.
         """
-        lasting = [effect for effect in self.effects if effect.initial_state]
-        kept = {f.name for effect in lasting for f in (*effect.state_fields, *effect.provides)}
+        given = {f.name for each in self.effects for f in (*each.state_fields, *each.provides)}
         followed = {LOAD_SHARE.name, FRICTION_COEFFICIENT.name}
         followed.update(*(law.requires for law in self.laws.values()))
         followed.update(*(effect.requires for effect in self.effects))
-        if len(self.cycle) > 1 or kept & followed:
+        if len(self.cycle) > 1 or given & followed:
             return False
         known = [
             law.advances and name not in self.swept
             for name, law in self.laws.items()
             if law.initial_state
-        ] + [effect.advances and effect.carrier not in self.swept for effect in lasting]
+        ] + [
+            effect.advances and effect.carrier not in self.swept
+            for effect in self.effects
+            if effect.initial_state
+        ]
         return bool(known) and all(known) and not any(body is None for body, _ in self.filling)
 
     @cached_property
