@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
@@ -51,7 +52,9 @@ def measured_scar_map(found: MeasuredScar) -> Figure:
         _draw_depths(shown, found.depths, unit, most)
         x, y = shown.positions()
         outline = found.scar.T.astype(float)
-        shown.axes.contour(x, y, outline, [0.5], colors="black", linewidths=0.8)
+        look: style.Look = {"color": "black", "linewidth": 0.8}
+        shown.axes.contour(x, y, outline, [0.5], colors=look["color"], linewidths=look["linewidth"])
+        style.legend_below(figure, [Line2D([], [], label="outline of the scar", **look)])
         volume, sure = 1e9 * found.volume, 1e9 * found.volume_uncertainty
         shown.axes.set_title(f"{volume:.4g} ± {sure:.1g} mm³", loc="left")
     return figure
