@@ -106,3 +106,6 @@ def test_another_json_file_is_refused(tmp_path):
     (tmp_path / "other.json").write_text("{}")
     with pytest.raises(tribo.CaseError, match="is not what 'tribo calibrate --json' prints"):
         tribo.write_report(tmp_path / "other.json", tmp_path / "report.html")
+    (tmp_path / "other.json").write_text('{"maps": {}}')
+    with pytest.raises(tribo.CaseError, match="there is no report of local coefficients"):
+        tribo.write_report(tmp_path / "other.json", tmp_path / "report.html")

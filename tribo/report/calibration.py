@@ -34,6 +34,8 @@ def read_calibration(path: Path) -> Calibration:
     """
     try:
         found = json.loads(path.read_text(encoding="utf-8"))
+        if "maps" in found:
+            raise CaseError("there is no report of local coefficients; -o draws them")
         found["parameters"] = [{"limited": False, **row} for row in found["parameters"]]
         tables: dict[str, Any] = {
             name: pd.DataFrame(found.pop(name)) for name in ("parameters", "data", "predictions")
@@ -44,13 +46,13 @@ def read_calibration(path: Path) -> Calibration:
                 tables[name]["upper"] = tables[name]["upper"].fillna(math.inf)
         missing = {*DATA} - {*tables["data"]}
         if missing:
-            raise CaseError(f"it has no {', '.join(sorted(missing))}")
+            raise ValueError(f"it has no {', '.join(sorted(missing))}")
         del found["p_value"]
         for name in ("correlation", "singular_values", "left_out"):
             found[name] = np.array(found[name], dtype=float)
         found |= {"fitted": {}, "notes": tuple(found["notes"])}
         return Calibration(**tables, **found)
-    except (OSError, ValueError, LookupError, TypeError, AttributeError, CaseError) as error:
+    except (OSError, ValueError, LookupError, TypeError, AttributeError) as error:
         raise CaseError(f"{path} is not what 'tribo calibrate --json' prints: {error}") from error
 
 
