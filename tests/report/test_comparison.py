@@ -2,12 +2,14 @@
 
 import re
 
+import numpy as np
 import pytest
 from command_line import tribo as command
 from made_results import SHAPES, written
 from pages import Checked
 
 import tribo
+from tribo.report.curves import _panels
 
 
 @pytest.fixture(scope="module")
@@ -37,9 +39,9 @@ def test_the_files_of_a_folder_go_by_what_varies(tmp_path):
         written(tmp_path / f"load.normal={load}.h5", times=(0.0, 500.0))
     path = tribo.write_report(tmp_path, tmp_path / "report.html")
     page = path.read_text(encoding="utf-8")
-    assert "<h1>100 N and 50 N</h1>" in page
+    assert "<h1>load.normal: 100 N and 50 N</h1>" in page
     assert "Varied: load.normal." in page
-    assert "with 100 N and is worn" in page
+    assert "with load.normal 100 N and is worn" in page
 
 
 def test_a_study_of_one_case_does_not_go_with_several_results(ran):
@@ -51,3 +53,10 @@ def test_a_study_of_one_case_does_not_go_with_several_results(ran):
 def test_a_folder_without_results_is_told(tmp_path):
     with pytest.raises(tribo.CaseError, match="holds no result file"):
         tribo.write_report(tmp_path, tmp_path / "report.html")
+
+
+def test_a_force_that_is_one_number_for_all_is_left_out():
+    path = {"distance_m": np.arange(2.0), "time_s": np.arange(2.0), "load_N": np.full(2, 5.0)}
+    tables = {name: path | {"friction_force_N": np.full(2, len(name))} for name in ("a", "bb")}
+    panels = _panels(tables, {"a": [0, 1], "bb": [0, 1]}, ())
+    assert [name for name, *_ in panels] == ["Friction force"]

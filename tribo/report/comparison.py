@@ -51,14 +51,17 @@ def comparison_page(comparison: Comparison) -> str:
         "history": history(results),
     }
     table = for_page(comparison_table(comparison, list(results), ends))
+    varied = _varied(comparison)
+    title = " and ".join(results) if len(results) == 2 else f"{len(results)} results"
     return render(
         "study.html.j2",
         kind="Comparison",
-        title=" and ".join(results) if len(results) == 2 else f"{len(results)} results",
+        # A value alone does not say of what it is.
+        title=f"{varied[0]}: {title}" if len(varied) == 1 else title,
         answers=_answers(comparison),
         tables_title="Side by side",
         tables=[replace(table, title="At the first and the last common save")],
-        remarks=[*_varied(comparison), how_compared(comparison)],
+        remarks=[*([f"Varied: {', '.join(varied)}."] if varied else []), how_compared(comparison)],
         notes=comparison.notes,
         has_moments=True,
         curves_title="History",
@@ -84,7 +87,9 @@ def _answers(comparison: Comparison) -> list[str]:
     saves = {label: comparison.save(label, last) for label in comparison.results}
     time = time_labels(comparison.results[first].times)[comparison.results[first].save_at(last)]
     # Values stand for a variant, file names for a place.
-    where = f"{'with' if comparison.settings else 'in'} {first}"
+    varied = _varied(comparison)
+    of = f"{varied[0]} " if len(varied) == 1 else ""
+    where = f"{'with' if comparison.settings else 'in'} {of}{first}"
     answers = []
     for body in comparison.bodies:
         worn = {label: save["bodies"][body] for label, save in saves.items()}
@@ -99,8 +104,7 @@ def _answers(comparison: Comparison) -> list[str]:
 
 
 def _varied(comparison: Comparison) -> list[str]:
-    paths = dict.fromkeys(path for point in comparison.settings.values() for path in point)
-    return [f"Varied: {', '.join(paths)}."] if paths else []
+    return list(dict.fromkeys(path for point in comparison.settings.values() for path in point))
 
 
 def _others(worn: dict[str, dict[str, float]], key: str, first: str) -> str:

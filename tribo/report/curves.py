@@ -193,7 +193,10 @@ def _panels(
             for called, column in columns.items()
             if column in table and len(table["time_s"]) > 1 and np.nansum(np.abs(table[column])) > 0
         }
-        if curves and not (si == "N" and all(np.ptp(y) == 0 for *_, y in curves.values())):
+        # A load that is one number for all says nothing.
+        if curves and not (
+            si == "N" and np.ptp(np.concatenate([y for *_, y in curves.values()])) == 0
+        ):
             yield name, si, curves
 
 
@@ -215,7 +218,7 @@ def _columns(bodies: Sequence[str]) -> Iterator[tuple[str, str, dict[str, str]]]
     for name, si, column in (
         ("Volume worn", "m^3", "wear_volume_m3"),
         ("Largest wear depth", "m", "max_wear_depth_m"),
-        ("Roughness Sq in the contact", "m", "Sq_m"),
+        ("Roughness Sq in the contact of the moment", "m", "Sq_m"),
     ):
         yield name, si, {body: f"bodies.{body}.{column}" for body in bodies}
     pressures = {"largest": "max_pressure_Pa", "centre": "centre_pressure_Pa"}
