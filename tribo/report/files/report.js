@@ -8,12 +8,12 @@ const unpack = (id) => {
 };
 
 const LINES = [
-  { color: "#202020", width: 2.5 },
-  { color: "#3b8fd0", width: 2.5, dash: "dash" },
-  { color: "#b35c00", width: 2.5, dash: "dot" },
-  { color: "#00755e", width: 2.5, dash: "dashdot" },
-  { color: "#8a4b9e", width: 2.5, dash: "longdash" },
-  { color: "#6b6b6b", width: 2.5, dash: "longdashdot" },
+  { color: "#202020" },
+  { color: "#3b8fd0", dash: "dash" },
+  { color: "#b35c00", dash: "dot" },
+  { color: "#00755e", dash: "dashdot" },
+  { color: "#8a4b9e", dash: "longdash" },
+  { color: "#6b6b6b", dash: "longdashdot" },
 ];
 /** Seen where they coincide. */
 const MARKS = ["circle", "square-open", "diamond-open", "x-open", "triangle-up-open", "cross-open"];
@@ -95,6 +95,8 @@ function rows(map, values, hidden = () => false) {
 const extreme = (lists, best, start) =>
   lists.reduce((a, list) => list.reduce((b, v) => (v === null ? b : best(b, v)), a), start);
 
+const span = (list) => list[list.length - 1] - list[0] || 1;
+
 /** Draw a map; it and its `peers` of other results have one scale. */
 function drawMap(plot, map, peers, save, moment, fixed) {
   const isPressure = map.body === "";
@@ -106,6 +108,7 @@ function drawMap(plot, map, peers, save, moment, fixed) {
   const high = extreme(lists, Math.max, -Infinity);
   const low = isPressure || steady ? Math.min(0, extreme(lists, Math.min, 0)) : extreme(lists, Math.min, Infinity);
   const [ux, uy] = map.units;
+  const narrow = map.alike ? Math.min(1, span(map.x) / span(map.y)) : 1;
   const trace = {
     type: "heatmap", x: map.x, y: map.y, z: rows(map, values, (v) => isPressure && v === 0),
     zmin: low, zmax: high > low ? high : low + 1, colorscale: isDepth ? DEPTHS : "Viridis",
@@ -117,7 +120,7 @@ function drawMap(plot, map, peers, save, moment, fixed) {
   return Plotly.react(plot, [trace], layout(`${wrapped(map.name, 40)}<br><span style="font-size:12px">${largest}</span>`, {
     plot_bgcolor: isPressure ? "#eceff1" : "#fff",
     xaxis: axis(`${ALONG[0]} (${ux})`, {
-      showgrid: false, constrain: "domain", constraintoward: "right",
+      showgrid: false, constrain: "domain", constraintoward: "right", tickangle: 0, nticks: Math.max(3, Math.round(6 * narrow)),
     }),
     yaxis: axis(`${ALONG[1]} (${uy})`, {
       showgrid: false, constrain: "domain", ...(map.alike ? { scaleanchor: "x" } : {}),
@@ -126,18 +129,18 @@ function drawMap(plot, map, peers, save, moment, fixed) {
   }), CONFIG);
 }
 
-/** Return curves, each with a look that differs in grey too. */
+/** Return curves, each with a look that differs in grey too; the first show beneath those that coincide. */
 const lines = (curves) => curves.map(({ name, x, y, apart }, i) => ({
-  type: "scatter", x, y, name: wrapped(name, 60), line: LINES[i % LINES.length], marker: apart ? { size: 10, symbol: MARKS[i % MARKS.length] } : { size: 6 },
+  type: "scatter", x, y, name: wrapped(name, 60), line: { ...LINES[i % LINES.length], width: 2 + 1.5 * Math.min(curves.length - 1 - i, 3) }, marker: apart ? { size: 10, symbol: MARKS[i % MARKS.length] } : { size: 6 },
   mode: apart ? "markers" : x.length > 30 ? "lines" : "lines+markers",
 }));
 
 function drawSection(plot, section, save, moment, fixed) {
   const curves = Object.entries(section.curves).map(([name, { x, values }]) => ({ name, x, y: values[save] }));
   const all = Object.values(section.curves).flatMap(({ values }) => values);
-  const span = section.down || fixed ? all : curves.map(({ y }) => y);
-  const high = 1.05 * extreme(span, Math.max, 0) || 1;
-  const low = 1.05 * extreme(span, Math.min, 0);
+  const shown = section.down || fixed ? all : curves.map(({ y }) => y);
+  const high = 1.05 * extreme(shown, Math.max, 0) || 1;
+  const low = 1.05 * extreme(shown, Math.min, 0);
   const title = `${section.name}, ${section.axis === 0 ? "along" : "across"} sliding`;
   const largest = curves.map(({ name, y }) => `${name} up to ${extreme([y], Math.max, 0).toPrecision(3)} ${section.unit}`);
   plot.setAttribute("aria-label", `${title}, at ${moment}: ${largest.join(", ")}.`);
@@ -158,7 +161,7 @@ function drawSurface(plot, data, surface, save, moment, camera) {
   const height = depth.map((d, i) => (d === null ? null : (surface.height ? surface.height[i] : 0) - d));
   const deepest = extreme(map.values, Math.max, 0);
   const [ux, uy] = map.units;
-  const span = (list) => list[list.length - 1] - list[0] || 1;
+  const isNarrow = plot.clientWidth < 500;
   const ratio = map.alike ? Math.min(Math.max(span(map.y) / span(map.x), 0.4), 2.5) : 0.6;
   const size = 1.25 / Math.sqrt(0.5 * (1 + ratio * ratio));
   const rise = extreme([height], Math.max, -Infinity) - extreme([height], Math.min, Infinity);
@@ -167,17 +170,18 @@ function drawSurface(plot, data, surface, save, moment, camera) {
   const trace = {
     type: "surface", x: map.x, y: map.y, z: rows(map, height), surfacecolor: rows(map, depth),
     cmin: Math.min(0, extreme(map.values, Math.min, 0)), cmax: deepest || 1, colorscale: ON_WHITE,
-    colorbar: { title: { text: `depth, ${map.unit}`, side: "right" }, thickness: 14, outlinewidth: 0 },
+    // On a narrow page below the surface, whose axes need the width.
+    colorbar: { title: { text: `depth, ${map.unit}`, side: isNarrow ? "top" : "right" }, thickness: 14, outlinewidth: 0, nticks: 6, ...(isNarrow ? { orientation: "h", y: 0, yanchor: "bottom" } : {}) },
     hovertemplate: `x %{x:.3~f} ${ux}, y %{y:.3~f} ${uy}<br>height %{z:.4~g} ${map.unit}<extra></extra>`,
   };
   plot.setAttribute("aria-label",
     `Worn surface of ${surface.name} in 3-D at ${moment}: worn down by up to ${map.largest[save]} ${map.unit}.`);
   return Plotly.react(plot, [trace], layout(`Surface of ${surface.name}, heights enlarged${enlarged}`, {
-    height: 480, margin: { l: 0, r: 0, t: 44, b: 0 }, dragmode: "turntable",
+    font: { ...FONT, size: isNarrow ? 10 : 13 }, height: 480, margin: { l: 0, r: 0, t: 44, b: 0 }, dragmode: "turntable",
     scene: {
-      camera, aspectmode: "manual", aspectratio: { x: size, y: size * ratio, z: HEIGHT },
-      xaxis: { title: { text: `x (${ux})` } }, yaxis: { title: { text: `y (${uy})` } },
-      zaxis: { title: { text: `height (${map.unit})` } },
+      camera, domain: { y: [isNarrow ? 0.2 : 0, 1] }, aspectmode: "manual", aspectratio: { x: size, y: size * ratio, z: HEIGHT },
+      xaxis: { title: { text: `x (${ux})` }, nticks: 5 }, yaxis: { title: { text: `y (${uy})` }, nticks: 5 },
+      zaxis: { title: { text: `height (${map.unit})` }, nticks: 5 },
     },
   }), CONFIG);
 }
@@ -220,7 +224,7 @@ async function showMoments(data) {
     document.querySelectorAll("#bodies, #turning .buttons").forEach((part) => part.remove());
   }
   // A narrow page shows less to both sides.
-  const far = Math.max(1, 700 / (at("surface")?.clientWidth || 700));
+  const far = Math.max(1, 550 / (at("surface")?.clientWidth || 550));
   let camera = { eye: { x: 1.3 * far, y: -1.5 * far, z: far }, center: { x: 0, y: 0, z: -0.15 } };
   let shown = 0;
   choices(at("bodies") ?? document.createElement("p"), "body", surfaces.map(({ name }) => name), (i) => {
