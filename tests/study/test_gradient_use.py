@@ -16,7 +16,9 @@ from tribo.stepping.explicit import Explicit
 from tribo.study.gradient import tape
 from tribo.study.gradient.gradient import ValueAndGradient, gradient
 from tribo.study.gradient.objective import Deepest, Depth, Misfit, Volume
+from tribo.study.gradient.parameters import find
 from tribo.study.gradient.sensitivity import sensitivity
+from tribo.surfaces.height_map import HeightMap
 from tribo.wear.archard import Archard
 
 
@@ -42,6 +44,17 @@ def test_a_hardness_of_both_bodies_is_named_once():
         gradient(case, Volume("disk"), [HARD])
     both = "bodies.*.material.hardness"
     assert gradient(case, Depth("disk"), [both])[both] == 0
+
+
+def test_measured_heights_have_to_be_asked_for():
+    heights = np.full((9, 9), 1e-9).tolist()
+    ball, disk = pair(archard(), archard())
+    surface = HeightMap(size=("2 mm", "2 mm"), heights=heights, on=ball[1].surface)
+    bodies = [(ball[0], ball[1].model_copy(update={"surface": surface})), disk]
+    case = run(bodies=bodies).case
+    first = "bodies.ball.surface.heights.0.0"
+    assert [path for path, *_ in find(case, None) if "heights" in path] == []
+    assert [path for path, *_ in find(case, [first])] == [first]
 
 
 def coated(hardness):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -183,6 +184,8 @@ class Chain:
 def find(case: Case, asked: Sequence[str] | None) -> list[tuple[str, list[tuple[Any, ...]], float]]:
     """Return path, places and value of the numbers that are asked for, or of all.
 
+    Those of a table of numbers, as measured heights, have to be asked for.
+
     Raises
     ------
     CaseError
@@ -195,6 +198,7 @@ def find(case: Case, asked: Sequence[str] | None) -> list[tuple[str, list[tuple[
             (".".join(map(str, place)), [place], value)
             for place, value in known.items()
             if not (place[0] in NOT_PHYSICS or _is_tolerance(place) or value == 0)
+            if not any(isinstance(i, int) and isinstance(j, int) for i, j in pairwise(place))
         ]
     found = []
     for path in asked:
