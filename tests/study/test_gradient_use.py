@@ -51,7 +51,7 @@ def test_measured_heights_have_to_be_asked_for():
     ball, disk = pair(archard(), archard())
     surface = HeightMap(size=("2 mm", "2 mm"), heights=heights, on=ball[1].surface)
     bodies = [(ball[0], ball[1].model_copy(update={"surface": surface})), disk]
-    case = run(bodies=bodies).case
+    case = run(bodies=bodies)
     first = "bodies.ball.surface.heights.0.0"
     assert [path for path, *_ in find(case, None) if "heights" in path] == []
     assert [path for path, *_ in find(case, [first])] == [first]
