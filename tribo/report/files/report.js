@@ -220,7 +220,7 @@ async function showMoments(data) {
   const surfacePlot = surfaces.length ? place(at("surface"), "surface", data.maps[surfaces[0].map].note) : null;
   if (!data.surfaces.length) at("turning")?.remove();
   else if (!surfaces.length) {
-    at("surface").textContent = "This browser draws no 3-D: its WebGL is off. The maps above have the same depths.";
+    at("surface").textContent = "This browser draws no 3-D: its WebGL is off. Turn on hardware acceleration in its settings, or open this file in another browser; the maps above have the same depths.";
     document.querySelectorAll("#bodies, #turning .buttons").forEach((part) => part.remove());
   }
   // A narrow page shows less to both sides.
