@@ -62,10 +62,10 @@ class Registration:
         Standard deviation of the unworn differences, in m.
     worn : ndarray of bool, shape (nx, ny)
         The pixels that were left out as worn or as piled up.
-    slopes : ndarray, shape (parameters, nx, ny)
-        Change of the depth with each parameter that was fitted.
-    covariance : ndarray, shape (parameters, parameters)
-        Of the parameters.
+    slopes : ndarray
+        Change of the depth with each parameter that was fitted, a map (nx, ny) for each.
+    covariance : ndarray
+        Of the parameters, square.
     spread : float
         By how much noise that is alike in neighbours adds to the variance of a sum.
     """
