@@ -55,7 +55,7 @@ class Calibration:
     predictions: pd.DataFrame
     """What else the fitted case gives at the end of each test, in the mean, where tests scatter:
     `test`, `body`, `quantity`, `unit`, `value`, `lower`, `upper`; 0 and infinite where it depends
-    on a parameter that a bound holds."""
+    on a parameter that a bound holds. Of a parameter that is `limited` its upper bound is run."""
     chi_square: float
     """Sum of the squared residuals, limits left out, made independent where tests scatter."""
     degrees_of_freedom: int
@@ -196,7 +196,7 @@ def _outcome(fitted: Linearised, posed: Posed, level: float) -> Calibration:
     root = root_covariance(jacobian)
     deviations = np.sqrt(np.sum(root**2, axis=1))
     estimates = _estimates(fitted, jacobian, posed, level)
-    held, limited = (estimates[name].to_numpy() for name in ("held", "limited"))
+    held = estimates["held"].to_numpy()
     settled = {each.path: float(f"{each.value:.7g}") for each in estimates.itertuples()}
     problem, computed = fitted.problem, fitted.responses[: len(data)]
     effects = fitted.effects(fitted.point)
@@ -210,26 +210,13 @@ def _outcome(fitted: Linearised, posed: Posed, level: float) -> Calibration:
     )
     told = np.max(np.abs(jacobian[~problem.below]), axis=0, initial=0.0) > NO_EFFECT
     spare = max(int(np.sum(~problem.below)) - int(np.sum(told & ~held)), 0)
-    positive = np.all([made.responses > 0 for made in posed.runs.values()], axis=0)
-    rows = []
-    for i, each in enumerate(posed.predicted.itertuples(), len(data)):
-        if not positive[i]:
-            continue
-        value, ends = float(fitted.responses[i]), (0.0, math.inf)
-        if not np.any(np.abs(fitted.slopes[i][held]) > ABOVE_ROUNDING):
-            below, above = value - value * np.exp(interval(fitted, fitted.slopes[i], level))
-            by = math.sqrt(chdtri(1, 1 - level)) * float(last.read_off[i])
-            least = 0.0 if np.any(fitted.slopes[i][limited] > ABOVE_ROUNDING) else value - below
-            ends = max(value - math.hypot(value - least, by), 0.0), value + math.hypot(above, by)
-        unit = QUANTITIES[each.quantity].unit
-        rows.append((each.test, each.body, each.quantity, unit, value, *ends))
-    columns = ["test", "body", "quantity", "unit", "value", "lower", "upper"]
+    predictions = _predictions(fitted, posed, estimates, level)
     return Calibration(
         level=level,
         runs=posed.made,
         parameters=estimates,
         data=data[DATA],
-        predictions=pd.DataFrame(rows, columns=columns),
+        predictions=predictions,
         chi_square=float(np.sum(fitted.residuals(fitted.point)[~problem.below] ** 2)),
         degrees_of_freedom=spare,
         repeatability=fitted.repeatability,
@@ -245,6 +232,43 @@ def _outcome(fitted: Linearised, posed: Posed, level: float) -> Calibration:
             *last.notices,
         ),
     )
+
+
+def _predictions(
+    fitted: Linearised, posed: Posed, estimates: pd.DataFrame, level: float
+) -> pd.DataFrame:
+    """Return `Calibration.predictions`.
+
+    Slopes near a coefficient of as good as none say nothing of what its upper bound gives: of a
+    parameter that is only limited the bound itself is run.
+    """
+    values, held = (estimates[name].to_numpy() for name in ("value", "held"))
+    limited = estimates["limited"].to_numpy()
+    at_bounds = [
+        posed.run(np.where(one, estimates["upper"], values)).responses
+        for one in np.eye(len(values), dtype=bool)[limited]
+    ]
+    read_off = posed.run(np.exp(fitted.point)).read_off
+    positive = np.all([made.responses > 0 for made in posed.runs.values()], axis=0)
+    quantile = math.sqrt(chdtri(1, 1 - level))
+    rows = []
+    for i, each in enumerate(posed.predicted.itertuples(), len(posed.data)):
+        if not positive[i]:
+            continue
+        value, ends = float(fitted.responses[i]), (0.0, math.inf)
+        slopes = np.where(limited, 0.0, fitted.slopes[i])
+        if not np.any(np.abs(slopes[held]) > ABOVE_ROUNDING):
+            below, above = value - value * np.exp(interval(fitted, slopes, level))
+            by = quantile * float(read_off[i])
+            moves = [by, -by, *(float(found[i]) - value for found in at_bounds)]
+            low = value - math.hypot(below, *(move for move in moves if move < 0))
+            high = value + math.hypot(above, *(move for move in moves if move > 0))
+            # What a coefficient more than doubles vanishes with it.
+            ends = 0.0 if max(moves[2:], default=0) > value else max(low, 0.0), high
+        unit = QUANTITIES[each.quantity].unit
+        rows.append((each.test, each.body, each.quantity, unit, value, *ends))
+    columns = ["test", "body", "quantity", "unit", "value", "lower", "upper"]
+    return pd.DataFrame(rows, columns=columns)
 
 
 def _estimates(fitted: Linearised, jacobian: Array, posed: Posed, level: float) -> pd.DataFrame:
