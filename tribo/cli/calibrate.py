@@ -26,6 +26,8 @@ FAR = 10.0
 """Factor of an interval's end from the value above which its part in percent tells nothing."""
 PICTURE = "\0picture"
 """Key of the picture among files by the names of tests."""
+PAUSE = 1.0
+"""Least time between two lines that tell of samples, in s."""
 LONGEST_NAME = 30
 """Characters of a name that a table for 80 columns has room for."""
 
@@ -55,6 +57,12 @@ LONGEST_NAME = 30
     metavar="PART",
     help="Instead, say how many of the tests give intervals of ± this part, as 0.1.",
 )
+@click.option(
+    "--sample",
+    type=click.IntRange(min=1),
+    metavar="COUNT",
+    help="Check the intervals by so many runs more, sampled with emcee; as 2000.",
+)
 @JSON
 def calibrate(
     cases: tuple[Path, ...],
@@ -64,6 +72,7 @@ def calibrate(
     output: Path | None,
     force: bool,
     plan: float | None,
+    sample: int | None,
     as_json: bool,
 ) -> None:
     """Fit CASE's wear coefficients, or other numbers of it, to measured wear.
@@ -90,6 +99,8 @@ def calibrate(
 
     asked = read_measurements(measured)
     alternatives = {path.stem: apply_settings(read_toml(path), overrides) for path in cases}
+    if sample and (len(cases) > 1 or asked.map or plan is not None):
+        raise CaseError("--sample is for one case fitted to [[measured]], without --plan")
     if len(cases) > 1:
         if output is not None or plan is not None or len(alternatives) < len(cases):
             raise CaseError(
@@ -106,7 +117,8 @@ def calibrate(
         _plan(plan_tests(tables, asked, plan, level=level, on_run=_count), as_json)
         return
     files = _files(output, list(dict.fromkeys(test.name for test in asked.tests.values())), force)
-    found = calibrate(tables, asked, level=level, on_run=_Told(asked))
+    told = _Told(asked, sample or 0)
+    found = calibrate(tables, asked, level=level, sample=sample or 0, on_run=told)
     written = [files[name] for name in found.fitted if output is not None]
     for name, path in zip(found.fitted, written, strict=False):
         write_whole(path, to_toml(found.fitted[name]))
@@ -243,15 +255,18 @@ def _count(run: int) -> None:
 class _Told:
     """Tell of runs, and how long those that are needed at least will take."""
 
-    def __init__(self, asked: Measurements) -> None:
+    def __init__(self, asked: Measurements, sample: int) -> None:
         tests = asked.tests.values()
         measured = {entry.body for test in tests for entry in test.measured}
         self._fewest = len({repr(test.set) for test in tests}) * (
-            2 + (len(asked.fit) or len(measured))
+            2 + (len(asked.fit) or len(measured)) + sample
         )
-        self._began = time.monotonic()
+        self._began, self._pause, self._last = time.monotonic(), bool(sample), -math.inf
 
     def __call__(self, run: int, misfit: float) -> None:
+        if self._pause and time.monotonic() - self._last < PAUSE:
+            return
+        self._last = time.monotonic()
         left = (self._fewest - run) * (time.monotonic() - self._began) / run
         more = f", {left:.0f} s left at least" if left >= 1 else ""
         click.echo(f"run {run}: misfit χ² {misfit:.3g}{more}", err=True)
@@ -274,7 +289,10 @@ def _table(title: str, names: list[str], *columns: str) -> Table:
 def estimates_table(found: Calibration) -> Table:
     """Return the parameters with their intervals."""
     names, level = list(found.parameters["path"]), f"{100 * found.level:g} % interval"
-    table = _table(f"Fitted in {found.runs} runs", names, "estimate", level, "", "resolution")
+    columns = ["estimate", level, "", "resolution"]
+    if is_sampled := "sampled_lower" in found.parameters:
+        columns.append("sampled interval")
+    table = _table(f"Fitted in {found.runs} runs", names, *columns)
     for each in found.parameters.itertuples():
         ends, relative = _interval(each, f"{each.lower:.3g}", f"{each.upper:.3g}")
         resolution = f"±{percent(each.resolution_limit)} %" if each.resolution_limit else ""
@@ -285,7 +303,8 @@ def estimates_table(found: Calibration) -> Table:
             value, ends = f"below {in_si(each.upper, each.unit)}", "upper bound"
         if each.held or each.limited or math.isinf(each.upper):
             relative = resolution = ""
-        table.add_row(each.path, value, ends, relative, resolution)
+        more = [f"{each.sampled_lower:.3g} to {each.sampled_upper:.3g}"] if is_sampled else []
+        table.add_row(each.path, value, ends, relative, resolution, *more)
     return table
 
 

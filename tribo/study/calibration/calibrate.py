@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +22,7 @@ from tribo.study.calibration.measured import Measurements
 from tribo.study.calibration.notes import notes
 from tribo.study.calibration.posed import Parameter, Posed
 from tribo.study.calibration.quantities import QUANTITIES, in_si, plain
+from tribo.study.calibration.sample import check_sampling, sampled
 
 DATA = ["test", "body", "quantity", "time_s", "position_m", "unit"]
 DATA += ["measured", "below", "sigma", "computed", "residual"]
@@ -45,7 +46,8 @@ class Calibration:
     or 0 where the data do not bound it; `resolution_share`, the part of its variance that comes
     from instruments' resolution; `resolution_limit`, how far it may be off through that alone,
     relative to `value`; `held`, whether it lies on one of its bounds, which `lower` and `upper`
-    then are; `limited`, whether only limits of detection tell of it: `upper` is all that is known.
+    then are; `limited`, whether only limits of detection tell of it: `upper` is all that is known;
+    `sampled_lower` and `sampled_upper`, if that was asked for.
     """
     data: pd.DataFrame
     """A row a measured value: `test`, empty for one of the case as it is; `body`, `quantity`,
@@ -100,6 +102,7 @@ def calibrate(
     measured: Measurements | Mapping[str, Any] | str | Path,
     *,
     level: float = 0.95,
+    sample: int = 0,
     on_run: Callable[[int, float], None] | None = None,
 ) -> Calibration:
     """Fit parameters of a case to wear that was measured in one test or several.
@@ -115,6 +118,8 @@ def calibrate(
         What was measured in it or in other tests, and what is to be fitted; or its TOML file.
     level : float, optional
         Probability with which each interval is to cover the truth.
+    sample : int, optional
+        How many runs more, of each test's case, to check the intervals by, with emcee.
     on_run : callable, optional
         Called after each round of runs with the number of runs and their misfit χ².
 
@@ -139,6 +144,8 @@ def calibrate(
             f"{len(posed.parameters)} parameters cannot be fitted to {count} measured "
             f"value{'' if count == 1 else 's'}: measure more, or leave parameters out of fit"
         )
+    if sample:
+        check_sampling(sample, len(posed.parameters))
     far = far_off(posed.data, posed.run(posed.start).responses, posed.parameters)
     problem = posed.problem()
 
@@ -155,7 +162,11 @@ def calibrate(
         if not far:
             raise
         raise type(error)(f"{error}; or is a measured value off? {'; '.join(far)}") from error
-    return _outcome(fitted, posed, level)
+    found = _outcome(fitted, posed, level)
+    if not sample:
+        return found
+    parameters, note = sampled(responses, fitted, found.parameters, sample, level)
+    return replace(found, runs=posed.made, parameters=parameters, notes=(*found.notes, note))
 
 
 def far_off(data: pd.DataFrame, computed: Array, parameters: Sequence[Parameter]) -> list[str]:

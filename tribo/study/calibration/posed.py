@@ -6,6 +6,7 @@ import math
 import warnings
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -128,22 +129,29 @@ class Posed:
         """How many simulations were run."""
         return len(self.tested) * len(self.runs)
 
+    @cached_property
+    def asked(self) -> list[tuple[Array, list[Reading]]]:
+        """Of each case which responses it gives, the data first, and what they are read off."""
+        both = pd.concat([self.data, self.predicted], ignore_index=True)
+        return [
+            (own.index.to_numpy(), [Reading(*row) for row in own[READ].itertuples(index=False)])
+            for _, own in both.groupby("bench")
+        ]
+
     def run(self, values: Array) -> Run:
         """Return the responses to parameters, of the data and then the predictions, made once."""
         key = values.tobytes()
         if key in self.runs:
             return self.runs[key]
-        asked = pd.concat([self.data, self.predicted], ignore_index=True)
-        responses, read_off = np.empty((2, len(asked)))
+        responses, read_off = np.empty((2, len(self.data) + len(self.predicted)))
         notices: dict[str, None] = {}
-        for i, own in asked.groupby("bench"):
-            wanted = [Reading(*row) for row in own[READ].itertuples(index=False)]
+        for i, (rows, wanted) in enumerate(self.asked):
             tables, name = self.tested[i].tables, f"run {self.made + i + 1}"
             made = make_run(tables, self.parameters, values, wanted, name)
-            responses[own.index], read_off[own.index] = made.responses, made.read_off
+            responses[rows], read_off[rows] = made.responses, made.read_off
             notices |= dict.fromkeys(made.notices)
-        nothing = self.data["position_m"].isna() & (responses[: len(self.data)] <= 0)
-        for each in self.data[nothing].itertuples():
+        nothing = (responses <= 0)[: len(self.data)] & self.data["position_m"].isna().to_numpy()
+        for each in self.data[nothing].itertuples() if np.any(nothing) else ():
             raise CaseError(
                 f"the {each.quantity} of {each.body!r} comes out as 0 in the case; begin with more "
                 "wear: give start in fit",

@@ -1,0 +1,110 @@
+"""Sampled intervals are those of closed forms, and of the fit where the case is a power law."""
+
+import sys
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from click.testing import CliRunner
+from scipy.optimize import brentq
+from scipy.stats import norm
+
+from tribo.cli.main import tribo
+from tribo.core.errors import CaseError
+from tribo.study.calibration.calibrate import calibrate
+from tribo.study.calibration.fit import fit, interval
+from tribo.study.calibration.linearised import Problem
+from tribo.study.calibration.posed import Run
+from tribo.study.calibration.sample import sampled
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+CASE, WEIGHED = EXAMPLES / "weighed_split.toml", EXAMPLES / "weighed.toml"
+
+
+def sampled_of(observed, below, repeatability, count):
+    """Sampled and fitted intervals of numbers that were each measured, some repeatedly."""
+    which = np.cumsum([0, *(a != b for a, b in pairwise(below))])
+    ends = np.full(which[-1] + 1, np.inf)
+    problem = Problem(
+        names=("a", "b")[: len(ends)],
+        observed=np.array(observed),
+        sigma=np.full(len(observed), 0.1),
+        below=np.array(below),
+        specimen=np.arange(len(observed)),
+        repeatability=repeatability,
+        logged=np.full(len(observed), True),
+        lower=-ends,
+        upper=ends,
+    )
+    found = fit(lambda k: k[which], problem, np.ones(len(ends)))
+    axes = np.eye(len(ends))
+    both = np.exp(
+        [found.point[i] + np.array(interval(found, axes[i], 0.95)) for i in range(len(axes))]
+    )
+    estimates = pd.DataFrame({"lower": both[:, 0], "upper": both[:, 1], "limited": found.limited()})
+    return sampled(lambda k: k[which], found, estimates, count, 0.95)[0]
+
+
+def test_known_errors_give_normal_intervals_and_a_limit_its_closed_form():
+    """Flat before, of a number below 1 ± 0.1 the part σ (φ(z) − z Φ(−z)) lies above 1 + σ z."""
+    values = [0.9, 1.2, 1.0, 0.95]
+    first, second = sampled_of([*values, 1.0], [False] * 4 + [True], 0.0, 8000).itertuples()
+    middle, half = np.mean(values), 1.96 * 0.1 / 2
+    assert first.sampled_lower == pytest.approx(middle - half, abs=0.12 * half)
+    assert first.sampled_upper == pytest.approx(middle + half, abs=0.12 * half)
+    z = brentq(lambda z: 0.1 * (norm.pdf(z) - z * norm.sf(z)) - 0.025, 0, 2)
+    assert (second.sampled_lower, second.limited) == (0, True)
+    assert second.sampled_upper == pytest.approx(1 + 0.1 * z, abs=0.02)
+
+
+def test_a_repeatability_of_few_tests_is_sampled_too():
+    """As Student's t makes the interval longer than the 0.40 that it is if they scatter by 0.2."""
+    (only,) = sampled_of([0.7, 1.3, 0.9, 1.1, 0.85, 1.15], [False] * 6, None, 4000).itertuples()
+    assert only.sampled_lower == pytest.approx(only.lower, abs=0.06)
+    assert only.sampled_upper == pytest.approx(only.upper, abs=0.06)
+    assert only.upper - only.lower > 0.45
+
+
+@pytest.fixture
+def losses(monkeypatch):
+    """Make each quantity of a body proportional to its coefficient, with no run."""
+
+    def made(tables, parameters, values, wanted, *rest):
+        k = dict(zip([p.path.split(".")[1] for p in parameters], values, strict=True))
+        return Run(
+            np.array([2e-6 / 7.08e-15 * k[w.body] for w in wanted]), np.zeros(len(wanted)), ()
+        )
+
+    monkeypatch.setattr("tribo.study.calibration.posed.make_run", made)
+
+
+def test_the_command_prints_sampled_intervals_of_the_weighed_coefficients(losses):
+    runs = []
+    found = calibrate(CASE, WEIGHED, sample=1200, on_run=lambda run, misfit: runs.append(run))
+    assert runs == sorted({*runs})
+    assert 600 < found.runs == runs[-1] < 1300
+    assert any(note.startswith("ends of sampled intervals lie up to") for note in found.notes)
+    asked = ["calibrate", str(CASE), "--measured", str(WEIGHED), "--sample", "1200"]
+    ended = CliRunner().invoke(tribo, asked)
+    for each in found.parameters.itertuples():
+        off = 0.12 * (each.upper - each.lower)
+        assert each.sampled_lower == pytest.approx(each.lower, abs=off)
+        assert each.sampled_upper == pytest.approx(each.upper, abs=off)
+        for end in (each.sampled_lower, each.sampled_upper):
+            assert f"{end:.3g}" in ended.stdout.split()
+    refused = CliRunner().invoke(tribo, [*asked, "--plan", "0.1"])
+    assert (
+        str(refused.exception) == "--sample is for one case fitted to [[measured]], without --plan"
+    )
+
+
+def test_what_cannot_be_sampled_is_refused(losses, monkeypatch):
+    with pytest.raises(
+        CaseError, match="10 samples are too few for 2 parameters: give 1200 or more"
+    ):
+        calibrate(CASE, WEIGHED, sample=10)
+    monkeypatch.setitem(sys.modules, "emcee", None)
+    with pytest.raises(CaseError, match="sampling needs emcee, which is not installed: pip inst"):
+        calibrate(CASE, WEIGHED, sample=1200)

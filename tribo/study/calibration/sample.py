@@ -1,0 +1,99 @@
+"""Intervals by sampling what is likely, with runs of the case itself in place of power laws."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+from scipy.stats import norm
+
+from tribo.core.arrays import Array
+from tribo.core.errors import CaseError
+from tribo.study.calibration.linearised import REPEATABILITIES, Linearised, root_covariance
+from tribo.study.calibration.quantities import percent
+
+LEAST, LEFT_OUT = 100, 0.25
+"""Fewest samples of a chain, and the part of them, at its beginning, that is left out."""
+
+
+def check_sampling(count: int, parameters: int) -> None:
+    """Raise CaseError if there is nothing to sample with, or too few samples are asked for."""
+    try:
+        import emcee  # noqa: F401
+    except ImportError as error:
+        raise CaseError(
+            "sampling needs emcee, which is not installed: pip install emcee"
+        ) from error
+    if count < (least := LEAST * _chains(parameters)):
+        raise CaseError(
+            f"{count} samples are too few for {parameters} parameter{'s' * (parameters > 1)}: "
+            f"give {least} or more"
+        )
+
+
+def sampled(
+    model: Callable[[Array], Array],
+    fitted: Linearised,
+    estimates: pd.DataFrame,
+    count: int,
+    level: float,
+) -> tuple[pd.DataFrame, str]:
+    """Return the estimates with the ends of sampled intervals, and a remark on them.
+
+    By differential evolution (ter Braak and Vrugt 2008, Stat. Comput. 18, 435-446) as emcee has it
+    (Foreman-Mackey et al. 2013, PASP 125, 306-312). Before the data all values of a parameter
+    within its bounds are equally likely, and all logarithms of a repeatability that is not stated.
+    CaseError if the data leave a parameter open.
+    """
+    import emcee
+
+    for each in estimates[np.isinf(estimates["upper"])].itertuples():
+        raise CaseError(
+            f"{each.path} cannot be sampled, since the data do not bound it from above: give it an "
+            "upper in fit, or leave it out"
+        )
+    problem, p, chains = fitted.problem, len(estimates), _chains(len(estimates))
+    ends, random = np.array([problem.lower, problem.upper]), np.random.default_rng(0)
+    near = random.standard_normal((chains, p)) @ root_covariance(fitted.sensitivity()).T
+    below = np.log(random.uniform(size=(chains, p)) * estimates["upper"].to_numpy())
+    start = np.where(estimates["limited"], below, fitted.point + near)
+    if problem.repeatability is None:
+        ends = np.column_stack([ends, np.log(REPEATABILITIES)])
+        about = fitted.repeatability * random.uniform(0.5, 1.5, chains)
+        start = np.column_stack([start, np.log(about + REPEATABILITIES[0])])
+
+    def log_probability(place: Array) -> float:
+        if np.any((place < ends[0]) | (place > ends[1])):
+            return -np.inf
+        point = place[:p]
+        scatter = np.exp(place[p]) if problem.repeatability is None else problem.repeatability
+        here = replace(fitted, point=point, responses=model(np.exp(point)))
+        here = here.weighed(point, float(scatter))
+        return float(np.sum(point)) - 0.5 * here.deviance(point)
+
+    moves = [(emcee.moves.DEMove(), 0.8), (emcee.moves.DESnookerMove(), 0.2)]
+    sampler = emcee.EnsembleSampler(*start.shape, log_probability, moves=moves)
+    seed = np.random.RandomState(0).get_state()
+    sampler.run_mcmc(emcee.State(np.clip(start, *ends), random_state=seed), count // chains)
+    discard = int(LEFT_OUT * count / chains)
+    found = np.exp(sampler.get_chain(discard=discard, flat=True)[:, :p])
+    part = 0.5 + 0.5 * level
+    lower, upper = np.quantile(found, [1 - part, part], axis=0)
+    lower = np.where(estimates["limited"], 0.0, lower)
+    both = estimates.assign(sampled_lower=lower, sampled_upper=upper)
+    off = np.maximum(np.abs(lower - both["lower"]), np.abs(upper - both["upper"]))
+    apart = float(np.max(off / (both["upper"] - both["lower"])))
+    alone = len(found) / float(np.max(sampler.get_autocorr_time(discard=discard, tol=0)))
+    far = norm.ppf(part)
+    chance = np.sqrt(part * (1 - part) / alone) / (2 * far * norm.pdf(far))
+    return both, (
+        f"ends of sampled intervals lie up to {percent(apart)} % of their lengths from those by "
+        f"power laws; {len(found)} samples, as good as {alone:.0f} independent ones, give them "
+        f"to about ±{percent(chance)} %"
+    )
+
+
+def _chains(parameters: int) -> int:
+    return 4 * (parameters + 1)
