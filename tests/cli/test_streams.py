@@ -111,3 +111,34 @@ def test_a_result_is_shown_on_a_stream_that_carries_ascii_only(folder):
     assert b"mm^3/(N*m)" in done.stdout
     assert b"?" not in done.stdout
     assert "µm³, 0…".encode("latin-1", errors=PLAIN) == "µm³, 0...".encode("latin-1")
+
+
+INTERRUPTED = """
+import signal, time, weakref
+from unittest import mock
+import tribo.cli.main as cli
+
+# A shell starts what runs in the background with the signal ignored.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+
+class Thing:
+    pass
+
+def work(**options):
+    thing = Thing()
+    kept = weakref.ref(thing, lambda _: signal.raise_signal(signal.SIGINT))
+    del thing
+    for _ in range(500):
+        time.sleep(0.01)
+
+with mock.patch.object(cli.tribo, "main", work):
+    try:
+        cli.main()
+    except KeyboardInterrupt:
+        print("stopped")
+"""
+
+
+def test_an_interrupt_that_comes_while_python_tidies_up_is_not_lost(folder):
+    done = tribo(folder, code=INTERRUPTED, capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "stopped\n", "")

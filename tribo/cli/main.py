@@ -12,6 +12,7 @@ from typing import Any, NoReturn
 
 import click
 
+from tribo.cli.interrupts import no_interrupt_lost
 from tribo.cli.streams import Output, Remarks, over, say
 from tribo.core.errors import CaseError, ReaderGone, TriboError, TriboWarning
 from tribo.core.words import did_you_mean, suggestion
@@ -118,7 +119,7 @@ def main() -> None:
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     sys.stdout, sys.stderr = over(sys.stdout, Output), over(sys.stderr, Remarks)
     try:
-        with _warnings_on_stderr():
+        with _warnings_on_stderr(), no_interrupt_lost():
             tribo.main(standalone_mode=False)
             # What a plugin may have printed.
             print(end="", flush=True)

@@ -1,0 +1,38 @@
+"""Ctrl-C where Python would lose it."""
+
+from __future__ import annotations
+
+import signal
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from threading import Timer
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from sys import UnraisableHookArgs
+
+AGAIN = 0.2
+"""Time by which the timer has been started, on a busy machine too, in s."""
+
+
+@contextmanager
+def no_interrupt_lost() -> Iterator[None]:
+    """Repeat an interrupt that arrives in a destructor, where Python would only print it."""
+
+    def hook(unraisable: UnraisableHookArgs) -> None:
+        if unraisable.exc_type is KeyboardInterrupt:
+            # Later: here it would be lost again.
+            waiting.append(Timer(AGAIN, signal.raise_signal, [signal.SIGINT]))
+            waiting[-1].start()
+        else:
+            before(unraisable)
+
+    waiting: list[Timer] = []
+    before, sys.unraisablehook = sys.unraisablehook, hook
+    try:
+        yield
+    finally:
+        sys.unraisablehook = before
+        for timer in waiting:
+            timer.cancel()
