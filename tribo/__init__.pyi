@@ -98,6 +98,7 @@ from tribo.study.gradient.objective import Pressure as Pressure
 from tribo.study.gradient.objective import Seeds as Seeds
 from tribo.study.gradient.objective import View as View
 from tribo.study.gradient.objective import Volume as Volume
+from tribo.study.gradient.objective import Width as Width
 from tribo.study.sweeping.sweep import Sweep as Sweep
 from tribo.study.sweeping.sweep import sweep as sweep
 from tribo.surfaces.cylinder import Cylinder as Cylinder

@@ -1,5 +1,7 @@
 """What a gradient is asked for, what it refuses, and fits that use it."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from gradients import BASE, CLOSE, HARD, Kind, pair, resolved, run
@@ -10,12 +12,13 @@ from tribo.case import Layer, Stop
 from tribo.contact.winkler import Winkler
 from tribo.core.errors import CaseError
 from tribo.core.fields import Field
+from tribo.core.grid import Grid
 from tribo.effects.effect import Effect
 from tribo.simulation.positions import composed
 from tribo.stepping.explicit import Explicit
 from tribo.study.gradient import tape
 from tribo.study.gradient.gradient import ValueAndGradient, gradient
-from tribo.study.gradient.objective import Deepest, Depth, Misfit, Volume
+from tribo.study.gradient.objective import Deepest, Depth, Misfit, Volume, Width
 from tribo.study.gradient.parameters import find
 from tribo.study.gradient.sensitivity import sensitivity
 from tribo.surfaces.height_map import HeightMap
@@ -119,6 +122,23 @@ def test_effects_that_no_law_follows_have_no_part_in_it():
         for effects in ([Turns()], [])
     )
     assert found.parameters == alone.parameters
+
+
+@pytest.mark.parametrize("cells", [(40, 31), (1, 40)])
+def test_the_width_is_that_of_a_ball_worn_flat_and_has_its_derivative(cells):
+    grid, half = Grid(size=("1 mm", "1 mm"), cells=(40, cells[1])), 0.3e-3
+    x, y = np.zeros((1, 1)) if cells[0] == 1 else grid.mesh[0], grid.mesh[1]
+    worn = np.maximum(1e-6 * (1 - (x**2 + (y - 1e-5) ** 2) / half**2), 0.0)
+
+    def width(depth):
+        return Width("ball")(SimpleNamespace(wear=lambda body: depth, grid=grid))
+
+    value, seeds = width(worn)
+    assert value == pytest.approx(2 * half, rel=5e-3)
+    change = 1e-9 * np.random.default_rng(0).standard_normal(worn.shape)
+    difference = 0.5 * (width(worn + change)[0] - width(worn - change)[0])
+    assert np.sum(seeds.wear["ball"] * change) == pytest.approx(difference, rel=1e-4)
+    assert width(0 * worn)[0] == 0
 
 
 def test_a_coarse_run_tells_what_rules_the_depth():

@@ -151,6 +151,37 @@ class Deepest:
 
 
 @dataclass(frozen=True)
+class Width:
+    """The width of a scar, in m, made smooth: that of a parabola as wide in the mean.
+
+    Of the profile through the middle it is √20 times the standard deviation of the place of what
+    is gone. That is exact of a parabola, as a ball worn flat has lost it; on a groove with a toe it
+    is some 6 % less than to its edge. `axis` is 0 along the sliding direction, 1 across it.
+    """
+
+    body: str
+    axis: int = 1
+
+    def __call__(self, view: View) -> tuple[float, Seeds]:
+        """Return the width, and its derivative."""
+        wear = view.wear(self.body)
+        lines, n = np.moveaxis(wear, self.axis, 0), wear.shape[self.axis]
+        if n == 1:
+            raise CaseError(f"{self.body} has no width along its track")
+        middle = slice((lines.shape[1] - 1) // 2, lines.shape[1] // 2 + 1)
+        profile, seed = np.mean(lines[:, middle], axis=1), np.zeros_like(lines)
+        if (total := np.sum(profile)) <= 0:
+            return 0.0, Seeds({self.body: np.zeros_like(wear)})
+        place = view.grid.spacing[self.axis] * np.arange(n)
+        part = profile / total
+        off = (place - np.sum(part * place)) ** 2
+        variance = float(np.sum(part * off))
+        width = (20 * variance) ** 0.5
+        seed[:, middle] = (10 / width * (off - variance) / total / lines[0, middle].size)[:, None]
+        return width, Seeds({self.body: np.moveaxis(seed, 0, self.axis)})
+
+
+@dataclass(frozen=True)
 class Misfit:
     """Half of the sum of squares of what a body's depth misses a measured map by.
 
