@@ -61,12 +61,6 @@ def true_run():
         yield result
 
 
-@pytest.fixture(scope="module")
-def fine_run():
-    with run_with(**{"grid.cells": 64}) as result:
-        yield result
-
-
 def computed(result, body, quantity):
     return read(result, Reading(body, quantity))[0]
 
@@ -232,15 +226,16 @@ def test_a_balance_that_is_too_coarse_is_told(resolution, is_too_coarse):
 
 
 @pytest.mark.slow
-def test_what_a_coarse_grid_cannot_tell_is_left_uncertain(fine_run):
+def test_what_a_coarse_grid_cannot_tell_is_left_uncertain():
     """Estimates and predictions cover what made the data, though those are far more exact."""
     scars = [("ball", "scar_along"), ("ball", "scar_across"), ("disk", "depth")]
-    data = [measured(*each, computed(fine_run, *each), 1e-5) for each in scars]
-    found = calibrate(CASE, {"measured": data, "fit": fitting(*TRUE, start=2e-16)})
+    with run_with(**{"grid.cells": 64}) as fine:
+        data = [measured(*each, computed(fine, *each), 1e-5) for each in scars]
+        found = calibrate(CASE, {"measured": data, "fit": fitting(*TRUE, start=2e-16)})
+        for each in found.predictions.itertuples():
+            assert each.lower < computed(fine, each.body, each.quantity) < each.upper
     for each in found.parameters.itertuples():
         assert each.lower < TRUE[each.path] < each.upper
-    for each in found.predictions.itertuples():
-        assert each.lower < computed(fine_run, each.body, each.quantity) < each.upper
     assert any("raise grid.cells" in note for note in found.notes)
 
 

@@ -6,6 +6,7 @@ import math
 import shlex
 import time
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -107,14 +108,22 @@ def calibrate(
                 "several cases are compared: give files of different names, and --plan or -o with "
                 "one case only"
             )
-        _choice(choose_case(alternatives, asked, level=level, on_run=_tell_of), as_json)
+        _choice(
+            choose_case(
+                alternatives,
+                asked,
+                level=level,
+                on_run=lambda name, *run: _tell(f"{name}, run", *run),
+            ),
+            as_json,
+        )
         return
     case, tables = cases[0], alternatives[cases[0].stem]
     if asked.map:
         _maps(tables, asked, level, output, force, as_json)
         return
     if plan is not None:
-        _plan(plan_tests(tables, asked, plan, level=level, on_run=_count), as_json)
+        _plan(plan_tests(tables, asked, plan, level=level, on_run=partial(_tell, "run")), as_json)
         return
     files = _files(output, list(dict.fromkeys(test.name for test in asked.tests.values())), force)
     told = _Told(asked, sample or 0)
@@ -164,7 +173,7 @@ def _maps(
 
     check_free(output, force)
     mapped = {f"map[{i}]": entry for i, entry in enumerate(asked.map)}
-    found = calibrate_maps(tables, mapped, on_run=_count_misfit)
+    found = calibrate_maps(tables, mapped, on_run=partial(_tell, "run and pass back"))
     if as_json:
         echo_json(maps_json(found, level))
     else:
@@ -239,17 +248,10 @@ def _choice(found: Choice, as_json: bool) -> None:
     console.print(f"In short: {escape(found.verdict)}.")
 
 
-def _tell_of(name: str, run: int, misfit: float) -> None:
-    click.echo(f"{name}, run {run}: misfit χ² {misfit:.3g}", err=True)
-
-
-def _count_misfit(run: int, misfit: float) -> None:
-    told = "" if math.isnan(misfit) else f": misfit χ² {misfit:.4g}"
-    click.echo(f"run and pass back {run}{told}", err=True)
-
-
-def _count(run: int) -> None:
-    click.echo(f"run {run}", err=True)
+def _tell(what: str, run: int, misfit: float = math.nan, left: float = 0.0) -> None:
+    told = "" if math.isnan(misfit) else f": misfit χ² {misfit:.3g}"
+    more = f", {left:.0f} s left at least" if left >= 1 else ""
+    click.echo(f"{what} {run}{told}{more}", err=True)
 
 
 class _Told:
@@ -267,9 +269,7 @@ class _Told:
         if self._pause and time.monotonic() - self._last < PAUSE:
             return
         self._last = time.monotonic()
-        left = (self._fewest - run) * (time.monotonic() - self._began) / run
-        more = f", {left:.0f} s left at least" if left >= 1 else ""
-        click.echo(f"run {run}: misfit χ² {misfit:.3g}{more}", err=True)
+        _tell("run", run, misfit, (self._fewest - run) * (self._last - self._began) / run)
 
 
 def _table(title: str, names: list[str], *columns: str) -> Table:

@@ -150,7 +150,7 @@ def calibrate(
     problem = posed.problem()
 
     def responses(values: Array) -> Array:
-        found = posed.fitted_to(values)
+        found = posed.run(values).responses
         if on_run is not None:
             misfit = problem.residuals(found, 1 / problem.sigma)
             on_run(posed.made, float(np.sum(misfit**2)))

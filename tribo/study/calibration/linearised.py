@@ -41,8 +41,8 @@ class Problem:
     """Bounds of the logarithms of the parameters, shape (p,); infinite for none."""
 
     def scaled(self, responses: Array) -> Array:
-        """Return responses, of those that are `logged` the logarithms."""
-        return np.log(responses, out=responses.copy(), where=self.logged)
+        """Return responses, of those that are `logged` the logarithms; a prediction may be 0."""
+        return np.log(responses, out=responses.copy(), where=self.logged & (responses > 0))
 
     def residuals(self, responses: Array, weights: Array) -> Array:
         """Return residuals, in standard deviations; their squares are −2 ln of the likelihood.

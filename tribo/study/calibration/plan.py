@@ -87,7 +87,7 @@ def plan_tests(
     posed = Posed.of(case, asked)
 
     def responses(values: Array) -> Array:
-        found = posed.fitted_to(values)
+        found = posed.run(values).responses
         on_run(posed.made)
         return found
 

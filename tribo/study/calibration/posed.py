@@ -160,13 +160,6 @@ class Posed:
         self.runs[key] = Run(responses, read_off, tuple(notices))
         return self.runs[key]
 
-    def fitted_to(self, values: Array) -> Array:
-        """Return the responses for a fit; 1 for a prediction of 0, which is left out."""
-        found = self.run(values).responses.copy()
-        predicted = found[len(self.data) :]
-        predicted[predicted <= 0] = 1.0
-        return found
-
     def problem(self) -> Problem:
         """Return what is to be fitted; how well the grid gives the data, the first run says."""
         data, parameters, read_off = self.data, self.parameters, self.run(self.start).read_off
