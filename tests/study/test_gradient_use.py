@@ -9,7 +9,9 @@ from paper_models import K, archard, states
 from scipy.optimize import minimize
 
 from tribo.case import Layer, Stop
+from tribo.contact.operator import HalfSpace
 from tribo.contact.winkler import Winkler
+from tribo.core.box import whole
 from tribo.core.errors import CaseError
 from tribo.core.fields import Field
 from tribo.core.grid import Grid
@@ -18,6 +20,7 @@ from tribo.simulation.positions import composed
 from tribo.stepping.explicit import Explicit
 from tribo.study.gradient import tape
 from tribo.study.gradient.gradient import ValueAndGradient, gradient
+from tribo.study.gradient.linear import Carrier, StepSystem
 from tribo.study.gradient.objective import Deepest, Depth, Misfit, Volume, Width
 from tribo.study.gradient.parameters import find
 from tribo.study.gradient.sensitivity import sensitivity
@@ -192,3 +195,26 @@ def test_factors_on_the_wear_rate_are_unknowns_too():
         factor * gradient(case, Volume("ball"), []).value, rel=1e-9, abs=0
     )
     assert np.sum(slope) == pytest.approx(value, rel=1e-9, abs=0)
+
+
+def test_a_stroke_that_mirrors_itself_is_solved_on_one_side(monkeypatch):
+    cells, random = (8, 8), np.random.default_rng(0)
+    box = whole(cells)
+    operator = HalfSpace(cells, (1e-5, 1e-5), 1e11)
+    starts = [0, 3, 6]
+    inside = np.zeros((3, *cells), dtype=bool)
+    inside[:, 2:6, 2:6] = True
+    # Laws are asked beyond the contact too, where it need not mirror itself.
+    slope = np.where(inside, 1e-16, random.random(inside.shape))
+    given = random.random(inside.shape)
+    given += np.where(inside, given[::-1, ::-1], 0.0)
+    bodies = [(Carrier(8, [0, 0, 0], None), slope), (Carrier(14, starts, None), slope)]
+    system = StepSystem(operator, box, np.array([0.25, 0.5, 0.25]), bodies, inside)
+    zero = np.zeros_like(given)
+    asked = []
+    apply = HalfSpace.apply
+    monkeypatch.setattr(HalfSpace, "apply", lambda self, p: asked.append(len(p)) or apply(self, p))
+    one_side = system.solve(given, zero, zero)
+    assert set(asked) == {2}
+    monkeypatch.setattr(StepSystem, "_mirrors", lambda *given: False)
+    np.testing.assert_allclose(one_side, system.solve(given, zero, zero), rtol=1e-6, atol=0)

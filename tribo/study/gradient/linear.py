@@ -183,7 +183,7 @@ class StepSystem:
         z = np.where(self.free, start, 0.0)
         z -= over(share * (z.sum(CELLS) + fixed.sum(CELLS))) * self.free
         z += fixed
-        symbol = self._symbol()
+        symbol, difference = self._symbols()
 
         def centred(values: Array) -> Array:
             kept: Array = values * self.free
@@ -193,6 +193,9 @@ class StepSystem:
         def preconditioned(values: Array) -> Array:
             modes = scipy.fft.rfft2(values)
             modes /= symbol
+            if difference is not None:
+                mean = np.sum(over(self.shares) * values, axis=0)
+                modes += difference * scipy.fft.rfft2(mean + mean[::-1] if self.mirrored else mean)
             return centred(scipy.fft.irfft2(modes, s=self.box.shape, overwrite_x=True))
 
         def applied(values: Array) -> Array:
@@ -239,7 +242,9 @@ class StepSystem:
             pairs = zip(carrier.starts, reversed(carrier.starts), strict=True)
             if carrier.weights is None and any((a + b - rest) % carrier.rows for a, b in pairs):
                 return False
-        fields = [given, fixed, self.free.astype(float), *(slope for _, slope in self.bodies)]
+        # Laws are asked in a region around the contact that need not mirror itself.
+        pressed = [given * self.free, *(slope * self.free for _, slope in self.bodies)]
+        fields = [self.free.astype(float), fixed, *pressed]
         return np.allclose(self.shares, self.shares[::-1], rtol=MIRRORED) and all(
             np.max(np.abs(field - field[::-1, ::-1])) <= MIRRORED * np.max(np.abs(field))
             for field in fields
@@ -257,21 +262,25 @@ class StepSystem:
                 return False
         return True
 
-    def _symbol(self) -> Array:
-        symbol = self.operator.symbol()
+    def _symbols(self) -> tuple[Array, Array | None]:
+        """Return eigenvalues to precondition with, and what more 1 over them is for the mean.
+
+        A body that stays in the window wears by the mean over all positions.
+        """
+        symbol, stays = self.operator.symbol(), 0.0
         for carrier, slope in self.bodies:
             inside = slope[self.free]
-            mean = float(np.mean(inside)) if inside.size else 0.0
-            if mean <= 0:
-                continue
+            mean = max(float(np.mean(inside)), 0.0) if inside.size else 0.0
             passed = max(carrier.starts) - min(carrier.starts)
             if carrier.weights is not None:
                 symbol[0] += mean * self.box.shape[0]
             elif passed:
                 symbol[0] += mean * min(1.0, self.box.shape[0] / passed)
             else:
-                symbol += mean
-        return symbol
+                stays += mean
+        if len(self.shares) == 1:
+            return symbol + stays, None
+        return symbol, 1 / (symbol + stays) - 1 / symbol
 
     def _conjugate(
         self, applied: Map, preconditioned: Map, residual: Array, tolerance: float
