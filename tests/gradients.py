@@ -13,7 +13,7 @@ from tribo.simulation.assembly import assemble
 from tribo.simulation.march import begin, march
 from tribo.simulation.positions import composed
 from tribo.stepping.implicit import Implicit
-from tribo.stepping.step import rested, rests, start_sliding
+from tribo.stepping.step import distance_until, rested, start_sliding
 from tribo.study.gradient.gradient import gradient
 from tribo.study.gradient.local import localised
 from tribo.study.gradient.objective import View
@@ -37,7 +37,7 @@ def repeated(model, base, steps, objective, worn=None):
         state = replace(state, bodies={**state.bodies, name: body})
     for time, distance in steps:
         then = float(np.interp(time, stops.times, own.times))
-        if rests(model, state, then):
+        if distance_until(model, state, then) is None:
             state = rested(model, state, then)
         else:
             state = start_sliding(model, state)

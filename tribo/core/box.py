@@ -58,18 +58,14 @@ def around_region(region: Region, window: tuple[int, int], margin: int) -> Box:
     rows, columns = region
     if rows.start == rows.stop:
         return whole(window)
-    i, nx = _widened(rows, window[0], margin)
-    j, ny = _widened(columns, window[1], margin)
+    edges = []
+    for lines, count in zip((rows, columns), window, strict=True):
+        low, high = lines.start - margin, lines.stop + margin
+        unit = _SMALLEST // 4
+        while 7 * unit < high - low:
+            unit *= 2
+        length = min(max(_SMALLEST, unit * -(-(high - low) // unit)), count)
+        first = low - (length - (high - low)) // 2
+        edges.append((min(max(first, 0), count - length), length))
+    (i, nx), (j, ny) = edges
     return Box((i, j), (nx, ny), window)
-
-
-def _widened(lines: slice, count: int, margin: int) -> tuple[int, int]:
-    low, high = lines.start - margin, lines.stop + margin
-    unit = _SMALLEST // 4
-    while 7 * unit < high - low:
-        unit *= 2
-    length = max(_SMALLEST, unit * -(-(high - low) // unit))
-    if length >= count:
-        return 0, count
-    first = low - (length - (high - low)) // 2
-    return min(max(first, 0), count - length), length

@@ -246,10 +246,10 @@ class Model:
         """
         exposure = self.exposures[name]
         mean = part * exposure.average(rate)
+        if exposure.starts is None:
+            return mean if total is None else total + mean
         if total is None:
             return self.spread(name, mean, position)
-        if exposure.starts is None:
-            return total + mean
         add_from(total, mean, exposure.starts[position])
         return total
 

@@ -26,10 +26,10 @@ from tribo.stepping.step import (
     distance_until,
     moment_after,
     rested,
-    rests,
     start_sliding,
     undeformed,
     worn_by,
+    worn_depths,
 )
 
 if TYPE_CHECKING:
@@ -68,9 +68,9 @@ class Explicit(Scheme):
                 "make it longer, or use stepping.type = 'implicit'",
                 PLACE,
             )
-        if rests(model, state, self.time_step):
-            return None
         increment = distance_until(model, state, self.time_step)
+        if increment is None:
+            return None
         return self._instability(model, state, moment_after(state, increment, self.time_step))
 
     def advance(self, model: Model, state: State, until: float) -> State:
@@ -84,10 +84,11 @@ class Explicit(Scheme):
         time = state.time + self.time_step
         if until - time < 1e-6 * self.time_step:
             time = until
-        if rests(model, state, time):
+        target = distance_until(model, state, time)
+        if target is None:
             return rested(model, state, time)
         state = start_sliding(model, state)
-        increment = distance_until(model, state, time) - state.distance
+        increment = target - state.distance
         moment = moment_after(state, increment, time)
         state = rated(model, state, moment)
         if not (self.allow_unstable and state.has_notice("stability")):
@@ -103,7 +104,8 @@ class Explicit(Scheme):
             slid = course(model, memory, state.contacts, increment, moment)
         else:
             slid = Course(rated(model, state, moment).rates, memory)
-        after = worn_by(model, state, slid, increment, moment)
+        depths = worn_depths(model, slid.rates, increment)
+        after = worn_by(model, state, slid, depths, increment, moment)
         loads = model.loads.before(time)
         contacts = solve_cycle(
             model, undeformed(model, after), loads, _extrapolated(state), after.bodies

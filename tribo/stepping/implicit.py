@@ -20,7 +20,7 @@ from tribo.stepping.contacts import solve_cycle
 from tribo.stepping.events import Worn
 from tribo.stepping.evolution import Course, course, sloped
 from tribo.stepping.linear_wear import linear_wear
-from tribo.stepping.memory import Memory, filling, remembered
+from tribo.stepping.memory import filling, remembered
 from tribo.stepping.rates import Moment, wear_rates
 from tribo.stepping.repeated import check_repeatable
 from tribo.stepping.scheme import Scheme
@@ -32,7 +32,6 @@ from tribo.stepping.step import (
     load_changes,
     moment_after,
     rested,
-    rests,
     start_sliding,
     undeformed,
     worn_by,
@@ -135,10 +134,10 @@ class Implicit(Scheme):
         NumericalError
             If steps are rejected down to a length that drowns in rounding.
         """
-        if rests(model, state, until):
+        target = distance_until(model, state, until)
+        if target is None:
             return rested(model, state, until)
         state = start_sliding(model, state)
-        target = distance_until(model, state, until)
         settle = self.settle if until in model.saves else 0.0
         remaining = target - state.distance
         natural = state.increment or _first_increment(model, state, remaining)
@@ -221,7 +220,8 @@ class Implicit(Scheme):
             if state.rates
             else slide(contacts=state.contacts, moment=begin)
         )
-        guess = _guess(model, before, state.contacts, slid, increment)
+        height = filling(model, before)
+        guess = _guess(model, height, state.contacts, slid, increment)
         loads = model.loads.mean(state.time, time)
         # What is remembered is integrated under the loads of the step already.
         heavier = 1.0 if before.values else loads[0] / model.loads.after(state.time)[0]
@@ -243,7 +243,7 @@ class Implicit(Scheme):
             implied = beyond + wear.depths(contacts, dx)
             solved, passes = counted(solved, contacts), passes + 1
             slid = slide(contacts=contacts, moment=moment, plan=guess.course.plan)
-            guess = _guess(model, before, contacts, slid, increment)
+            guess = _guess(model, height, contacts, slid, increment)
             off = np.abs(guess.depths - guess.filled - implied)
             mismatch = _loaded_mean(model, contacts, off) if resolved else _largest(off)
             if mismatch <= tolerance * max(_largest(guess.depths), _largest(guess.filled)):
@@ -255,7 +255,7 @@ class Implicit(Scheme):
                     "raise stepping.max_passes or lower stepping.pressure_tolerance"
                 )
         rates, memory = guess.course.rates, guess.course.memory
-        after = worn_by(model, solved, guess.course, increment, moment)
+        after = worn_by(model, solved, guess.course, guess.worn, increment, moment)
         if not (memory.values or memory.shares):
             # Set first: settling a groove leaves the pressure that these rates belong to. What is
             # remembered changes them along a step, and so do layers.
@@ -323,17 +323,18 @@ def _fitted(natural: float, remaining: float, last: float) -> float:
 
 def _guess(
     model: Model,
-    before: Memory,
+    height: Array,
     contacts: Sequence[ContactSolution],
     slid: Course,
     increment: float,
 ) -> Guess:
+    """Return what a step comes to under `contacts`; `height` (m) is what filled the gap before."""
     worn = worn_depths(model, slid.rates, increment)
     depths = np.zeros((len(contacts), *model.grid.cells))
     for position, depth in enumerate(depths):
         for name, of_body in worn.items():
             depth += model.under(name, of_body, position)
-    filled = filling(model, slid.memory) - filling(model, before)
+    filled = filling(model, slid.memory) - height
     return Guess(contacts, slid, worn, depths, filled)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from dataclasses import field as in_dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -30,7 +31,7 @@ class Memory:
     worn: Mapping[str, Array] = in_dataclass(default_factory=dict)
     shares: Mapping[str, Mapping[str, Array]] = in_dataclass(default_factory=dict)
 
-    @property
+    @cached_property
     def values(self) -> list[Array]:
         """All of them, in a fixed order: those of the laws first."""
         of_laws = [array for fields in self.laws.values() for array in fields.values()]

@@ -140,24 +140,23 @@ def moment_after(state: State, increment: float, time: float) -> Moment:
     return Moment(time, state.distance + increment, increment / (time - state.time))
 
 
-def distance_until(model: Model, state: State, time: float) -> float:
-    """Return the sliding distance at a later time, which must have grown, in m."""
+def distance_until(model: Model, state: State, time: float) -> float | None:
+    """Return the sliding distance at a later time (s), in m; None if the motion rests until then.
+
+    It must have grown, but for rounding.
+    """
     distance = model.motion.distance_at(time)
+    # A distance that has turned back by then has grown before.
+    if abs(distance - state.distance) <= SMALLEST * state.distance:
+        halfway = model.motion.distance_at(0.5 * (state.time + time))
+        if abs(halfway - state.distance) <= SMALLEST * state.distance:
+            return None
     if not state.distance < distance < np.inf:
         raise PluginError(
             f"{model.motion} does not slide on: {state.distance:g} m "
             f"at {state.time:g} s, {distance:g} m at {time:g} s"
         )
     return distance
-
-
-def rests(model: Model, state: State, time: float) -> bool:
-    """Whether the motion rests until a later time (s), but for rounding."""
-    # A distance that has turned back by then has grown before.
-    return all(
-        abs(model.motion.distance_at(t) - state.distance) <= SMALLEST * state.distance
-        for t in (time, 0.5 * (state.time + time))
-    )
 
 
 def load_changes(model: Model, begin: float, end: float) -> bool:
@@ -217,9 +216,18 @@ def worn_depths(
     return worn
 
 
-def worn_by(model: Model, before: State, slid: Course, increment: float, moment: Moment) -> State:
-    """Return the state after an increment (m) up to `moment`, its contacts yet to be solved."""
-    depths = worn_depths(model, slid.rates, increment)
+def worn_by(
+    model: Model,
+    before: State,
+    slid: Course,
+    depths: Mapping[str, Array],
+    increment: float,
+    moment: Moment,
+) -> State:
+    """Return the state after an increment (m) up to `moment`, its contacts yet to be solved.
+
+    `depths` has what each body loses on it, on its own surface, in m.
+    """
     shares = model.missed_shares
     between = {} if shares is None else worn_depths(model, slid.rates, increment, shares)
     bodies = dict(before.bodies)
