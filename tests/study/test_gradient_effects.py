@@ -111,7 +111,7 @@ KINDS = {
     ),
     "grains, positions": Kind(
         run(
-            kinematics=resolved(duration=0.5, waveform="sinusoidal"),
+            kinematics=resolved(duration=0.25, waveform="sinusoidal"),
             bodies=pair(FRESH, archard()),
             effects=[Grains(on="disk")],
             stepping=SLOW,

@@ -1,5 +1,6 @@
 """What a gradient is asked for, what it refuses, and fits that use it."""
 
+import tracemalloc
 from types import SimpleNamespace
 
 import numpy as np
@@ -172,6 +173,24 @@ def test_a_save_that_is_not_there_is_refused():
 def test_a_tape_goes_to_disk_and_reads_the_same(monkeypatch):
     monkeypatch.setattr(tape, "IN_MEMORY", 1)
     assert Kind(run(contact=Winkler()), Depth("ball"), BASE, 1e-5).off() < CLOSE
+
+
+def peak(steps):
+    times = tuple(20 * (step + 1) / steps for step in range(steps))
+    long = run(grid=Grid(("0.5 mm", "0.5 mm"), (48, 48)), contact=Winkler(), save_times=times)
+    tracemalloc.start()
+    gradient(long, Volume("ball"), ["load.normal"])
+    _, highest = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    return highest
+
+
+@pytest.mark.slow
+def test_memory_does_not_grow_with_the_steps_of_a_run(monkeypatch):
+    monkeypatch.setattr(tape, "IN_MEMORY", 1)
+    peak(10)
+    # A pressure takes over 3 kB, the time of a save in each variant of the case under 1 kB.
+    assert peak(50) - peak(10) < 40e3
 
 
 def test_scipy_finds_what_made_a_scar():
