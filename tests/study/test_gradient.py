@@ -40,6 +40,7 @@ from tribo.study.gradient import backwards, course, linear, local, parameters, r
 from tribo.study.gradient.gradient import gradient
 from tribo.study.gradient.objective import Deepest, Depth, Pressure, Volume
 from tribo.surfaces.cylinder import Cylinder
+from tribo.surfaces.surface import Surface
 from tribo.surfaces.waves import Waves
 from tribo.wear.archard import Archard
 from tribo.wear.modified import times
@@ -219,6 +220,48 @@ def test_a_number_at_its_bound_has_the_derivative_of_one_side():
     found = gradient(flats, Volume("ball"), [exponent]).relative[exponent]
     pressure = 20.0 / (0.5e-3) ** 2
     assert found == pytest.approx(np.log(pressure / 1e9), rel=1e-8)
+
+
+class Step(Surface):
+    """A flat of which one half stands 1 µm higher."""
+
+    type = "step"
+
+    def height(self, grid):
+        return np.where(np.arange(grid.cells[0])[:, None] < 8, 1e-6, np.zeros(grid.cells))
+
+
+@pytest.mark.parametrize(
+    ("hardness", "load", "x", "lower", "higher"),
+    [
+        # The lower half just touches: counted as open.
+        (None, 0.5, -1e-4, 1.0, 0.5),
+        # The higher half just yields, at 8 and 4 MPa: counted as yielding.
+        ("8 MPa", 1.5, 1e-4, 1.5, 3.0),
+    ],
+)
+@pytest.mark.parametrize("rounding", [-1e-13, 0, 1e-13])
+def test_at_a_change_of_state_the_side_is_the_one_that_is_named(
+    hardness, load, x, lower, higher, rounding
+):
+    bodies = [named("ball", Step(), steel(hardness), archard()), named("disk", flat(), steel())]
+    area, springs = 0.5e-3**2, 4e12
+
+    def asked(part):
+        return run(
+            load=load * springs * 1e-6 * area * (1 + rounding + part),
+            bodies=bodies,
+            contact=Winkler(modulus=springs),
+            ends_at_window=True,
+        )
+
+    def relative(part):
+        found = gradient(asked(part), {0.0: Pressure(x, 0)}, ["load.normal"])
+        return found.relative["load.normal"]
+
+    assert relative(-1e-6) == pytest.approx(lower, rel=1e-5)
+    assert relative(1e-6) == pytest.approx(higher, rel=1e-5)
+    assert relative(0) == pytest.approx(higher if hardness else lower, rel=1e-5)
 
 
 @pytest.mark.parametrize(

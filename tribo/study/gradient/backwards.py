@@ -27,6 +27,9 @@ from tribo.study.gradient.parameters import Chain
 from tribo.study.gradient.remembering import Remembering
 from tribo.study.gradient.tape import Enveloped, Gave, Pressed, Saved, Slid, Tape
 
+JUST = 1e-9
+"""Part of the largest pressure, or of the hardness, within which a cell just touches or yields."""
+
 
 def covered(model: Model) -> Model:
     """Return a model without the effects that no law follows, and no load.
@@ -178,7 +181,7 @@ class _Back:
         pressure = window[here]
         full = np.zeros_like(pressure, dtype=bool)
         if model.system.cap is not None:
-            full = pressure >= model.system.cap * (1 - 1e-12)
+            full = pressure >= model.system.cap * (1 - JUST)
 
         contacts = [_contact(each) for each in window]
         increments: list[Increment] = []
@@ -193,7 +196,7 @@ class _Back:
         looked = np.zeros_like(window) if pressed is None else pressed / over(weights)
         if yielded and record.overlap is not None:
             fixed = self._gave(record, yielded)[here] * full / over(weights)
-        free = (pressure > 0) & ~full
+        free = (pressure > JUST * np.max(pressure)) & ~full
         bodies = [(own, steep[here]) for each in increments for own, steep in each.bodies]
         wear = partial(self._of_wear, increments[0], box) if slid and self.together else None
         system = StepSystem(operator, box, self.shares, bodies, free, wear)

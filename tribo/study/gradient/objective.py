@@ -215,7 +215,7 @@ class Misfit:
 class Pressure:
     """The pressure in the middle of the cycle at a place, in Pa: of the cell nearest to it, in m.
 
-    Where the cell touches just so, its derivative is that of the side on which it is taken.
+    A cell that just touches has the derivative of one that is open.
     """
 
     x: float = 0.0
