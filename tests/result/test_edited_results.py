@@ -11,14 +11,6 @@ from made_results import made
 from tribo import CaseError
 from tribo.cli.main import tribo as command_line
 
-COMMANDS = {
-    "show": ("show", "x.h5"),
-    "show as JSON": ("show", "x.h5", "--json"),
-    "export": ("export", "x.h5"),
-    "plot": ("plot", "x.h5"),
-    "compare": ("compare", "x.h5", "sound.h5", "--no-plots"),
-}
-BODIES = {"ball": {}, "disk": {}}
 # Five saves, nine steps, 50 × 40 cells, two bodies.
 FIELD = (5, 50, 40)
 ON_BODIES = (5, 2, 50, 40)
@@ -27,16 +19,15 @@ ON_BODIES = (5, 2, 50, 40)
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     with made() as result:
-        for name in ("x.h5", "sound.h5"):
-            result.save(tmp_path / name)
+        result.save(tmp_path / "x.h5")
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
 
-def refusal(folder, edit, *command):
+def refusal(folder, edit):
     with edited(folder / "x.h5") as file:
         edit(file)
-    ended = CliRunner().invoke(command_line, command)
+    ended = CliRunner().invoke(command_line, ["show", "x.h5", "--json"])
     assert isinstance(ended.exception, CaseError), repr(ended.exception)
     assert "\n" not in str(ended.exception)
     assert "Infinity" not in ended.stdout
@@ -77,12 +68,12 @@ EDITS = {
     "a case that is no JSON": attribute("case", "{nope"),
     "a case that nests deeply": attribute("case", '{"bodies":' * 5000 + "1" + "}" * 5000),
     "bodies that are not in the file": text("case", {"bodies": {"a": {}, "b": {}}}),
-    "no provenance": text("provenance", {}),
-    "notices that are no texts": text("notices", [1]),
+    "a case with one body": text("case", {"bodies": {"ball": {}}}),
+    "bodies in a list": text("case", {"bodies": [1, 2]}),
+    "a case without bodies": text("case", {}),
+    "provenance that is a list": text("provenance", []),
+    "no notices": lambda file: file.attrs.pop("notices"),
     "no status": lambda file: file.attrs.pop("status"),
-    "a wall time that is not finite": attribute("wall_time_s", np.inf),
-    "a negative load": attribute("load_N", -1.0),
-    "a curvature of one number": attribute("curvature_1_m", 1.0),
     "no cells": dataset("x", np.zeros(0)),
     "other bodies": dataset("body", [b"ball", b"block"]),
     "bodies that are a group": lambda file: (file.pop("body"), file.create_group("body")),
@@ -97,17 +88,7 @@ EDITS = {
 
 @pytest.mark.parametrize("edit", EDITS.values(), ids=EDITS)
 def test_what_does_not_fit_is_told(folder, edit):
-    assert "x.h5 is damaged: " in refusal(folder, edit, "show", "x.h5", "--json")
-
-
-WITHOUT_TWO = ({}, {"ball": {}}, {**BODIES, "pin": {}}, [1], BODIES | {"ball": 1})
-
-
-@pytest.mark.parametrize(
-    ("command", "bodies"), list(zip(COMMANDS.values(), WITHOUT_TWO, strict=True)), ids=COMMANDS
-)
-def test_every_command_refuses_a_case_without_its_two_bodies(folder, command, bodies):
-    assert "x.h5 is damaged: 'case" in refusal(folder, text("case", {"bodies": bodies}), *command)
+    assert "x.h5 is damaged: " in refusal(folder, edit)
 
 
 def test_a_case_that_was_only_added_to_and_an_effect_that_failed_are_shown(folder):
