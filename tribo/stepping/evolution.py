@@ -17,7 +17,7 @@ from tribo.stepping.contacts import in_stripes
 from tribo.stepping.extrapolation import Limits, Plan, Values, integrated
 from tribo.stepping.layers import in_layers
 from tribo.stepping.memory import Memory, laid, remembered
-from tribo.stepping.rates import CycleRates, Moment, rates_at_each, resting_rates, wear_rates
+from tribo.stepping.rates import CycleRates, Moment, resting_rates, wear_rates
 
 if TYPE_CHECKING:
     from tribo.simulation.model import Model
@@ -65,14 +65,16 @@ def course(
     """
     layered = {name: before.worn[name] for name, law in model.laws.items() if law.bottoms}
 
+    taken = None
+
     def begun(first: float) -> Course:
         end = moment.back(increment - first) if before.values else moment
-        return course(model, before, contacts, first, end)
+        parts = None if taken is None else taken.until(first / increment)
+        return course(model, before, contacts, first, end, parts)
 
     if not before.values:
-        shared = in_layers(model, before, contacts, increment, moment)
-        rates = wear_rates(model, contacts, shared, moment)
-        return Course(rates, shared, begun=begun if layered else None)
+        shared, found = in_layers(model, before, contacts, increment, moment)
+        return Course([each.wear for each in found], shared, begun=begun if layered else None)
     of_model = partial(_rates, model, before, list(layered), contacts, increment, moment)
     start = [*before.values, *layered.values()]
     limits = limits_of(model, before)
@@ -103,7 +105,9 @@ def sloped(
     if not before.values:
         return known.rates
     nudged, stripes = in_stripes(contacts)
-    if len(known.plan.parts) > len(COARSE.parts):
+    layered = any(law.bottoms for law in model.laws.values())
+    # Slopes jump where points pass to the next layer: those over other parts mislead.
+    if len(known.plan.parts) > len(COARSE.parts) and not layered:
         same, plan = course(model, before, contacts, increment, moment, COARSE), COARSE
     else:
         same, plan = known, replace(known.plan, accuracy=np.inf)
@@ -166,8 +170,7 @@ def _rates(
     now = before.with_values(each)
     if layered:
         now = replace(now, worn={**now.worn, **dict(zip(layered, each, strict=True))})
-        now = in_layers(model, now, contacts, step * increment, moment)
-    found = rates_at_each(model, contacts, now, moment)
+    _, found = in_layers(model, now, contacts, step * increment, moment)
     total: Values = [np.zeros_like(value) for value in values]
     for position, rates in enumerate(found):
         share = model.cycle[position].share

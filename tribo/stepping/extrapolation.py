@@ -63,6 +63,15 @@ class Plan:
     parts: tuple[tuple[float, bool], ...] = ((1.0, False),)
     accuracy: float = ACCURACY
 
+    def until(self, share: float) -> Plan:
+        """Return the parts of the first share of the increment, to be taken as they are."""
+        parts, left = [], share
+        for part, relaxes in self.parts:
+            if left > 0:
+                parts.append((min(part, left) / share, relaxes))
+            left -= part
+        return Plan(tuple(parts), math.inf)
+
 
 def integrated(
     rates: Rates,

@@ -55,6 +55,11 @@ AT_REST, FEW = 1e-9, 3
 rejected in a row, while the load changes, after which one is looked for."""
 
 
+ROUND, ALIKE = 3, 1e-3
+"""Mismatches in a row that are each as large as two passes before, to this part, where passes go
+round and will not converge."""
+
+
 class StepRejected(NumericalError):
     """A step was too long to be carried out; a shorter one may do."""
 
@@ -227,6 +232,7 @@ class Implicit(Scheme):
         heavier = 1.0 if before.values else loads[0] / model.loads.after(state.time)[0]
         forward = {name: heavier * depth for name, depth in guess.worn.items()}
         solved, passes = state, 0
+        mismatches: list[float] = []
         while True:
             rates = sloped(model, before, guess.contacts, increment, moment, guess.course)
             wear = linear_wear(model, rates, guess.contacts, increment)
@@ -248,7 +254,8 @@ class Implicit(Scheme):
             mismatch = _loaded_mean(model, contacts, off) if resolved else _largest(off)
             if mismatch <= tolerance * max(_largest(guess.depths), _largest(guess.filled)):
                 break
-            if passes == self.max_passes:
+            mismatches.append(mismatch)
+            if passes == self.max_passes or _circles(mismatches):
                 raise StepRejected(
                     f"the implicit step of {increment:.3g} m at {state.distance:.6g} m did not "
                     f"converge in {passes} passes: wear depth still off by {mismatch:.2g} m; "
@@ -307,6 +314,13 @@ class Implicit(Scheme):
             change / load / self.pressure_tolerance,
             volume_error / (VOLUME * self.depth_tolerance),
         )
+
+
+def _circles(mismatches: Sequence[float]) -> bool:
+    """Whether passes go to and fro between two guesses, as at kinks of the wear over pressure."""
+    latest, before = mismatches[-ROUND:], mismatches[-ROUND - 2 : -2]
+    pairs = list(zip(before, latest, strict=False))
+    return len(pairs) == ROUND and all(abs(b - a) <= ALIKE * a for a, b in pairs)
 
 
 def _fitted(natural: float, remaining: float, last: float) -> float:

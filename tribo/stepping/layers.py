@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from functools import partial
+from functools import reduce
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,7 +15,7 @@ from tribo.core.contact import ContactSolution
 from tribo.core.notices import Notice
 from tribo.core.state import BodyState, State
 from tribo.stepping.memory import Memory, at_surface
-from tribo.stepping.rates import Moment, wear_rates
+from tribo.stepping.rates import Moment, Rates, rates_at_each
 
 if TYPE_CHECKING:
     from tribo.simulation.model import Model
@@ -30,50 +30,51 @@ def in_layers(
     contacts: Sequence[ContactSolution],
     increment: float,
     moment: Moment,
-) -> Memory:
+) -> tuple[Memory, list[Rates]]:
     """Return `before` with the shares of an increment (m) that points spend in each layer.
 
-    At given pressures a point wears through a layer at that layer's rate and goes on at the
-    next one's: with the mean rates, weighted with the shares, the depth is exact however long
-    the increment. On a track it is that of the mean rates along it.
+    With it come the mean rates over it. At given pressures a point wears through a layer at that
+    layer's rate and goes on at the next one's: with the mean rates, weighted with the shares, the
+    depth is exact however long the increment. On a track it is that of the mean rates along it.
     """
     layered = {name: law.bottoms for name, law in model.laws.items() if law.bottoms}
-    if not layered:
-        return before
-    alone = partial(_alone, model, before, contacts, moment)
+
+    def shared(shares: Mapping[str, Mapping[str, Array]]) -> tuple[Memory, list[Rates]]:
+        memory = replace(before, shares=shares)
+        return memory, rates_at_each(model, contacts, memory, moment)
+
     surface = {name: at_surface(bottoms, before.worn[name]) for name, bottoms in layered.items()}
-    at_once = alone(surface)
-    if all(_stays(layered[name], before.worn[name], at_once[name] * increment) for name in layered):
-        return replace(before, shares=surface)
+    staying = shared(surface)
+    if not layered:
+        return staying
+    lost = _depths(model, layered, staying[1])
+    if all(_stays(layered[name], before.worn[name], lost[name] * increment) for name in layered):
+        return staying
     found: dict[str, list[Array]] = {name: [] for name in layered}
     for layer in range(1 + max(map(len, layered.values()))):
         everywhere = {
             name: only(min(layer, len(bottoms)), before.worn[name])
             for name, bottoms in layered.items()
         }
-        for name, rate in alone(everywhere).items():
+        for name, rate in _depths(model, layered, shared(everywhere)[1]).items():
             found[name].append(rate)
-    shares = {
-        name: over_increment(bottoms, before.worn[name], found[name], increment)
-        for name, bottoms in layered.items()
-    }
-    return replace(before, shares=shares)
+    return shared(
+        {
+            name: over_increment(bottoms, before.worn[name], found[name], increment)
+            for name, bottoms in layered.items()
+        }
+    )
 
 
-def _alone(
-    model: Model,
-    before: Memory,
-    contacts: Sequence[ContactSolution],
-    moment: Moment,
-    shares: Mapping[str, Mapping[str, Array]],
-) -> dict[str, Array]:
-    """Return the depth per metre on each body in layers, were `shares` those of its layers."""
-    rates = wear_rates(model, contacts, replace(before, shares=shares), moment)
-    total = {name: np.zeros_like(before.worn[name]) for name in shares}
-    for position, (place, of_bodies) in enumerate(zip(model.cycle, rates, strict=True)):
-        for name in shares:
-            depth = model.average(name, of_bodies[name].depth_rate, position)
-            total[name] = total[name] + place.share * depth
+def _depths(model: Model, names: Iterable[str], rates: Sequence[Rates]) -> dict[str, Array]:
+    """Return the depth per metre on each of some bodies, where it lies."""
+    total = {}
+    for name in names:
+        depths = (
+            place.share * model.average(name, of_bodies.wear[name].depth_rate, position)
+            for position, (place, of_bodies) in enumerate(zip(model.cycle, rates, strict=True))
+        )
+        total[name] = reduce(np.add, depths)
     return total
 
 
