@@ -105,6 +105,22 @@ def test_each_mistake_is_a_line(path):
     assert lines[1:] == ["bodies.ball.material.young: -1 Pa: must be greater than 0"]
 
 
+@pytest.mark.parametrize(
+    ("grid", "message"),
+    [
+        ({"size": 1e-3, "cells": 0}, "grid.cells: 0: must be from 4 to 16384"),
+        ({"size": 1e-3, "cells": 3}, "grid.cells: 3: must be from 4 to 16384"),
+        ({"cells": 8}, "grid.size: missing; a length [m] is needed, as in '5 mm'"),
+    ],
+)
+def test_a_grid_is_refused_in_one_line(grid, message):
+    from tribo.templates import template
+
+    with pytest.raises(CaseError) as caught:
+        validate_case(tomllib.loads(template("ball_on_disk")) | {"grid": grid})
+    assert str(caught.value) == message
+
+
 def test_a_default_type_need_not_be_named():
     from tribo.templates import template
 

@@ -16,7 +16,13 @@ H = 4e9
 
 def test_the_lab_block_is_that_of_the_worn_bodies():
     # made() wears 3.11e-14 m³ per m of sliding at 100 N.
-    lab = lab_report(made(densities=(7850.0, None), cap=H)).as_json()
+    report = lab_report(made(densities=(7850.0, None), cap=H))
+    printed = str(report).splitlines()
+    assert printed[0].startswith(
+        "ball: specific wear rate 3.11e-07 mm³/(N·m), mass 0.0879 mg, scar"
+    )
+    assert printed[1].startswith("disk: specific wear rate 3.11e-07 mm³/(N·m), scar across ")
+    lab = report.as_json()
     ball, disk = lab["bodies"]["ball"], lab["bodies"]["disk"]
     assert ball["specific_wear_rate_mm3_per_Nm"] == pytest.approx(3.11e-7, rel=1e-6, abs=0)
     assert ball["mass_kg"] == pytest.approx(7850 * 3.11e-14 * 360, rel=1e-6, abs=0)

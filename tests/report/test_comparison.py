@@ -50,7 +50,9 @@ def test_a_study_of_one_case_does_not_go_with_several_results(ran):
     assert "--verified: a study of one case goes with one result" in done.stderr
 
 
-def test_a_folder_without_results_is_told(tmp_path):
+def test_a_folder_without_results_is_told_and_none_is_made(tmp_path):
+    with pytest.raises(tribo.CaseError, match=r"there is no folder .*; make it first"):
+        tribo.write_report(tmp_path, tmp_path / "new" / "report.html")
     with pytest.raises(tribo.CaseError, match="holds no result file"):
         tribo.write_report(tmp_path, tmp_path / "report.html")
 

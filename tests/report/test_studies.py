@@ -98,6 +98,9 @@ def test_a_calibration_tells_its_estimates(tmp_path):
         "of 95 %."
     )
     assert second.endswith("the data do not bound it.")
+    page = (tmp_path / "fit-report.html").read_text(encoding="utf-8")
+    assert "the data tell the best to 2.0 %, the worst to 20 % (one standard deviation)" in page
+    assert "Correlation of bodies.ball.wear.k and bodies.disk.wear.k: 0.00." in page
     # Nothing to draw: Plotly is left out.
     assert (tmp_path / "fit-report.html").stat().st_size < 200_000
 

@@ -70,7 +70,7 @@ def test_waves_of_fewer_than_four_cells_are_refused_in_one_line():
         small(bodies=[named("ball", sphere(), steel()), named("disk", fine, steel(), archard())])
     assert str(caught.value) == (
         "bodies.disk.surface: 30 µm are 2.1 cells of 14.58 µm, and 4 at least are needed; raise "
-        "grid.cells, or give a longer cut_off"
+        "grid.cells 2 times, or give a longer cut_off"
     )
 
 

@@ -17,6 +17,7 @@ from rich.table import Table
 
 from tribo.cli.console import Console, titled
 from tribo.cli.options import JSON, PATH, SET, echo_json
+from tribo.core.words import signed
 from tribo.study.calibration.calibrate import Calibration
 from tribo.study.calibration.choice import Choice
 from tribo.study.calibration.measured import Measurements
@@ -25,6 +26,8 @@ from tribo.study.calibration.quantities import in_si, in_words, percent
 
 FAR = 10.0
 """Factor of an interval's end from the value above which its part in percent tells nothing."""
+BLIND = 0.2
+"""Standard deviations by which a change by a factor e shows, below which the data are blind."""
 PICTURE = "\0picture"
 """Key of the picture among files by the names of tests."""
 PAUSE = 1.0
@@ -185,10 +188,12 @@ def _maps(
 def _files(output: Path | None, names: list[str], force: bool) -> dict[str, Path]:
     """Return the file of each test's fitted case, and that of the picture."""
     from tribo.core.errors import CaseError
+    from tribo.core.files import check_folder
     from tribo.study.runs import file_names
 
     if output is None:
         return {}
+    check_folder(output)
     files = {"": output, PICTURE: output.with_name(f"{output.stem}-fit.png")}
     for name, file in zip(names, file_names(names), strict=True):
         if name:
@@ -317,7 +322,7 @@ def data_table(found: Calibration) -> Table:
         shown = [in_words(each.quantity, value) for value in values]
         if each.below:
             shown[0] = f"< {shown[0]}"
-        table.add_row(name, *shown, f"{round(each.residual, 1) + 0.0:+.1f}")
+        table.add_row(name, *shown, signed(each.residual, 1))
     return table
 
 
@@ -344,13 +349,25 @@ def judgement(found: Calibration) -> Iterator[str]:
     if found.repeatability or found.repeatability_estimated:
         how = "estimated" if found.repeatability_estimated else "as stated"
         yield f"Repeatability, {how}: ±{percent(found.repeatability)} % from test to test."
-    values = ", ".join(f"{value:.3g}" for value in found.singular_values)
-    yield f"Standard deviations by which a change by a factor e would show: {values}."
+    best, worst = (_known(found.singular_values[i]) for i in (0, -1))
+    if len(found.parameters) > 1:
+        yield (
+            f"Of all combinations of these numbers the data tell the best {best}, the worst "
+            f"{worst} (one standard deviation)."
+        )
     paths = list(found.parameters["path"])
     for i, first in enumerate(paths):
         for j, second in enumerate(paths[:i]):
-            both = round(found.correlation[i, j], 2) + 0.0
-            yield f"Correlation of {second} and {first}: {both:+.2f}."
+            both = signed(found.correlation[i, j], 2)
+            yield f"Correlation of {second} and {first}: {both}."
+
+
+def _known(singular_value: float) -> str:
+    """Say how well the data tell a combination of parameters."""
+    if singular_value < BLIND:
+        return "not at all"
+    spread = 1 / singular_value
+    return f"to {percent(spread)} %" if spread < 1 else f"to a factor {math.exp(spread):.2g}"
 
 
 def _name(row: Any) -> str:

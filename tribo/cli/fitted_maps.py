@@ -12,6 +12,7 @@ from rich.table import Table
 
 from tribo.cli.console import Console, titled
 from tribo.core.errors import CaseError
+from tribo.core.files import check_folder
 from tribo.study.calibration.maps import FittedMaps, LocalMap
 
 
@@ -79,6 +80,8 @@ def check_free(output: Path | None, force: bool) -> None:
         raise CaseError(f"{output}: maps are written as a NumPy archive; name it {output.stem}.npz")
     if output is not None and output.exists() and not force:
         raise CaseError(f"{output} exists; choose another name, or replace it with --force")
+    if output is not None:
+        check_folder(output)
 
 
 def write_maps(found: FittedMaps, level: float, output: Path) -> None:

@@ -9,6 +9,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from tribo.cli.console import Console
+from tribo.core.words import signed
 from tribo.study.comparison import Comparison
 from tribo.study.differences import differences
 
@@ -121,8 +122,7 @@ def _at(comparison: Comparison, labels: Sequence[str], time: float) -> dict[str,
 def _off(value: float, expected: float) -> str:
     if expected == 0:
         return ""
-    # Adding zero takes the sign off what rounds to it.
-    return f" {round(100 * (value / expected - 1), 1) + 0.0:+.1f} %"
+    return f" {signed(100 * (value / expected - 1), 1)} %"
 
 
 def _percent(part: float) -> str:

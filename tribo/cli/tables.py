@@ -12,6 +12,7 @@ from rich.table import Table
 from rich.text import Text
 
 from tribo.cli.console import Console, titled
+from tribo.core.words import signed
 from tribo.lab.inferred import InferredVolume
 from tribo.lab.report import BodyReport, lab_report
 from tribo.lab.running_in import groove_length, rough_bodies, worn_roughness
@@ -164,7 +165,7 @@ def _print_saves(result: Result, console: Console) -> None:
 
 def saves_table(result: Result, left_out: Sequence[str] = ()) -> Table:
     """Return the contact and the largest depths at each save."""
-    table = titled("Contact, along and across the sliding direction; wear depth of each body")
+    table = titled("Contact, full widths along and across sliding; wear depth of each body")
     saves, along = result.saves(), _shares_along(result)
     columns = []
     for name, unit, key, factor, digits in COLUMNS:
@@ -244,8 +245,9 @@ def roughness_table(result: Result, bodies: Sequence[str]) -> Table:
         measured = worn_roughness(result, result.body(body), -1)
         for where, values in measured._asdict().items():
             cells = [(factor * getattr(values, key), form) for _, key, factor, form in ROUGHNESS]
-            shown = [f"{cell:{form}}" if isfinite(cell) else NOTHING for cell, form in cells]
-            table.add_row(f"{escape(body)}: {WHERE[where]}", *shown)
+            shown = [f"{cell:z{form}}" if isfinite(cell) else NOTHING for cell, form in cells]
+            if any(cell != NOTHING for cell in shown):
+                table.add_row(f"{escape(body)}: {WHERE[where]}", *shown)
     return table
 
 
@@ -257,7 +259,7 @@ def inferred_table(volumes: Sequence[InferredVolume]) -> Table:
             f"{escape(each.body)}: {each.method}"
             + (f" ({each.standard})" if each.standard else ""),
             f"{1e9 * each.volume_m3:.3g}",
-            f"{100 * each.relative_error:+.0f}",
+            signed(100 * each.relative_error, 0),
         )
     return table
 

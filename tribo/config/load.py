@@ -16,11 +16,10 @@ from tribo.case import Case
 from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError
 from tribo.core.explain import case_error
+from tribo.core.grid import FEWEST, MOST
 from tribo.registry.plugins import check_requirements
 from tribo.registry.registry import Registry, default_registry
 
-FEWEST, MOST = 4, 16384
-"""Cells along an axis of a case."""
 _LARGEST = 10_000_000
 _HDF5 = b"\x89HDF\r\n\x1a\n"
 

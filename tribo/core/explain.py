@@ -96,7 +96,8 @@ def explained(
         # A key that is misspelt is one mistake, not an unknown key and a missing one.
         if key not in meant:
             marks = parts((fields[key].annotation, *fields[key].metadata))
-            hints = [mark.hint(info) for mark in marks if hasattr(mark, "hint")]
+            # A pair has the same hint twice.
+            hints = dict.fromkeys(mark.hint(info) for mark in marks if hasattr(mark, "hint"))
             lines.append(_line(details, (key,), told("; ".join(["missing", *hints]))))
     return ValidationError.from_exception_data(error.title, lines)
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tribo.core.arrays import Array
-from tribo.core.errors import OutputError
+from tribo.core.errors import CaseError, OutputError
 
 HDF5 = (".h5", ".hdf5")
 
@@ -24,6 +24,12 @@ def writing(place: Path) -> Iterator[None]:
         yield
     except OSError as error:
         raise OutputError(f"cannot write to {place}: {error.strerror or error}") from error
+
+
+def check_folder(path: Path) -> None:
+    """Raise `CaseError` if the folder of a file to write is not there."""
+    if not os.path.isdir(path.parent):
+        raise CaseError(f"there is no folder {path.parent}; make it first")
 
 
 def write_whole(path: Path, text: str) -> None:

@@ -22,6 +22,12 @@ def shown(value: object) -> str:
     return text if len(text) <= _LONGEST else text[: _LONGEST - 1] + "…"
 
 
+def signed(value: float, decimals: int) -> str:
+    """Return a number with its sign; what rounds to 0 has none."""
+    text = f"{value:+z.{decimals}f}"
+    return text if float(text) else text[1:]
+
+
 def did_you_mean(name: object, known: Iterable[str]) -> str | None:
     """Return the name in `known` that is most like `name`, if one is."""
     close = get_close_matches(name, list(known), n=1) if isinstance(name, str) else []

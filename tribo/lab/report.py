@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 from tribo.closed_forms.hertz import first_yield_pressure
 from tribo.core.measures import reaches_border
+from tribo.core.words import signed
 from tribo.lab.conversion import in_mm3_per_newton_metre, mass_from_volume, specific_wear_rate
 from tribo.lab.first_contact import computed_pressure, first_hertz, yield_words
 from tribo.lab.inferred import InferredVolume, inferred_volumes, track_section
@@ -66,6 +67,15 @@ class LabReport:
     rows: tuple[LabRow, ...] = ()
     worn_through: tuple[Mapping[str, Any], ...] = ()
 
+    def __str__(self) -> str:
+        """Return it in words, a line each."""
+        lines = [f"{name}: {_said(body)}" for name, body in self.bodies.items()]
+        for each in self.inferred:
+            off = f"{1e9 * each.volume_m3:.3g} mm³ ({signed(100 * each.relative_error, 0)} %)"
+            lines.append(f"{each.body}, {each.method}: {off}")
+        lines += [f"{row.label}: {row.value:.4g} {row.unit}".rstrip() for row in self.rows]
+        return "\n".join([*lines, self.first_contact_words])
+
     def as_json(self) -> dict[str, Any]:
         """Return the report as plain data."""
         return {
@@ -87,6 +97,20 @@ def lab_report(result: Result) -> LabReport:
         first_contact_words=words,
         rows=tuple(row for rows in from_plugins_of(result, "tribo_lab_rows") for row in rows),
         worn_through=tuple(result.worn_through),
+    )
+
+
+def _said(body: BodyReport) -> str:
+    """Return the numbers of a body in a lab's units."""
+    values = (
+        ("specific wear rate {:.3g} mm³/(N·m)", body.specific_wear_rate_mm3_per_Nm, 1.0),
+        ("mass {:.3g} mg", body.mass_kg, 1e6),
+        ("scar along sliding {:.3f} mm", body.scar_along_m, 1e3),
+        ("scar across {:.3f} mm", body.scar_across_m, 1e3),
+        ("section of the track {:.3g} mm²", body.track_section_m2, 1e6),
+    )
+    return ", ".join(
+        words.format(factor * value) for words, value, factor in values if value is not None
     )
 
 
@@ -123,7 +147,7 @@ def _first_contact(result: Result) -> tuple[FirstContact, str]:
     words = f"First contact: {words}, Hertz {1e-6 * p0:.1f} MPa"
     half_space = result.case.get("contact", {}).get("type") == HALF_SPACE
     if half_space and not reaches_border(result.field("pressure", 0)):
-        words += f" ({100 * (largest / p0 - 1):+.2f} %)"
+        words += f" ({signed(100 * (largest / p0 - 1), 2)} %)"
     if system.cap is not None:
         ratio = pressure / first_yield_pressure(system.cap, line=hertz.is_line)
         words += f"; {yield_words(pressure, system.cap, line=hertz.is_line)}"

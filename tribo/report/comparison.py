@@ -8,6 +8,7 @@ from typing import Any
 
 from tribo.cli.side_by_side import comparison_table, how_compared
 from tribo.config.write import to_toml
+from tribo.core.words import signed
 from tribo.plotting.overlays import comparison_picture
 from tribo.plotting.units import time_labels
 from tribo.report.curves import history, moments, sections, thinned
@@ -111,8 +112,7 @@ def _others(worn: dict[str, dict[str, float]], key: str, first: str) -> str:
     """Return how far the others are off the first, in percent."""
     parts = {label: 100 * (body[key] / worn[first][key] - 1) for label, body in worn.items()}
     del parts[first]
-    # Adding zero takes the sign off what rounds to it.
-    return ", ".join(f"{label}: {round(part, 1) + 0.0:+.1f} %" for label, part in parts.items())
+    return ", ".join(f"{label}: {signed(part, 1)} %" for label, part in parts.items())
 
 
 def _provenance(comparison: Comparison) -> list[tuple[str, str]]:

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tribo.core.errors import CaseError
-from tribo.core.files import write_whole, writing
+from tribo.core.files import write_whole
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -88,6 +88,4 @@ def write_page(page: str, path: Path) -> None:
     """Write a report, and see that it is as small as promised."""
     if len(page.encode()) > LARGEST:
         raise CaseError(f"{path} would have more than {LARGEST / 1e6:g} MB")
-    with writing(path):
-        path.parent.mkdir(parents=True, exist_ok=True)
-        write_whole(path, page)
+    write_whole(path, page)

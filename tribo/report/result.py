@@ -116,9 +116,9 @@ def _held(result: Result) -> str:
     took = "" if result.wall_time is None else f" in {result.wall_time:.1f} s"
     return (
         f"{totals['steps']} steps and {totals['contact_solves']} contact solves{took}. At worst "
-        f"the load is off by {worst['force_error']:.0e}, the worn volume by "
-        f"{worst['volume_error']:.0e}, the gap under pressure is "
-        f"{worst['complementarity_error']:.0e}, the overlap {worst['penetration_error']:.0e}, all "
+        f"the load is off by {worst['force_error']:.1g}, the worn volume by "
+        f"{worst['volume_error']:.1g}, the gap under pressure is "
+        f"{worst['complementarity_error']:.1g}, the overlap {worst['penetration_error']:.1g}, all "
         "relative; at every step the run was held to what these must be."
     )
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from tribo.core.errors import CaseError
+from tribo.core.files import check_folder
 from tribo.report.calibration import calibration_page, read_calibration
 from tribo.report.comparison import comparison_page, readable
 from tribo.report.page import write_page
@@ -51,7 +52,7 @@ def write_report(
     CaseError
         If what a report needs is not installed (``pip install jinja2 plotly``),
         there is no such result or it holds no save, or `verified` is of another
-        case.
+        case; or there is no such folder.
     OutputError
         If the file cannot be written.
 
@@ -61,8 +62,10 @@ def write_report(
     >>> tribo.write_report("my.h5", "report.html")  # doctest: +SKIP
     >>> tribo.write_report(["winkler.h5", "dcfft.h5"], "report.html")  # doctest: +SKIP
     """
-    write_page(_page(what, None if verified is None else Path(verified)), Path(path))
-    return Path(path)
+    path = Path(path)
+    check_folder(path)
+    write_page(_page(what, None if verified is None else Path(verified)), path)
+    return path
 
 
 def _page(what: What, verified: Path | None) -> str:

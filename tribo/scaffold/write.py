@@ -8,7 +8,7 @@ from pathlib import Path
 from string import Template
 
 from tribo.core.errors import CaseError
-from tribo.core.files import writing
+from tribo.core.files import check_folder, writing
 from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.kinds import KINDS
 from tribo.scaffold.names import plugin_names
@@ -64,8 +64,7 @@ def write_plugin(name: str, kind: str, folder: Path) -> list[Path]:
     with writing(folder):
         if folder.exists():
             raise CaseError(f"{folder} exists; give another folder, or take it away first")
-        if not folder.parent.is_dir():
-            raise CaseError(f"there is no folder {folder.parent}; make it first")
+        check_folder(folder)
         for file, text in texts.items():
             file.parent.mkdir(parents=True, exist_ok=True)
             file.write_text(text, encoding="utf-8")

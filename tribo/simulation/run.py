@@ -15,6 +15,7 @@ from tribo.case import Case
 from tribo.component import components as named
 from tribo.config.load import load_case, validate_case
 from tribo.core.errors import CaseError, Interrupted, TriboError, TriboWarning
+from tribo.core.files import check_folder
 from tribo.core.notices import Notice
 from tribo.core.state import BodyInfo, RunInfo, Snapshot, State
 from tribo.observers.observer import Observer
@@ -236,7 +237,7 @@ class Simulation:
             if recorder.holds:
                 error.add_note(
                     f"{recorder.holds} holds what was saved until then; 'tribo run' replaces it "
-                    "with --force."
+                    "with --force (in Python overwrite=True)."
                 )
             raise
         except KeyboardInterrupt as error:
@@ -356,6 +357,5 @@ def _checked_output(output: str | Path | None, overwrite: bool) -> Path | None:
             f"{path} is not a file that could be replaced; give a file name, as "
             f"{path.with_name('result.h5')}"
         )
-    if not os.path.isdir(path.parent):
-        raise CaseError(f"there is no folder {path.parent}; make it first")
+    check_folder(path)
     return path

@@ -18,7 +18,9 @@ from tribo.simulation.run import Simulation
 
 Observers = Callable[[], Sequence[Observer]]
 _LONGEST_NAME = 100
-_OTHERWISE = "choose another folder with -o, or run all anew with --force"
+_OTHERWISE = (
+    "choose another folder with -o, or run all anew with --force (in Python overwrite=True)"
+)
 
 
 def is_done(path: Path, simulation: Simulation) -> bool:

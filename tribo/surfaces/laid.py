@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from abc import abstractmethod
 
 from tribo.core.arrays import Array
@@ -37,8 +38,9 @@ class Laid(Surface):
 def check_resolved(shortest: float, spacing: float, field: str) -> None:
     """Raise `CaseError` for a feature, in m, of fewer than four cells of length `spacing`."""
     if shortest < FEWEST * spacing * (1 - 1e-9):
+        finer = math.ceil(10 * FEWEST * spacing / shortest) / 10
         raise CaseError(
             f"{1e6 * shortest:.4g} µm are {shortest / spacing:.2g} cells of "
-            f"{1e6 * spacing:.4g} µm, and {FEWEST} at least are needed; raise grid.cells, or give "
-            f"a longer {field}"
+            f"{1e6 * spacing:.4g} µm, and {FEWEST} at least are needed; raise grid.cells "
+            f"{finer:g} times, or give a longer {field}"
         )
