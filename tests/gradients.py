@@ -13,7 +13,7 @@ from tribo.simulation.assembly import assemble
 from tribo.simulation.march import begin, march
 from tribo.simulation.positions import composed
 from tribo.stepping.implicit import Implicit
-from tribo.stepping.step import distance_until, rested, start_sliding
+from tribo.stepping.step import distance_until, first_contact, rested, start_sliding
 from tribo.study.gradient.gradient import gradient
 from tribo.study.gradient.local import localised
 from tribo.study.gradient.objective import View
@@ -32,9 +32,9 @@ def repeated(model, base, steps, objective, worn=None):
     looks = objective if isinstance(objective, dict) else {base.end_time: objective}
     stops, own = Stops.of(base), Stops.of(model)
     state, total = begin(model), 0.0
-    for name, depth in (worn or {}).items():
-        body = replace(state.bodies[name], wear=depth)
-        state = replace(state, bodies={**state.bodies, name: body})
+    if worn:
+        bodies = {name: replace(state.bodies[name], wear=depth) for name, depth in worn.items()}
+        state = first_contact(model, {**state.bodies, **bodies})
     for time, distance in steps:
         then = float(np.interp(time, stops.times, own.times))
         if distance_until(model, state, then) is None:

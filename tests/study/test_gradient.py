@@ -36,6 +36,7 @@ from tribo.core.errors import NumericalError
 from tribo.core.grid import Grid
 from tribo.motion.rotating import Rotating
 from tribo.motion.unidirectional import Unidirectional
+from tribo.stepping.explicit import Explicit
 from tribo.study.gradient import backwards, course, linear, local, parameters, remembering
 from tribo.study.gradient.gradient import gradient
 from tribo.study.gradient.objective import Deepest, Depth, Pressure, Volume
@@ -71,6 +72,14 @@ LAYERED = [
 ]
 YIELDING = pair(archard(), archard(), ("1.2 GPa", "1.1 GPa"))
 SOFT = pair(archard(), archard(), ("1.1 GPa", "1 GPa"))
+
+
+def unpressed(method):
+    def mutant(self, *given):
+        self.pressure = None
+        method(self, *given)
+
+    return mutant
 
 
 class Brisk(Archard):
@@ -144,6 +153,12 @@ KINDS = {
         ["load.normal", *SHAPE, *OF_FRESH, *OF_SMOOTH],
         1e-5,
     ),
+    "explicit": Kind(
+        run(bodies=pair(FRESH, power(1.5)), stepping=Explicit(time_step=3, allow_unstable=True)),
+        Depth("disk"),
+        [*BASE[:1], *BASE[2:], *SHAPE, *OF_FRESH],
+        1e-5,
+    ),
     "repeating": Kind(
         flats(), Depth("ball"), ["load.normal", "bodies.ball.surface.amplitude"], 1e-5
     ),
@@ -186,6 +201,8 @@ MUTANTS = [
     ("yields", backwards._Back, "spread_out", nothing),
     ("yields", backwards._Back, "_gave", zero),
     ("positions", linear.Carrier, "gathered", zero),
+    ("explicit", backwards._Back, "_wear", nothing),
+    ("explicit", backwards._Back, "_wear", unpressed),
     ("remembers", remembering.Remembering, "_by_pressure", unfelt("own")),
     ("remembers", remembering.Remembering, "_back", forgotten),
     ("load over time", remembering.Remembering, "_by_pressure", unfelt("load")),

@@ -18,7 +18,6 @@ from tribo.core.fields import Field
 from tribo.core.grid import Grid
 from tribo.effects.effect import Effect
 from tribo.simulation.positions import composed
-from tribo.stepping.explicit import Explicit
 from tribo.study.gradient import tape
 from tribo.study.gradient.gradient import ValueAndGradient, gradient
 from tribo.study.gradient.linear import Carrier, StepSystem
@@ -73,7 +72,6 @@ def coated(hardness):
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"stepping": Explicit(time_step=1.0)}, "stepping.type: gradients go through implicit"),
         ({"stop": Stop(depth="1 um")}, "stop.depth: a run that a depth ends has another length"),
         ({"bodies": coated("1 GPa")}, "bodies: gradients go through one hardness"),
     ],

@@ -19,7 +19,8 @@ if TYPE_CHECKING:
 class Worn:
     """The bodies were worn by a step up to a moment, under `contacts`.
 
-    It began at a time, with a memory, and was divided as in `plan`.
+    It began at a time, with a memory, and was divided as in `plan`. `ahead` tells whether the
+    contacts were those before it, solved without its wear.
     """
 
     contacts: Sequence[ContactSolution]
@@ -28,6 +29,7 @@ class Worn:
     moment: Moment
     before: Memory
     plan: Plan
+    ahead: bool = False
 
 
 @dataclass(frozen=True)

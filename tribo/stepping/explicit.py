@@ -15,6 +15,7 @@ from tribo.core.fields import WearRate
 from tribo.core.state import State
 from tribo.core.units import Quantity
 from tribo.stepping.contacts import in_stripes, solve_cycle
+from tribo.stepping.events import Solved, Worn
 from tribo.stepping.evolution import Course, course
 from tribo.stepping.linear_wear import wear_compliance
 from tribo.stepping.memory import remembered
@@ -105,11 +106,13 @@ class Explicit(Scheme):
         else:
             slid = Course(rated(model, state, moment).rates, memory)
         depths = worn_depths(model, slid.rates, increment)
+        model.tell(Worn(state.contacts, state.time, increment, moment, memory, slid.plan, True))
         after = worn_by(model, state, slid, depths, increment, moment)
         loads = model.loads.before(time)
         contacts = solve_cycle(
             model, undeformed(model, after), loads, _extrapolated(state), after.bodies
         )
+        model.tell(Solved(contacts))
         return accepted(model, state, counted(after, contacts), contacts, loads)
 
     def _instability(self, model: Model, state: State, moment: Moment) -> str | None:

@@ -17,9 +17,8 @@ from tribo.core.fields import LOAD_SHARE
 from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.model import Model
 from tribo.stepping.evolution import Course, course
-from tribo.stepping.implicit import Implicit
 from tribo.stepping.memory import Memory, first_memory
-from tribo.study.gradient.course import Plain, plain
+from tribo.study.gradient.course import Before, Plain, plain
 from tribo.study.gradient.linear import StepSystem, carriers, carriers_between
 from tribo.study.gradient.local import WatchedLaw
 from tribo.study.gradient.objective import Seeds
@@ -39,8 +38,6 @@ def covered(model: Model) -> Model:
     CaseError
         If there is no gradient through a part of it.
     """
-    if not isinstance(model.stepping, Implicit):
-        raise CaseError("gradients go through implicit steps only", "stepping.type")
     if model.case.stop.depth is not None:
         raise CaseError(
             "a run that a depth ends has another length for each input; give stop.distance or the "
@@ -96,7 +93,8 @@ def swept_back(
 
         K zₘ + r' Tₘ Σₙ Tₙᵀ ωₙ zₙ + μₘ = r' Tₘ λ¹,  Σ zₘ = 0,  λ⁰ = λ¹ − Σₙ Tₙᵀ ωₙ zₙ
 
-    Cells at the hardness have a fixed z, by what their overlap adds to the plastic depth. What laws
+    An explicit step has r' at the contacts before it, which are solved by themselves. Cells at the
+    hardness have a fixed z, by what their overlap adds to the plastic depth. What laws
     remember adds to the right side, and is followed back through the step.
     """
     back = _Back(model, chains)
@@ -191,6 +189,11 @@ class _Back:
             known = course(model, slid.before, contacts, slid.increment, slid.moment, slid.plan)
             seen = {name: frozenset(law.seen) for name, law in self.laws.items()}
             increments = self._increments(contacts, slid, known)
+            if slid.ahead:
+                behind = [each.back(self.wear, self.states) for each in increments]
+                self.pressure = over(self.shares) * sum(each.pressure for each in behind)
+                self._wear(slid, contacts, known, seen, behind)
+                return
         fixed = np.zeros_like(pressure)
         weights = np.where(self.shares > 0, self.shares, 1.0)
         looked = np.zeros_like(window) if pressed is None else pressed / over(weights)
@@ -215,8 +218,20 @@ class _Back:
         by_load = self.shares * mean / model.grid.cell_area
         for at, chain in enumerate(self.chains):
             self.sums[at] += chain.by_load(record, by_load)
-            if slid is not None:
-                self.sums[at] += chain.by_wear(slid, contacts, known, seen, self.wear, self.states)
+        if slid is not None:
+            self._wear(slid, contacts, known, seen, behind)
+
+    def _wear(
+        self,
+        slid: Slid,
+        contacts: Sequence[ContactSolution],
+        known: Course,
+        seen: Mapping[str, frozenset[str]],
+        behind: Sequence[Before],
+    ) -> None:
+        """Go back through what a step wore under given contacts."""
+        for at, chain in enumerate(self.chains):
+            self.sums[at] += chain.by_wear(slid, contacts, known, seen, self.wear, self.states)
         for each in behind:
             for name, factor in each.factor.items():
                 self.factor[name] += factor

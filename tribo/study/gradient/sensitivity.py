@@ -54,7 +54,7 @@ def sensitivity(model: Model, half_width_x: float) -> Sensitivity:
     """
     if not model.contact.accepts_wear_compliance:
         raise CaseError(
-            f"{model.contact.type!r} takes explicit steps, through which no gradient goes",
+            f"{model.contact.type!r} takes explicit steps only, and a coarse run implicit ones",
             "contact.type",
         )
     if model.case.begin is not None:

@@ -29,7 +29,8 @@ IN_MEMORY = 1 << 26
 class Slid:
     """How a step slid: from a time (s) on, and by an increment (m), to a moment.
 
-    `before` is what laws and effects remembered, and `plan` how the step was divided for that.
+    `before` is what laws and effects remembered, and `plan` how the step was divided for that;
+    `ahead` tells whether it wore under contacts that were solved before it.
     """
 
     time: float
@@ -37,6 +38,7 @@ class Slid:
     moment: Moment
     before: Memory
     plan: Plan
+    ahead: bool
 
 
 @dataclass(frozen=True)
@@ -167,7 +169,7 @@ def _written(event: Event, model: Model, load: str, time: float) -> Record:
         worn = {name: event.before.worn[name] for name, law in model.laws.items() if law.bottoms}
         laws = {name: event.before.laws[name] for name in model.laws}
         before = Memory(laws, event.before.between if model.effects else {}, worn)
-        slid = Slid(event.time, event.increment, event.moment, before, event.plan)
+        slid = Slid(event.time, event.increment, event.moment, before, event.plan, event.ahead)
     contacts = event.contacts
     region = reduce(union, (bounds(contact.pressure > 0) for contact in contacts))
     yields = any(np.any(contact.overlap > 0) for contact in contacts)
