@@ -31,9 +31,9 @@ def test_it_is_read_back_with_unit_and_meaning(path):
     with Result.open(path) as result:
         ball, disk = result.body("ball"), result.body("disk")
         distances = result.distances
-    (slip,) = ball.state_fields
-    assert (slip.name, slip.unit) == ("slip", "m")
-    assert "slid under pressure" in slip.description
+        told = result.slip.attrs
+    assert told["units"] == "m"
+    assert "slid under pressure" in told["long_name"]
     assert ball.state["slip"].shape == disk.state["slip"].shape == (3, 48, 48)
     # What is in contact from the beginning slides all the way, what never is does not.
     np.testing.assert_allclose(ball.state["slip"].max(axis=(1, 2)), distances, rtol=1e-12)

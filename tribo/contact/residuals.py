@@ -8,7 +8,6 @@ from tribo.contact.projection import CELLS, limits, over
 from tribo.core.arrays import Array
 from tribo.core.contact import Residuals
 from tribo.core.errors import CaseError, NumericalError
-from tribo.core.grid import Grid
 
 LEAST_LOAD = 1e-100
 """In N; with much less, products with pressures and lengths underflow."""
@@ -31,11 +30,6 @@ def check_bearable(load: float, area: float, limit: Array | float) -> None:
             f"the load is {load:g} N, but with pressure limited to {limit:g} Pa the window bears "
             f"no more than {limit * area:g} N. Enlarge the window, or lower the load"
         )
-
-
-def check_window(grid: Grid, load: float, cap: float | None) -> None:
-    """Raise `CaseError` unless the whole window can bear `load`; parameters as `ContactSystem`."""
-    check_bearable(load, grid.size[0] * grid.size[1], np.inf if cap is None else cap)
 
 
 def check_finite(gap: Array) -> None:

@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
-from tribo.core.fields import Field
 
 
 @dataclass(frozen=True)
@@ -29,13 +28,9 @@ class BodyResult:
     state : Mapping[str, ndarray]
         What its wear law keeps per material point, by name, shaped as
         `wear_depth`.
-    state_fields : tuple of Field
-        Units and meanings of `state`.
     effects : Mapping[str, ndarray]
         What the effects provided at each save, such as a temperature, by
         name, shape (saves, nx, ny). NaN where an effect failed.
-    effect_fields : tuple of Field
-        Units and meanings of `effects`.
     """
 
     name: str
@@ -45,9 +40,7 @@ class BodyResult:
     wear_depth: Array
     plastic_depth: Array
     state: Mapping[str, Array] = field(default_factory=dict)
-    state_fields: tuple[Field, ...] = ()
     effects: Mapping[str, Array] = field(default_factory=dict)
-    effect_fields: tuple[Field, ...] = ()
 
     def surface(self, save: int) -> Array:
         """Return the height outward at a save, worn and deformed, in m.

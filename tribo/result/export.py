@@ -10,7 +10,7 @@ import numpy as np
 from tribo.core.arrays import Array
 from tribo.core.files import writing
 from tribo.result.columns import labelled
-from tribo.result.layout import BETWEEN
+from tribo.result.layout import BETWEEN, EFFECT, STATE
 from tribo.result.read import Result
 
 
@@ -61,9 +61,9 @@ def _profiles(result: Result, axis: int) -> dict[str, Array]:
         body, of = result.body(name), f"bodies.{name}"
         fields[f"{of}.wear_depth_m"] = body.wear_depth
         fields[f"{of}.plastic_depth_m"] = body.plastic_depth
-        for f in body.state_fields:
+        for f in result.fields_of(STATE, name).values():
             fields[f"{of}.state.{labelled(f.name, f.unit)}"] = body.state[f.name]
-        for f in body.effect_fields:
+        for f in result.fields_of(EFFECT, name).values():
             fields[f"{of}.effects.{labelled(f.name, f.unit)}"] = body.effects[f.name]
         fields[f"{of}.height_m"] = [body.surface(i) for i in saves]
     return {

@@ -250,7 +250,11 @@ class Result:
         """
         index, density = self._index(name), self._scalars["density"]
         read, every = self._read, slice(None)
-        state, effects = (self.fields_of(kind, name) for kind in (STATE, EFFECT))
+
+        def kept(kind: str) -> dict[str, Array]:
+            fields = self.fields_of(kind, name).items()
+            return {field.name: read(key, every, index) for key, field in fields}
+
         return BodyResult(
             name=name,
             swept=bool(self._scalars["swept"][index]),
@@ -258,10 +262,8 @@ class Result:
             height=read("height", index),
             wear_depth=read("wear_depth", every, index),
             plastic_depth=read("plastic_depth", every, index),
-            state={field.name: read(key, every, index) for key, field in state.items()},
-            state_fields=tuple(state.values()),
-            effects={field.name: read(key, every, index) for key, field in effects.items()},
-            effect_fields=tuple(effects.values()),
+            state=kept(STATE),
+            effects=kept(EFFECT),
         )
 
     def table(self, name: str) -> dict[str, Array]:

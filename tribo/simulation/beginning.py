@@ -48,8 +48,7 @@ def first_state(model: Model) -> State:
         carried = result.saves()[save]
     for name, body in bodies.items():
         bodies[name] = replace(body, law={k: found.get((name, k), v) for k, v in body.law.items()})
-    places = {key: _place(model, key) for key in model.between}
-    between = {key: found[at, key] for key, at in places.items() if (at, key) in found}
+    between = {key: values for (_, key), values in found.items() if key in model.between}
     state = replace(
         first_contact(model, bodies, between),
         load_distance=carried["load_distance_N_m"],
@@ -183,12 +182,6 @@ def _laid(model: Model, place: str | None, field: Field, values: Array) -> Array
     if field.uniform:
         return values.reshape(1, 1) if values.size == 1 else None
     return values if values.shape == model.grid.cells else None
-
-
-def _place(model: Model, key: str) -> str | None:
-    """Return the body on which an effect keeps a state field; None of the contact as a whole."""
-    effect, field = model.between[key]
-    return None if field.uniform else effect.carrier
 
 
 def _along_track(result: Result, variable: str, name: str, save: int) -> Array | None:

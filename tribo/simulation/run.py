@@ -67,7 +67,23 @@ class Simulation:
         case: Case | Mapping[str, Any] | str | Path | Model,
         registry: Registry | None = None,
     ) -> None:
-        self.model, self._plugins = _model(case, registry)
+        self._plugins: tuple[Plugin, ...] = ()
+        if isinstance(case, Model):
+            self.model = case
+            return
+        known = registry or default_registry()
+        if isinstance(case, str | Path):
+            case = load_case(case, registry=known)
+        elif not isinstance(case, Case):
+            case = validate_case(case, registry=known)
+        try:
+            with doubting(case):
+                self.model = composed(case)
+        except MissingFieldError as error:
+            if providers := known.providers(error.missing):
+                raise CaseError(f"{error}; these do: {', '.join(providers)}") from error
+            raise
+        self._plugins = known.plugins
 
     def run(
         self,
@@ -297,26 +313,6 @@ class Simulation:
             resumed_from=resumed_from,
             wall_time=wall_time,
         )
-
-
-def _model(
-    case: Case | Mapping[str, Any] | str | Path | Model, registry: Registry | None
-) -> tuple[Model, tuple[Plugin, ...]]:
-    """Return the model and the plugins that took part in finding its components."""
-    if isinstance(case, Model):
-        return case, ()
-    known = registry or default_registry()
-    if isinstance(case, str | Path):
-        case = load_case(case, registry=known)
-    elif not isinstance(case, Case):
-        case = validate_case(case, registry=known)
-    try:
-        with doubting(case):
-            return composed(case), known.plugins
-    except MissingFieldError as error:
-        if providers := known.providers(error.missing):
-            raise CaseError(f"{error}; these do: {', '.join(providers)}") from error
-        raise
 
 
 def _announce(before: Sequence[Notice], after: Sequence[Notice]) -> None:
