@@ -113,7 +113,7 @@ def predict(model: Model) -> Prediction:
             f"stop there{when}: make grid.size larger (and grid.cells with it)"
         )
         stopping.append((NumericalError.exit_code, words))
-    if coarse.error is not None:
+    if coarse.error is not None and not any(str(coarse.error) in text for _, text in stopping):
         # What a coarse grid alone cannot carry through, a finer one may.
         code = coarse.error.exit_code if isinstance(coarse.error, PluginError) else 0
         stopping.append((code, f"a trial run on a coarse grid failed: {coarse.error}"))

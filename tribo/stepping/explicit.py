@@ -60,8 +60,9 @@ class Explicit(Scheme):
         Raises
         ------
         CaseError
-            If steps are too short to come to an end, or the first is not stable.
+            Also if steps are too short to come to an end, or the first is not stable.
         """
+        super().check(model, state)
         steps = model.end_time / self.time_step
         if steps > MOST_STEPS:
             raise CaseError(

@@ -9,6 +9,7 @@ from pydantic import ConfigDict
 
 from tribo.core.state import State
 from tribo.core.table import Table
+from tribo.stepping.filling import check_filling
 
 if TYPE_CHECKING:
     from tribo.simulation.model import Model
@@ -38,8 +39,9 @@ class Scheme(Table, ABC):
         Raises
         ------
         CaseError
-            If that step cannot be taken.
+            If that step cannot be taken, or what fills the gap draws the load together.
         """
+        check_filling(model, state)
         return None
 
     @abstractmethod

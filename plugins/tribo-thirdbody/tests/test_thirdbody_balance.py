@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from scipy.special import lambertw
-from tribo import Simulation
+from tribo import CaseError, Simulation
 
 from tribo_thirdbody.debris import Debris
 
@@ -66,20 +66,31 @@ def test_it_is_in_balance(on, caught):
     assert thickness == pytest.approx(lambert, rel=1e-4, abs=0)
 
 
-@pytest.mark.parametrize(("length", "caught"), [(1e9, 1.0), (0.5, 1.0), (0.5, 0.4)])
-def test_flat_bodies_meet_on_debris_that_fills(length, caught):
-    case = pin(length=length, caught=caught, fills=True)
+@pytest.mark.parametrize(
+    ("length", "caught", "on"), [(1e9, 1.0, "disk"), (0.5, 1.0, "disk"), (0.5, 0.4, None)]
+)
+def test_flat_bodies_meet_on_debris_that_fills(length, caught, on):
+    case = pin(length=length, caught=caught, on=on, fills=True)
     with Simulation(case).run() as result:
         first, *_, last = result.saves()
-        thickness = result.field("debris_thickness", -1)
+        thickness = result.field("debris_thickness", -1, on)
         bodies = last["bodies"].values()
         worn = sum(body["max_wear_depth_m"] for body in bodies)
         volume = sum(body["wear_volume_m3"] for body in bodies)
-    assert thickness == pytest.approx(balance(length, caught)[0], rel=1e-4, abs=0)
+    under = SIDE / TRACK if on else 1.0
+    exact = balance(length, caught, under)[0]
+    assert thickness == pytest.approx(exact, rel=1e-4, abs=0)
     sunk = last["approach_m"] - first["approach_m"]
     np.testing.assert_allclose(sunk, worn - thickness, rtol=1e-9, atol=1e-9 * worn)
-    # Nothing leaves: all that the pin and the whole track lost is under the pin.
-    assert length < 1e9 or thickness == pytest.approx(volume / SIDE**2, rel=3e-5, abs=0)
+    # Nothing leaves: all that the pin and the track lost lies on the track.
+    assert length < 1e9 or thickness == pytest.approx(volume / (SIDE * TRACK), rel=3e-5, abs=0)
+
+
+@pytest.mark.parametrize("on", [None, "pin"])
+def test_a_gap_that_fills_faster_than_it_opens_is_refused(on):
+    refused = r"^effects: 'debris_thickness' fills .* body that passes \('disk'\), let less"
+    with pytest.raises(CaseError, match=refused):
+        Simulation(pin(length=0.5, on=on, fills=True)).run()
 
 
 def test_debris_that_stays_ends_wear_as_a_logarithm():

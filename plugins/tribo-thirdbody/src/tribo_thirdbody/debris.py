@@ -36,8 +36,9 @@ class Debris(Effect):
     on: str | None = None
     """The body on which it lies; in the contact, between both, if left out."""
     fills: bool = False
-    """Whether the bodies meet on it, at its height without pores, or as if it gave way. Give `on`
-    where a body passes: caught where it arises, its debris would fill a gap faster than that opens.
+    """Whether the bodies meet on it, at its height without pores, or as if it gave way. Where a
+    body that passes wears too, it must lie `on` that: elsewhere it would fill a gap faster than
+    that opens, which is refused.
     """
 
     provides = (LOAD_SHARE,)
