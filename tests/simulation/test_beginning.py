@@ -270,11 +270,10 @@ def test_hard_bodies_keep_what_has_yielded(tmp_path):
         named("disk", flat(), steel(1.2e9), archard()),
     ]
     parts = {"bodies": bodies, "contact": half_space()}
-    Simulation(worn_case(duration=0.2, **parts)).run(tmp_path / "first.h5").close()
+    with Simulation(worn_case(duration=0.2, **parts)).run(tmp_path / "first.h5") as first:
+        before = first.field("plastic_depth", -1, "disk")
     with Simulation(worn_case(duration=0.2, begin=tmp_path / "first.h5", **parts)).run() as result:
         plastic = [result.field("plastic_depth", save, "disk") for save in (0, -1)]
-        with Simulation(worn_case(duration=0.2, **parts)).run() as first:
-            before = first.field("plastic_depth", -1, "disk")
     assert before.max() > 1e-8
     # Nothing yields twice under one load.
     for each in plastic:
@@ -292,8 +291,8 @@ class StopAfter(Observer):
 @pytest.mark.slow
 def test_a_stopped_run_goes_on_to_the_same_bits_without_the_result_it_began_with(tmp_path):
     first = tmp_path / "first.h5"
-    Simulation(worn_case(load=20.0)).run(first).close()
-    simulation = Simulation(worn_case(begin=first))
+    Simulation(worn_case(load=20.0, duration=1)).run(first).close()
+    simulation = Simulation(worn_case(begin=first, duration=1))
     with simulation.run() as whole:
         with pytest.raises(Interrupted):
             simulation.run(tmp_path / "second.h5", observers=[StopAfter()])

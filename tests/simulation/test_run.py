@@ -139,7 +139,7 @@ def test_a_contact_that_reaches_the_edge_stops_the_run_with_what_was_saved(tmp_p
 def test_a_run_that_fails_asks_for_the_unit_of_a_wear_coefficient_that_is_absurd(k, failure):
     bodies = [named("ball", sphere(), steel(), archard(k=k)), named("disk", flat(), steel())]
     with pytest.raises(NumericalError, match=failure) as failed:
-        Simulation(case(bodies=bodies)).run()
+        Simulation(case(bodies=bodies, grid=Grid((0.7e-3, 0.7e-3), (24, 24)))).run()
     assert f"bodies.ball.wear.k is {k:g} 1/Pa, usual are" in str(failed.value)
     assert "a unit forgotten, as in '1e-6 mm^3/(N m)'?" in str(failed.value)
 
