@@ -7,6 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.special import lambertw
 from tribo import CaseError, Simulation
+from tribo.verification.refinement import refine
 
 from tribo_thirdbody.debris import Debris
 
@@ -111,6 +112,20 @@ def test_the_result_has_its_share_of_the_load():
         thickness = result.field("debris_thickness", -1)
         share = result.body("disk").effects["load_share"][-1]
     np.testing.assert_allclose(share, -np.expm1(-thickness / COVER), rtol=1e-12)
+
+
+def test_a_study_of_errors_quotes_what_a_run_gives():
+    # A state left out of the study's runs would give the dry depth, without an error.
+    case = pin()
+    case["grid"]["cells"], case["kinematics"]["distance"] = 20, 0.5
+    simulation = Simulation(case)
+    with simulation.run() as result:
+        worn = result.saves()[-1]["bodies"]["pin"]["max_wear_depth_m"]
+    quoted = {each.name: each for each in refine(simulation.model).estimates}
+    depth = quoted["pin: largest depth"]
+    assert depth.value == pytest.approx(worn, rel=1e-12, abs=0)
+    assert depth.uncertainty <= 1e-4 * worn
+    assert worn < 0.8 * K * P * 0.5
 
 
 def ball(effects):
