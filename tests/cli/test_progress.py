@@ -57,9 +57,10 @@ def test_the_bar_and_the_time_left_go_on_evenly_past_many_saves(monkeypatch):
     assert all(abs(after - before + 10) <= 25 for before, after in later)
 
 
-@pytest.mark.parametrize("forced", ["FORCE_COLOR", "TTY_COMPATIBLE"])
-def test_no_bar_is_drawn_into_what_is_no_terminal(monkeypatch, forced):
-    monkeypatch.setenv(forced, "1")
+@pytest.mark.slow
+def test_no_bar_is_drawn_into_what_is_no_terminal(monkeypatch):
+    for forced in ("FORCE_COLOR", "TTY_COMPATIBLE"):
+        monkeypatch.setenv(forced, "1")
     text, _ = shown(monkeypatch, io.StringIO())
     assert "━" not in text
     assert "\x1b" not in text

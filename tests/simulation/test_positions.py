@@ -37,18 +37,21 @@ def left_open(stroke="2 mm", grid=GRID, distance="360 m", stepping=None, **chang
     )
 
 
-@pytest.mark.parametrize(
-    ("stroke", "taken"), [("0.4 mm", 9), ("2 mm", 35), ("4 mm", 67), ("14 mm", "average")]
-)
+@pytest.fixture(scope="module")
+def resolved():
+    return composed(left_open())
+
+
+@pytest.mark.parametrize(("stroke", "taken"), [("0.4 mm", 9), ("4 mm", 67), ("14 mm", "average")])
 def test_long_strokes_are_averaged_and_others_resolved(stroke, taken):
     model = composed(left_open(stroke))
     assert model.case.kinematics.positions == taken
     assert len(model.cycle) == (1 if taken == "average" else taken)
 
 
-def test_positions_lie_less_than_half_a_half_width_apart():
+def test_positions_lie_less_than_half_a_half_width_apart(resolved):
     half_width = 0.149e-3
-    apart = 2e-3 / (len(composed(left_open()).cycle) - 1)
+    apart = 2e-3 / (len(resolved.cycle) - 1)
     assert 0.35 * half_width < apart < 0.45 * half_width
 
 
@@ -89,10 +92,10 @@ def test_the_choice_is_told_once_and_kept():
     assert again.chosen is None
 
 
-def test_the_same_case_has_the_same_choice():
-    one, other = (composed(validate_case(left_open().model_dump(mode="json"))) for _ in range(2))
-    assert one.data == other.data
-    assert one.chosen == other.chosen
+def test_the_same_case_has_the_same_choice(resolved):
+    other = composed(validate_case(left_open().model_dump(mode="json")))
+    assert resolved.data == other.data
+    assert resolved.chosen == other.chosen
 
 
 @pytest.mark.parametrize(
@@ -169,9 +172,8 @@ def test_cases_that_must_be_resolved_stay_so_beside_each_other():
             assert each.kinematics.positions == count
 
 
-def test_a_choice_becomes_a_setting_where_there_was_one():
-    given = left_open()
-    assert chosen(given, composed(given)) == {"kinematics.positions": 35}
+def test_a_choice_becomes_a_setting_where_there_was_one(resolved):
+    assert chosen(left_open(), resolved) == {"kinematics.positions": 35}
     fixed = case()
     assert chosen(fixed, composed(fixed)) == {}
 
@@ -243,8 +245,7 @@ def test_a_law_that_needs_places_is_tried_without_them(body):
     assert predict(model).problems == predict(composed(given)).problems
 
 
-def test_coarser_grids_of_a_case_keep_its_positions():
-    model = composed(left_open())
-    coarse = assemble(varied(model.case, grid=Grid(GRID.size, (32, 32))))
-    assert (len(model.cycle), len(coarse.cycle)) == (35, 35)
-    assert predict(model).positions == 35
+def test_coarser_grids_of_a_case_keep_its_positions(resolved):
+    coarse = assemble(varied(resolved.case, grid=Grid(GRID.size, (32, 32))))
+    assert (len(resolved.cycle), len(coarse.cycle)) == (35, 35)
+    assert predict(resolved).positions == 35
