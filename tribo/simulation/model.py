@@ -161,6 +161,12 @@ class Model:
         return None if self.case.friction is None else self.case.friction.coefficient
 
     @cached_property
+    def friction_varies(self) -> bool:
+        """Whether an effect provides the coefficient of friction."""
+        provided = (field.name for effect in self.effects for field in effect.provides)
+        return FRICTION_COEFFICIENT.name in provided
+
+    @cached_property
     def may_reach_edge(self) -> bool:
         """Whether the contact may reach the edge of the window."""
         return self.grid.ends_at_window or self.contact.periodic

@@ -52,7 +52,7 @@ def composed(case: Case) -> Model:
         What `assemble` raises.
     """
     motion = case.kinematics
-    if not isinstance(motion, Reciprocating) or not is_open(case):
+    if not isinstance(motion, Reciprocating) or motion.positions != "auto":
         return _taken(assemble(case))
     if case.begin is not None:
         return assemble(_as_begun(case, case.begin))

@@ -80,11 +80,6 @@ def in_stripes(
     return nudged, stripes
 
 
-def solved(contacts: Sequence[ContactSolution]) -> int:
-    """Return how many of the contacts of a cycle were solved, others being mirrored."""
-    return sum(contact.iterations > 0 for contact in contacts)
-
-
 def _all_mirror(problems: Sequence[ContactProblem], coupling: CycleCompliance | None) -> bool:
     """Whether each position mirrors another along x, and the middle one itself."""
     mirrored = len(problems) % 2 == 1 and all(

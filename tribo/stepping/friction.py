@@ -21,7 +21,7 @@ def mean_friction(model: Model, state: State) -> float | None:
 
     Where an effect provides it, it is asked at the speeds of the cycle. None where nothing does.
     """
-    if not _varies(model):
+    if not model.friction_varies:
         return model.friction_coefficient
     force = load = 0.0
     memory = remembered(state)
@@ -44,7 +44,7 @@ def friction_work(model: Model, before: State, after: State) -> float:
     What an effect provides is taken to go in a straight line, as a force, between both ends of the
     step: after a jump of the load that it begins with, and before one that it ends with.
     """
-    if not _varies(model):
+    if not model.friction_varies:
         friction = model.friction_coefficient or 0.0
         return friction * (after.load_distance - before.load_distance)
     loads = model.loads.after(before.time), model.loads.before(after.time)
@@ -55,9 +55,3 @@ def friction_work(model: Model, before: State, after: State) -> float:
         for state, load in zip(ends, loads, strict=True)
     ]
     return 0.5 * sum(forces) * (after.distance - before.distance)
-
-
-def _varies(model: Model) -> bool:
-    """Whether an effect provides the coefficient of friction."""
-    provided = (field.name for effect in model.effects for field in effect.provides)
-    return FRICTION_COEFFICIENT.name in provided

@@ -16,7 +16,7 @@ from tribo.core.loads import ByPosition
 from tribo.core.measures import Invariants, reaches_border
 from tribo.core.notices import Notice
 from tribo.core.state import BodyState, State
-from tribo.stepping.contacts import solve, solve_cycle, solved
+from tribo.stepping.contacts import solve, solve_cycle
 from tribo.stepping.events import Drawn, Solved, Yielded
 from tribo.stepping.evolution import Course, rested_memory
 from tribo.stepping.friction import friction_work
@@ -128,10 +128,12 @@ def undeformed(model: Model, state: State) -> Array:
 
 def counted(state: State, contacts: Sequence[ContactSolution]) -> State:
     """Return `state` with the solves of the contacts of a cycle counted."""
+    # Those that mirror others took no iterations.
+    iterations = [contact.iterations for contact in contacts if contact.iterations > 0]
     return replace(
         state,
-        contact_solves=state.contact_solves + solved(contacts),
-        solver_iterations=state.solver_iterations + sum(c.iterations for c in contacts),
+        contact_solves=state.contact_solves + len(iterations),
+        solver_iterations=state.solver_iterations + sum(iterations),
     )
 
 
