@@ -71,10 +71,10 @@ def worn(model: Model, factor: Array) -> Array:
     return View(made, last.state).wear("ball")
 
 
-def spot(cells: int) -> dict[str, object]:
-    """Find the spot; return what was found."""
+def spot(cells: int, contact: str) -> dict[str, object]:
+    """Find the spot in the depth that a contact model gives; return what was found."""
     test = case(cells)
-    model = composed(test)
+    model = composed(case(cells, contact={"type": contact}))
     x, y = model.grid.mesh
     apart, cell = np.hypot(x - AT[0], y - AT[1]), model.grid.spacing[0]
     true = np.where(apart < RADIUS, SPOT, 1.0)
@@ -153,11 +153,13 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--cells", type=int)
     parser.add_argument("--labs", type=int)
+    parser.add_argument("--springs", action="store_true")
     parser.add_argument("--json", type=Path)
     given = parser.parse_args()
     warnings.simplefilter("ignore", TriboWarning)
-    found = coverage(given.labs, given.cells or 18) if given.labs else [spot(given.cells or 256)]
-    for outcome in found:
+    contact = "winkler" if given.springs else "dcfft"
+    found = coverage(given.labs, given.cells or 18) if given.labs else None
+    for outcome in found or [spot(given.cells or 256, contact)]:
         for name, value in outcome.items():
             if name != "factor":
                 print(f"{name:16} {value}")
