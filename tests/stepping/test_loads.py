@@ -4,6 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from contact_problems import pressed
 from paper_models import (
     FOUNDATION,
     K,
@@ -105,13 +106,8 @@ def plain_loop(load, end, steps=4000):
     gap, ball, groove = 5e-3 - np.sqrt(25e-6 - x**2 - y**2), np.zeros((nx, ny)), np.zeros(ny)
     times = end * np.linspace(0, 1, steps + 1) ** 1.5
     for begin, after in pairwise(times):
-        worn = gap + ball + groove
-        low, high = worn.min(), worn.min() + 1e-4
-        for _ in range(50):
-            middle = 0.5 * (low + high)
-            carried = FOUNDATION * np.maximum(middle - worn, 0).sum() * dx * dy
-            low, high = (middle, high) if carried < load(0.5 * (begin + after)) else (low, middle)
-        p = FOUNDATION * np.maximum(high - worn, 0)
+        total = load(0.5 * (begin + after)) / (dx * dy * FOUNDATION)
+        p = FOUNDATION * pressed((gap + ball + groove)[None], total)[0]
         ball += K * SPEED * (after - begin) * p
         groove += K * SPEED * (after - begin) * p.sum(axis=0) * dx / 2e-3
     return ball, groove

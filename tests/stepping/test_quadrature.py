@@ -1,14 +1,14 @@
 """What the positions of a cycle cost, as a run estimates it, against every cell."""
 
+from functools import partial
+
 import numpy as np
 import pytest
+import stroke
 from paper_models import (
     archard,
-    foundation,
     last,
-    motion,
     named,
-    small,
     sphere,
     steel,
 )
@@ -21,19 +21,12 @@ from tribo.stepping.quadrature import cycle_error
 from tribo.stepping.step import first_contact
 
 GRID = Grid((1.2e-3, 0.75e-3), (64, 20))
-STROKE = 24 * GRID.spacing[0]
-"""Three half-widths of the first contact."""
-
-
-def resolved(positions, duration=50, **changes):
-    kinematics = motion(stroke=STROKE, duration=duration, positions=positions)
-    parts = {"grid": GRID, "contact": foundation(), "kinematics": kinematics, **changes}
-    return small(**parts)
+resolved = partial(stroke.resolved, duration=50, grid=GRID)
 
 
 def quadrature(count):
-    stroke = Stroke(2.0, 0.01, count)
-    return stroke.cells * stroke.dx, stroke.shares
+    path = Stroke(2.0, 0.01, count)
+    return path.cells * path.dx, path.shares
 
 
 @pytest.mark.parametrize("count", [17, 33, 41])

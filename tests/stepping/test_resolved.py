@@ -16,7 +16,7 @@ from paper_models import (
     sphere,
     steel,
 )
-from stroke import GRID, STROKE, plain_loop
+from stroke import GRID, STROKE, plain_loop, resolved
 
 from tribo import (
     CaseError,
@@ -35,12 +35,6 @@ from tribo.lab.inferred import track_section
 from tribo.motion.exposure import Stationary
 from tribo.plotting.profiles import along_track
 from tribo.stepping.step import first_contact, undeformed
-
-
-def resolved(positions="cells", **changes):
-    kinematics = motion(stroke=STROKE, duration=600, positions=positions)
-    parts = {"grid": GRID, "contact": foundation(), "kinematics": kinematics, **changes}
-    return small(**parts)
 
 
 @pytest.fixture(scope="module")
