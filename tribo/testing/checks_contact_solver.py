@@ -15,6 +15,7 @@ from tribo.core.contact import (
     CycleCompliance,
     WearCompliance,
 )
+from tribo.core.grid import Grid
 from tribo.simulation.guards import GuardedSolver
 from tribo.testing import samples
 from tribo.testing.checks import Checks
@@ -23,6 +24,9 @@ from tribo.testing.samples import GRID, LOAD, ball, problem
 
 TOLERANCE = 1e-4
 """A tenth of what the step control allows as error of the wear depth."""
+
+FINER = 0.1
+"""What cells half as large may change; 0.02 is usual with ten cells across the contact."""
 
 
 class ContactSolverChecks(Checks):
@@ -94,6 +98,21 @@ class ContactSolverChecks(Checks):
         asked = replace(asked, system=replace(asked.system, materials=materials))
         found = self._make().solve(asked).pressure
         expect_close("pressure under other names", found, self._plain.pressure, TOLERANCE)
+
+    def finer_cells_change_little(self) -> None:
+        """On cells half as long and wide the same contact has its peak pressure and approach."""
+        finer = Grid(GRID.size, (2 * GRID.cells[0], 2 * GRID.cells[1]))
+        asked = problem(gap=ball(finer))
+        asked = replace(asked, system=replace(asked.system, grid=finer))
+        found, plain = GuardedSolver(self._make()).solve(asked), self._plain
+        for what, here, there in (
+            ("peak pressure", np.max(plain.pressure), np.max(found.pressure)),
+            ("approach", plain.approach, found.approach),
+        ):
+            require(
+                abs(there / here - 1) <= FINER,
+                f"on cells half as large the {what} is {there / here:.3g} times as large",
+            )
 
     def more_load_goes_deeper(self) -> None:
         """With the load grow approach, contact and the pressure in every cell."""
