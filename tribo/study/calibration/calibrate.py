@@ -103,7 +103,7 @@ def calibrate(
     *,
     level: float = 0.95,
     sample: int = 0,
-    on_run: Callable[[int, float], None] | None = None,
+    on_run: Callable[[int, float], object] = lambda run, misfit: None,
 ) -> Calibration:
     """Fit parameters of a case to wear that was measured in one test or several.
 
@@ -151,9 +151,8 @@ def calibrate(
 
     def responses(values: Array) -> Array:
         found = posed.run(values).responses
-        if on_run is not None:
-            misfit = problem.residuals(found, 1 / problem.sigma)
-            on_run(posed.made, float(np.sum(misfit**2)))
+        misfit = problem.residuals(found, 1 / problem.sigma)
+        on_run(posed.made, float(np.sum(misfit**2)))
         return found
 
     try:

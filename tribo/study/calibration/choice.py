@@ -51,7 +51,7 @@ def choose_case(
     measured: Measurements | Mapping[str, Any] | str | Path,
     *,
     level: float = 0.95,
-    on_run: Callable[[str, int, float], None] | None = None,
+    on_run: Callable[[str, int, float], object] = lambda name, run, misfit: None,
 ) -> Choice:
     """Calibrate several cases to the same data, and say for which of them these speak.
 
@@ -88,10 +88,9 @@ def choose_case(
     for name, case in cases.items():
         if asked.fit and not fitted[name]:
             raise CaseError(f"{name} has none of the numbers to fit; add one of its own to fit")
-        tell = None if on_run is None else partial(on_run, name)
         own = asked.model_copy(update={"fit": fitted[name]})
         try:
-            found[name] = calibrate(case, own, level=level, on_run=tell)
+            found[name] = calibrate(case, own, level=level, on_run=partial(on_run, name))
         except TriboError as error:
             raise type(error)(f"{name}: {error}") from error
     rows = pd.DataFrame(
