@@ -25,6 +25,7 @@ OPTIONS = {
     "plastic_and_rough": ["--repeats", "3"],
     "profile_run": [],
     "time_schemes": [],
+    "resolved_loop": [],
 }
 
 

@@ -16,7 +16,7 @@ import numpy as np
 from common import Row, Tables, main
 
 from tribo import Grid, Result, Simulation
-from tribo.case import Output
+from tribo.case import Case, Output
 from tribo.config.load import validate_case
 from tribo.core.measures import centre
 from tribo.lab.scar import crown
@@ -28,16 +28,21 @@ CASES = {
 }
 
 
-def resolved(name: str, cells: int, positions: int | str, duration: float) -> Row:
-    """Run a case of the paper; return what is left at its end."""
+def paper_case(name: str, cells: int, positions: int | str, duration: float) -> Case:
+    """Return a case of the paper on a grid, with its fields saved at the end alone."""
     kind, window = CASES[name]
     given = validate_case(tomllib.loads(template(kind)))
     kinematics = given.kinematics.model_copy(
         update={"positions": positions, "duration": duration, "cycles": None, "distance": None}
     )
-    case = given.model_copy(
+    return given.model_copy(
         update={"grid": Grid(window, cells), "kinematics": kinematics, "output": Output()}
     )
+
+
+def resolved(name: str, cells: int, positions: int | str, duration: float) -> Row:
+    """Run a case of the paper; return what is left at its end."""
+    case = paper_case(name, cells, positions, duration)
     began = time.process_time()
     with Simulation(case).run() as result:
         spent = time.process_time() - began
@@ -50,7 +55,7 @@ def resolved(name: str, cells: int, positions: int | str, duration: float) -> Ro
             "positions": positions,
             "cells": cells,
             "groove_um": 1e6 * centre(disk.wear_depth[-1]),
-            "end_of_stroke_um": 1e6 * _at_the_end(result, kinematics.stroke),
+            "end_of_stroke_um": 1e6 * _at_the_end(result, case.kinematics.stroke),
             "ball_um": 1e6 * centre(ball.wear_depth[-1]),
             "crown_um": 1e6 * crown(across, worn),
             "along_mm": 2e3 * float(end.contact_half_width_x),

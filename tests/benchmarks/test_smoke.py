@@ -188,6 +188,14 @@ def test_resolved_hour(figures):
 
 
 @pytest.mark.slow
+def test_resolved_loop(figures):
+    options = ["--cells", "24", "--positions", "37", "--duration", "0.2", "--saves", "0.2"]
+    methods = {row["method"]: row for row in figures("resolved_loop", *options)["resolved hour"]}
+    assert methods.keys() >= {"tribo, averaged", "loop on tribo", "loop on numpy, every cycle"}
+    assert all(row["differs"] < 1e-3 for name, row in methods.items() if "loop" in name)
+
+
+@pytest.mark.slow
 def test_moving_contact(figures, module, monkeypatch):
     monkeypatch.setattr(module("moving_contact"), "WIDTHS", (4,))
     options = ("--cells", "16", "--half-width", "2", "--passes", "1")
