@@ -46,6 +46,7 @@ SHOWN = {
     "report/result.py": {"cli"},
     "report/comparison.py": {"cli"},
     "report/calibration.py": {"cli"},
+    "report/maps.py": {"cli"},
     "report/sweep.py": {"cli"},
 }
 

@@ -3,6 +3,7 @@
 import json
 import re
 
+import numpy as np
 import pandas as pd
 import pytest
 from command_line import tribo as command
@@ -10,6 +11,8 @@ from made_results import written
 from pages import Checked
 
 import tribo
+from tribo.cli.fitted_maps import maps_json
+from tribo.study.calibration.maps import FittedMaps, LocalMap
 
 ESTIMATE = {
     "path": "bodies.ball.wear.k",
@@ -109,6 +112,27 @@ def test_another_json_file_is_refused(tmp_path):
     (tmp_path / "other.json").write_text("{}")
     with pytest.raises(tribo.CaseError, match="is not what 'tribo calibrate --json' prints"):
         tribo.write_report(tmp_path / "other.json", tmp_path / "report.html")
-    (tmp_path / "other.json").write_text('{"maps": {}}')
-    with pytest.raises(tribo.CaseError, match="there is no report of local coefficients"):
-        tribo.write_report(tmp_path / "other.json", tmp_path / "report.html")
+
+
+def test_local_coefficients_are_told_with_their_fit(tmp_path):
+    """Half a coefficient in one cell of four; of one of them the data say nothing."""
+    logs, deviation = np.log([[1.0, 0.5], [1.2, 1.0]]), np.array([[0.1, 0.1], [0.1, 0.5]])
+    prior, depth = np.full((2, 2), 0.5), np.array([[1e-6, 5e-7], [1.2e-6, np.nan]])
+    found = FittedMaps(
+        maps={
+            "ball": LocalMap(logs, deviation, prior, (1e-5, 1e-5), depth, 1e-6 + 0 * depth, 1e-8)
+        },
+        gradients=3,
+        products=2,
+        chi_square=3.0,
+        degrees_of_freedom=1.5,
+    )
+    with (tmp_path / "maps.json").open("w") as file:
+        file.write(json.dumps(maps_json(found, 0.95)).replace("NaN", "null"))
+    path = tribo.write_report(tmp_path / "maps.json", tmp_path / "report.html")
+    (told,) = answers(path)
+    assert "The coefficient of the ball is 0.50 to 1.20 times that of the case" in told
+    assert "at 95 % it is lower in 33 % of these cells and higher in 0 %." in told
+    page = path.read_text(encoding="utf-8")
+    assert "ball: the data say nothing of 1 cells" in page
+    assert page.count("<figure") == 2

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 import numpy as np
@@ -14,6 +15,9 @@ from tribo.cli.console import Console, titled
 from tribo.core.errors import CaseError
 from tribo.core.files import check_folder
 from tribo.study.calibration.maps import FittedMaps, LocalMap
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 def maps_json(found: FittedMaps, level: float) -> dict[str, Any]:
@@ -41,25 +45,51 @@ def _arrays(each: LocalMap, level: float) -> dict[str, Any]:
         "lower": lower,
         "upper": upper,
         "deviation": each.deviation,
+        "prior_deviation": each.prior,
         "told": each.told,
+        "measured_m": each.measured,
+        "computed_m": each.computed,
+        "uncertainty_m": np.array(each.uncertainty),
     }
 
 
-def print_maps(found: FittedMaps, level: float) -> None:
-    """Print where coefficients differ, and where the data say nothing."""
+def read_maps(found: Mapping[str, Any]) -> tuple[FittedMaps, float]:
+    """Return fitted maps, and the level of their intervals, from what `maps_json` made of them."""
+    maps = {}
+    for name, each in found["maps"].items():
+        keys = ("factor", "deviation", "prior_deviation", "measured_m", "computed_m")
+        factor, own, prior, measured, computed = (np.array(each[k], dtype=float) for k in keys)
+        (dx, dy), sigma = each["spacing_m"], each["uncertainty_m"]
+        maps[name] = LocalMap(np.log(factor), own, prior, (dx, dy), measured, computed, sigma)
+    numbers = {key: found[key] for key in ("gradients", "products")}
+    fit = {key: found[key] for key in ("chi_square", "degrees_of_freedom")}
+    return FittedMaps(maps=maps, **numbers, **fit), found["level"]
+
+
+def maps_table(found: FittedMaps, level: float) -> Table:
+    """Return where coefficients differ, and where the data say nothing."""
     table = titled(f"Local coefficients, {found.gradients + found.products} runs and passes back")
     table.add_column("")
     for column in ("told", "factor there", f"below 1 at {100 * level:g} %", "above 1"):
         table.add_column(column, justify="right")
     for name, each in found.maps.items():
         _row(table, name, each, level)
-    console = Console()
-    console.print(table)
-    console.print(
+    return table
+
+
+def fit_words(found: FittedMaps) -> str:
+    """Say how well the maps explain the depths."""
+    return (
         f"χ² {found.chi_square:.4g} with {found.degrees_of_freedom:.4g} to spare, "
-        f"p = {found.p_value:.2g}. Slopes are exact: passes back through each run.",
-        markup=False,
+        f"p = {found.p_value:.2g}. Slopes are exact: passes back through each run."
     )
+
+
+def print_maps(found: FittedMaps, level: float) -> None:
+    """Print fitted maps."""
+    console = Console()
+    console.print(maps_table(found, level))
+    console.print(fit_words(found), markup=False)
     for note in found.notes:
         console.print(f"Note: {note}", markup=False)
 
@@ -74,6 +104,20 @@ def _row(table: Table, name: str, each: LocalMap, level: float) -> None:
     )
 
 
+def map_pictures(found: FittedMaps) -> dict[str, Callable[[], Figure]]:
+    """Return how to draw the map of each body, and its fit beside what was measured."""
+    from tribo.plotting.coefficients import coefficient_map, depth_fit
+
+    pictures: dict[str, Callable[[], Figure]] = {}
+    for name, each in found.maps.items():
+        part = each.deviation / each.prior
+        pictures[name] = partial(coefficient_map, each.factor, part, each.told, each.spacing, name)
+        pictures[f"{name}-fit"] = partial(
+            depth_fit, each.measured, each.computed, each.uncertainty, each.spacing, name
+        )
+    return pictures
+
+
 def check_free(output: Path | None, force: bool) -> None:
     """Check that an output is a NumPy file that is not there yet; CaseError if it is not."""
     if output is not None and output.suffix != ".npz":
@@ -85,18 +129,13 @@ def check_free(output: Path | None, force: bool) -> None:
 
 
 def write_maps(found: FittedMaps, level: float, output: Path) -> None:
-    """Write the maps as a NumPy archive, and a picture of each beside it."""
-    from tribo.plotting.coefficients import coefficient_map
+    """Write the maps as a NumPy archive, and pictures of each beside it."""
     from tribo.plotting.figures import write_figures
 
     arrays: dict[str, Any] = {}
-    pictures = {}
     for name, each in found.maps.items():
         arrays |= {f"{name}_{key}": value for key, value in _arrays(each, level).items()}
-        part = each.deviation / each.prior
-        pictures[f"{output.stem}-{name}"] = partial(
-            coefficient_map, each.factor, part, each.spacing, name
-        )
+    pictures = {f"{output.stem}-{name}": draw for name, draw in map_pictures(found).items()}
     np.savez_compressed(output, **arrays)
     click.echo(f"Wrote {output}")
     for path in write_figures(pictures, output.parent):

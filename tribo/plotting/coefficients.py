@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 from matplotlib.figure import Figure
 
-from tribo.core.arrays import Array
-from tribo.plotting.style import house_style, new_figure
+from tribo.core.arrays import Array, Mask
+from tribo.plotting.style import DIFFERENCES, house_style, new_figure
+
+DOUBLE = 140.0
+"""Width of a picture with two panels, in mm."""
+SURE = 3.0
+"""Standard deviations from the data that a picture of the residuals reaches."""
+Range = tuple[float | None, float | None]
 
 
 def coefficient_map(
-    factor: Array, part: Array, spacing: tuple[float, float], title: str = ""
+    factor: Array, part: Array, told: Mask, spacing: tuple[float, float], title: str = ""
 ) -> Figure:
     """Draw the factor on a wear coefficient, and how much of the prior's uncertainty is left.
 
@@ -20,34 +28,76 @@ def coefficient_map(
         The factor at each cell; with one row, along y only.
     part : ndarray, shape (rows, ny)
         Its standard deviation over the prior's: at 1 the data say nothing.
+    told : ndarray of bool, shape (rows, ny)
+        Where the data say something; the factor is left blank elsewhere.
     spacing : tuple of float
         Edge lengths of a cell, in m.
     title : str, optional
         Of the picture.
     """
-    half = [0.5e6 * n * h for n, h in zip(factor.shape, spacing, strict=True)]
+    panels: dict[str, tuple[Array, Range]] = {
+        "factor on k, where told": (np.where(told, factor, np.nan), (None, None)),
+        "deviation over prior's": (part, (0.0, 1.0)),
+    }
+    return _drawn(panels, spacing, title, "viridis")
+
+
+def depth_fit(
+    measured: Array,
+    computed: Array,
+    uncertainty: float,
+    spacing: tuple[float, float],
+    title: str = "",
+) -> Figure:
+    """Draw a measured depth, and how far the fitted one is off it.
+
+    Parameters
+    ----------
+    measured, computed : ndarray, shape (rows, ny)
+        Depth worn off, in m; NaN where it was not measured.
+    uncertainty : float
+        Standard deviation of a measured depth, in m.
+    spacing : tuple of float
+        Edge lengths of a cell, in m.
+    title : str, optional
+        Of the picture.
+    """
+    panels: dict[str, tuple[Array, Range]] = {
+        "measured depth (µm)": (1e6 * measured, (None, None)),
+        "fit − measured (deviations)": (
+            (computed - measured) / uncertainty,
+            (-SURE, SURE),
+        ),
+    }
+    return _drawn(panels, spacing, title, "Blues", DIFFERENCES)
+
+
+def _drawn(
+    panels: Mapping[str, tuple[Array, Range]],
+    spacing: tuple[float, float],
+    title: str,
+    *colours: object,
+) -> Figure:
+    """Draw values side by side: curves along y of one row, else maps."""
     with house_style():
-        figure = new_figure(62.0)
+        figure = new_figure(75.0, DOUBLE)
         figure.suptitle(title)
-        for axes, values, label, range_ in zip(
-            figure.subplots(1, 2),
-            (factor, part),
-            ("factor on k", "standard deviation over prior's"),
-            ((None, None), (0.0, 1.0)),
-            strict=True,
+        for i, (axes, (label, (values, (low, high)))) in enumerate(
+            zip(figure.subplots(1, 2), panels.items(), strict=True)
         ):
             if len(values) == 1:
                 y = spacing[1] * 1e6 * (np.arange(values.size) - 0.5 * (values.size - 1))
                 axes.plot(y, values[0], color="#202020")
-                axes.set(xlabel="y (µm)", ylabel=label, ylim=(0, None))
+                axes.set(xlabel="y (µm)", ylabel=label, ylim=(min(low or 0, 0), high))
                 continue
+            half = [0.5e6 * n * h for n, h in zip(values.shape, spacing, strict=True)]
             image = axes.imshow(
                 values.T,
                 origin="lower",
                 extent=(-half[0], half[0], -half[1], half[1]),
-                cmap="viridis",
-                vmin=range_[0],
-                vmax=range_[1],
+                cmap=colours[min(i, len(colours) - 1)],
+                vmin=low,
+                vmax=high,
             )
             axes.set(xlabel="x (µm)", ylabel="y (µm)")
             figure.colorbar(image, ax=axes, label=label, orientation="horizontal")

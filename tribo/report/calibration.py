@@ -13,9 +13,11 @@ import numpy as np
 import pandas as pd
 
 from tribo.cli.calibrate import data_table, estimates_table, judgement, predictions_table
+from tribo.cli.fitted_maps import read_maps
 from tribo.config.write import to_toml
 from tribo.core.errors import CaseError
 from tribo.plotting.curves import fit_picture
+from tribo.report.maps import maps_page
 from tribo.report.page import check_installed, render, stills
 from tribo.report.result import CITATION, facts
 from tribo.report.tables import for_page
@@ -24,8 +26,8 @@ from tribo.study.calibration.calibrate import DATA, Calibration
 from tribo.study.calibration.quantities import in_si
 
 
-def read_calibration(path: Path) -> Calibration:
-    """Return the calibration that ``tribo calibrate --json`` printed, without the fitted cases.
+def calibration_file_page(path: Path) -> str:
+    """Return the report of what ``tribo calibrate --json`` printed, without the fitted cases.
 
     Raises
     ------
@@ -34,26 +36,31 @@ def read_calibration(path: Path) -> Calibration:
     """
     try:
         found = json.loads(path.read_text(encoding="utf-8"))
-        if "maps" in found:
-            raise CaseError("there is no report of local coefficients; -o draws them")
-        found["parameters"] = [{"limited": False, **row} for row in found["parameters"]]
-        tables: dict[str, Any] = {
-            name: pd.DataFrame(found.pop(name)) for name in ("parameters", "data", "predictions")
-        }
-        for name in ("parameters", "predictions"):
-            if "upper" in tables[name]:
-                # JSON has no infinity.
-                tables[name]["upper"] = tables[name]["upper"].fillna(math.inf)
-        missing = {*DATA} - {*tables["data"]}
-        if missing:
-            raise ValueError(f"it has no {', '.join(sorted(missing))}")
-        del found["p_value"]
-        for name in ("correlation", "singular_values", "left_out"):
-            found[name] = np.array(found[name], dtype=float)
-        found |= {"fitted": {}, "notes": tuple(found["notes"])}
-        return Calibration(**tables, **found)
+        read = read_maps(found) if "maps" in found else _read(found)
     except (OSError, ValueError, LookupError, TypeError, AttributeError) as error:
         raise CaseError(f"{path} is not what 'tribo calibrate --json' prints: {error}") from error
+    if isinstance(read, Calibration):
+        return calibration_page(read, path.stem)
+    return maps_page(*read, path.stem)
+
+
+def _read(found: dict[str, Any]) -> Calibration:
+    found["parameters"] = [{"limited": False, **row} for row in found["parameters"]]
+    tables: dict[str, Any] = {
+        name: pd.DataFrame(found.pop(name)) for name in ("parameters", "data", "predictions")
+    }
+    for name in ("parameters", "predictions"):
+        if "upper" in tables[name]:
+            # JSON has no infinity.
+            tables[name]["upper"] = tables[name]["upper"].fillna(math.inf)
+    missing = {*DATA} - {*tables["data"]}
+    if missing:
+        raise ValueError(f"it has no {', '.join(sorted(missing))}")
+    del found["p_value"]
+    for name in ("correlation", "singular_values", "left_out"):
+        found[name] = np.array(found[name], dtype=float)
+    found |= {"fitted": {}, "notes": tuple(found["notes"])}
+    return Calibration(**tables, **found)
 
 
 def calibration_page(found: Calibration, title: str) -> str:

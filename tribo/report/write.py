@@ -7,7 +7,7 @@ from pathlib import Path
 
 from tribo.core.errors import CaseError
 from tribo.core.files import check_folder
-from tribo.report.calibration import calibration_page, read_calibration
+from tribo.report.calibration import calibration_file_page, calibration_page
 from tribo.report.comparison import comparison_page, readable
 from tribo.report.page import write_page
 from tribo.report.result import result_page
@@ -69,6 +69,10 @@ def write_report(
 
 
 def _page(what: What, verified: Path | None) -> str:
+    if isinstance(what, str | Path) and Path(what).suffix == ".json":
+        if verified is not None:
+            raise _not_one_result()
+        return calibration_file_page(Path(what))
     found = _found(what) if isinstance(what, str | Path) else what
     if isinstance(found, Result):
         return result_page(found, verified)
@@ -76,24 +80,26 @@ def _page(what: What, verified: Path | None) -> str:
         with Result.open(found[0]) as result:
             return result_page(result, verified)
     if verified is not None:
-        raise CaseError("a study of one case goes with one result", "--verified")
+        raise _not_one_result()
     if isinstance(found, Sweep):
         return sweep_page(found.folder)
     if isinstance(found, Path):
         return sweep_page(found)
     if isinstance(found, Calibration):
-        return calibration_page(found, what.stem if isinstance(what, Path) else "Calibration")
+        return calibration_page(found, "Calibration")
     if isinstance(found, Comparison):
         return comparison_page(found)
     with compare(found) as comparison:
         return comparison_page(readable(comparison))
 
 
-def _found(what: str | Path) -> Calibration | Path | Sequence[Path]:
-    """Return what a path stands for: a calibration, the folder of a sweep, or result files."""
+def _not_one_result() -> CaseError:
+    return CaseError("a study of one case goes with one result", "--verified")
+
+
+def _found(what: str | Path) -> Path | list[Path]:
+    """Return what a path stands for: the folder of a sweep, or result files."""
     place = Path(what)
-    if place.suffix == ".json":
-        return read_calibration(place)
     if not place.is_dir():
         return [place]
     if (place / RUNS).exists():

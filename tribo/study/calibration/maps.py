@@ -74,6 +74,11 @@ class LocalMap:
     """The most probable ln(k/k₀), its standard deviation, and that of the prior."""
     spacing: tuple[float, float]
     """Edge lengths of a cell, in m."""
+    measured: Array
+    computed: Array
+    uncertainty: float
+    """The depth measured, NaN where it was not, that of the fit, and the former's standard
+    deviation, in m."""
 
     @property
     def factor(self) -> Array:
@@ -158,7 +163,8 @@ def fit_maps(
     waves = _Waves(Simulation(case).model, depths, priors, tell)
     z, basis, values = waves.fitted(products)
     logs = waves.logs(z)
-    residuals = waves.residuals(waves.run(logs))
+    fit = waves.run(logs)
+    residuals = waves.residuals(fit)
     taken = sum(
         value / (1 + value) * waves.logs(vector) ** 2
         for vector, value in zip(basis, values, strict=True)
@@ -172,6 +178,9 @@ def fit_maps(
             np.sqrt(np.maximum(left, 0.0)),
             prior,
             waves.model.grid.spacing,
+            depths[name][0],
+            fit.wear(name),
+            depths[name][1],
         )
     read = sum(int(np.sum(~np.isnan(each))) for each in residuals.values())
     made = int(np.sum(np.isnan(misfits)))
