@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -19,7 +19,7 @@ from tribo.simulation.model import Model
 from tribo.stepping.evolution import Course, course
 from tribo.stepping.memory import Memory, first_memory
 from tribo.study.gradient.course import Before, Plain, plain
-from tribo.study.gradient.linear import StepSystem, carriers, carriers_between
+from tribo.study.gradient.linear import StepSystem, carrier_of, carriers_between
 from tribo.study.gradient.local import WatchedLaw
 from tribo.study.gradient.objective import Seeds
 from tribo.study.gradient.parameters import Chain
@@ -69,22 +69,9 @@ def covered(model: Model) -> Model:
 Increment = Plain | Remembering
 
 
-@dataclass(frozen=True)
-class Sensitivities:
-    """Derivatives of an objective: in each parameter, and by body at each cell of its surface.
-
-    Those are in a factor on its wear rate, in its height outward and in the depth worn before.
-    """
-
-    parameters: Sequence[float]
-    wear_rate: Mapping[str, Array]
-    height: Mapping[str, Array]
-    worn_before: Mapping[str, Array]
-
-
 def swept_back(
     model: Model, tape: Tape, seeds: Mapping[float, Seeds], chains: Sequence[Chain]
-) -> Sensitivities:
+) -> Backwards:
     """Go through a run backwards; return the derivatives of the objective with these seeds.
 
     Each step gave w¹ = w⁰ + Δs Σₘ ωₘ Jₘ r(pₘ), with K pₘ + h + Tₘ w¹ = δₘ on its free cells. With
@@ -97,7 +84,7 @@ def swept_back(
     hardness have a fixed z, by what their overlap adds to the plastic depth. What laws
     remember adds to the right side, and is followed back through the step.
     """
-    back = _Back(model, chains)
+    back = Backwards(model, chains)
     for record in reversed(tape):
         if isinstance(record, Saved):
             back.look(seeds[record.time])
@@ -107,11 +94,15 @@ def swept_back(
             back.spread_out(record)
         else:
             back.press(record)
-    return back.outcome()
+    return back
 
 
-class _Back:
-    """What has been gathered so far, from the end of a run back."""
+class Backwards:
+    """The derivatives of an objective that have been gathered so far, from the end of a run back.
+
+    By body at each cell of its surface: in a factor on its `wear_rate`, in its `height` outward and
+    in the depth `worn_before`.
+    """
 
     def __init__(self, model: Model, chains: Sequence[Chain]) -> None:
         self.laws = {name: WatchedLaw(law) for name, law in model.laws.items()}
@@ -119,11 +110,11 @@ class _Back:
         self.chains = chains
         cells, positions = model.grid.cells, len(model.cycle)
         self.shares = np.array([position.share for position in model.cycle])
-        self.carriers = carriers(model)
+        self.carriers = {name: carrier_of(model, name) for name in model.bodies}
         own = {name: (carrier.rows, cells[1]) for name, carrier in self.carriers.items()}
-        self.wear = {name: np.zeros(shape) for name, shape in own.items()}
+        self.worn_before = {name: np.zeros(shape) for name, shape in own.items()}
         self.height = {name: np.zeros(shape) for name, shape in own.items()}
-        self.factor = {name: np.zeros(own[name]) for name in model.laws}
+        self.wear_rate = {name: np.zeros(own[name]) for name in model.laws}
         self.between = carriers_between(model, self.carriers)
         # An increment of each body alone, unless they share what lies between them.
         self.together = bool(model.effects or model.filling)
@@ -149,7 +140,7 @@ class _Back:
     def look(self, seeds: Seeds) -> None:
         """Add the derivatives of the objective in a saved state."""
         for name, seed in seeds.wear.items():
-            self.wear[name] = self.wear[name] + seed
+            self.worn_before[name] = self.worn_before[name] + seed
         if seeds.pressure is not None:
             if self.pressure is None:
                 self.pressure = np.zeros_like(self.gap)
@@ -189,11 +180,11 @@ class _Back:
             known = course(model, slid.before, contacts, slid.increment, slid.moment, slid.plan)
             seen = {name: frozenset(law.seen) for name, law in self.laws.items()}
             increments = self._increments(contacts, slid, known)
-            if slid.ahead:
-                behind = [each.back(self.wear, self.states) for each in increments]
-                self.pressure = over(self.shares) * sum(each.pressure for each in behind)
-                self._wear(slid, contacts, known, seen, behind)
-                return
+        behind = [each.back(self.worn_before, self.states) for each in increments]
+        if slid is not None and slid.ahead:
+            self.pressure = over(self.shares) * sum(each.pressure for each in behind)
+            self._wear(slid, contacts, known, seen, behind)
+            return
         fixed = np.zeros_like(pressure)
         weights = np.where(self.shares > 0, self.shares, 1.0)
         looked = np.zeros_like(window) if pressed is None else pressed / over(weights)
@@ -203,7 +194,7 @@ class _Back:
         bodies = [(own, steep[here]) for each in increments for own, steep in each.bodies]
         wear = partial(self._of_wear, increments[0], box) if slid and self.together else None
         system = StepSystem(operator, box, self.shares, bodies, free, wear)
-        given = looked + sum(each.back(self.wear, self.states).pressure for each in increments)
+        given = looked + sum(each.pressure for each in behind)
         z = system.solve(given[here], fixed, self.start[here])
         self.start = np.zeros_like(self.start)
         self.start[here] = z
@@ -211,7 +202,7 @@ class _Back:
 
         self._shift(y, box)
         self.stiffness += float(np.sum(over(self.shares) * stiff * pressure))
-        behind = [each.back(self.wear, self.states) for each in increments]
+        behind = [each.back(self.worn_before, self.states) for each in increments]
         left = (looked + sum(each.pressure for each in behind))[here] - stiff
         mean = np.sum(left * free, CELLS) / np.maximum(free.sum(CELLS), 1)
         self.cap += float(np.sum(over(self.shares) * (left - over(mean)) * full))
@@ -231,11 +222,13 @@ class _Back:
     ) -> None:
         """Go back through what a step wore under given contacts."""
         for at, chain in enumerate(self.chains):
-            self.sums[at] += chain.by_wear(slid, contacts, known, seen, self.wear, self.states)
+            self.sums[at] += chain.by_wear(
+                slid, contacts, known, seen, self.worn_before, self.states
+            )
         for each in behind:
             for name, factor in each.factor.items():
-                self.factor[name] += factor
-                self.wear[name] = each.wear[name]
+                self.wear_rate[name] += factor
+                self.worn_before[name] = each.wear[name]
             laws = {**self.states.laws, **each.states.laws}
             self.states = replace(self.states, laws=laws)
             if self.together:
@@ -289,7 +282,7 @@ class _Back:
         """Take what a solve says of the gaps."""
         for name, carrier in self.carriers.items():
             taken = carrier.gathered(y, box)
-            self.wear[name] = self.wear[name] - taken
+            self.worn_before[name] = self.worn_before[name] - taken
             self.height[name] = self.height[name] + taken
             if name in self.plastic and carrier.weights is None:
                 self.plastic[name] = self.plastic[name] - taken
@@ -314,13 +307,13 @@ class _Back:
                 found[m] += share * model.under(name, deeper, m)
         return found
 
-    def outcome(self) -> Sensitivities:
-        """Return all derivatives."""
-        sums = [
+    @property
+    def parameters(self) -> list[float]:
+        """The derivative in each parameter."""
+        return [
             float(total) + chain.by_rest(self.gap, self.stiffness, self.cap, self.states)
             for total, chain in zip(self.sums, self.chains, strict=True)
         ]
-        return Sensitivities(sums, self.factor, self.height, self.wear)
 
 
 def _contact(pressure: Array) -> ContactSolution:

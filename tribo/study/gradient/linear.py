@@ -97,18 +97,14 @@ def carriers_between(model: Model, of_bodies: Mapping[str, Carrier]) -> dict[str
     return found
 
 
-def carriers(model: Model) -> dict[str, Carrier]:
-    """Return how each body's own surface meets the window, by name.
+def carrier_of(model: Model, name: str) -> Carrier:
+    """Return how a body's own surface meets the window.
 
     Raises
     ------
     CaseError
         If the average over a track is not a weighted sum over its rows.
     """
-    return {name: _carrier(model, name) for name in model.bodies}
-
-
-def _carrier(model: Model, name: str) -> Carrier:
     exposure, cells = model.exposures[name], model.grid.cells
     starts = exposure.starts if exposure.starts is not None else [0] * len(model.cycle)
     trial = np.random.default_rng(0).random(cells)

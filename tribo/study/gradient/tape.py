@@ -106,9 +106,6 @@ class Tape:
         """Give up the records."""
         self._file.close()
 
-    def __len__(self) -> int:
-        return len(self._ends) - 1
-
 
 def recorded(model: Model, looked_at: Sequence[float], tape: Tape) -> dict[float, State]:
     """Run a model, recorded on a tape; return the states at times (s) that are saved."""
