@@ -17,8 +17,8 @@ from tribo.simulation.model import Model
 
 Map = Callable[[Array], Array]
 
-TOLERANCE = 1e-9
-"""Residual of a system, relative to its right side."""
+TOLERANCE = 1e-8
+"""Residual of a system, relative to its right side: as that of a run's contacts."""
 MIRRORED = 1e-9
 """Relative difference below which positions mirror each other."""
 MOST, RESTART = 400, 60
