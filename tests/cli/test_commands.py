@@ -115,7 +115,15 @@ def test_a_template_is_predicted(tmp_path, name):
     assert tribo("new", name, "case.toml", cwd=tmp_path).returncode == 0
     done = tribo("check", "case.toml", *setting("grid.cells=96"), cwd=tmp_path)
     assert done.returncode == 0, done.stderr
-    for words in ("Hertz half-widths", "p0/H", "cells across", "window", "memory", "result file"):
+    for words in (
+        "Hertz half-widths",
+        "p0/H",
+        "cells across",
+        "window",
+        "run time",
+        "memory",
+        "result file",
+    ):
         assert words in done.stdout
     assert "holds it" in done.stdout
     assert ("averages over the stroke" in " ".join(done.stdout.split())) == (name != "pin_on_disk")

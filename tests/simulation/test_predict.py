@@ -31,6 +31,13 @@ def test_a_sound_case_has_no_problems():
     assert predict(small()).problems == ()
 
 
+def test_a_run_on_finer_cells_is_said_to_take_longer(monkeypatch):
+    """The clock goes on by a second a look: 6.5 times the trial, a quarter more for each grid."""
+    monkeypatch.setattr("time.perf_counter", map(float, range(100)).__next__)
+    times = [predict(small(grid=Grid((1e-3, 1e-3), (n, n)))).run_time for n in (72, 144)]
+    assert times == pytest.approx([6.5 * 1.25, 6.5 * 2])
+
+
 def test_a_window_that_the_contact_outgrows_is_foreseen_with_the_time():
     model = small(grid=Grid((0.5e-3, 0.5e-3), (48, 48)))
     problem = only_problem(model)
@@ -76,7 +83,9 @@ def test_the_largest_stable_step_is_the_one_the_run_takes():
     with pytest.raises(CaseError, match="stability limit"):
         Simulation(model(1.01 * largest).case).run()
     assert "stability" in only_problem(model(1.01 * largest))
-    assert predict(model(0.99 * largest)).problems == ()
+    sound = predict(model(0.99 * largest))
+    assert sound.problems == ()
+    assert sound.run_time is None
 
 
 def test_a_step_too_short_to_end_is_a_problem():

@@ -22,6 +22,8 @@ from tribo.simulation.predict import Prediction
 if TYPE_CHECKING:
     from tribo.study.gradient.sensitivity import Sensitivity
 
+SPREAD = 3.0
+"""Factor to which the time of a run is known."""
 SHOWN = 6
 """Most numbers of the case that are shown with what they change."""
 
@@ -151,5 +153,8 @@ def _facts(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
             yield f"layer {passed['layer']} of {passed['body']} worn through, about", when
         if any(body.layers for body in model.case.bodies.values()) and not prediction.worn_through:
             yield "layers", "none is worn through"
+    if prediction.run_time is not None:
+        soonest, latest = prediction.run_time / SPREAD, prediction.run_time * SPREAD
+        yield "run time here, about", f"{soonest:.2g} to {latest:.2g} s"
     yield "memory, at most", f"{prediction.memory / 2**20:.0f} MiB"
     yield "result file, at most", f"{prediction.file_size / 2**20:.1f} MiB"
