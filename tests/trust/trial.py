@@ -12,6 +12,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 from paper_models import flat, half_space, motion, named, small, sphere, steel
+from strangers.debris import Debris
 from strangers.running_in import RunningIn
 
 import tribo.simulation.run
@@ -29,13 +30,14 @@ CHECKPOINTS = 0.1
 
 
 def simulation():
-    """Forty seconds of a ball on a disk, whose laws remember."""
+    """Forty seconds of a ball on a disk, whose laws remember, and debris between them."""
     law = RunningIn(k_first=9e-16, k_last=3e-16, length=5.0)
     model = small(
         grid=Grid((0.7e-3, 0.7e-3), (20, 20)),
         contact=half_space(),
         bodies=[named("ball", sphere(), steel(), law), named("disk", flat(), steel(), law)],
         kinematics=motion(duration=40),
+        effects=[Debris(length=0.5)],
         save_times=SAVES,
     )
     return Simulation(model.case)

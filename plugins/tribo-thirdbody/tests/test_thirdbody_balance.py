@@ -7,6 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.special import lambertw
 from tribo import CaseError, Simulation
+from tribo.simulation.predict import predict
 from tribo.verification.refinement import refine
 
 from tribo_thirdbody.debris import Debris
@@ -114,8 +115,9 @@ def test_the_result_has_its_share_of_the_load():
     np.testing.assert_allclose(share, -np.expm1(-thickness / COVER), rtol=1e-12)
 
 
-def test_a_study_of_errors_quotes_what_a_run_gives():
-    # A state left out of the study's runs would give the dry depth, without an error.
+@pytest.mark.slow
+def test_a_check_and_a_study_of_errors_say_what_a_run_gives():
+    # A state that is left out of their runs gives the dry depth, without an error.
     case = pin()
     case["grid"]["cells"], case["kinematics"]["distance"] = 20, 0.5
     simulation = Simulation(case)
@@ -125,6 +127,8 @@ def test_a_study_of_errors_quotes_what_a_run_gives():
     depth = quoted["pin: largest depth"]
     assert depth.value == pytest.approx(worn, rel=1e-12, abs=0)
     assert depth.uncertainty <= 1e-4 * worn
+    foreseen = predict(simulation.model).last.bodies["pin"].max_wear_depth
+    assert foreseen == pytest.approx(worn, rel=1e-3, abs=0)
     assert worn < 0.8 * K * P * 0.5
 
 
