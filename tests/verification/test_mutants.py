@@ -12,7 +12,7 @@ from tribo.motion.cycle import Stroke
 from tribo.motion.exposure import Track
 from tribo.simulation import assembly
 from tribo.simulation.guards import GuardedSolver
-from tribo.stepping import evolution, step
+from tribo.stepping import layers, step
 from tribo.verification.suite import REFERENCES
 from tribo.wear.archard import Archard
 from tribo.wear.power import Power
@@ -65,7 +65,10 @@ def rate_times(factor):
 
 def one_rate_for_both(right):
     def rates(*given):
-        return tuple(dict.fromkeys(at, next(iter(at.values()))) for at in right(*given))
+        return [
+            replace(each, wear=dict.fromkeys(each.wear, next(iter(each.wear.values()))))
+            for each in right(*given)
+        ]
 
     return rates
 
@@ -100,7 +103,7 @@ MUTANTS = {
         PIN,
     ),
     "one coefficient for both": (
-        (evolution, "wear_rates"),
+        (layers, "rates_at_each"),
         one_rate_for_both,
         "three times the coefficient",
     ),

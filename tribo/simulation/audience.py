@@ -72,8 +72,8 @@ def _view(value: Any) -> Any:
         return readonly(value)
     if isinstance(value, Mapping):
         return {name: _view(each) for name, each in value.items()}
-    if isinstance(value, tuple):
-        return tuple(_view(each) for each in value)
+    if isinstance(value, tuple | list):
+        return type(value)(map(_view, value))
     if is_dataclass(value) and not isinstance(value, type):
         return replace(value, **{f.name: _view(getattr(value, f.name)) for f in fields(value)})
     return value

@@ -74,7 +74,8 @@ def course(
 
     if not before.values:
         shared, found = in_layers(model, before, contacts, increment, moment)
-        return Course([each.wear for each in found], shared, begun=begun if layered else None)
+        wear = tuple(each.wear for each in found)
+        return Course(wear, shared, begun=begun if layered else None)
     of_model = partial(_rates, model, before, list(layered), contacts, increment, moment)
     start = [*before.values, *layered.values()]
     limits = limits_of(model, before)
