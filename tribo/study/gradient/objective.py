@@ -170,8 +170,9 @@ class Width:
             raise CaseError(f"{self.body} has no width along its track")
         middle = slice((lines.shape[1] - 1) // 2, lines.shape[1] // 2 + 1)
         profile, seed = np.mean(lines[:, middle], axis=1), np.zeros_like(lines)
-        if (total := np.sum(profile)) <= 0:
+        if np.count_nonzero(profile) < 2:
             return 0.0, Seeds({self.body: np.zeros_like(wear)})
+        total = np.sum(profile)
         place = view.grid.spacing[self.axis] * np.arange(n)
         part = profile / total
         off = (place - np.sum(part * place)) ** 2
