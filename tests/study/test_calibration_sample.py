@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 from scipy.stats import norm
 
 from tribo.cli.main import tribo
-from tribo.core.errors import CaseError
+from tribo.core.errors import CaseError, Interrupted, NumericalError
 from tribo.study.calibration.calibrate import calibrate
 from tribo.study.calibration.fit import fit, interval
 from tribo.study.calibration.linearised import Problem
@@ -23,7 +23,7 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 CASE, WEIGHED = EXAMPLES / "weighed_split.toml", EXAMPLES / "weighed.toml"
 
 
-def sampled_of(observed, below, repeatability, count):
+def sampled_of(observed, below, repeatability, count, fails=lambda k: None):
     """Sampled and fitted intervals of numbers that were each measured, some repeatedly."""
     which = np.cumsum([0, *(a != b for a, b in pairwise(below))])
     ends = np.full(which[-1] + 1, np.inf)
@@ -44,7 +44,12 @@ def sampled_of(observed, below, repeatability, count):
         [found.point[i] + np.array(interval(found, axes[i], 0.95)) for i in range(len(axes))]
     )
     estimates = pd.DataFrame({"lower": both[:, 0], "upper": both[:, 1], "limited": found.limited()})
-    return sampled(lambda k: k[which], found, estimates, count, 0.95)[0]
+
+    def model(k):
+        fails(k)
+        return k[which]
+
+    return sampled(model, found, estimates, count, 0.95)[0]
 
 
 def test_known_errors_give_normal_intervals_and_a_limit_its_closed_form():
@@ -57,6 +62,21 @@ def test_known_errors_give_normal_intervals_and_a_limit_its_closed_form():
     z = brentq(lambda z: 0.1 * (norm.pdf(z) - z * norm.sf(z)) - 0.025, 0, 2)
     assert (second.sampled_lower, second.limited) == (0, True)
     assert second.sampled_upper == pytest.approx(1 + 0.1 * z, abs=0.02)
+
+
+@pytest.mark.parametrize("error", [NumericalError, Interrupted])
+def test_what_cannot_be_run_bounds_an_interval_and_an_interrupt_ends_it(error, capsys):
+    def fails(k):
+        if k[0] > 1.05:
+            raise error("too wide")
+
+    if error is Interrupted:
+        with pytest.raises(Interrupted, match="too wide"):
+            sampled_of([1.0, 1.0], [False, False], 0.0, 400, fails)
+    else:
+        (found,) = sampled_of([1.0, 1.0], [False, False], 0.0, 400, fails).itertuples()
+        assert found.sampled_lower < 0.95 < found.sampled_upper < 1.05
+    assert capsys.readouterr().out == ""
 
 
 def test_a_repeatability_of_few_tests_is_sampled_too():

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tribo.core.errors import CaseError
+from tribo.core.arrays import Array
+from tribo.core.contact import ContactSolution
+from tribo.core.errors import CaseError, NumericalError
 from tribo.core.state import State
 from tribo.stepping.contacts import in_stripes
 from tribo.stepping.evolution import course
@@ -17,8 +20,8 @@ from tribo.stepping.step import worn_depths
 if TYPE_CHECKING:
     from tribo.simulation.model import Model
 
-FIRST = 1e-6
-"""Part of the path over which it is held against it."""
+PARTS = np.logspace(-6, 0, 7)
+"""Parts of the path over which it is held against it."""
 MOST = 10.0
 """Powers of e by which what is uneven may grow over the path."""
 
@@ -27,27 +30,25 @@ def check_filling(model: Model, state: State) -> None:
     """Raise `CaseError` if a gap fills the faster, the harder it is pressed, and opens slower.
 
     The load then draws together on ever fewer points, on a fine grid without end. Of an unevenness
-    δp the gap loses a δp per metre, which adds a δp/C to the pressure, with C the smallest
-    compliance: it grows as exp(a s/C).
+    δp the gap loses a δp s over a path s, which adds a s/C of it to the pressure, with C the
+    smallest compliance: it grows as exp(a s/C), up to where what fills the gap is carried away as
+    fast as it comes.
     """
     compliance = model.solver.smallest_compliance(model.system)
     if not model.filling or compliance is None:
         return
-    before, path = remembered(state), model.end_distance
-    speed = path / model.end_time
-    moment = Moment(state.time + FIRST * model.end_time, state.distance + FIRST * path, speed)
     nudged, stripes = in_stripes(state.contacts)
-    lost = []
-    for contacts in (state.contacts, nudged):
-        slid = course(model, before, contacts, FIRST * path, moment)
-        heights = filling(model, slid.memory)
-        for name, depth in worn_depths(model, slid.rates, FIRST * path).items():
-            for position, height in enumerate(heights):
-                height -= model.under(name, depth, position)
-        lost.append(heights)
     uneven = np.stack(stripes)
-    slope = float(np.sum(uneven * (lost[1] - lost[0]))) / float(np.sum(uneven**2))
-    if slope / FIRST <= MOST * compliance:
+    most = MOST * compliance * float(np.sum(uneven**2))
+    for part in PARTS:
+        try:
+            lost = _lost(model, state, nudged, part) - _lost(model, state, state.contacts, part)
+        except NumericalError:
+            # Over so long a path it cannot be followed at the first pressure.
+            return
+        if np.sum(uneven * lost) > most:
+            break
+    else:
         return
     keys = ", ".join(repr(key) for _, key in model.filling)
     passing = ", ".join(repr(name) for name in model.bodies if name in model.swept)
@@ -58,3 +59,16 @@ def check_filling(model: Model, state: State) -> None:
         "let it not fill the gap (fills = false)",
         "effects",
     )
+
+
+def _lost(model: Model, state: State, contacts: Sequence[ContactSolution], part: float) -> Array:
+    """Return by how much the gap fills more than it opens over a part of the path, in m."""
+    increment, time = part * model.end_distance, part * model.end_time
+    speed = model.end_distance / model.end_time
+    moment = Moment(state.time + time, state.distance + increment, speed)
+    slid = course(model, remembered(state), contacts, increment, moment)
+    heights = filling(model, slid.memory)
+    for name, depth in worn_depths(model, slid.rates, increment).items():
+        for position, height in enumerate(heights):
+            height -= model.under(name, depth, position)
+    return heights

@@ -10,12 +10,14 @@ import pandas as pd
 from scipy.stats import norm
 
 from tribo.core.arrays import Array
-from tribo.core.errors import CaseError
+from tribo.core.errors import CaseError, NumericalError, PluginError
 from tribo.study.calibration.linearised import REPEATABILITIES, Linearised, root_covariance
 from tribo.study.calibration.quantities import percent
 
 LEAST, LEFT_OUT = 100, 0.25
 """Fewest samples of a chain, and the part of them, at its beginning, that is left out."""
+NEVER = -1e30
+"""Logarithm of the probability where nothing can be run; finite, as chains may begin there."""
 
 
 def check_sampling(count: int, parameters: int) -> None:
@@ -64,19 +66,36 @@ def sampled(
         about = fitted.repeatability * random.uniform(0.5, 1.5, chains)
         start = np.column_stack([start, np.log(about + REPEATABILITIES[0])])
 
+    failed = 0
+    ended: BaseException | None = None
+
     def log_probability(place: Array) -> float:
+        nonlocal failed, ended
+        if ended is not None:
+            return NEVER
         if np.any((place < ends[0]) | (place > ends[1])):
             return -np.inf
         point = place[:p]
         scatter = np.exp(place[p]) if problem.repeatability is None else problem.repeatability
-        here = replace(fitted, point=point, responses=model(np.exp(point)))
+        try:
+            here = replace(fitted, point=point, responses=model(np.exp(point)))
+        except BaseException as error:
+            # emcee would print it with the parameters.
+            if isinstance(error, CaseError | NumericalError) and not isinstance(error, PluginError):
+                failed += 1
+            else:
+                ended = error
+            return NEVER
         here = here.weighed(point, float(scatter))
         return float(np.sum(point)) - 0.5 * here.deviance(point)
 
     moves = [(emcee.moves.DEMove(), 0.8), (emcee.moves.DESnookerMove(), 0.2)]
     sampler = emcee.EnsembleSampler(*start.shape, log_probability, moves=moves)
     seed = np.random.RandomState(0).get_state()
-    sampler.run_mcmc(emcee.State(np.clip(start, *ends), random_state=seed), count // chains)
+    begun = emcee.State(np.clip(start, *ends), random_state=seed)
+    for _ in sampler.sample(begun, iterations=count // chains):
+        if ended is not None:
+            raise ended
     discard = int(LEFT_OUT * count / chains)
     found = np.exp(sampler.get_chain(discard=discard, flat=True)[:, :p])
     part = 0.5 + 0.5 * level
@@ -92,6 +111,7 @@ def sampled(
         f"ends of sampled intervals lie up to {percent(apart)} % of their lengths from those by "
         f"power laws; {len(found)} samples, as good as {alone:.0f} independent ones, give them "
         f"to about ±{percent(chance)} %"
+        + (f"; {failed} more could not be run, where they end" if failed else "")
     )
 
 
