@@ -262,6 +262,17 @@ def test_a_loss_that_was_not_seen_bounds_its_coefficient():
     assert (groove.lower, groove.upper) == (0, pytest.approx(depth, rel=1e-3, abs=0))
 
 
+def test_a_bound_that_cannot_be_run_leaves_what_follows_from_it_open():
+    """At the bound of the ball's coefficient its scar outgrows the window: that is no scar of 0."""
+    loss = {"body": "ball", "quantity": "mass", "value": f"< {100 * mass(BALL)} kg"}
+    data = [DISK_LOSS, {**loss, "uncertainty": mass(BALL)}]
+    found = calibrate(CASE, {"measured": data, "fit": [*fitting(BALL_K), *fitting(DISK_K)]})
+    ball, disk = found.parameters.itertuples()
+    assert (ball.limited, disk.limited) == (True, False)
+    scars = found.predictions.query("body == 'ball' and quantity == 'scar_along'")
+    assert list(scars["upper"]) == [np.inf]
+
+
 def test_a_scar_of_another_shape_than_the_model_gives_is_noticed():
     """A half-space wears a ball as springs do, whatever the coefficient, but for some 10 nm."""
     at = np.linspace(-0.35e-3, 0.35e-3, 41)

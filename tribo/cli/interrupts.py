@@ -6,7 +6,7 @@ import signal
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from threading import Timer
+from threading import Timer, main_thread
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ def no_interrupt_lost() -> Iterator[None]:
     def hook(unraisable: UnraisableHookArgs) -> None:
         if unraisable.exc_type is KeyboardInterrupt:
             # Later: here it would be lost again.
-            waiting.append(Timer(AGAIN, signal.raise_signal, [signal.SIGINT]))
+            waiting.append(Timer(AGAIN, _interrupt))
             waiting[-1].start()
         else:
             before(unraisable)
@@ -36,3 +36,11 @@ def no_interrupt_lost() -> Iterator[None]:
         sys.unraisablehook = before
         for timer in waiting:
             timer.cancel()
+
+
+def _interrupt() -> None:
+    """Interrupt the main thread, also where it waits."""
+    if sys.platform == "win32":
+        signal.raise_signal(signal.SIGINT)
+    else:
+        signal.pthread_kill(main_thread().ident or 0, signal.SIGINT)

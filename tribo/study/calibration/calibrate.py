@@ -255,8 +255,8 @@ def _predictions(
     values, held = (estimates[name].to_numpy() for name in ("value", "held"))
     limited = estimates["limited"].to_numpy()
     at_bounds = [
-        posed.run(np.where(one, estimates["upper"], values)).responses
-        for one in np.eye(len(values), dtype=bool)[limited]
+        _at_bound(fitted, posed, values, one, estimates["upper"].iloc[one])
+        for one in np.flatnonzero(limited).tolist()
     ]
     read_off = posed.run(np.exp(fitted.point)).read_off
     positive = np.all([made.responses > 0 for made in posed.runs.values()], axis=0)
@@ -279,6 +279,19 @@ def _predictions(
         rows.append((each.test, each.body, each.quantity, unit, value, *ends))
     columns = ["test", "body", "quantity", "unit", "value", "lower", "upper"]
     return pd.DataFrame(rows, columns=columns)
+
+
+def _at_bound(fitted: Linearised, posed: Posed, values: Array, one: int, bound: float) -> Array:
+    """Return the responses where a parameter is at its upper bound; infinite if that is not run."""
+    if np.isfinite(bound):
+        place = values.copy()
+        place[one] = bound
+        try:
+            return posed.run(place).responses
+        except (CaseError, NumericalError):
+            # What fits is not lost for a prediction.
+            pass
+    return np.where(np.abs(fitted.slopes[:, one]) > ABOVE_ROUNDING, np.inf, fitted.responses)
 
 
 def _estimates(fitted: Linearised, jacobian: Array, posed: Posed, level: float) -> pd.DataFrame:
