@@ -13,7 +13,7 @@ from tribo.plotting.style import DIFFERENCES, house_style, new_figure
 DOUBLE = 140.0
 """Width of a picture with two panels, in mm."""
 SURE = 3.0
-"""Standard deviations from the data that a picture of the residuals reaches."""
+"""Standard deviations from the data that a picture of the residuals reaches at least."""
 Range = tuple[float | None, float | None]
 
 
@@ -62,12 +62,11 @@ def depth_fit(
     title : str, optional
         Of the picture.
     """
+    off = (computed - measured) / uncertainty
+    largest = float(np.max(np.abs(off), initial=SURE, where=np.isfinite(off)))
     panels: dict[str, tuple[Array, Range]] = {
         "measured depth (µm)": (1e6 * measured, (None, None)),
-        "fit − measured (deviations)": (
-            (computed - measured) / uncertainty,
-            (-SURE, SURE),
-        ),
+        "fit − measured (deviations)": (off, (-largest, largest)),
     }
     return _drawn(panels, spacing, title, "Blues", DIFFERENCES)
 
@@ -88,7 +87,7 @@ def _drawn(
             if len(values) == 1:
                 y = spacing[1] * 1e6 * (np.arange(values.size) - 0.5 * (values.size - 1))
                 axes.plot(y, values[0], color="#202020")
-                axes.set(xlabel="y (µm)", ylabel=label, ylim=(min(low or 0, 0), high))
+                axes.set(xlabel="y (µm)", ylabel=label, ylim=(low, high))
                 continue
             half = [0.5e6 * n * h for n, h in zip(values.shape, spacing, strict=True)]
             image = axes.imshow(
