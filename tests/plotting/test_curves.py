@@ -47,6 +47,10 @@ def test_runs_of_a_sweep_are_curves_in_the_order_of_what_varies():
     np.testing.assert_allclose(first.get_xydata(), [[20, 300], [40, 400]])
     np.testing.assert_allclose(second.get_xydata(), [[20, 200], [40, 500]])
     assert [text.get_text() for text in figure.legends[0].get_texts()] == ["dcfft", "winkler"]
+    # One is seen inside the other where they coincide.
+    assert (first.get_fillstyle(), second.get_fillstyle()) == ("full", "none")
+    assert first.get_markersize() < second.get_markersize()
+    assert first.get_marker() != second.get_marker()
     with pytest.raises(CaseError, match="no column 'load'"):
         sweep_curves(runs, "load", "max_pressure_Pa")
     with pytest.raises(CaseError, match="no run is done"):

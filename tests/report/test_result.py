@@ -16,7 +16,7 @@ from pages import Checked
 import tribo
 from tribo.report.drawing import drawing
 from tribo.report.fields import charts
-from tribo.report.reduced import Blocks, block_means
+from tribo.report.reduced import Blocks, block_means, each_plain
 from tribo.report.result import result_page
 from tribo.report.sentence import read_verified, sentence
 from tribo.templates import template
@@ -130,6 +130,17 @@ def test_every_shape_of_contact_has_its_charts(shape):
     assert len(data["saves"]) == len(first["values"]) == 2
     assert len(first["values"][0]) == len(first["x"]) * len(first["y"])
     assert first["largest"][-1] == pytest.approx(largest / tribo.MPa, rel=1e-3)
+
+
+def test_a_pressure_that_has_fallen_far_keeps_its_digits():
+    """A logarithmic axis and the words above a map show them."""
+    with made(times=(0.0, 3600.0)) as result:
+        data = charts(result)
+        column = 1e-6 * result.table("history")["max_pressure_Pa"]
+    panels = {panel["name"]: panel for panel in data["history"]["axes"][0]["panels"]}
+    drawn = panels["Contact pressure"]["curves"][0]["y"]
+    np.testing.assert_allclose(drawn, column, rtol=5e-4)
+    assert each_plain(np.array([1260.0, 14.3217, np.nan])) == [1260.0, 14.32, None]
 
 
 def test_a_body_that_does_not_wear_has_no_map():

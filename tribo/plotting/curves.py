@@ -43,6 +43,8 @@ OTHERS = (
 """Ends of other names, and their unit; the longer first, as the inverse of a pressure."""
 MOST_CURVES = 6
 """In a picture of a sweep."""
+MARKS = "osD^vp"
+"""Of its curves; the first is full, and seen inside another that coincides."""
 FIT = 4.0
 """Height of a measured value in the picture of a fit, in mm."""
 NAME = 1.25
@@ -144,15 +146,17 @@ def sweep_curves(
         axes = figure.subplots()
         every = done[x].to_numpy(float), done[y].to_numpy(float)
         curves: list[Line2D] = []
-        for look, (values, rows) in zip(save_looks(len(groups)), groups, strict=True):
+        for i, (look, (values, rows)) in enumerate(
+            zip(save_looks(len(groups)), groups, strict=True)
+        ):
             label = ", ".join(
                 f"{value:.4g}" if isinstance(value, float) else str(value) for value in values
             )
             across, up = (rows[name].to_numpy(float) for name in (x, y))
-            look = look if joined else {**look, "linestyle": "none"}
-            curves += _draw(
-                axes, across, up, x, y, every, label=label, marker="o", markersize=4.0, **look
-            )
+            look = {**look, "marker": MARKS[i % len(MARKS)], "label": label}
+            look |= {"fillstyle": "none", "markersize": 6.0} if i else {"markersize": 3.0}
+            look |= {} if joined else {"linestyle": "none"}
+            curves += _draw(axes, across, up, x, y, every, **look)
         if by:
             legend_below(figure, curves)
     return figure

@@ -11,7 +11,7 @@ from tribo.core.arrays import Array, Mask
 from tribo.plotting.kept import kept_fields
 from tribo.plotting.sections import limits, removed, scar_mask
 from tribo.plotting.units import axis_units, shown_in, size, time_labels, time_unit
-from tribo.report.reduced import Blocks, block_words, plain
+from tribo.report.reduced import Blocks, block_words, each_plain, plain
 from tribo.result.export import profile
 from tribo.result.read import Result
 
@@ -168,7 +168,7 @@ def history(results: Results) -> dict[str, Any]:
                     "log": si == "Pa",
                     "note": note,
                     "curves": [
-                        {"name": called, "x": plain(x / size(shown)), "y": plain(y / factor)}
+                        {"name": called, "x": plain(x / size(shown)), "y": each_plain(y / factor)}
                         for called, (*xs, y) in curves.items()
                         for x in xs[across : across + 1]
                     ],

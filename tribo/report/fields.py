@@ -13,7 +13,7 @@ from tribo.plotting.kept import kept_fields
 from tribo.plotting.sections import limits, number_of_saves
 from tribo.plotting.units import axis_units, shown_in, size
 from tribo.report.curves import history, moments, sections, thinned, touched
-from tribo.report.reduced import Blocks, block_means, block_words, plain
+from tribo.report.reduced import Blocks, block_means, block_words, each_plain, plain
 from tribo.result.body import BodyResult
 from tribo.result.layout import TRACK, TRACK_PLASTIC
 from tribo.result.read import Result
@@ -179,7 +179,7 @@ def _map(
         "unit": shown,
         **part.axes(),
         "values": [plain(part.means(field) / factor) for field in fields],
-        "largest": plain(np.array(largest) / factor),
+        "largest": each_plain(np.array(largest) / factor),
         "note": block_words(part.blocks) + ("" if part.is_true else STRETCHED),
     }
 

@@ -63,9 +63,14 @@ def block_words(blocks: Sequence[Blocks]) -> str:
 
 
 def plain(values: Array) -> list[float | None]:
-    """Return numbers to four digits, in the order of the array's memory; None for NaN."""
+    """Return numbers to four digits of the largest, in the order of memory; None for NaN."""
     flat = np.ravel(values)
     top = float(np.max(np.abs(flat), initial=0.0, where=np.isfinite(flat)))
     # What is far below the largest value is not seen.
     decimals = DIGITS - int(np.ceil(np.log10(top))) if top > 0 else 0
     return [None if np.isnan(v) else float(v) + 0.0 for v in np.round(flat, max(decimals, 0))]
+
+
+def each_plain(values: Array) -> list[float | None]:
+    """Return numbers to four digits of each, as a logarithmic axis and words show them."""
+    return [None if np.isnan(v) else float(f"{v:.{DIGITS}g}") for v in np.ravel(values)]

@@ -14,7 +14,7 @@ from tribo.cli.swept import varied
 from tribo.core.errors import CaseError
 from tribo.plotting.curves import column_label, curves_by, sweep_pictures
 from tribo.report.page import check_installed, render, stills
-from tribo.report.reduced import plain
+from tribo.report.reduced import each_plain
 from tribo.report.result import case_text, cited, facts
 from tribo.report.sentence import DEPTHS, VOLUMES, quoted
 from tribo.report.tables import PageTable
@@ -161,8 +161,8 @@ def _curves(done: pd.DataFrame, varied: list[str], measures: list[str]) -> dict[
             curves = [
                 {
                     "name": called,
-                    "x": list(rows[across]) if is_text else plain(rows[across] / factor),
-                    "y": plain(rows[name] / size),
+                    "x": list(rows[across]) if is_text else each_plain(rows[across] / factor),
+                    "y": each_plain(rows[name] / size),
                     "apart": apart,
                 }
                 for called, rows in groups.items()
