@@ -34,6 +34,18 @@ def test_the_table_has_what_varied_and_what_came_out(width):
     assert lines[-1].split() == ["4", "40", "winkler", "400", "4", "0"]
 
 
+def test_headings_are_words_with_units_and_texts_are_whole():
+    runs = table([20.0, 40.0], ["dcfft"])
+    runs.insert(2, "bodies.ball.wear.k_1_Pa", [1.5e-16, 2e-16])
+    runs.insert(3, "label", ["as ground", "as polished"])
+    runs.insert(4, "grid.cells", [12800, 25600])
+    console = Console(file=io.StringIO(), width=120, highlight=False)
+    print_runs(runs, console)
+    printed = console.file.getvalue()
+    for text in ("ball wear k (1/Pa)", "load normal (N)", "1.5e-16", "as polished", "25600"):
+        assert text in printed
+
+
 def test_a_long_table_ends_with_how_many_more_there_are():
     console = Console(file=io.StringIO(), width=80)
     print_runs(table([float(load) for load in range(1, ROWS + 4)], ["dcfft"]), console)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 from rich.markup import escape
@@ -30,10 +31,12 @@ def print_runs(runs: pd.DataFrame, console: Console | None = None) -> None:
     columns = [list(map(str, done["run"][:ROWS]))]
     table.add_column("run", justify="right")
     for name in varied(runs):
-        cells = [_shown(value) for value in done[name][:ROWS]]
+        # The heading has the unit.
+        cells = [escape(cell(name, done, index)) for index in done.index[:ROWS]]
         # A long name is broken before a value is.
         widest = max(map(len, cells))
-        table.add_column(escape(name), justify="right", overflow="fold", min_width=widest)
+        heading = escape(labelled(name, done)[0])
+        table.add_column(heading, justify="right", overflow="fold", min_width=widest)
         columns.append(cells)
     for end, header, factor, digits in MEASURED:
         for name in [column for column in done if _measures(str(column), end)]:
@@ -70,5 +73,25 @@ def _measures(column: str, end: str) -> bool:
     return column == end or (end.startswith(".") and column.endswith(end))
 
 
-def _shown(value: object) -> str:
-    return f"{value:.4g}" if isinstance(value, float) else escape(str(value))
+def is_text(runs: pd.DataFrame, name: str) -> bool:
+    """Whether a column holds no numbers."""
+    return not pd.api.types.is_numeric_dtype(runs[name])
+
+
+def labelled(name: str, runs: pd.DataFrame) -> tuple[str, float]:
+    """Return what is said of a column, with its unit, and the unit's size."""
+    from tribo.plotting.curves import column_label
+
+    if is_text(runs, name):
+        return name.replace("_", " ").replace(".", " "), 1.0
+    return column_label(name, runs[name].to_numpy(float))
+
+
+def cell(name: str, runs: pd.DataFrame, index: Any) -> str:
+    """Return a value of a run, in the unit of its column, which it leaves out."""
+    value, factor = runs.at[index, name], labelled(name, runs)[1]
+    if pd.isna(value):
+        return "–"
+    if factor == 1 and not isinstance(value, float):
+        return str(value)
+    return f"{value / factor:.4g}"

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tribo.cli.swept import varied
+from tribo.cli.swept import cell, is_text, labelled, varied
 from tribo.core.errors import CaseError
-from tribo.plotting.curves import column_label, curves_by, sweep_pictures
+from tribo.plotting.curves import curves_by, sweep_pictures
 from tribo.report.page import check_installed, render, stills
 from tribo.report.reduced import each_plain
 from tribo.report.result import case_text, cited, facts
@@ -41,7 +41,7 @@ def sweep_page(folder: Path) -> str:
         if done.empty:
             raise CaseError(f"no run of {folder} is done; there is nothing to report")
         # What is a number first: it makes the better axis.
-        names = sorted(varied(runs), key=partial(_is_text, done))
+        names = sorted(varied(runs), key=partial(is_text, done))
         first = done.iloc[0]["file"]
     except (OSError, ValueError, KeyError) as error:
         raise CaseError(f"{folder / RUNS} is not the table of a sweep: {error}") from error
@@ -89,7 +89,9 @@ def _answers(
         for index in (volumes.idxmin(), volumes.idxmax()):
             row = done.loc[index]
             depth = quoted(row[f"bodies.{body}.max_wear_depth_m"], DEPTHS)
-            where = ", ".join(f"{_words(name, done)} {_cell(name, done, index)}" for name in varied)
+            where = ", ".join(
+                f"{_words(name, done)} {_with_unit(name, done, index)}" for name in varied
+            )
             ends.append(
                 f"{quoted(row[f'bodies.{body}.wear_volume_m3'], VOLUMES)}, {depth} deep (run "
                 f"{row['run']}: {where})"
@@ -107,61 +109,40 @@ def _notes(runs: pd.DataFrame) -> Iterator[str]:
         yield f"run {numbers[0]}{more}: {text}"
 
 
-def _is_text(runs: pd.DataFrame, name: str) -> bool:
-    return not pd.api.types.is_numeric_dtype(runs[name])
-
-
 def _words(name: str, runs: pd.DataFrame) -> str:
-    return _labelled(name, runs)[0].partition(" (")[0]
+    return labelled(name, runs)[0].partition(" (")[0]
 
 
-def _labelled(name: str, runs: pd.DataFrame) -> tuple[str, float]:
-    """Return what is said of a column, with its unit, and the unit's size."""
-    if _is_text(runs, name):
-        return name.replace("_", " ").replace(".", " "), 1.0
-    return column_label(name, runs[name].to_numpy(float))
-
-
-def _cell(name: str, runs: pd.DataFrame, index: Any) -> str:
-    """Return a value of a run, in the unit of its column."""
-    value = runs.at[index, name]
-    if isinstance(value, str):
-        return value
-    if pd.isna(value):
-        return "–"
-    label, factor = _labelled(name, runs)
+def _with_unit(name: str, runs: pd.DataFrame, index: Any) -> str:
+    label, _ = labelled(name, runs)
     unit = label.rpartition(" (")[2].removesuffix(")") if label.endswith(")") else ""
-    return f"{float(value) / factor:.4g} {unit}".rstrip()
+    return f"{cell(name, runs, index)} {unit}".rstrip()
 
 
 def _table(runs: pd.DataFrame, varied: list[str], measures: list[str]) -> PageTable:
     shown = ["run", *(["status"] if (runs["status"] != "done").any() else []), *varied, *measures]
-    rows = [
-        # The heading has the unit.
-        [_cell(name, runs, index).split(" ")[0] for name in shown]
-        for index in runs.index
-    ]
-    return PageTable("Each run at its end", [_labelled(n, runs)[0] for n in shown], rows, True)
+    rows = [[cell(name, runs, index) for name in shown] for index in runs.index]
+    return PageTable("Each run at its end", [labelled(n, runs)[0] for n in shown], rows, True)
 
 
 def _curves(done: pd.DataFrame, varied: list[str], measures: list[str]) -> dict[str, Any]:
     """Return what is measured over each quantity that varies, a curve for each of the others."""
     axes = []
     for across in varied:
-        label, factor = _labelled(across, done)
+        label, factor = labelled(across, done)
         groups, apart = _groups(
             done.sort_values(across), [name for name in varied if name != across]
         )
-        is_text = _is_text(done, across)
-        low, high = (0.0, 0.0) if is_text else (done[across].min(), done[across].max())
+        text = is_text(done, across)
+        low, high = (0.0, 0.0) if text else (done[across].min(), done[across].max())
         panels = []
         for name in measures:
-            words, size = _labelled(name, done)
+            words, size = labelled(name, done)
             what, _, unit = words.rpartition(" (")
             curves = [
                 {
                     "name": called,
-                    "x": list(rows[across]) if is_text else each_plain(rows[across] / factor),
+                    "x": list(rows[across]) if text else each_plain(rows[across] / factor),
                     "y": each_plain(rows[name] / size),
                     "apart": apart,
                 }
@@ -178,7 +159,7 @@ def _groups(runs: pd.DataFrame, others: list[str]) -> tuple[dict[str, pd.DataFra
     """Return the runs of each curve by name, and whether their marks stand apart."""
     names, joined = curves_by(runs, others)
     parts = {
-        ", ".join(f"{_words(n, runs)} {_cell(n, runs, rows.index[0])}" for n in names): rows
+        ", ".join(f"{_words(n, runs)} {_with_unit(n, runs, rows.index[0])}" for n in names): rows
         for _, rows in (runs.groupby(names, sort=True) if names else [("", runs)])
     }
     return parts, not joined
