@@ -17,7 +17,7 @@ from tribo.result.export import profile
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.calibrate import calibrate, far_off
 from tribo.study.calibration.measured import read_measurements
-from tribo.study.calibration.posed import Parameter, find_parameters, make_run
+from tribo.study.calibration.posed import Parameter, Run, find_parameters, make_run
 from tribo.study.calibration.quantities import Reading, percent, read
 
 TRUE = {"bodies.ball.wear.k": 3.11e-16, "bodies.disk.wear.k": 1.5e-16}
@@ -160,6 +160,26 @@ def test_the_experiment_gives_the_weighed_coefficients_and_the_crown():
     assert crown.value == pytest.approx(middle, rel=0.03, abs=0)
     assert crown.lower / crown.value == pytest.approx(rigid(disk.lower) / middle, rel=0.1)
     assert crown.upper / crown.value == pytest.approx(rigid(disk.upper) / middle, rel=0.1)
+
+
+def test_the_start_leaves_no_trace_in_the_uncertainties(monkeypatch):
+    """The grid's part of them is that of the estimate, though it may be far from the start."""
+
+    def made(tables, parameters, values, wanted, *rest):
+        off = np.array([0.2 * (each.quantity == "crown") for each in wanted])
+        crown = 5e-6 * (values[0] / BALL) ** 0.25
+        found = [crown if each.quantity == "crown" else mass(values[0]) for each in wanted]
+        return Run(np.array(found), off * found, ())
+
+    monkeypatch.setattr("tribo.study.calibration.posed.make_run", made)
+    data = [BALL_LOSS, measured("ball", "crown", 6e-6)]
+    near, far = (
+        calibrate(CASE, {"measured": data, "fit": fitting(BALL_K, start=start)})
+        for start in (BALL, 100 * BALL)
+    )
+    np.testing.assert_allclose(far.data["sigma"], near.data["sigma"], rtol=0.05)
+    assert far.chi_square == pytest.approx(near.chi_square, rel=0.1)
+    assert far.parameters["value"][0] == pytest.approx(near.parameters["value"][0], rel=1e-3, abs=0)
 
 
 @pytest.mark.slow

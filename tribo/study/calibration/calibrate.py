@@ -29,6 +29,8 @@ DATA += ["measured", "below", "sigma", "computed", "residual"]
 """Columns of a calibration's data."""
 AT_BOUND = 1e-6
 """Relative distance below which an estimate counts as on its bound."""
+ALIKE = 0.05
+"""Part by which a datum's uncertainty, of which the grid gives some, may change with the fit."""
 NOTABLE, TOO_FAR = 5.0, 300.0
 """Factors between measured and computed: mentioned if a run fails, refused. A prefix is 1000."""
 
@@ -147,7 +149,7 @@ def calibrate(
     if sample:
         check_sampling(sample, len(posed.parameters))
     far = far_off(posed.data, posed.run(posed.start).responses, posed.parameters)
-    problem = posed.problem()
+    problem = posed.problem(posed.start)
 
     def responses(values: Array) -> Array:
         found = posed.run(values).responses
@@ -157,6 +159,11 @@ def calibrate(
 
     try:
         fitted = fit(responses, problem, posed.start)
+        estimate, before = np.exp(fitted.point), problem.sigma
+        problem = posed.problem(estimate)
+        if np.any(np.abs(problem.sigma - before) > ALIKE * before):
+            estimate = np.where(fitted.limited(), posed.start, estimate)
+            fitted = fit(responses, problem, estimate)
     except (CaseError, NumericalError) as error:
         if not far:
             raise

@@ -92,7 +92,7 @@ def plan_tests(
         return found
 
     computed = responses(posed.start)
-    problem = posed.problem()
+    problem = posed.problem(posed.start)
     point = np.log(posed.start)
     here = differenced(responses, problem, point, computed).weighed(point, asked.repeatability)
     check_effect(here)

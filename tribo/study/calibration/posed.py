@@ -160,9 +160,9 @@ class Posed:
         self.runs[key] = Run(responses, read_off, tuple(notices))
         return self.runs[key]
 
-    def problem(self) -> Problem:
-        """Return what is to be fitted; how well the grid gives the data, the first run says."""
-        data, parameters, read_off = self.data, self.parameters, self.run(self.start).read_off
+    def problem(self, values: Array) -> Problem:
+        """Return what is to be fitted; how well the grid gives the data a run of `values` says."""
+        data, parameters, read_off = self.data, self.parameters, self.run(values).read_off
         return Problem(
             names=tuple(p.path for p in parameters),
             observed=data["measured"].to_numpy(),
