@@ -120,6 +120,21 @@ def test_the_command_prints_sampled_intervals_of_the_weighed_coefficients(losses
     )
 
 
+def test_a_fit_that_the_data_leave_open_is_kept_without_samples(monkeypatch):
+    """They tell the product of the coefficients alone."""
+
+    def made(tables, parameters, values, wanted, *rest):
+        return Run(np.full(len(wanted), 1e-6 * np.prod(values / 3e-16)), np.zeros(len(wanted)), ())
+
+    monkeypatch.setattr("tribo.study.calibration.posed.make_run", made)
+    found = calibrate(CASE, WEIGHED, sample=1200)
+    assert np.isinf(found.parameters["upper"]).all()
+    assert "sampled_lower" not in found.parameters
+    assert found.notes[-1].startswith(
+        "nothing was sampled, since the data do not bound bodies.ball.wear.k from above: give it"
+    )
+
+
 def test_what_cannot_be_sampled_is_refused(losses, monkeypatch):
     with pytest.raises(
         CaseError, match="10 samples are too few for 2 parameters: give 1200 or more"

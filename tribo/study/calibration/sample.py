@@ -47,13 +47,13 @@ def sampled(
     By differential evolution (ter Braak and Vrugt 2008, Stat. Comput. 18, 435-446) as emcee has it
     (Foreman-Mackey et al. 2013, PASP 125, 306-312). Before the data all values of a parameter
     within its bounds are equally likely, and all logarithms of a repeatability that is not stated.
-    CaseError if the data leave a parameter open.
+    Nothing is sampled where the data leave a parameter open, as the remark then says.
     """
     import emcee
 
     for each in estimates[np.isinf(estimates["upper"])].itertuples():
-        raise CaseError(
-            f"{each.path} cannot be sampled, since the data do not bound it from above: give it an "
+        return estimates, (
+            f"nothing was sampled, since the data do not bound {each.path} from above: give it an "
             "upper in fit, or leave it out"
         )
     problem, p, chains = fitted.problem, len(estimates), _chains(len(estimates))
