@@ -18,7 +18,7 @@ from tribo.report.drawing import drawing
 from tribo.report.fields import charts
 from tribo.report.reduced import Blocks, block_means, each_plain
 from tribo.report.result import result_page
-from tribo.report.sentence import read_verified, sentence
+from tribo.report.sentence import DEPTHS, quoted, read_verified, sentence
 from tribo.templates import template
 
 
@@ -84,7 +84,7 @@ def test_it_quotes_the_uncertainty_that_a_study_found(tmp_path):
         study.write_text(json.dumps({"estimates": rows}))
         found = sentence(result, result.report(), read_verified(study, result))
         assert "the ball lost 0.0112 ± 0.0002 mm³ (0.0879 mg) and is worn" in found
-        assert re.search(r"worn \d+ ± 0\.\d µm deep", found)
+        assert re.search(r"worn \d+\.\d ± 0\.\d µm deep", found)
         rows[0]["value"] *= 1.1
         study.write_text(json.dumps({"estimates": rows}))
         with pytest.raises(tribo.CaseError, match="another case: ball of"):
@@ -92,6 +92,14 @@ def test_it_quotes_the_uncertainty_that_a_study_found(tmp_path):
     study.write_text("[]")
     with pytest.raises(tribo.CaseError, match=r"--verified: .* is not what 'tribo verify CASE"):
         read_verified(study, result)
+
+
+@pytest.mark.parametrize(
+    ("depth", "off", "words"),
+    [(22.51e-6, 6e-8, "22.51 ± 0.06 µm"), (345e-6, 12e-6, "345 ± 12 µm")],
+)
+def test_a_value_has_the_digits_that_its_uncertainty_leaves(depth, off, words):
+    assert quoted(depth, DEPTHS, {"uncertainty": off}) == words
 
 
 def test_a_body_without_wear_is_in_no_study(tmp_path):

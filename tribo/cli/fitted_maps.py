@@ -14,7 +14,7 @@ from rich.table import Table
 from tribo.cli.console import Console, titled
 from tribo.core.errors import CaseError
 from tribo.core.files import check_folder
-from tribo.study.calibration.maps import FittedMaps, LocalMap
+from tribo.study.calibration.maps import SILENT, FittedMaps, LocalMap
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -81,7 +81,8 @@ def fit_words(found: FittedMaps) -> str:
     """Say how well the maps explain the depths."""
     return (
         f"χ² {found.chi_square:.4g} with {found.degrees_of_freedom:.4g} to spare, "
-        f"p = {found.p_value:.2g}. Slopes are exact: passes back through each run."
+        f"p = {found.p_value:.2g}. Slopes are exact: passes back through each run. Told is a cell "
+        f"with less than {SILENT:g} of the prior's standard deviation left."
     )
 
 

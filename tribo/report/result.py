@@ -119,7 +119,7 @@ def _held(result: Result) -> str:
         f"the load is off by {worst['force_error']:.1g}, the worn volume by "
         f"{worst['volume_error']:.1g}, the gap under pressure is "
         f"{worst['complementarity_error']:.1g}, the overlap {worst['penetration_error']:.1g}, all "
-        "relative; at every step the run was held to what these must be."
+        "relative. A step that exceeds the limits of these stops a run."
     )
 
 

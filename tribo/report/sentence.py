@@ -102,7 +102,7 @@ def _coating(result: Result, name: str, layers: int) -> str:
 
 
 def quoted(value: float, units: Mapping[str, float], study: Estimate | None = None) -> str:
-    """Return a value with three digits, and its uncertainty where it has one."""
+    """Return a value with three digits, or with as many as its uncertainty leaves it."""
     unit = next((each for each, least in units.items() if value >= least * LEAST), [*units][-1])
     scale, power = units[unit], 0
     # Three digits, with a power of ten where zeros would hide them.
@@ -112,7 +112,9 @@ def quoted(value: float, units: Mapping[str, float], study: Estimate | None = No
     words = f"{number:.3g}" if number < 1e3 else f"{float(f'{number:.3g}'):,.0f}"
     uncertain = None if study is None else study["uncertainty"]
     if uncertain and uncertain > EXACT * value:
-        words += f" ± {uncertain / scale / 10.0**power:.1g}"
+        off = uncertain / scale / 10.0**power
+        decimals = max(-math.floor(math.log10(off)), 0)
+        words = f"{number:.{decimals}f} ± {off:.{decimals}f}"
         words = f"({words})" if power else words
     return f"{words} × 10{str(power).translate(RAISED)} {unit}" if power else f"{words} {unit}"
 
