@@ -1,6 +1,7 @@
 """`tribo calibrate`, as a user meets it."""
 
 import json
+import tomllib
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -73,9 +74,12 @@ def test_wide_tables_break_no_value_at_80_columns(capsys):
 def test_json_is_finite_and_in_si_units(asked):
     data = json.loads(asked("--json").stdout, parse_constant=pytest.fail)
     keys = "level runs parameters data predictions chi_square degrees_of_freedom p_value notes bic "
-    keys += "repeatability repeatability_estimated correlation singular_values left_out"
+    keys += "repeatability repeatability_estimated correlation singular_values left_out fitted"
     assert sorted(data) == sorted(keys.split())
     ball, _ = data["parameters"]
+    assert tomllib.loads(data["fitted"][""])["bodies"]["ball"]["wear"]["k"] == pytest.approx(
+        ball["value"], rel=1e-6, abs=0
+    )
     estimate = "path unit value lower upper resolution_share resolution_limit held limited"
     assert list(ball) == estimate.split()
     assert (ball["path"], ball["unit"]) == ("bodies.ball.wear.k", "1/Pa")

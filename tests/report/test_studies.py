@@ -13,6 +13,7 @@ from pages import Checked
 import tribo
 from tribo.cli.fitted_maps import maps_json
 from tribo.study.calibration.maps import FittedMaps, LocalMap
+from tribo.templates import template
 
 ESTIMATE = {
     "path": "bodies.ball.wear.k",
@@ -53,6 +54,7 @@ FIT = {
     "bic": 0.0,
     "left_out": [None],
     "notes": ["there are no more data than parameters"],
+    "fitted": {"": template("weighed_split")},
 }
 
 
@@ -104,6 +106,8 @@ def test_a_calibration_tells_its_estimates(tmp_path):
     page = (tmp_path / "fit-report.html").read_text(encoding="utf-8")
     assert "the data tell the best to 2.0 %, the worst to 20 % (one standard deviation)" in page
     assert "Correlation of bodies.ball.wear.k and bodies.disk.wear.k: 0.00." in page
+    assert "The case as fitted, to copy" in page
+    assert "sphere, radius 5 mm" in page
     # Nothing to draw: Plotly is left out.
     assert (tmp_path / "fit-report.html").stat().st_size < 200_000
 

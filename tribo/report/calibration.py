@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import math
+import tomllib
 from collections.abc import Iterator
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -14,6 +16,7 @@ import pandas as pd
 
 from tribo.cli.calibrate import data_table, estimates_table, judgement, predictions_table
 from tribo.cli.fitted_maps import read_maps
+from tribo.config.load import case_tables, validate_case
 from tribo.config.write import to_toml
 from tribo.core.errors import CaseError
 from tribo.plotting.curves import fit_picture
@@ -27,7 +30,7 @@ from tribo.study.calibration.quantities import in_si
 
 
 def calibration_file_page(path: Path) -> str:
-    """Return the report of what ``tribo calibrate --json`` printed, without the fitted cases.
+    """Return the report of what ``tribo calibrate --json`` printed.
 
     Raises
     ------
@@ -59,7 +62,8 @@ def _read(found: dict[str, Any]) -> Calibration:
     del found["p_value"]
     for name in ("correlation", "singular_values", "left_out"):
         found[name] = np.array(found[name], dtype=float)
-    found |= {"fitted": {}, "notes": tuple(found["notes"])}
+    found["fitted"] = {name: tomllib.loads(text) for name, text in found.get("fitted", {}).items()}
+    found["notes"] = tuple(found["notes"])
     return Calibration(**tables, **found)
 
 
@@ -87,7 +91,7 @@ def calibration_page(found: Calibration, title: str) -> str:
         citation=CITATION.format(version=packages.get("tribo", "")),
         case="\n".join(_cases(found)),
         whose=" as fitted",
-        facts=[each for tables in [*found.fitted.values()][:1] for each in facts(tables)],
+        facts=_facts(found),
         data=None,
     )
 
@@ -107,6 +111,14 @@ def _answers(found: Calibration) -> Iterator[str]:
                 f"{words}, between {each.lower:.3g} and {each.upper:.3g} with a probability of "
                 f"{100 * found.level:g} %."
             )
+
+
+def _facts(found: Calibration) -> list[tuple[str, str]]:
+    """Return the numbers of the first case; none where a plugin or file of it is missing here."""
+    for tables in found.fitted.values():
+        with suppress(CaseError):
+            return facts(case_tables(validate_case(tables)))
+    return []
 
 
 def _cases(found: Calibration) -> Iterator[str]:

@@ -14,6 +14,7 @@ from scipy.special import chdtrc, chdtri
 
 from tribo.case import Case
 from tribo.config.overrides import apply_settings
+from tribo.config.write import to_toml
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, NumericalError
 from tribo.study.calibration.fit import ABOVE_ROUNDING, NO_EFFECT, fit, interval
@@ -94,9 +95,9 @@ class Calibration:
         return float(chdtrc(self.degrees_of_freedom, self.chi_square))
 
     def as_json(self) -> dict[str, Any]:
-        """Return it as plain data in SI units; what is not given is NaN."""
-        found = plain(self) | {"p_value": self.p_value}
-        return {name: value for name, value in found.items() if name != "fitted"}
+        """Return it as plain data in SI units, the fitted cases as TOML; NaN is not given."""
+        fitted = {name: to_toml(tables) for name, tables in self.fitted.items()}
+        return plain(self) | {"p_value": self.p_value, "fitted": fitted}
 
 
 def calibrate(
