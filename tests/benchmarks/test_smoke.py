@@ -188,6 +188,15 @@ def test_resolved_hour(figures):
 
 
 @pytest.mark.slow
+def test_resolved_weights(figures):
+    options = ("--cells", "16", "--positions", "average")
+    intervals, fits = figures("resolved_weights", *options).values()
+    assert [row["data"] for row in fits] == ["weights alone", "with a crown of 10 ± 1 µm"]
+    assert len(intervals) == 2 * 4 + 1
+    assert all(0 <= row["lower"] < row["value"] < row["upper"] for row in intervals)
+
+
+@pytest.mark.slow
 def test_resolved_loop(figures):
     options = ["--cells", "24", "--positions", "37", "--duration", "0.2", "--saves", "0.2"]
     methods = {row["method"]: row for row in figures("resolved_loop", *options)["resolved hour"]}
