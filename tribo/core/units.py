@@ -35,6 +35,7 @@ _KINDS = {
     "N": ("a force", "100 N"),
     "Pa": ("a pressure", "210 GPa"),
     "1/Pa": ("an inverse pressure", "1e-6 mm^3/(N m)"),
+    "Pa s": ("a dynamic viscosity", "80 mPa s"),
     "Pa/m": ("a foundation modulus", "20 GPa/mm"),
     "J": ("an energy", "1 J"),
     "W": ("a power", "1 W"),

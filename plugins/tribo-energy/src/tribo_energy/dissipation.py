@@ -44,7 +44,7 @@ class Dissipation(WearLaw):
     )
 
     type = "energy.dissipation"
-    alpha: Annotated[float, Quantity("m^3/J", at_least=0)]
+    alpha: Annotated[float, Quantity("m^3/J", at_least=0, usual=(1e-22, 1e-10))]
     """Energy wear coefficient: volume per dissipated energy. k/μ for Archard's k."""
     threshold_traction: Annotated[float, Quantity("Pa", at_least=0)] = 0.0
     """Friction traction below which nothing wears."""

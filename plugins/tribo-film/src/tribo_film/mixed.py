@@ -47,13 +47,13 @@ class Mixed(Effect):
     )
 
     type = "film.mixed"
-    viscosity: Annotated[float, Quantity("Pa s", at_least=0)]
+    viscosity: Annotated[float, Quantity("Pa s", at_least=0, usual=(1e-5, 20.0))]
     """Dynamic viscosity of the lubricant at ambient pressure."""
-    pressure_viscosity: Annotated[float, Quantity("1/Pa", above=0)]
+    pressure_viscosity: Annotated[float, Quantity("1/Pa", above=0, usual=(1e-10, 1e-6))]
     """Its coefficient with pressure α."""
-    radius: Annotated[float, Quantity("m", above=0)]
+    radius: Annotated[float, Quantity("m", above=0, usual=(1e-9, 1.0))]
     """Reduced radius of curvature of the contact; that of the ball on a flat."""
-    roughness: Annotated[float, Quantity("m", above=0)]
+    roughness: Annotated[float, Quantity("m", above=0, usual=(1e-10, 1e-4))]
     """Root mean square roughness σ of both bodies together, √(Rq₁² + Rq₂²)."""
     boundary_friction: Annotated[float, Quantity("1", at_least=0)] = 0.12
     """Coefficient of friction μ_b of the asperities."""

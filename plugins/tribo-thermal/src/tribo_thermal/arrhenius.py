@@ -40,9 +40,9 @@ class Arrhenius(WearLaw):
     type = "thermal.arrhenius"
     k: Annotated[float, Quantity("1/Pa", at_least=0, usual=(1e-22, 1e-10))]
     """Specific wear rate at the reference temperature."""
-    activation_energy: Annotated[float, Quantity("J/mol", at_least=0)]
+    activation_energy: Annotated[float, Quantity("J/mol", at_least=0, usual=(1e3, 1e6))]
     """Activation energy Q, per mole."""
-    reference_temperature: Annotated[float, Quantity("K", above=0)]
+    reference_temperature: Annotated[float, Quantity("K", above=0, usual=(150.0, 2000.0))]
     """Temperature at which the law equals Archard's with the same k."""
 
     requires = ("temperature",)

@@ -26,11 +26,11 @@ class HeatPath(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
 
-    length: Annotated[float, Quantity("m", at_least=0)]
+    length: Annotated[float, Quantity("m", at_least=0, usual=(1e-6, 1.0))]
     """Mean length l of the path to the heat sink."""
-    area: Annotated[float, Quantity("m^2", above=0)]
+    area: Annotated[float, Quantity("m^2", above=0, usual=(1e-10, 1.0))]
     """Nominal cross-section A of the path."""
-    capacity: Annotated[float, Quantity("J/K", above=0)] | None = None
+    capacity: Annotated[float, Quantity("J/K", above=0, usual=(1e-6, 1e5))] | None = None
     """Heat capacity C of the body: its bulk warms with time. At once if left out."""
 
     @model_validator(mode="after")
@@ -82,7 +82,7 @@ class Flash(Effect):
     )
 
     type = "thermal.flash"
-    ambient: Annotated[float, Quantity("K", above=0)]
+    ambient: Annotated[float, Quantity("K", above=0, usual=(150.0, 2000.0))]
     """Temperature of the surroundings and of every heat sink."""
     source: Profile = "uniform"
     """How heat is spread over the contact: ``uniform``, as when worn, or ``parabolic``, as by

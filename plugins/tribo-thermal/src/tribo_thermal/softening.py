@@ -37,9 +37,9 @@ class Softening(WearLaw):
     """Archard's dimensionless wear coefficient."""
     hardness: Annotated[float, Quantity("Pa", above=0, usual=(1e4, 2e11))] | None = None
     """Hardness H₀ at the reference temperature; the material's hardness if left out."""
-    softening: Annotated[float, Quantity("1/K", at_least=0)]
+    softening: Annotated[float, Quantity("1/K", at_least=0, usual=(1e-6, 0.1))]
     """Part β of the hardness lost per kelvin."""
-    reference_temperature: Annotated[float, Quantity("K", above=0)]
+    reference_temperature: Annotated[float, Quantity("K", above=0, usual=(150.0, 2000.0))]
     """Temperature at which the hardness is H₀."""
     least_hardness: Annotated[float, Quantity("1", above=0, at_most=1)] = 0.1
     """Part of H₀ below which the hardness does not fall."""

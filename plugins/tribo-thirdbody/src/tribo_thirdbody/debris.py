@@ -29,7 +29,7 @@ class Debris(Effect):
     type = "thirdbody.debris"
     ejection_length: Annotated[float, Quantity("m", above=0)]
     """Sliding distance λ over which 1/e of the debris stays."""
-    cover: Annotated[float, Quantity("m", above=0)]
+    cover: Annotated[float, Quantity("m", above=0, usual=(1e-10, 1e-3))]
     """Thickness t₀ that leaves 1/e of the pressure to the bodies."""
     caught: Annotated[float, Quantity("1", at_least=0, at_most=1)] = 1.0
     """Part c of what is worn that becomes debris; the rest leaves at once."""
