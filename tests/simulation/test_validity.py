@@ -52,6 +52,37 @@ def test_a_whole_lap_is_not(revolutions):
     assert predict(circle(revolutions)).problems == ()
 
 
+@pytest.mark.parametrize("wears", [True, False])
+@pytest.mark.parametrize(
+    ("radius", "said"),
+    [
+        ("4 mm", None),
+        ("0.8 mm", r'mm is 0\.[23]\d* of track_radius = 0\.8 mm.*kinematics\.type = "rotating"'),
+        ("0.15 mm", r"covers the axis of its own track \(track_radius = 0\.15 mm\)"),
+    ],
+)
+def test_a_contact_not_small_beside_its_circle_is_told_by_check_and_by_the_run(radius, said, wears):
+    bodies = [
+        named("ball", Sphere(radius="5 mm"), steel(), archard()),
+        named("disk", flat(), steel(), archard() if wears else None),
+    ]
+    circle = Unidirectional(speed="0.1 m/s", track_radius=radius, distance="20 m")
+    model = small(bodies=bodies, kinematics=circle)
+    told = " ".join(predict(model).problems)
+    if said is None:
+        assert told == ""
+        assert not Simulation(model.case).run().notices
+        return
+    assert re.search(said, told)
+    with pytest.warns(TriboWarning, match=said):
+        Simulation(model.case).run()
+
+
+def test_a_ring_on_a_block_has_no_axis_across_its_contact():
+    ring = Unidirectional(speed=1, track_radius="1 mm", distance=1, turns=True)
+    assert ring.limitation(0.9e-3, 1e-6, 1e-6, 1.0) is None
+
+
 def test_a_largest_pressure_at_the_edge_alone_is_told():
     x = np.linspace(-1.1, 1.1, 45)
     inside = np.maximum(1 - x[:, None] ** 2 - x**2, 0.0)

@@ -18,13 +18,15 @@ from tribo.motion.swept import one_swept_body
 
 FEW = 9
 """Positions of an estimate."""
+NEAR_AXIS = 0.1
+"""Half-width of a contact over the track's radius, from which on its curvature is spoken of."""
 
 
 class Unidirectional(ClosedTrack):
     """Speed v round a track of length ℓ; one body swept over the track.
 
     The curvature of the track inside the contact is neglected: valid for
-    contacts small beside the track radius.
+    contacts small beside the track radius. A run says so from a tenth of it on.
 
     Of two bodies that repeat with the window, as nominally flat rough ones do, and so touch all
     over, the path may be resolved into `positions`: those over the window's length stand for all of
@@ -82,6 +84,26 @@ class Unidirectional(ClosedTrack):
             return one_swept_body(grid, bodies, self.swept, track)
         passing = Passing(grid, self._stroke(grid).starts, self.lap)
         return one_swept_body(grid, bodies, self.swept, passing)
+
+    def limitation(
+        self, half_width_x: float, depth: float, approach: float, volume_ratio: float
+    ) -> str | None:
+        """Return a warning once the contact is not small beside the track radius."""
+        radius, width = self.track_radius, f"{2e3 * half_width_x:.3g} mm"
+        beyond = super().limitation(half_width_x, depth, approach, volume_ratio)
+        if beyond or radius is None or self.turns or half_width_x <= NEAR_AXIS * radius:
+            return beyond
+        circle = f"track_radius = {1e3 * radius:.3g} mm"
+        if half_width_x >= radius:
+            return (
+                f"the contact, {width} wide, covers the axis of its own track ({circle}): nothing "
+                "slides there as is assumed, and the wear is meaningless; give a larger radius"
+            )
+        return (
+            f"half of the contact's {width} is {half_width_x / radius:.2g} of {circle}: its outer "
+            "edge slides by as much further and the inner one less, which is left out here; use "
+            'kinematics.type = "rotating"'
+        )
 
     def coarsened(self, half_width_x: float) -> Unidirectional:
         """Return the motion with few positions, if it has any."""

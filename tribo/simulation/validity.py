@@ -133,10 +133,9 @@ def check_stroke(model: Model, state: State) -> None:
 
 
 def limitation(model: Model, state: State) -> str | None:
-    """Return why the track average does not hold in `state`, if so."""
+    """Return why the motion does not hold for a contact that has ends, as in `state`, if so."""
     seen = half_width, *_ = track_average(model, state)
-    words = model.motion.limitation(*seen)
-    return words if average_matters(model, half_width) else None
+    return None if _is_endless(model, half_width) else model.motion.limitation(*seen)
 
 
 def track_average(model: Model, state: State) -> tuple[float, float, float, float]:
