@@ -46,3 +46,28 @@ def test_a_rate_that_jumps_is_followed_wherever_it_does(at):
 
     _, (total,), _ = integrated(rates, [0 * ONE], 1.0, [ANY])
     assert total[0, 0] == pytest.approx(3 - 2 * at, abs=3e-4)
+
+
+@pytest.mark.parametrize("length", [0.5, 3.5, 10.0, 1000.0])
+def test_a_state_relaxes_alike_with_limits_and_without_however_long_the_increment(length):
+    def decay(values, passed, step):
+        return [-values[0]]
+
+    def slower(values, passed, step):
+        return [-(values[0] ** 2)]
+
+    between = Limits(0.0, np.inf, "'a' of a test")
+    (decayed,), _, _ = integrated(decay, [ONE], length, [between])
+    (slowed,), _, _ = integrated(slower, [ONE], length, [between])
+    assert decayed[0, 0] == pytest.approx(np.exp(-length), rel=1e-9, abs=1e-300)
+    assert slowed[0, 0] == pytest.approx(1 / (1 + length), rel=1e-3)
+
+
+def test_a_loss_that_ends_at_a_limit_is_never_left_out():
+    """It may need shorter steps; then it says so."""
+
+    def loss(values, passed, step):
+        return [-1.0 * (values[0] > 0)]
+
+    with pytest.raises(BadValues, match="shorten the steps"):
+        integrated(loss, [ONE], 3.5, [Limits(0.0, 1.0, "'a' of a test")])

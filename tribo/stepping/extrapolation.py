@@ -122,6 +122,7 @@ def integrated(
     Exponential integrators, Acta Numerica 19, 209-286.
     """
     plan = plan or Plan()
+    repeated = math.isinf(plan.accuracy)
     count, values = len(start), list(start)
     first = rates(values, 0.0, 1.0)
     begin, passed, missed = first, 0.0, 0.0
@@ -136,7 +137,7 @@ def integrated(
         slopes = relaxing(along, values, first, span, limits) if relaxes else [0.0] * count
         stages = RELAXING if relaxes else PLAIN
         found = _extrapolated(along, values, first, slopes, span, stages, limits, of_steps)
-        best, rough, samples = found
+        best, rough, samples, moved = found
         sizes = [
             np.maximum(np.abs(old), np.abs(new)) for old, new in zip(values, best, strict=False)
         ]
@@ -148,6 +149,9 @@ def integrated(
         at_end = len(waiting) == 1 and math.isinf(plan.accuracy)
         last = first if at_end or of_steps else along(held, 1.0, part)
         off = max(map(_relative, best, rough, sizes), default=0.0)
+        if not repeated:
+            # Trials held to a limit agree with each other, whatever the state goes to.
+            off = max(off, *map(_part_of, moved, sizes), 0.0)
         if off <= plan.accuracy < math.inf and not of_steps:
             off = max(off, _jump(samples, last, span, sums, count))
         beyond = [_beyond(*each) for each in zip(best, sizes, limits, strict=False)]
@@ -210,12 +214,14 @@ def _extrapolated(
     stages: Sequence[int],
     limits: Sequence[Limits],
     of_steps: bool,
-) -> tuple[Values, Values, list[Sequence[Array]]]:
+) -> tuple[Values, Values, list[Sequence[Array]], list[float]]:
     """Return the last two columns of Neville's table: ends of the states, integrals of the rest.
 
-    With them come the rates at 0, 1/2, 1/3 and 2/3 of the part.
+    With them come the rates at 0, 1/2, 1/3 and 2/3 of the part, and by how much trials of each
+    state were beyond its limits, summed over the cells.
     """
     row: list[Values] = []
+    moved = [0.0] * len(start)
     samples: list[Sequence[Array]] = [first]
     for stage, steps in enumerate(stages):
         step = length / steps
@@ -226,6 +232,8 @@ def _extrapolated(
         for taken in range(steps):
             if taken:
                 trial = [_held(*each) for each in zip(states, limits, strict=True)]
+                pairs = zip(moved, states, trial, strict=True)
+                moved = [max(by, float(np.sum(np.abs(at - state)))) for by, state, at in pairs]
                 found = rates(trial, taken / steps, 1 / steps)
                 samples.append(found)
             sums = [
@@ -245,7 +253,7 @@ def _extrapolated(
             pairs = zip(*column, strict=True)
             if all(_relative(fine, once, np.abs(fine)) <= EXACT for once, fine in pairs):
                 break
-    return row[-1], row[-2], samples[:4]
+    return row[-1], row[-2], samples[:4], moved
 
 
 def _jump(
@@ -297,8 +305,12 @@ def relaxing(
 
 
 def _relative(fine: Array, coarse: Array, size: Array) -> float:
+    return _part_of(float(np.sum(np.abs(fine - coarse))), size)
+
+
+def _part_of(amount: float, size: Array) -> float:
     whole = float(np.sum(size))
-    return float(np.sum(np.abs(fine - coarse))) / whole if whole > 0 else 0.0
+    return amount / whole if whole > 0 else 0.0
 
 
 def _beyond(values: Array, size: Array, limit: Limits) -> float:
