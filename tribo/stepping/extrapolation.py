@@ -232,8 +232,10 @@ def _extrapolated(
         for taken in range(steps):
             if taken:
                 trial = [_held(*each) for each in zip(states, limits, strict=True)]
-                pairs = zip(moved, states, trial, strict=True)
-                moved = [max(by, float(np.sum(np.abs(at - state)))) for by, state, at in pairs]
+                moved = [
+                    max(by, float(np.sum(np.abs(inside - state))))
+                    for by, state, inside in zip(moved, states, trial, strict=True)
+                ]
                 found = rates(trial, taken / steps, 1 / steps)
                 samples.append(found)
             sums = [
