@@ -14,7 +14,8 @@ from tribo.plotting.curves import (
     sweep_pictures,
 )
 from tribo.plotting.history import fields_history
-from tribo.plotting.kept import field_map, kept_fields
+from tribo.plotting.kept import KeptField, field_map, kept_fields
+from tribo.result.read import Result
 
 
 def test_columns_of_the_history_are_drawn_over_the_path():
@@ -100,3 +101,32 @@ def test_a_field_of_the_models_is_drawn_from_above_and_over_time():
     np.testing.assert_allclose(largest, [1e9 * np.max(each) for each in film.values])
     touched = result.field("pressure", -1) > 0
     assert mean[-1] == pytest.approx(1e9 * np.mean(film.values[-1][touched]))
+
+
+def test_rounding_of_a_field_that_stays_the_same_is_not_drawn(monkeypatch):
+    result = made()
+    rounding = 1e-13 * np.arange(len(result.times))
+    kept = [KeptField("film", "film", "m", at * (1 + rounding)) for at in (39e-9, -39e-9)]
+    monkeypatch.setattr("tribo.plotting.history.kept_fields", lambda _: kept)
+    figure = fields_history(result)
+    figure.draw_without_rendering()
+    for axes, sign in zip(figure.axes, (1, -1), strict=True):
+        assert axes.yaxis.get_major_formatter().get_offset() == ""
+        low, high = sorted(sign * end for end in axes.get_ylim())
+        assert low <= 0
+        assert 39 < high < 50
+        (line,) = axes.lines
+        assert line.get_marker() == "o"
+        assert len(line.get_xdata()) == len(result.times)
+
+
+def test_a_field_is_there_once_where_the_bodies_differ_by_rounding(monkeypatch):
+    result, read = made(film=1e-11), Result.field
+    monkeypatch.setattr(
+        Result,
+        "field",
+        lambda self, name, save, body=None: (
+            read(self, name, save, body) * (1 + 1e-13 * (body == "disk"))
+        ),
+    )
+    assert [each.name for each in kept_fields(result)] == ["film", "load share"]

@@ -14,7 +14,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter
 
 from tribo.core.arrays import Array, Mask
-from tribo.plotting.kept import kept_fields
+from tribo.plotting.kept import kept_fields, steady
 from tribo.plotting.sections import number_of_saves
 from tribo.plotting.style import OVER, UNDER, Look, house_style, legend_below, new_figure, ticks
 from tribo.plotting.units import height_unit, shown_in, size, time_unit
@@ -146,10 +146,13 @@ def roughness_history(result: Result) -> Figure:
 def fields_history(result: Result) -> Figure:
     """Draw what the effects provide and what models keep against time, a panel for each.
 
-    Of a field it is the largest value and the mean in the contact, at each save.
+    Of a field it is the largest value and the mean in the contact, with a mark at each save.
     """
     kept = kept_fields(result)
-    looks = LARGEST, OVER
+    looks = [
+        {**look, "marker": mark, "markersize": 4.0, "clip_on": False}
+        for look, mark in ((LARGEST, "o"), (OVER, "s"))
+    ]
     with house_style():
         figure = new_figure(12.0 + 40.0 * len(kept))
         panels = figure.subplots(len(kept), 1, sharex=True, squeeze=False)[:, 0]
@@ -175,8 +178,8 @@ def _draw(
     shown, factor = shown_in(unit, every)
     time = time_unit(result.times)
     for (label, (x, values)), look in zip(curves.items(), looks, strict=False):
-        marker = "o" if len(x) == 1 else "none"
-        axes.plot(x / size(time), values / factor, marker=marker, label=label, **look)
+        style = {"marker": "o" if len(x) == 1 else "none", **look}
+        axes.plot(x / size(time), values / factor, label=label, **style)
     axes.set_ylabel(f"{what} ({shown})" if shown else what)
     axes.set_xlabel(f"Time ({time})")
     axes.set_xlim(left=0.0)
@@ -204,8 +207,13 @@ def _from_zero(axes: Axes, _: Array | None = None) -> None:
 
 
 def _around(axes: Axes, values: Array) -> None:
-    """Take a scale from zero but for values that are far from it, as a temperature."""
-    if np.min(values) < 0.5 * np.max(values):
+    """Take a scale with zero but for values that vary far from it, as a temperature."""
+    low = float(np.min(values))
+    if steady(values):
+        # The limits of matplotlib would show rounding.
+        axes.update_datalim([(0.0, 0.0)])
+        axes.autoscale_view()
+    if low >= 0 and (steady(values) or low < 0.5 * np.max(values)):
         _from_zero(axes)
 
 

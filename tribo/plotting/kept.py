@@ -15,6 +15,9 @@ from tribo.plotting.units import shown_in, time_labels
 from tribo.result.layout import BETWEEN, EFFECT, STATE
 from tribo.result.read import Result
 
+ROUND = 1e-9
+"""Difference, relative to the largest value, that is taken for rounding."""
+
 
 @dataclass(frozen=True)
 class KeptField:
@@ -28,17 +31,24 @@ class KeptField:
     @property
     def varies(self) -> bool:
         """Whether it differs from place to place at any save."""
-        return any(np.ptp(values) > 0 for values in self.values)
+        return not all(steady(values) for values in self.values)
 
     def over_time(self, result: Result) -> dict[str, Array]:
         """Return the largest value at each save and, where it differs, the mean in the contact."""
         if not self.varies:
             return {"": self.values.reshape(len(self.values), -1)[:, 0]}
-        means = [
-            float(np.mean(values[result.field("pressure", save) > 0]))
-            for save, values in enumerate(self.values)
-        ]
+        means = [self.mean(result, save) for save in range(len(self.values))]
         return {"largest": self.values.max(axis=(1, 2)), "mean in the contact": np.array(means)}
+
+    def mean(self, result: Result, save: int) -> float:
+        """Return the mean in the contact at a save."""
+        touched = result.field("pressure", save) > 0
+        return float(np.mean(np.broadcast_to(self.values[save], touched.shape)[touched]))
+
+
+def steady(values: Array) -> bool:
+    """Return whether values are all the same but for rounding."""
+    return bool(np.ptp(values) <= ROUND * np.max(np.abs(values)))
 
 
 def kept_fields(result: Result) -> list[KeptField]:
@@ -62,7 +72,10 @@ def _fields(result: Result) -> Iterator[KeptField]:
                 if key in result.fields_of(kind, body)
             }
             first, *others = of_bodies.values()
-            alike = bool(others) and all(np.array_equal(first, other) for other in others)
+            close = ROUND * float(np.max(np.abs(first)))
+            alike = bool(others) and all(
+                np.allclose(first, other, rtol=0, atol=close) for other in others
+            )
             for body, values in [*of_bodies.items()][: 1 if alike else None]:
                 name = field.name.replace("_", " ")
                 own = (key, name) if alike else (f"{body}_{key}", f"{name}, {body}")
