@@ -86,7 +86,17 @@ class Warmth(Effect):
 
 
 def test_what_effects_provide_is_shown():
-    assert "disk warmth_K: 293 to 293 at the end." in printed(brief(effects=[Warmth()]))
+    text = printed(brief(effects=[Warmth()]))
+    assert row(text, "warmth, K") == ["293", "293", "293"]
+    assert text.count("warmth") == 1
+
+
+def test_what_lies_between_the_bodies_is_shown_in_a_unit_that_fits():
+    result = made(film=1e-11)
+    film = 1e9 * result.field("film", -1)
+    mean = np.mean(film[result.field("pressure", -1) > 0])
+    assert row(printed(result), "film, nm") == [f"{x:.4g}" for x in (film.min(), mean, film.max())]
+    assert len(row(printed(result), "load share")) == 3
 
 
 def test_yield_is_judged_by_the_pressure_that_was_computed():

@@ -159,7 +159,8 @@ def test_a_body_that_does_not_wear_has_no_map():
 
 def test_what_effects_provide_and_models_keep_has_maps_and_curves():
     with made(film=1e-11) as result:
-        data = charts(result)
+        data, page = charts(result), result_page(result)
+    assert "film, nm" in page
     assert [each["name"] for each in data["maps"][-2:]] == ["Film", "Load share"]
     panel = data["history"]["axes"][0]["panels"][-2]
     assert (panel["name"], panel["unit"], panel["note"]) == ("Film", "nm", "A mark for each save.")

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from math import isfinite
 from typing import Any
 
+import numpy as np
 from rich.markup import escape
 from rich.table import Table
 from rich.text import Text
@@ -16,6 +17,7 @@ from tribo.core.words import signed
 from tribo.lab.inferred import InferredVolume
 from tribo.lab.report import BodyReport, lab_report
 from tribo.lab.running_in import groove_length, rough_bodies, worn_roughness
+from tribo.result.layout import BETWEEN, EFFECT, STATE
 from tribo.result.read import Result
 
 COLUMNS = (
@@ -71,6 +73,8 @@ def print_report(result: Result, console: Console | None = None, *, told: str = 
         console.print(roughness_table(result, rough))
     if lab.inferred:
         console.print(inferred_table(lab.inferred))
+    if (fields := fields_table(result)) is not None:
+        console.print(fields)
     console.print(lab.first_contact_words, markup=False)
     saves = result.saves()
     plastic = [save["plastic_area_m2"] / save["contact_area_m2"] for save in (saves[0], saves[-1])]
@@ -84,8 +88,6 @@ def print_report(result: Result, console: Console | None = None, *, told: str = 
         )
     for row in lab.rows:
         console.print(f"{row.label}: {row.value:.4g} {row.unit}".rstrip(), markup=False)
-    for line in _effects(result):
-        console.print(line, markup=False)
     totals, worst = result.totals(), result.worst()
     took = "" if result.wall_time is None else f", {result.wall_time:.1f} s"
     console.print(f"{totals['steps']} steps, {totals['contact_solves']} contact solves{took}.")
@@ -264,14 +266,22 @@ def inferred_table(volumes: Sequence[InferredVolume]) -> Table:
     return table
 
 
-def _effects(result: Result) -> Iterator[str]:
-    """Yield the range of each field that effects and laws provide or keep, at the last save."""
-    last = result.summary()["saves"][-1]
-    of_bodies = [
-        (body, {**values.get("effects", {}), **values.get("state", {})})
-        for body, values in last["bodies"].items()
-    ]
-    for where, ranges in [*of_bodies, ("between the bodies", last.get("between", {}))]:
-        for name, ends in ranges.items():
-            low, high = (NOTHING if end is None else f"{end:.4g}" for end in ends.values())
-            yield f"{where} {name}: {low} to {high} at the end."
+def fields_table(result: Result) -> Table | None:
+    """Return what effects and laws provide or keep at the last save; None if that is nothing."""
+    if not any(map(result.fields_of, (BETWEEN, EFFECT, STATE))):
+        return None
+    # Slow to import, and needed for such results only.
+    from tribo.plotting.kept import kept_fields
+    from tribo.plotting.units import shown_in
+
+    columns = "least", "mean in the contact", "largest"
+    table = titled("Fields of effects and wear laws at the end", *columns)
+    for field in kept_fields(result):
+        last = field.values[-1]
+        unit, factor = shown_in(field.unit, last)
+        cells = (np.min(last), field.mean(result, -1), np.max(last))
+        table.add_row(
+            escape(f"{field.name}, {unit}" if unit else field.name),
+            *(f"{cell / factor:.4g}" for cell in cells),
+        )
+    return table if table.rows else None

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from tribo.case import Layer
-from tribo.cli.tables import inferred_table, roughness_table, saves_table, wear_table
+from tribo.cli.tables import fields_table, inferred_table, roughness_table, saves_table, wear_table
 from tribo.config.write import to_toml
 from tribo.core.errors import CaseError, NumericalError
 from tribo.core.material import Material
@@ -79,6 +79,8 @@ def _tables(result: Result, lab: LabReport, estimates: Sequence[Estimate]) -> li
         tables.append(for_page(roughness_table(result, rough)))
     if lab.inferred:
         tables.append(for_page(inferred_table(lab.inferred)))
+    if (fields := fields_table(result)) is not None:
+        tables.append(for_page(fields))
     return tables
 
 
