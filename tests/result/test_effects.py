@@ -67,6 +67,18 @@ def test_it_is_exported_in_the_profiles(path, tmp_path):
         assert float(row[f"bodies.ball.effects.{OXIDE}"]) == pytest.approx(film, rel=0.01, abs=1e-9)
 
 
+def test_its_largest_value_and_its_mean_are_exported_with_the_saves(path, tmp_path):
+    with Result.open(path) as result:
+        export_csv(result, tmp_path)
+        films = [expected(result.field("pressure", save)) for save in range(4)]
+    with (tmp_path / "saves.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    for row, film in zip(rows, films, strict=True):
+        of = "bodies.ball.effects"
+        assert float(row[f"{of}.max_{OXIDE}"]) == pytest.approx(film.max(), rel=1e-9)
+        assert float(row[f"{of}.mean_{OXIDE}"]) == pytest.approx(film[film > 0].mean(), rel=1e-9)
+
+
 def test_json_has_its_range_at_each_save(path):
     shown = CliRunner().invoke(show, [str(path), "--json"])
     saves = json.loads(shown.stdout)["saves"]

@@ -19,9 +19,10 @@ def export(output: Path, directory: Path | None, name: str) -> None:
     """Write the result OUTPUT in another format: CSV, or one that a plugin offers.
 
     CSV holds history, saves and profiles, and its column names carry the units:
-    history.csv (a row a step), saves.csv (a row a save), profiles_x.csv and
-    profiles_y.csv (through the centre, along and across the sliding direction,
-    a block a save).
+    history.csv (a row a step), saves.csv (a row a save, with the largest value of
+    each field of effects and laws and its mean in the contact), profiles_x.csv
+    and profiles_y.csv (through the centre, along and across the sliding
+    direction, a block a save).
 
     \b
     Example:

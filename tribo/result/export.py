@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +18,7 @@ def export_csv(result: Result, folder: Path) -> list[Path]:
     """Write history, saves and profiles as CSV files, with units in their column names."""
     tables: dict[str, Mapping[str, Array]] = {
         "history": result.table("history"),
-        "saves": result.table("saves"),
+        "saves": {**result.table("saves"), **_measures(result)},
         "profiles_x": _profiles(result, 0),
         "profiles_y": _profiles(result, 1),
     }
@@ -43,6 +43,32 @@ def profile(field: Array, axis: int) -> Array:
     return np.asarray(np.mean(middle, axis=across))
 
 
+def _of_models(result: Result) -> Iterator[tuple[str, tuple[str, str], list[Array]]]:
+    """Yield the fields of effects and laws: whose, name and unit, and values, (nx, ny) a save."""
+    whose: list[tuple[str, str, str | None]] = [(BETWEEN, BETWEEN, None)]
+    for body in result.body_names:
+        whose += [(STATE, f"bodies.{body}.state", body), (EFFECT, f"bodies.{body}.effects", body)]
+    for kind, of, owner in whose:
+        for key, field in result.fields_of(kind, owner).items():
+            kept = [result.field(key, save, owner) for save in range(len(result.times))]
+            yield (
+                of,
+                (field.name, field.unit),
+                [np.broadcast_to(each, result.grid.cells) for each in kept],
+            )
+
+
+def _measures(result: Result) -> dict[str, Array]:
+    """Return the largest value of each such field at each save, and its mean in the contact."""
+    touched = [result.field("pressure", save) > 0 for save in range(len(result.times))]
+    columns = {}
+    for of, (name, unit), kept in _of_models(result):
+        means = [np.mean(each[cells]) for each, cells in zip(kept, touched, strict=True)]
+        columns[f"{of}.max_{labelled(name, unit)}"] = np.array([np.max(each) for each in kept])
+        columns[f"{of}.mean_{labelled(name, unit)}"] = np.array(means)
+    return columns
+
+
 def _profiles(result: Result, axis: int) -> dict[str, Array]:
     """Return columns for every save, one below the other."""
     grid = result.grid
@@ -52,19 +78,12 @@ def _profiles(result: Result, axis: int) -> dict[str, Array]:
     fields: dict[str, Iterable[Array]] = {
         "pressure_Pa": [result.field("pressure", i) for i in saves]
     }
-    for key, field in result.fields_of(BETWEEN).items():
-        kept = [result.field(key, i) for i in saves]
-        fields[f"{BETWEEN}.{labelled(field.name, field.unit)}"] = [
-            np.broadcast_to(each, grid.cells) for each in kept
-        ]
+    for of, (name, unit), kept in _of_models(result):
+        fields[f"{of}.{labelled(name, unit)}"] = kept
     for name in result.body_names:
         body, of = result.body(name), f"bodies.{name}"
         fields[f"{of}.wear_depth_m"] = body.wear_depth
         fields[f"{of}.plastic_depth_m"] = body.plastic_depth
-        for f in result.fields_of(STATE, name).values():
-            fields[f"{of}.state.{labelled(f.name, f.unit)}"] = body.state[f.name]
-        for f in result.fields_of(EFFECT, name).values():
-            fields[f"{of}.effects.{labelled(f.name, f.unit)}"] = body.effects[f.name]
         fields[f"{of}.height_m"] = [body.surface(i) for i in saves]
     return {
         "time_s": np.repeat(times, len(position)),
