@@ -48,10 +48,15 @@ def test_runs_of_a_sweep_are_curves_in_the_order_of_what_varies():
     np.testing.assert_allclose(first.get_xydata(), [[20, 300], [40, 400]])
     np.testing.assert_allclose(second.get_xydata(), [[20, 200], [40, 500]])
     assert [text.get_text() for text in figure.legends[0].get_texts()] == ["dcfft", "winkler"]
+    assert figure.legends[0].get_title().get_text() == "contact type"
     # One is seen inside the other where they coincide.
     assert (first.get_fillstyle(), second.get_fillstyle()) == ("full", "none")
     assert first.get_markersize() < second.get_markersize()
     assert first.get_marker() != second.get_marker()
+    radii = runs.assign(**{"bodies.ball.surface.radius_m": [5e-3, 5e-3, 5e-3, 1e-2, 1e-2]})
+    figure = sweep_curves(radii, "load_N", "max_pressure_Pa", ["bodies.ball.surface.radius_m"])
+    assert figure.legends[0].get_title().get_text() == "ball surface radius (mm)"
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["5", "10"]
     with pytest.raises(CaseError, match="no column 'load'"):
         sweep_curves(runs, "load", "max_pressure_Pa")
     with pytest.raises(CaseError, match="no run is done"):

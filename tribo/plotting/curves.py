@@ -141,6 +141,8 @@ def sweep_curves(
     if done.empty:
         raise CaseError("no run is done; there is nothing to draw")
     groups = list(done.groupby(list(by))) if by else [((), done)]
+    numbers = done[list(by)].apply(pd.to_numeric, errors="coerce").to_numpy(float)
+    named = [column_label(name, column) for name, column in zip(by, numbers.T, strict=True)]
     with house_style():
         figure = new_figure(55.0)
         axes = figure.subplots()
@@ -150,7 +152,8 @@ def sweep_curves(
             zip(save_looks(len(groups)), groups, strict=True)
         ):
             label = ", ".join(
-                f"{value:.4g}" if isinstance(value, float) else str(value) for value in values
+                f"{value / unit:.4g}" if isinstance(value, float) else str(value)
+                for value, (_, unit) in zip(values, named, strict=True)
             )
             across, up = (rows[name].to_numpy(float) for name in (x, y))
             look = {**look, "marker": MARKS[i % len(MARKS)], "label": label}
@@ -159,6 +162,7 @@ def sweep_curves(
             curves += _draw(axes, across, up, x, y, every, **look)
         if by:
             legend_below(figure, curves)
+            figure.legends[0].set_title(", ".join(label for label, _ in named))
     return figure
 
 

@@ -20,8 +20,8 @@ WIDE = 130.0
 """Width of a picture in one and a half columns, in mm."""
 LETTER = 1.25
 """Width of a letter of a legend, in mm."""
-HANDLE = 8
-"""Room for the line of a legend's entry and the gap before it, in letters."""
+HANDLE = 10
+"""Room for the line of a legend's entry and the gaps beside it, in letters."""
 LEGEND_ROWS = 4
 """Most rows of a legend of saves; with more saves only some are named."""
 
