@@ -104,8 +104,8 @@ def _notes(runs: pd.DataFrame) -> Iterator[str]:
     told = runs[runs["message"].notna()]
     alike = told["message"].str.replace(r"[\d.]+", "", regex=True)
     for _, rows in told.groupby(alike, sort=False):
-        numbers, text = list(map(str, rows["run"])), rows["message"].iloc[0]
-        more = f"; {', '.join(numbers[1:])} likewise" if len(numbers) > 1 else ""
+        numbers, text = list(rows["run"]), rows["message"].iloc[0]
+        more = f" and {len(numbers) - 1} more" if len(numbers) > 1 else ""
         yield f"run {numbers[0]}{more}: {text}"
 
 
