@@ -112,6 +112,19 @@ def test_a_contact_too_long_for_the_stroke_is_a_problem():
     assert re.search(r"too deep at mid-stroke, .* about 3 % with a stroke of", problem)
 
 
+def test_a_trial_that_fails_on_coarse_cells_is_told_and_does_not_stop_the_run(monkeypatch):
+    def fails(*given):
+        raise NumericalError("too coarse")
+
+    monkeypatch.setattr("tribo.simulation.predict.march", fails)
+    found = predict(small())
+    assert found.problems == (
+        "a trial run on a coarse grid failed (the run, on finer cells, may yet go to its end): "
+        "too coarse",
+    )
+    assert found.exit_code == 0
+
+
 def test_a_rough_body_on_a_resolved_track_is_estimated_without_its_relief():
     grid = Grid((0.8e-3, 0.8e-3), (64, 64))
     relief = Waves(amplitude=1e-8, wavelength=4 * grid.spacing[0], along="x")

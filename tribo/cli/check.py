@@ -41,8 +41,8 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
     Example:
       tribo check my.toml
 
-    Exit codes: 0 the run would go to its end, 2 bad input, 3 numerical failure;
-    where the run would stop on its way, the code that it would end with.
+    Exit codes: 0 nothing found on which the run must stop, 2 bad input, 3
+    numerical failure; where it must stop, the code that it would end with.
     """
     from tribo.config.load import load_case
     from tribo.simulation.predict import predict

@@ -126,7 +126,8 @@ def predict(model: Model) -> Prediction:
     if coarse.error is not None and not any(str(coarse.error) in text for _, text in stopping):
         # What a coarse grid alone cannot carry through, a finer one may.
         code = coarse.error.exit_code if isinstance(coarse.error, PluginError) else 0
-        stopping.append((code, f"a trial run on a coarse grid failed: {coarse.error}"))
+        may = "" if code else " (the run, on finer cells, may yet go to its end)"
+        stopping.append((code, f"a trial run on a coarse grid failed{may}: {coarse.error}"))
     problems = (
         *unusual(model.case),
         few_cells(model, state.contact),
