@@ -179,15 +179,12 @@ class Registry:
 
     def choices(self, kind: str) -> str:
         """Return the usable names of one kind as text, each with its plugin."""
-        text = self._by_plugin(self.names(kind)) or "none"
-        waiting = self._by_plugin(self.waiting)
-        return f"{text}; of any kind, in plugins not imported yet: {waiting}" if waiting else text
-
-    def _by_plugin(self, names: Iterable[str]) -> str:
         by_plugin = defaultdict(list)
-        for name in names:
+        for name in self.names(kind):
             by_plugin[str(self.claimants(name)[0])].append(name)
-        return "; ".join(f"{', '.join(own)} ({plugin})" for plugin, own in by_plugin.items())
+        texts = [f"{', '.join(own)} ({plugin})" for plugin, own in by_plugin.items()] or ["none"]
+        # Which are of this kind is not known before they are imported.
+        return "; ".join([*texts, *(["more: tribo plugins list"] if self.waiting else [])])
 
     def _load(self, plugin: Plugin) -> None:
         """Import a plugin once; its status says whether that succeeded."""
