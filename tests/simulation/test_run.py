@@ -152,9 +152,18 @@ def test_a_window_that_is_merely_small_raises_no_doubt_about_the_unit():
 
 def test_a_window_too_small_for_the_first_contact_is_refused(tmp_path):
     path = tmp_path / "run.h5"
-    with pytest.raises(CaseError, match=r"^grid\.size: the first contact reaches the edge"):
+    with pytest.raises(
+        CaseError, match=r"^grid\.size: the first contact reaches the edge.* larger"
+    ):
         Simulation(case(grid=Grid((0.25e-3, 0.25e-3), (32, 32)))).run(path)
     assert not path.exists()
+
+
+def test_two_flat_bodies_are_told_that_no_window_is_large_enough():
+    bodies = [named("pin", flat(), steel(), archard()), named("disk", flat(), steel())]
+    with pytest.raises(CaseError, match=r'two flat bodies .* "pin"\), .* "periodic"\)') as refused:
+        Simulation(case(bodies=bodies)).run()
+    assert "larger" not in str(refused.value)
 
 
 def test_a_body_that_ends_at_the_window_wears_evenly():

@@ -81,11 +81,17 @@ def first_contact(
             )
     contacts = tuple(solutions[key] for key in asked)
     if any(reaches_border(each.pressure) for each in contacts) and not model.may_reach_edge:
+        size = f"{1e3 * model.grid.size[0]:.4g} × {1e3 * model.grid.size[1]:.4g} mm"
+        remedy = "make it larger (or, for a body that ends there, set grid.ends_at_window = true)"
+        forms = [surface.ask(surface.component.smoothed) for surface in model.surfaces.values()]
+        if all(form.curvature == (0, 0) for form in forms):
+            remedy = (
+                "two flat bodies touch all over it, however large it is: give one an edge "
+                '(surface.type = "pin"), let the contact repeat with the window (contact.type = '
+                '"periodic"), or let a body end there (grid.ends_at_window = true)'
+            )
         raise CaseError(
-            "the first contact reaches the edge of the window of "
-            f"{1e3 * model.grid.size[0]:.4g} × {1e3 * model.grid.size[1]:.4g} mm; make it larger "
-            "(or, for a body that ends there, set grid.ends_at_window = true)",
-            "grid.size",
+            f"the first contact reaches the edge of the window of {size}; {remedy}", "grid.size"
         )
     model.tell(Solved(contacts))
     middle = len(contacts) // 2
