@@ -13,6 +13,9 @@ from tribo.core.errors import CaseError
     ("content", "message"),
     [
         (b"[grid]\nsize =\n", "is not TOML: Invalid value (at line 2, column 7)"),
+        (b'[a]\nx = "5 mm\ny = 1', r"'\n' (at line 2, column 10); is a closing quote missing?"),
+        (b"[a]\nx = '5 mm\ny = 1", "is a closing quote missing?"),
+        (b'a = {b = "x, c = "5 mm"}', "is a closing quote missing?"),
         ("x = 1\ny = 'ä'".encode("latin-1"), "line 2: not UTF-8 text; save the file as UTF-8"),
         ("x = 1".encode("utf-16"), "not text in UTF-8"),
         (b"x = 1\x00", "not text in UTF-8"),
@@ -103,6 +106,16 @@ def test_each_mistake_is_a_line(path):
     assert caught.value.path == "contact.tolerence"
     assert lines[0].startswith("contact.tolerence: unknown key 'tolerence'; did you mean")
     assert lines[1:] == ["bodies.ball.material.young: -1 Pa: must be greater than 0"]
+
+
+def test_a_diameter_is_twice_the_radius(path):
+    path.write_text(CASE.replace('radius = "5 mm"', 'diameter = "10 mm"'))
+    with pytest.raises(CaseError) as caught:
+        load_case(path)
+    assert str(caught.value) == (
+        "bodies.ball.surface.diameter: unknown key 'diameter'; give half of it as radius. "
+        "Allowed: type, radius"
+    )
 
 
 @pytest.mark.parametrize(

@@ -33,6 +33,8 @@ WRITTEN = [
     ("20 GPa/mm", "Pa/m"),
     ("90 degC", "K"),
     ("3 kW", "W"),
+    ("80 cP", "Pa s"),
+    ("100 cSt", "m^2/s"),
     ("0.3", "1"),
 ]
 
@@ -75,6 +77,14 @@ def test_conversion_rounds_once(text, unit, exactly):
         ("5 parsec", "m", "unknown unit 'parsec'"),
         ("46 W/m K", "W/(m K)", "put the divisor in parentheses"),
         ("60 rpm", "Hz", "for rpm write '60 1/min', or Hz"),
+        (
+            "300 rpm",
+            "m/s",
+            "is needed, as in '0.1 m/s'; n turns per time at a radius R are v = 2 π",
+        ),
+        ("5 Hz", "m/s", "n turns per time at a radius R are v = 2 π R n"),
+        ("100 cSt", "Pa s", "is a kinematic viscosity [m^2/s]; a dynamic viscosity [Pa s] is "),
+        ("100 mm^2/s", "Pa s", "multiply it by the density of the fluid"),
         ("62 HRC", "Pa", "Rockwell hardness has no fixed conversion; give GPa or HV"),
         ("207,0 GPa", "Pa", "'207,0 GPa' has a comma; write a decimal point, as in '20.5'"),
         ("5 degC/s", "K", "use K in a compound unit"),

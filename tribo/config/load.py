@@ -74,13 +74,16 @@ def validate_case(data: Mapping[str, Any], *, registry: Registry | None = None) 
 
 
 def _quotes(content: bytes, error: ValueError) -> str:
-    """Return a hint if the line of a TOML error has a bare unit, or a comma for a point."""
+    """Return a hint if the line of a TOML error has a bare unit, a comma or half of its quotes."""
     at = re.search(r"at line (\d+)", str(error))
     line = content.splitlines()[int(at[1]) - 1].decode() if at else ""
     if comma := re.search(r"= *([+-]?\d+),(\d+)", line):
         return f"; decimals follow a point: {comma[1]}.{comma[2]}"
     bare = re.search(r"([\w.-]+ *= *)([\d.e+-]+ *[A-Za-zµ°][^\"'#,}]*)", line)
-    return f"; a value with a unit is quoted: {bare[1]}'{bare[2].strip()}'" if bare else ""
+    if bare:
+        return f"; a value with a unit is quoted: {bare[1]}'{bare[2].strip()}'"
+    open_quote = any(sign in str(error) for sign in (r"'\n'", '"\'"'))
+    return "; is a closing quote missing?" if open_quote or line.count('"') % 2 else ""
 
 
 def case_tables(case: Case | Mapping[str, Any] | str | Path) -> Mapping[str, Any]:

@@ -76,11 +76,12 @@ def explained(
             # One that is there already may still be meant: an override adds its key beside it.
             like = did_you_mean(key, [name for name in allowed if name not in given])
             like = like or did_you_mean(key, allowed)
+            ending = suggestion(like)
+            if key == "diameter" and "radius" in allowed:
+                like, ending = "radius", "; give half of it as radius."
             meant.add(like)
-            text, kind = (
-                f"unknown key {key!r}{suggestion(like)} Allowed: {', '.join(allowed)}",
-                UNKNOWN,
-            )
+            text = f"unknown key {key!r}{ending} Allowed: {', '.join(allowed)}"
+            kind = UNKNOWN
         elif kind == "missing" and len(loc) == 1:
             missing.append((details, str(loc[0])))
             continue

@@ -36,6 +36,7 @@ _KINDS = {
     "Pa": ("a pressure", "210 GPa"),
     "1/Pa": ("an inverse pressure", "1e-6 mm^3/(N m)"),
     "Pa s": ("a dynamic viscosity", "80 mPa s"),
+    "m^2/s": ("a kinematic viscosity", "100 mm^2/s"),
     "Pa/m": ("a foundation modulus", "20 GPa/mm"),
     "J": ("an energy", "1 J"),
     "W": ("a power", "1 W"),
@@ -54,6 +55,13 @@ _BOUNDS = (
     ("at_most", "at most", operator.le, "maximum"),
 )
 """Bounds of a `Quantity`: field, words, comparison and keyword in a JSON schema."""
+
+_INSTEAD = {
+    ("m/s", "Hz"): "n turns per time at a radius R are v = 2 π R n",
+    ("Pa s", "m^2/s"): "multiply it by the density of the fluid",
+}
+"""What to do about a quantity, by the unit that is needed and that which was given."""
+_TURNS = ("rpm", "rev/min", "rev/s")
 
 _LONGEST = 100
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3}(?!\d))?)(?![\d.])(.*)", re.S)
@@ -79,10 +87,12 @@ def parse(text: str, unit: str) -> float:
     try:
         factor, dimension = scale("K" if zero else symbols or "1")
     except ValueError as error:
-        raise CaseError(f"{text!r}: {error}; {_needed(unit)}") from None
+        turns = _instead(unit, scale("Hz")[1]) if symbols in _TURNS else ""
+        reason = "revolutions are no speed" if turns else error
+        raise CaseError(f"{text!r}: {reason}; {_needed(unit)}{turns}") from None
     if dimension != scale(unit)[1]:
         given = f"is {_called(dimension)}" if symbols else "has no unit"
-        raise CaseError(f"{text!r} {given}; {_needed(unit)}")
+        raise CaseError(f"{text!r} {given}; {_needed(unit)}{_instead(unit, dimension)}")
     try:
         return float(number * factor + zero)
     except OverflowError:
@@ -204,6 +214,16 @@ def _called(dimension: Dimension) -> str:
             return name if unit == "1" else f"{name} [{unit}]"
     powers = zip(("m", "kg", "s", "K", "mol"), dimension, strict=True)
     return "a quantity in " + " ".join(f"{u}^{n}" if n != 1 else u for u, n in powers if n)
+
+
+def _instead(unit: str, given: Dimension) -> str:
+    """Return what to do to have `unit`, if that is known."""
+    known = (
+        f"; {words}"
+        for (needed, other), words in _INSTEAD.items()
+        if needed == unit and scale(other)[1] == given
+    )
+    return next(known, "")
 
 
 def _example(unit: str) -> str:
