@@ -9,6 +9,7 @@ from tribo import Simulation
 
 from tribo_film.hamrock_dowson import central_film
 from tribo_film.mixed import Mixed
+from tribo_film.plugin import tribo_lab_rows
 
 STEEL = {"young": "207 GPa", "poisson": 0.3}
 MODULUS = 207e9 / (2 * (1 - 0.09))
@@ -77,6 +78,22 @@ def test_over_a_thick_film_nothing_wears():
     with Simulation(case(roughness=1e-30)).run() as result:
         assert result.body("ball").effects["load_share"][-1].max() == 1
         assert result.saves()[-1]["bodies"]["ball"]["wear_volume_m3"] == 0
+
+
+@pytest.mark.parametrize(("k", "beyond"), [(1e-16, False), (1e-14, True)])
+def test_the_lab_is_told_where_wear_is_too_deep_for_the_film(k, beyond):
+    given = case()
+    given["bodies"]["ball"]["wear"]["k"] = k
+    with Simulation(given).run() as result:
+        (row,) = tribo_lab_rows(result)
+        depth = result.body("ball").wear_depth[-1].max()
+        assert row.value == pytest.approx(depth / result.saves()[0]["approach_m"])
+    assert ("BEYOND" in row.label) == beyond == (row.value > 1)
+
+
+def test_the_lab_is_told_nothing_of_a_film_that_is_not_there():
+    with Simulation({**case(), "effects": []}).run() as result:
+        assert tribo_lab_rows(result) == []
 
 
 def test_the_stribeck_curve_of_the_readme():

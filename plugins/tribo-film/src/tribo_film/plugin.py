@@ -2,12 +2,29 @@
 
 from __future__ import annotations
 
-from tribo import Component, hookimpl
+from tribo import Component, LabRow, Result, hookimpl
 
-from tribo_film.mixed import Mixed
+from tribo_film.mixed import RATIO, Mixed
+
+SHALLOW = 1.0
+"""Wear depth over elastic approach, from which on the film does not hold."""
 
 
 @hookimpl
 def tribo_components() -> tuple[type[Component], ...]:
     """Offer mixed lubrication."""
     return (Mixed,)
+
+
+@hookimpl
+def tribo_lab_rows(result: Result) -> list[LabRow]:
+    """Offer the largest wear depth over the first approach, and whether the film holds there."""
+    if not any(RATIO.name in result.body(name).effects for name in result.body_names):
+        return []
+    first, *_, last = result.saves()
+    depth = max(body["max_wear_depth_m"] for body in last["bodies"].values())
+    part = depth / first["approach_m"]
+    verdict = "" if part < SHALLOW else ": BEYOND it, the film does not know the worn shape"
+    return [
+        LabRow(f"wear depth over elastic approach (film.mixed holds below 1){verdict}", part, "")
+    ]
