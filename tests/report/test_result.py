@@ -6,14 +6,18 @@ import json
 import re
 import tomllib
 from itertools import pairwise
+from typing import Annotated
 
 import numpy as np
 import pytest
 from command_line import tribo as command
 from made_results import GRID, SHAPES, made, written
 from pages import Checked
+from pydantic import BaseModel
 
 import tribo
+from tribo import Effect, Quantity
+from tribo.report.amounts import component_words, value_words
 from tribo.report.drawing import drawing
 from tribo.report.fields import charts
 from tribo.report.reduced import Blocks, block_means, each_plain
@@ -177,6 +181,34 @@ def test_a_coating_is_drawn_and_told():
     # The second ends far below the scar.
     assert list(charted["Wear depth"]) == ["ball", "disk", "ball: end of layer 1"]
     assert set(charted["Wear depth"]["ball: end of layer 1"]["values"][0]) == {10.0}
+
+
+class Bath(BaseModel):
+    depth: Annotated[float, Quantity("m")]
+    area: Annotated[float, Quantity("m^2")]
+
+
+class Bathed(Effect):
+    type = "test.bathed"
+    softness: Annotated[float, Quantity("1/Pa")]
+    ambient: Annotated[float, Quantity("K")]
+    baths: dict[str, Bath]
+    shares: dict[str, Annotated[float, Quantity("N")]]
+
+
+def test_every_number_of_the_case_has_its_unit_and_only_wear_coefficients_two():
+    config = {
+        "softness": 2e-8,
+        "ambient": 296.15,
+        "baths": {"pin": {"depth": 5e-3, "area": 2.8e-5}},
+        "shares": {"pin": 2.0},
+    }
+    assert value_words(config, Bathed) == (
+        "softness 2e-08 1/Pa, ambient 296.15 K, baths pin (depth 5 mm, area 28 mm²), shares pin 2 N"
+    )
+    assert component_words({"type": "archard", "k": 1e-15}) == (
+        "archard, k 1e-15 1/Pa = 1e-06 mm³/(N·m)"
+    )
 
 
 def test_block_means_keep_the_load():

@@ -10,16 +10,17 @@ from pydantic import BaseModel
 
 from tribo.core.dimensions import scale
 from tribo.core.errors import CaseError
-from tribo.core.material import Material
-from tribo.core.units import quantities
+from tribo.core.units import Quantity, parts
 from tribo.lab.conversion import in_mm3_per_newton_metre
 from tribo.registry.registry import default_registry
+from tribo.wear.law import WearLaw
 
 _UNITS = {
     "m": ("m", "mm", "µm", "nm"),
     "Pa": ("GPa", "MPa", "kPa", "Pa"),
     "s": ("h", "min", "s", "ms"),
     "N": ("kN", "N", "mN"),
+    "m^2": ("mm^2",),
     "m^3": ("mm^3",),
 }
 _LONG = 6
@@ -30,8 +31,9 @@ def amount(value: float, unit: str) -> str:
     """Return a value, in SI, with the largest unit in which it is 1 or more."""
     if unit == "1":
         return f"{value:.4g}"
-    if unit == "1/Pa":
-        return f"{value:.4g} 1/Pa = {in_mm3_per_newton_metre(value):.4g} mm³/(N·m)"
+    if unit == "K":
+        # A temperature in °C has two decimals in K.
+        return f"{value:.6g} K"
     known = _UNITS.get(unit, (unit,))
     fitting = next((u for u in known if abs(value) >= float(scale(u)[0])), known[-1])
     factor = float(scale(fitting)[0]) if unit in _UNITS else 1.0
@@ -70,19 +72,33 @@ def _values(config: Mapping[str, Any], table: type[BaseModel] | None) -> Iterato
     for key, value in config.items():
         if key == "type" or value is None or value is False or value == []:
             continue
-        unit = _unit(table, key)
         name = key.replace("_", " ")
-        if isinstance(value, Mapping):
-            words = component_words(value) if "type" in value else value_words(value, Material)
-            yield f"{name} {words}"
-        elif isinstance(value, bool):
+        if isinstance(value, bool):
             yield name
-        elif isinstance(value, Sequence) and not isinstance(value, str):
-            yield f"{name} {_listed(value, unit)}"
-        elif isinstance(value, int | float):
-            yield f"{name} {amount(float(value), unit)}"
-        else:
-            yield f"{name} {str(value).replace('_', ' ')}"
+            continue
+        marks = _marks(table, key)
+        words = _value(value, marks)
+        of_law = table is not None and issubclass(table, WearLaw)
+        if of_law and _unit(marks) == "1/Pa" and isinstance(value, int | float):
+            words += f" = {in_mm3_per_newton_metre(value):.4g} mm³/(N·m)"
+        yield f"{name} {words}"
+
+
+def _value(value: Any, marks: Sequence[Any]) -> str:
+    """Return a value in the unit, or by the table, that its annotation names."""
+    if isinstance(value, Mapping):
+        if "type" in value:
+            return component_words(value)
+        table = next((m for m in marks if isinstance(m, type) and issubclass(m, BaseModel)), None)
+        if table is not None and value.keys() <= table.model_fields.keys():
+            return f"({value_words(value, table)})"
+        # By the names of bodies, say.
+        return ", ".join(f"{key} {_value(each, marks)}" for key, each in value.items())
+    if isinstance(value, Sequence) and not isinstance(value, str):
+        return _listed(value, _unit(marks))
+    if isinstance(value, int | float):
+        return amount(float(value), _unit(marks))
+    return str(value).replace("_", " ")
 
 
 def _listed(values: Sequence[Any], unit: str) -> str:
@@ -91,9 +107,11 @@ def _listed(values: Sequence[Any], unit: str) -> str:
     return ", ".join(amount(float(value), unit) for value in values)
 
 
-def _unit(table: type[BaseModel] | None, key: str) -> str:
+def _marks(table: type[BaseModel] | None, key: str) -> list[Any]:
+    """Return all types and marks of the annotation of a table's key."""
     field = None if table is None else table.model_fields.get(key)
-    if field is None:
-        return "1"
-    marks = (field.annotation, *field.metadata)
-    return next((mark.unit for mark in quantities(marks)), "1")
+    return [] if field is None else [*parts((field.annotation, *field.metadata))]
+
+
+def _unit(marks: Sequence[Any]) -> str:
+    return next((mark.unit for mark in marks if isinstance(mark, Quantity)), "1")
