@@ -174,7 +174,7 @@ def test_the_result_has_it_without_being_asked(tmp_path):
     )
     assert last["warm_K"]["min"] == last["warm_K"]["max"] > 300
     shown = CliRunner().invoke(show, [str(path)], catch_exceptions=False).output
-    assert "between the bodies warm_K" in shown
+    assert "warm, K" in shown
 
 
 @pytest.mark.parametrize("debris", LYING)
