@@ -2,50 +2,63 @@
 
 from __future__ import annotations
 
+import io
 import os
 import re
 import shlex
 import subprocess
 import sys
+from contextlib import redirect_stderr, redirect_stdout
+from unittest import mock
 
-COLUMNS = "88"
+COLUMNS = {"COLUMNS": "88"}
 
 
 def sh(command: str, code: int = 0, lines: int | None = None) -> None:
     """Run ``tribo …``, show the command and its output; fail on another exit code than `code`.
 
-    ``pip`` and ``pytest`` are run too, as modules of the same Python.
+    It runs in this process, which spares its start. With `lines`, only so many lines of the
+    output are shown.
+    """
+    from tribo.cli.main import main
 
-    With `lines`, only so many lines of the output are shown.
+    program, *arguments = shlex.split(command)
+    assert program == "tribo"
+    printed, ended = io.StringIO(), 0
+    with (
+        mock.patch.object(sys, "argv", [program, *arguments]),
+        mock.patch.dict(os.environ, COLUMNS),
+        redirect_stdout(printed),
+        redirect_stderr(printed),
+    ):
+        try:
+            main()
+        except SystemExit as left:
+            ended = left.code or 0
+    _show(command, printed.getvalue(), ended, code, lines)
+
+
+def apart(command: str, code: int = 0) -> None:
+    """Run ``tribo …`` or ``pip …`` as `sh` does, but in a process of its own.
+
+    It knows the plugins that have been installed since this one began.
     """
     program, *arguments = shlex.split(command)
-    assert program in ("tribo", "pip", "pytest")
+    assert program in ("tribo", "pip")
     done = subprocess.run(
         [sys.executable, "-m", program, *arguments],
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
-        env={**os.environ, "COLUMNS": COLUMNS},
+        env={**os.environ, **COLUMNS},
         text=True,
         check=False,
     )
-    if done.returncode != code:
-        raise RuntimeError(f"{command} exited with {done.returncode}:\n{done.stdout}")
-    _show(command, done.stdout, lines)
+    _show(command, done.stdout, done.returncode, code)
 
 
-def here(command: str, lines: int | None = None) -> None:
-    """Run ``tribo …`` as `sh` does, but in this process, which spares its start."""
-    from click.testing import CliRunner
-
-    from tribo.cli.main import tribo
-
-    ended = CliRunner(env={"COLUMNS": COLUMNS}).invoke(tribo, shlex.split(command)[1:])
-    if ended.exit_code:
-        raise RuntimeError(f"{command}:\n{ended.output}") from ended.exception
-    _show(command, ended.output, lines)
-
-
-def _show(command: str, printed: str, lines: int | None) -> None:
+def _show(command: str, printed: str, ended: object, code: int, lines: int | None = None) -> None:
+    if ended != code:
+        raise RuntimeError(f"{command} exited with {ended}:\n{printed}")
     # Progress, which depends on how fast the machine is.
     progress = r"(?m)^(?:[\d.e+]+ s of [\d.e+]+ s, step|run and pass back) \d+.*\n?"
     output = re.sub(progress, "", printed.replace(" left at least", ""))
