@@ -120,7 +120,7 @@ def test_sweep(case, first, tmp_path):
     settings = "".join(f"{name} = {value}\n" for name, value in SETTINGS.items())
     study = tmp_path / "study.toml"
     study.write_text(f'case = "{case}"\n[settings]\n{settings}[grid]\nload.normal = [900, 100]\n')
-    process(SHELL, "sweep", study, "-o", tmp_path / "sweep", threads=2)
+    process(SHELL, "sweep", study, "-o", tmp_path / "sweep", "--jobs", 1, threads=2)
     found = [bits(path) for path in (tmp_path / "sweep").rglob("*.h5")]
     assert len(found) == 2
     assert first in found

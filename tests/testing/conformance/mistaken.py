@@ -1,5 +1,7 @@
 """What keeps models that have one mistake each."""
 
+UNREAD = {"use_attribute_docstrings": False}
+"""Configuration of a class that has no source, which is else looked for in every module."""
 MISTAKES = {}
 """The class with each mistake, by what the mistake is."""
 
@@ -9,7 +11,8 @@ def mistake(words, honest, **parts):
     name = f"{honest.__name__}{len(MISTAKES)}"
     # Another process finds it by its name in the module that has them all.
     where = f"{__package__}.mistakes"
-    MISTAKES[words] = type(name, (honest,), {"__module__": where, "type": honest.type, **parts})
+    own = {"__module__": where, "model_config": UNREAD, "type": honest.type, **parts}
+    MISTAKES[words] = type(name, (honest,), own)
 
 
 def configuration(cls):

@@ -10,6 +10,7 @@ from typing import Annotated
 import numpy as np
 from pydantic import ConfigDict, field_validator, model_serializer
 from testing.conformance.honest import Counts, Hill, Law, Motion, Solver
+from testing.conformance.mistaken import UNREAD
 from testing.conformance.models import Heating
 
 from tribo import (
@@ -33,10 +34,11 @@ NUMBERS = count()
 
 def wrong(honest, *mistakes):
     """Return mutants of an honest class, given the check that each fails, its parts, its error."""
+    own = {"__module__": __name__, "model_config": UNREAD}
     return [
         (
             check,
-            type(f"{honest.__name__}{next(NUMBERS)}", (honest,), {"__module__": __name__, **parts}),
+            type(f"{honest.__name__}{next(NUMBERS)}", (honest,), {**own, **parts}),
             raising[0] if raising else CheckFailed,
         )
         for check, parts, *raising in mistakes
