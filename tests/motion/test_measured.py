@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from paper_models import foundation, last, motion, small
 
-from tribo import CaseError, Grid, Measured, Reciprocating, Simulation
+from tribo import CaseError, Effect, Field, Grid, Measured, Reciprocating, Simulation
 from tribo.config.load import validate_case
+from tribo.core.grid import RepeatingGrid
 from tribo.motion.cycle import near
 
 PATH = [(1, 0.0), (2, 0.0), (3, 4e-4), (5, 4e-4), (6, 2e-4), (8, 8e-4), (9, 0.0), (12, 0.0)]
@@ -70,6 +71,51 @@ def test_a_position_has_the_speed_at_which_it_is_passed():
     # The one in the middle half of the path at each speed.
     both = [(pytest.approx(1e-4), 0.5), (pytest.approx(4e-4), 0.5)]
     assert speeds == [slow] * 4 + [both] + [fast] * 4
+
+
+@pytest.mark.parametrize(
+    ("grid", "expected"),
+    [
+        (Grid(1e-3, 50), {0: 4, 20: 2}),
+        # The first end is 5 cells beside the middle, one period of 25 cells further on.
+        (RepeatingGrid(size=5e-4, cells=25), {12: 2, 17: 4}),
+    ],
+)
+def test_rests_fall_to_the_places_where_they_are(grid, expected):
+    measured = Measured(path=PATH, positions="cells")
+    cycle = measured.cycle(grid)
+    rests = np.array([2e-3 * position.share * position.rest for position in cycle])
+    assert {i: pytest.approx(t) for i, t in enumerate(rests) if t > 1e-9} == expected
+    slid = sum(2e-3 * p.share * sum(part / v for v, part in p.speeds) for p in cycle)
+    assert slid + np.sum(rests) == pytest.approx(measured.end_time)
+
+
+class Warms(Effect):
+    """dT/dt = 1000 K/m v - T/10 s."""
+
+    type = "test.warms"
+    state_fields = (Field("warmth", "K", "Temperature of a bath.", uniform=True, at_least=0),)
+
+    def state_rates(self, contact):
+        return {"warmth": 1000 * contact.speed - contact.state["warmth"] / 10}
+
+
+@pytest.mark.parametrize("save_times", [(), (0.5, 10.5, 40.7, 99.3)], ids=["no saves", "saves"])
+def test_what_relaxes_in_time_goes_on_in_rests(save_times):
+    cells = 4 * GRID.spacing[0]
+    # It slides for a tenth of the time; the first and the last save are in a rest.
+    path = [(0, 0), (0.9, 0), (0.95, cells), (1, 0)]
+    model = small(
+        grid=GRID,
+        contact=foundation(),
+        effects=[Warms()],
+        save_times=save_times,
+        kinematics=Measured(positions="cells", path=path, cycles=100),
+    )
+    speed = 2 * cells
+    assert last(model).between["warmth"][0, 0] == pytest.approx(
+        10 * 1000 * speed * (1 - np.exp(-10)), rel=1e-4
+    )
 
 
 def test_a_sampled_sine_spends_its_path_as_the_sine_does():

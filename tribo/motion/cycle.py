@@ -32,11 +32,14 @@ class Position:
     reach : ndarray, shape (ny,), or None, optional
         Sliding distance and speed of each row of the contact here, relative to those of the motion.
         None: all slide by those of the motion.
+    rest : float, optional
+        Time at rest here, in s, for each metre of the path spent here; beside `speeds`.
     """
 
     share: float = 1.0
     speeds: Speeds | None = None
     reach: Array | None = None
+    rest: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -110,7 +113,8 @@ class Stroke:
         """Return the positions of a path over the stroke, each with two speeds near it.
 
         Half of the path near a position is slid at each, which both its mean speed over the path
-        and its time fulfil: what goes as the speed, or with time, is exact.
+        and its time fulfil: what goes as the speed, or with time, is exact. A rest falls to the
+        positions beside it, as the path there does.
 
         Parameters
         ----------
@@ -129,11 +133,14 @@ class Stroke:
         steady = lengths / self._near(places, pace)
         apart = np.sqrt(np.maximum(mean**2 - mean * steady, 0.0))
         shares = lengths / np.sum(lengths)
+        rests = self._resting(places[:-1], np.where(steps > 0, 0.0, taken)) / lengths
+        speeds = [
+            [(float(v - d), 0.5), (float(v + d), 0.5)] if d > EVEN * v else [(float(even), 1.0)]
+            for v, d, even in zip(mean, apart, steady, strict=True)
+        ]
         return [
-            Position(float(share), [(float(v - d), 0.5), (float(v + d), 0.5)])
-            if d > EVEN * v
-            else Position(float(share), [(float(even), 1.0)])
-            for share, v, d, even in zip(shares, mean, apart, steady, strict=True)
+            Position(float(share), each, rest=float(rest))
+            for share, each, rest in zip(shares, speeds, rests, strict=True)
         ]
 
     @property
@@ -154,6 +161,13 @@ class Stroke:
         lengths[1] += lengths[-1]
         lengths[-2] += lengths[0]
         return lengths[1:-1]
+
+    def _resting(self, places: Array, times: Array) -> Array:
+        """Return the part of times (s) at places (m) that falls to each position, (positions,)."""
+        nodes = self.cells * self.dx
+        around = None if self.goes_round is None else self.goes_round * self.dx
+        of_node = [np.interp(places, nodes, one, period=around) for one in np.eye(len(nodes))]
+        return np.array(of_node) @ times
 
     def check_cells(self, place: str) -> None:
         """Refuse a stroke that is under two cells; `place` names it."""

@@ -32,8 +32,8 @@ class Measured(Kinematics):
 
     Between two samples it moves at constant speed. The sliding distance is the total variation of
     the position: noise of the sensor counts as sliding, so smooth it before. The cycle is resolved
-    into positions, each with the share of the whole path that is slid near it and the mean speed
-    of that; in which order they come is not kept.
+    into positions, each with the share of the whole path that is slid near it, the mean speed
+    of that and the time at rest; in which order they come is not kept.
     """
 
     model_config = ConfigDict(
@@ -134,7 +134,7 @@ class Measured(Kinematics):
         return float(whole * self._period + times[after] - to_go * pace)
 
     def cycle(self, grid: Grid) -> Sequence[Position]:
-        """Return the positions along the path, with the mean speed about each."""
+        """Return the positions along the path, with the mean speed and the rests about each."""
         times, places, _ = self._samples
         return self._stroke(grid).passed(times, places)
 

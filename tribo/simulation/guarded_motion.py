@@ -33,9 +33,12 @@ class GuardedMotion(Guard[Kinematics]):
             raise BadValues(
                 f"{self} gave shares of the path that add up to {sum(shares):g}, not to 1"
             )
+        rests = [self.number("a time at rest", position.rest) for position in answer]
+        if min(rests) < 0:
+            raise BadValues(f"{self} gave a time at rest of {min(rests):g} s/m")
         return tuple(
-            Position(share, self._speeds(position.speeds), self._reach(position.reach, grid))
-            for share, position in zip(shares, answer, strict=True)
+            Position(share, self._speeds(position.speeds), self._reach(position.reach, grid), rest)
+            for share, rest, position in zip(shares, rests, answer, strict=True)
         )
 
     def _reach(self, answer: Array | None, grid: Grid) -> Array | None:

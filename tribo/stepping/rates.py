@@ -93,22 +93,44 @@ def resting_rates(
 
     Nobody knows at which position it rests; it is the mean over the cycle.
     """
+    if any(place.rest > 0 for place in model.cycle):
+        # The rests of a cycle are in its mean rates.
+        return {key: np.zeros_like(values) for key, values in memory.between.items()}
     total: dict[str, Array] = {}
     for position, contact in enumerate(contacts):
         here = under(model, memory, position)
-        still = dict.fromkeys(model.bodies, readonly(np.zeros(model.grid.cells)))
-        fields = local_fields(model, contact.pressure, moment, position, here)
-        changes = _changes(model, contact, moment, here, fields, still)
-        for key, rate in changes.items():
+        for key, rate in _resting(model, position, contact, here, moment).items():
             part = model.cycle[position].share * laid(model, key, rate, position)
             total[key] = total[key] + part if key in total else part
     return total
 
 
+def _resting(
+    model: Model, position: int, contact: ContactSolution, memory: Memory, moment: Moment
+) -> dict[str, Array]:
+    """Return what effects change per second at rest at a position, in the window."""
+    still = dict.fromkeys(model.bodies, readonly(np.zeros(model.grid.cells)))
+    fields = local_fields(model, contact.pressure, moment, position, memory)
+    return _changes(model, contact, moment, memory, fields, still)
+
+
 def _rates_at(
     model: Model, position: int, contact: ContactSolution, memory: Memory, moment: Moment
 ) -> Rates:
-    """Return the rates at a position per metre of the motion: the mean over its speeds."""
+    """Return the rates at a position per metre of the motion, with what changes at rest there."""
+    rates, rest = _sliding_at(model, position, contact, memory, moment), model.cycle[position].rest
+    if rest == 0 or not memory.between:
+        return rates
+    still = replace(moment, speed=0.0, over=rest * moment.over)
+    changes = _resting(model, position, contact, memory, still)
+    between = {key: rate + rest * changes[key] for key, rate in rates.between.items()}
+    return replace(rates, between=between)
+
+
+def _sliding_at(
+    model: Model, position: int, contact: ContactSolution, memory: Memory, moment: Moment
+) -> Rates:
+    """Return the rates at a position per metre that is slid there: the mean over its speeds."""
     place = model.cycle[position]
     speeds = place.speeds or [(moment.speed, 1.0)]
     weighed = speeds if place.reach is None else by_row(speeds, place.reach)

@@ -46,7 +46,11 @@ class KinematicsChecks(Checks):
             "path": np.array([component.distance_at(part * end) for part in _PARTS]),
             "time": np.array(list(component.edges), dtype=float),
             "cycle": [
-                {"share": p.share, "speed": np.array([v for v, _ in p.speeds or ()])}
+                {
+                    "share": p.share,
+                    "speed": np.array([v for v, _ in p.speeds or ()]),
+                    "rest": p.rest,
+                }
                 for p in component.cycle(inputs["grid"])
             ],
         }
@@ -118,7 +122,8 @@ class KinematicsChecks(Checks):
         require(slowest > 0, f"speeds() has {slowest!r} m/s; it must be positive")
         end = motion.end_time
         mean = motion.distance_at(end) / end
-        stated = 1 / sum(share / speed for speed, share in speeds)
+        rest = sum(p.share * p.rest for p in cycle)
+        stated = 1 / (sum(share / speed for speed, share in speeds) + rest)
         require(
             stated >= 0.99 * mean,
             f"its speeds have a mean of {stated:.4g} m/s, but it slides at {mean:.4g} m/s",

@@ -38,6 +38,7 @@ UNITS: Mapping[str, float] = MappingProxyType(
             "1/m": "curvature",
             "s": "time end",
             "m/s": "speed",
+            "s/m": "rest",
             "N": "load",
             "Pa": "pressure modulus cap",
             "m/Pa": "local",
