@@ -13,6 +13,7 @@ import numpy as np
 from tribo.core.arrays import Array, readonly
 from tribo.core.box import around_region, whole
 from tribo.core.contact import ContactSolution
+from tribo.core.errors import CaseError
 from tribo.core.fields import (
     FRICTION_COEFFICIENT,
     LOAD_SHARE,
@@ -32,6 +33,10 @@ if TYPE_CHECKING:
 
 # Cells around the contact where laws are asked too: what a step may newly touch.
 MARGIN = 8
+ENDS = [0, -1]
+"""The rows of the window that lie furthest from the contact."""
+SLIGHT = 1e-6
+"""Of the largest rate of a state: what is below it is taken to stand still."""
 FINE = 0.1
 """Relative speed between two at which laws are asked, where rows have their own."""
 
@@ -111,7 +116,7 @@ def _resting(
     """Return what effects change per second at rest at a position, in the window."""
     still = dict.fromkeys(model.bodies, readonly(np.zeros(model.grid.cells)))
     fields = local_fields(model, contact.pressure, moment, position, memory)
-    return _changes(model, contact, moment, memory, fields, still)
+    return _changes(model, position, contact, moment, memory, fields, still)
 
 
 def _rates_at(
@@ -214,27 +219,84 @@ def _rates_of(
     depths = {name: readonly(rate.depth_rate) for name, rate in rates.items()}
     still = readonly(np.zeros(model.grid.cells))
     depths = {name: depths.get(name, still) for name in model.bodies}
-    changes = _changes(model, contact, moment, memory, fields, depths)
+    changes = _changes(model, position, contact, moment, memory, fields, depths)
     slid = moment.speed if moment.speed > 0 else np.inf
     return Rates(rates, {key: change / slid for key, change in changes.items()})
 
 
 def _changes(
     model: Model,
+    position: int,
     contact: ContactSolution,
     moment: Moment,
     memory: Memory,
     fields: Mapping[str, Mapping[str, Array]],
     depths: Mapping[str, Array],
 ) -> dict[str, Array]:
-    """Return by how much each state of an effect changes per second, in the window."""
+    """Return by how much each state of an effect changes per second, in the window.
+
+    On a body that passes the rest of its track changes as points do that nothing presses.
+    """
     changes: dict[str, Array] = {}
     seconds = moment.over / (moment.speed or 1.0)
+
+    def of_effect(
+        effect: GuardedEffect, pressure: Array, depths: Mapping[str, Array]
+    ) -> dict[str, Array]:
+        around = fields
+        if pressure is not contact.pressure:
+            around = local_fields(model, pressure, moment, position, memory)
+        given = _conditions(model, pressure, moment, around, effect, memory)
+        return effect.state_rates(replace(given, wear_rates=depths), seconds)
+
     for effect in model.effects:
-        if effect.initial_state:
-            given = _conditions(model, contact.pressure, moment, fields, effect, memory)
-            changes |= effect.state_rates(replace(given, wear_rates=depths), seconds)
+        if not effect.initial_state:
+            continue
+        rates = of_effect(effect, contact.pressure, depths)
+        if effect.carrier is not None and effect.carrier in model.swept:
+            bare = rates
+            if np.any(contact.pressure[ENDS]):
+                free = {name: _without_ends(depth) for name, depth in depths.items()}
+                bare = of_effect(effect, _without_ends(contact.pressure), free)
+            rates = _with_rest_of_track(model, effect, rates, bare)
+        changes |= rates
     return changes
+
+
+def _without_ends(values: Array) -> Array:
+    """Return values in the window that are 0 in its first and its last row."""
+    inner = values.copy()
+    inner[ENDS] = 0.0
+    return readonly(inner)
+
+
+def _with_rest_of_track(
+    model: Model, effect: GuardedEffect, rates: dict[str, Array], bare: dict[str, Array]
+) -> dict[str, Array]:
+    """Return rates of an effect in the window, with what their average over the track lacks.
+
+    Of `bare` the ends of the window, that nothing presses, stand for the rest of the track. Where
+    the body has rows of its own each has its state, so that the rates beyond are not known.
+    """
+    assert effect.carrier is not None
+    exposure, cells = model.exposures[effect.carrier], model.grid.cells
+    completed = dict(rates)
+    for field in effect.state_fields:
+        rate, untouched = rates[field.name], np.mean(bare[field.name][ENDS], axis=0)
+        if field.uniform:
+            continue
+        if exposure.averaged:
+            covered = exposure.average(np.ones(cells))
+            completed[field.name] = rate + (1 / covered - 1) * untouched
+        elif exposure.rows > cells[0] and np.any(np.abs(untouched) > SLIGHT * np.max(np.abs(rate))):
+            raise CaseError(
+                f"{field.name!r} of {effect} changes on {effect.carrier!r} where nothing presses, "
+                "and positions of a cycle do not tell how it does beyond the window; set "
+                'kinematics.positions = "average" if the motion has that, or let the state lie in '
+                "the contact",
+                "effects",
+            )
+    return completed
 
 
 def effect_fields(model: Model, state: State) -> dict[str, dict[str, Array]]:

@@ -97,10 +97,11 @@ class LocalChecks(Checks):
             component = checks._make()
             for given in checks._samples(component):
                 answers = dict(self._call(component, given))
-                for name in names:
+                first = component.initial_state()
+                for name in [name for name in names if name in first]:
                     if np.any(answers.get(rate_of(name), 0.0)):
                         still.discard(name)
-                    other = _at(given, name, component.initial_state()[name])
+                    other = _at(given, name, first[name])
                     own = {rate_of(name): None}
                     if first_difference(answers | own, {**self._call(component, other), **own}):
                         idle.discard(name)
