@@ -22,6 +22,7 @@ from tribo import (
     LOAD_SHARE,
     CaseError,
     Effect,
+    Field,
     Grid,
     Simulation,
     WearLaw,
@@ -194,9 +195,68 @@ def test_friction_may_follow_the_load():
     ramp = [{"at": 0, "normal": 20}, {"at": 20, "normal": 100}]
     with run(load={"normal": ramp}, **parts) as result:
         work = result.saves()[-1]["friction_energy_J"]
-    exact = PER_LOAD * 0.1 * 20 * (20**2 + 20 * 100 + 100**2) / 3
-    # Trapezoids under a parabola, over steps in which the load grows by 8 N.
-    assert work - exact == pytest.approx(PER_LOAD * 0.1 * 20 * 8**2 / 6, rel=1e-6)
+    assert work == pytest.approx(PER_LOAD * 0.1 * 20 * (20**2 + 20 * 100 + 100**2) / 3, rel=1e-10)
+
+
+class Since(Effect):
+    """A coefficient of friction of 0.1 (1 + sin t) on one body, and some more on the other."""
+
+    type = "test.since"
+    more: float = 0.0
+    provides = (FRICTION_COEFFICIENT,)
+
+    def fields(self, contact):
+        friction = 0.1 * (1 + np.sin(contact.time))
+        values = np.array([friction, friction + self.more]).reshape(-1, 1, 1)
+        return {"friction_coefficient": dict(zip(contact.materials, values, strict=True))}
+
+
+def test_the_work_of_friction_that_follows_the_time_is_exact():
+    with run(effects=[Since()], **pin(archard())) as result:
+        history = result.table("history")
+    exact = 0.1 * (1 - np.cos(20) + 20) * 100 * 0.1
+    assert history["friction_energy_J"][-1] == pytest.approx(exact, rel=1e-10)
+
+
+def test_friction_that_is_not_alike_on_both_bodies_is_refused():
+    with pytest.raises(PluginError, match="a coefficient of friction of its own"):
+        run(effects=[Since(more=0.1)])
+
+
+class Fading(Effect):
+    """A coefficient of friction of 0.1 + 0.4 exp(-s / length), by what it remembers."""
+
+    type = "test.fading"
+    length: float = 0.5
+    provides = (FRICTION_COEFFICIENT,)
+    state_fields = (Field("left", "1", "What is left.", uniform=True, at_least=0),)
+
+    def initial_state(self):
+        return {"left": 1.0}
+
+    def state_rates(self, contact):
+        return {"left": -contact.state["left"] * contact.speed / self.length}
+
+    def fields(self, contact):
+        friction = 0.1 + 0.4 * contact.state["left"]
+        return {"friction_coefficient": dict.fromkeys(contact.materials, friction)}
+
+
+@pytest.mark.parametrize("law", [archard(), archard(k=0.0)], ids=["worn", "unworn"])
+def test_the_work_of_friction_that_follows_a_state_is_that_of_its_course(law):
+    with run(effects=[Fading()], **pin(law)) as result:
+        work = result.saves()[-1]["friction_energy_J"]
+    exact = 100 * (0.1 * 2 + 0.4 * 0.5 * -np.expm1(-2 / 0.5))
+    assert work == pytest.approx(exact, rel=1e-7)
+
+
+def test_at_rest_there_is_no_force_of_friction():
+    stages = [{"until": 10, "speed": "0.1 m/s"}, {"until": 20, "speed": 0}]
+    motion = Unidirectional(speed=stages, track_length="2 mm", duration=20)
+    with run(friction_coefficient=0.3, kinematics=motion, save_times=(10,)) as result:
+        forces = [save["friction_force_N"] for save in result.saves()]
+    assert forces[:2] == pytest.approx([30, 30])
+    assert forces[2] == 0
 
 
 def test_friction_has_one_source():

@@ -48,7 +48,7 @@ COLUMNS = (
     Column("distance", "m", "Path slid"),
     Column("load", "N", "Normal load, mean over the path of a cycle"),
     Column("load_distance", "N m", "Load times path, summed over the run"),
-    Column("friction_force", "N", "Friction force, mean over a cycle"),
+    Column("friction_force", "N", "Friction force, mean over a cycle; 0 at rest"),
     Column("friction_energy", "J", "Work of friction, summed over the run"),
     Column("max_pressure", "Pa", "Largest contact pressure"),
     Column("centre_pressure", "Pa", "Pressure at the window's centre"),

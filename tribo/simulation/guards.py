@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -159,6 +160,12 @@ class GuardedEffect(Guard[Effect]):
                 if outside := LIMITED.get(field.name, field).outside(low, high):
                     raise BadValues(f"{self} gave {what} that is {outside}")
                 found[field.name][body] = array
+        frictions = found.get(FRICTION_COEFFICIENT.name, {}).values()
+        if any(not np.array_equal(one, other) for one, other in pairwise(frictions)):
+            raise BadValues(
+                f"{self} gave each body a coefficient of friction of its own; it acts on both "
+                "alike, so give both the same"
+            )
         return found
 
     def state_rates(self, contact: ContactConditions, over: float = 0.0) -> dict[str, Array]:

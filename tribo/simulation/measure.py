@@ -14,7 +14,7 @@ from tribo.core.measures import (
 from tribo.core.state import State
 from tribo.lab.running_in import contact_roughness
 from tribo.simulation.model import Model
-from tribo.stepping.friction import mean_friction
+from tribo.stepping.friction import friction_force
 from tribo.stepping.layers import caps
 from tribo.stepping.quadrature import cycle_error
 
@@ -27,7 +27,7 @@ def measure(model: Model, state: State) -> Measures:
     own = caps(model, state.bodies)[len(model.cycle) // 2]
     cap = model.system.cap if own is None else own[extent]
     load = model.loads.over_cycle(model.loads.before(state.time))
-    friction = mean_friction(model, state)
+    friction = friction_force(model, state)
     width, breadth = half_widths(state.contact, model.grid)
     bodies = {
         name: BodyMeasures(
@@ -44,8 +44,8 @@ def measure(model: Model, state: State) -> Measures:
         distance=state.distance,
         load=load,
         load_distance=state.load_distance,
-        friction_force=np.nan if friction is None else friction * load,
-        friction_energy=np.nan if friction is None else state.friction_energy,
+        friction_force=friction,
+        friction_energy=np.nan if np.isnan(friction) else state.friction_energy,
         max_pressure=float(np.max(touched)),
         centre_pressure=centre(pressure),
         half_width_x=width,

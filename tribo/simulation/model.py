@@ -167,6 +167,17 @@ class Model:
         return FRICTION_COEFFICIENT.name in provided
 
     @cached_property
+    def friction_remembers(self) -> bool:
+        """Whether the coefficient of friction follows what laws or effects remember."""
+        following = {field.name for law in self.laws.values() for field in law.state_fields}
+        following.update(self.between)
+        # In the order in which they are asked.
+        for effect in self.effects:
+            if effect.state_fields or following & set(effect.requires):
+                following.update(field.name for field in effect.provides)
+        return FRICTION_COEFFICIENT.name in following
+
+    @cached_property
     def may_reach_edge(self) -> bool:
         """Whether the contact may reach the edge of the window."""
         return self.grid.ends_at_window or self.contact.periodic

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
 COARSE = Plan(((0.25, True), (0.75, True)), np.inf)
 """Where an increment has more parts than these, they do to find slopes."""
+CLOSE = 1e-8
+"""Accuracy of what is accumulated over a course that is known."""
 
 
 @dataclass(frozen=True)
@@ -63,8 +65,7 @@ def course(
     are those of `moment` throughout, but where a body wears through a layer. With it, the depths
     worn of bodies in layers are integrated as well.
     """
-    layered = {name: before.worn[name] for name, law in model.laws.items() if law.bottoms}
-
+    layered = _layered(model)
     taken = None
 
     def begun(first: float) -> Course:
@@ -76,10 +77,8 @@ def course(
         shared, found = in_layers(model, before, contacts, increment, moment)
         wear = tuple(each.wear for each in found)
         return Course(wear, shared, begun=begun if layered else None)
-    of_model = partial(_rates, model, before, list(layered), contacts, increment, moment)
-    start = [*before.values, *layered.values()]
-    limits = limits_of(model, before)
-    limits += [Limits(-np.inf, np.inf, f"the depth of {name!r}", relaxes=False) for name in layered]
+    of_model = partial(_rates, model, before, layered, contacts, increment, moment)
+    start, limits = _start(model, before, layered)
     values, depths, taken = integrated(
         of_model, start, increment, limits, plan, of_steps=bool(layered) or model.advances
     )
@@ -89,6 +88,33 @@ def course(
         for _ in contacts
     ]
     return Course(mean, before.with_values(iter(values)), taken, begun if layered else None)
+
+
+def accumulated(
+    model: Model,
+    before: Memory,
+    contacts: Sequence[ContactSolution],
+    increment: float,
+    moment: Moment,
+    rate: Callable[[Memory, float], float],
+) -> float:
+    """Return what a rate per metre comes to over a course, as it follows what is remembered.
+
+    The increment (m), and the `moment` at its end, are those of `course`. The rate is asked with
+    what is remembered and how much of the increment has passed.
+    """
+    layered = _layered(model)
+    start, limits = _start(model, before, layered)
+
+    def rates(values: Sequence[Array], passed: float, step: float) -> Values:
+        found = _rates(model, before, layered, contacts, increment, moment, values, passed, step)
+        now = _memory(before, layered, values)
+        return [*found[: len(start)], np.array(rate(now, passed))]
+
+    plan = Plan(accuracy=CLOSE)
+    of_steps = bool(layered) or model.advances
+    _, (total,), _ = integrated(rates, start, increment, limits, plan, of_steps=of_steps)
+    return float(total)
 
 
 def sloped(
@@ -167,10 +193,7 @@ def _rates(
     if model.advances:
         moment = replace(moment, over=step * increment)
     contacts = loaded(model, contacts, end.back(0.5 * increment).time, end.time, passed)
-    each = iter(values)
-    now = before.with_values(each)
-    if layered:
-        now = replace(now, worn={**now.worn, **dict(zip(layered, each, strict=True))})
+    now = _memory(before, layered, values)
     _, found = in_layers(model, now, contacts, step * increment, moment)
     total: Values = [np.zeros_like(value) for value in values]
     for position, rates in enumerate(found):
@@ -185,6 +208,27 @@ def _rates(
         pairs = zip(total, (*laws, *effects, *depths), strict=True)
         total = [value + share * rate for value, rate in pairs]
     return total + [rate.depth_rate for rates in found for rate in rates.wear.values()]
+
+
+def _memory(before: Memory, layered: Sequence[str], values: Sequence[Array]) -> Memory:
+    """Return what is remembered with other values, the depths of bodies in layers at the end."""
+    each = iter(values)
+    now = before.with_values(each)
+    return replace(now, worn={**now.worn, **dict(zip(layered, each, strict=True))})
+
+
+def _layered(model: Model) -> list[str]:
+    """Return the bodies in layers, whose depths go along with what is remembered."""
+    return [name for name, law in model.laws.items() if law.bottoms]
+
+
+def _start(
+    model: Model, before: Memory, layered: Sequence[str]
+) -> tuple[list[Array], list[Limits]]:
+    """Return what goes along an increment as it begins, with its limits."""
+    depths = [Limits(-np.inf, np.inf, f"the depth of {name!r}", relaxes=False) for name in layered]
+    start = [*before.values, *(before.worn[name] for name in layered)]
+    return start, [*limits_of(model, before), *depths]
 
 
 def loaded(

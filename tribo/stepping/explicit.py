@@ -17,6 +17,7 @@ from tribo.core.units import Quantity
 from tribo.stepping.contacts import in_stripes, solve_cycle
 from tribo.stepping.events import Solved, Worn
 from tribo.stepping.evolution import Course, course
+from tribo.stepping.friction import with_friction_work
 from tribo.stepping.linear_wear import wear_compliance
 from tribo.stepping.memory import remembered
 from tribo.stepping.rates import CycleRates, Moment, wear_rates
@@ -114,7 +115,8 @@ class Explicit(Scheme):
             model, undeformed(model, after), loads, _extrapolated(state), after.bodies
         )
         model.tell(Solved(contacts))
-        return accepted(model, state, counted(after, contacts), contacts, loads)
+        after = accepted(model, counted(after, contacts), contacts, loads)
+        return with_friction_work(model, state, after, state.contacts)
 
     def _instability(self, model: Model, state: State, moment: Moment) -> str | None:
         """Return a warning of a step that is beyond the limit where the case allows it.

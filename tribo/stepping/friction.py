@@ -2,56 +2,103 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.integrate import quad
 
+from tribo.core.arrays import Array, readonly
+from tribo.core.contact import ContactSolution
 from tribo.core.fields import FRICTION_COEFFICIENT
 from tribo.core.state import State
-from tribo.stepping.memory import remembered, under
+from tribo.stepping.evolution import accumulated
+from tribo.stepping.memory import Memory, remembered, under
 from tribo.stepping.rates import Moment, local_fields
 
 if TYPE_CHECKING:
     from tribo.simulation.model import Model
 
+ACCURACY = 1e-10
+"""Relative error of the work of a force that only time, place and pressure rule."""
 
-def mean_friction(model: Model, state: State) -> float | None:
-    """Return the coefficient of friction at `state`, weighted with the load over a cycle.
 
-    Where an effect provides it, it is asked at the speeds of the cycle. None where nothing does.
+def friction_force(model: Model, state: State) -> float:
+    """Return the force of friction at `state`, the mean over a cycle, in N; 0 at rest.
+
+    NaN where neither the case nor an effect gives a coefficient of friction.
     """
+    if not model.friction_varies and model.friction_coefficient is None:
+        return np.nan
+    if state.speed == 0:
+        return 0.0
+    moment = Moment(state.time, state.distance, state.speed)
+    load = model.loads.over_cycle(model.loads.before(state.time))
+    return load * _mean(
+        model, [each.pressure for each in state.contacts], remembered(state), moment
+    )
+
+
+def _mean(model: Model, pressures: Sequence[Array], memory: Memory, moment: Moment) -> float:
+    """Return the coefficient of friction at a moment, weighted with the load over a cycle."""
     if not model.friction_varies:
-        return model.friction_coefficient
+        return model.friction_coefficient or 0.0
     force = load = 0.0
-    memory = remembered(state)
-    for position, contact in enumerate(state.contacts):
+    for position, pressure in enumerate(pressures):
         place, here = model.cycle[position], under(model, memory, position)
-        carried = place.share * float(np.sum(contact.pressure))
+        carried = place.share * float(np.sum(pressure))
         load += carried
-        for speed, share in place.speeds or [(state.speed, 1.0)]:
-            moment = Moment(state.time, state.distance, speed)
-            fields = local_fields(model, contact.pressure, moment, position, here)
+        for speed, share in place.speeds or [(moment.speed, 1.0)]:
+            at_speed = replace(moment, speed=speed)
+            fields = local_fields(model, pressure, at_speed, position, here)
             # It acts on both bodies alike.
             (friction, *_) = fields[FRICTION_COEFFICIENT.name].values()
-            force += share * place.share * float(np.sum(friction * contact.pressure))
+            force += share * place.share * float(np.sum(friction * pressure))
     return force / load
 
 
-def friction_work(model: Model, before: State, after: State) -> float:
-    """Return the work of friction over a step, in J.
+def with_friction_work(
+    model: Model, before: State, after: State, contacts: Sequence[ContactSolution]
+) -> State:
+    """Return `after`, the end of a step, with the work of friction over it.
 
-    What an effect provides is taken to go in a straight line, as a force, between both ends of the
-    step: after a jump of the load that it begins with, and before one that it ends with.
+    Load and pressure go in a straight line from one end of the step to the other: from after a jump
+    of the load that it begins with, to before one that it ends with. What is remembered goes on
+    under `contacts`, those that the bodies wear under.
     """
-    if not model.friction_varies:
+    if model.friction_varies:
+        work = _varying_work(model, before, after, contacts)
+    else:
         friction = model.friction_coefficient or 0.0
-        return friction * (after.load_distance - before.load_distance)
-    loads = model.loads.after(before.time), model.loads.before(after.time)
-    # Both at the speed of the step.
-    ends = replace(before, speed=after.speed), after
-    forces = [
-        (mean_friction(model, state) or 0.0) * model.loads.over_cycle(load)
-        for state, load in zip(ends, loads, strict=True)
-    ]
-    return 0.5 * sum(forces) * (after.distance - before.distance)
+        work = friction * (after.load_distance - before.load_distance)
+    return replace(after, friction_energy=before.friction_energy + work)
+
+
+def _varying_work(
+    model: Model, before: State, after: State, contacts: Sequence[ContactSolution]
+) -> float:
+    """Return the integral of what effects give, times the load, over a step, in J."""
+    time, increment = after.time - before.time, after.distance - before.distance
+    first, last = (
+        model.loads.over_cycle(loads)
+        for loads in (model.loads.after(before.time), model.loads.before(after.time))
+    )
+
+    def force(memory: Memory, passed: float) -> float:
+        between = [
+            readonly((1 - passed) * one.pressure + passed * other.pressure)
+            for one, other in zip(before.contacts, after.contacts, strict=True)
+        ]
+        slid = before.distance + passed * increment
+        now = Moment(before.time + passed * time, slid, after.speed)
+        return _mean(model, between, memory, now) * ((1 - passed) * first + passed * last)
+
+    memory = remembered(before)
+    if model.friction_remembers:
+        end = Moment(after.time, after.distance, after.speed)
+        return accumulated(model, memory, contacts, increment, end, force)
+    # A third answer beside the result and its error says what a warning would.
+    mean, *_ = quad(partial(force, memory), 0, 1, epsrel=ACCURACY, epsabs=0, full_output=1)
+    return float(increment * mean)

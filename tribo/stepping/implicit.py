@@ -19,6 +19,7 @@ from tribo.core.units import Quantity
 from tribo.stepping.contacts import solve_cycle
 from tribo.stepping.events import Worn
 from tribo.stepping.evolution import Course, course, sloped
+from tribo.stepping.friction import with_friction_work
 from tribo.stepping.linear_wear import linear_wear
 from tribo.stepping.memory import filling, remembered
 from tribo.stepping.rates import Moment, wear_rates
@@ -268,7 +269,8 @@ class Implicit(Scheme):
             # remembered changes them along a step, and so do layers.
             after = replace(after, rates=rates)
         model.tell(Worn(contacts, state.time, increment, moment, before, slid.plan))
-        return Trial(accepted(model, state, after, contacts, loads), forward)
+        after = accepted(model, after, contacts, loads)
+        return Trial(with_friction_work(model, state, after, contacts), forward)
 
     def errors(self, model: Model, before: State, trial: Trial) -> Errors:
         """Return the step's depth, pressure and volume errors as multiples of their tolerances.

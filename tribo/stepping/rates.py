@@ -304,7 +304,9 @@ def effect_fields(model: Model, state: State) -> dict[str, dict[str, Array]]:
     speeds = model.cycle[len(model.cycle) // 2].speeds
     # Of an average's speeds none is that of the pressure shown.
     here = speeds if len(model.cycle) > 1 else None
-    speed = state.speed if here is None else 1 / sum(share / v for v, share in here)
+    speed = state.speed
+    if here is not None and speed > 0:
+        speed = 1 / sum(share / v for v, share in here)
     middle = len(model.cycle) // 2
     moment = Moment(state.time, state.distance, speed)
     memory = under(model, remembered(state), middle)

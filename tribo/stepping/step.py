@@ -19,7 +19,6 @@ from tribo.core.state import BodyState, State
 from tribo.stepping.contacts import solve, solve_cycle
 from tribo.stepping.events import Drawn, Solved, Yielded
 from tribo.stepping.evolution import Course, rested_memory
-from tribo.stepping.friction import friction_work
 from tribo.stepping.invariants import ONE_LOAD, wear_balance
 from tribo.stepping.layers import caps, plastic_share, worn_through
 from tribo.stepping.memory import filling, first_memory, remembered
@@ -178,7 +177,7 @@ def rested(model: Model, state: State, time: float) -> State:
     between = rested_memory(model, state, time).between
     loads = model.loads.before(time)
     anew = loads != model.loads.before(state.time) or any(body is None for body, _ in model.filling)
-    state = replace(state, between=between)
+    state = replace(state, between=between, speed=0.0)
     if anew:
         state = _under(model, state, loads)
     return replace(state, time=time, steps=state.steps + 1, invariants=Invariants())
@@ -268,11 +267,7 @@ def worn_by(
 
 
 def accepted(
-    model: Model,
-    before: State,
-    after: State,
-    contacts: Sequence[ContactSolution],
-    loads: ByPosition,
+    model: Model, after: State, contacts: Sequence[ContactSolution], loads: ByPosition
 ) -> State:
     """Return `after`, the worn bodies, in contact, with what yields at rest.
 
@@ -280,9 +275,7 @@ def accepted(
     """
     after = replace(after, contacts=tuple(contacts))
     at_end = model.loads.before(after.time)
-    after = _at_rest(model, after, loads) if loads == at_end else _under(model, after, at_end)
-    work = friction_work(model, before, after)
-    return replace(after, friction_energy=before.friction_energy + work)
+    return _at_rest(model, after, loads) if loads == at_end else _under(model, after, at_end)
 
 
 def _under(model: Model, state: State, loads: ByPosition) -> State:
