@@ -122,74 +122,125 @@ def integrated(
     Exponential integrators, Acta Numerica 19, 209-286.
     """
     plan = plan or Plan()
-    repeated = math.isinf(plan.accuracy)
-    count, values = len(start), list(start)
-    first = rates(values, 0.0, 1.0)
-    begin, passed, missed = first, 0.0, 0.0
-    sums = [np.zeros_like(rate) for rate in first[count:]]
-    waiting, done = list(plan.parts), list[tuple[float, bool]]()
+    problem = _Problem(rates, length, limits, of_steps, repeated=math.isinf(plan.accuracy))
+    here = begin = problem.begin(start)
+    waiting, done, missed = list(plan.parts), list[tuple[float, bool]](), 0.0
     while waiting:
         part, relaxes = waiting[0]
-        span = part * length
-        along = partial(_along, rates, passed, part)
-        if of_steps and part < 1:
-            first = along(values, 0.0, 1.0)
-        slopes = relaxing(along, values, first, span, limits) if relaxes else [0.0] * count
-        stages = RELAXING if relaxes else PLAIN
-        found = _extrapolated(along, values, first, slopes, span, stages, limits, of_steps)
-        best, rough, samples, moved = found
-        sizes = [
-            np.maximum(np.abs(old), np.abs(new)) for old, new in zip(values, best, strict=False)
-        ]
-        sizes += [
-            np.maximum(np.abs(new), part * np.abs(old))
-            for old, new in zip(sums, best[count:], strict=True)
-        ]
-        held = [_held(*each) for each in zip(best, limits, strict=False)]
-        at_end = len(waiting) == 1 and math.isinf(plan.accuracy)
-        last = first if at_end or of_steps else along(held, 1.0, part)
-        off = max(map(_relative, best, rough, sizes), default=0.0)
-        if not repeated:
-            # Trials held to a limit agree with each other, whatever the state goes to.
-            off = max(off, *map(_part_of, moved, sizes), 0.0)
-        if off <= plan.accuracy < math.inf and not of_steps:
-            off = max(off, _jump(samples, last, span, sums, count))
-        beyond = [_beyond(*each) for each in zip(best, sizes, limits, strict=False)]
-        left = max(beyond, default=0.0) > ACCURACY
-        if off > plan.accuracy or left:
-            if not relaxes:
-                waiting[0] = part, True
-                continue
-            if left and part <= FINEST:
-                limit = limits[int(np.argmax(beyond))]
-                raise BadValues(
-                    f"{limit.name} goes on beyond its limits of {limit.least:g} to {limit.most:g}: "
-                    "let its rate vanish there"
-                )
+        trial = problem.tried(here, part, relaxes, plan.accuracy, is_last=len(waiting) == 1)
+        left = max(trial.beyond, default=0.0) > ACCURACY
+        if trial.off <= plan.accuracy and not left:
+            here, missed = trial.end, missed + part * trial.off
+            done.append(waiting.pop(0))
+            if waiting and trial.off > 0:
+                _cut(waiting, SAFETY * part * (plan.accuracy / trial.off) ** (1 / 3))
+        elif not relaxes:
+            waiting[0] = part, True
+        elif left and part <= FINEST:
+            limit = limits[int(np.argmax(trial.beyond))]
+            raise BadValues(
+                f"{limit.name} goes on beyond its limits of {limit.least:g} to {limit.most:g}: "
+                "let its rate vanish there"
+            )
+        elif left or (part > FINEST and len(waiting) + len(done) < MOST_PARTS):
             waiting[:1] = [(0.5 * part, True)] * 2
-            if not left and (part <= FINEST or len(waiting) + len(done) > MOST_PARTS):
-                # Rates that jump, at one point after the other.
-                plan = _looser(plan)
-                values, first, waiting, done = list(start), begin, list(plan.parts), []
-                passed = missed = 0.0
-                sums = [np.zeros_like(rate) for rate in first[count:]]
-            continue
-        values, first, passed = held, last, passed + part
-        sums = [old + new for old, new in zip(sums, best[count:], strict=True)]
-        missed += part * off
-        done.append(waiting.pop(0))
-        following = SAFETY * part * (plan.accuracy / off) ** (1 / 3) if off > 0 else math.inf
-        if waiting and waiting[0][0] > 2 * following:
-            whole = waiting[0][0]
-            cut = max(following, LEAST * whole)
-            waiting[:1] = [(cut, True), (whole - cut, True)]
+        else:
+            # Rates that jump, at one point after the other.
+            plan = _looser(plan)
+            here, waiting, done, missed = begin, list(plan.parts), [], 0.0
     if not missed <= ROUGHEST:
         names = ", ".join(limit.name for limit in limits)
         raise BadValues(
             f"what is remembered ({names}) changes too often to be followed over {length:g} (m, or "
             "s of a rest): shorten the steps"
         )
-    return values, sums, replace(plan, parts=tuple(done))
+    return here.values, here.sums, replace(plan, parts=tuple(done))
+
+
+@dataclass(frozen=True)
+class _Place:
+    """A place along an increment: the part passed, states and sums there, and all rates."""
+
+    passed: float
+    values: Values
+    sums: Values
+    rates: Values
+
+
+@dataclass(frozen=True)
+class _Trial:
+    """Where a part of an increment ends, its error, and how far each state leaves its limits.
+
+    The error is relative to all that came before, as is what is beyond.
+    """
+
+    end: _Place
+    off: float
+    beyond: Sequence[float]
+
+
+@dataclass(frozen=True)
+class _Problem:
+    """What `integrated` integrates; `repeated` where its parts are taken as they are."""
+
+    rates: Rates
+    length: float
+    limits: Sequence[Limits]
+    of_steps: bool
+    repeated: bool
+
+    def begin(self, start: Sequence[Array]) -> _Place:
+        """Return the place where the increment begins."""
+        values, first = list(start), self.rates(start, 0.0, 1.0)
+        return _Place(0.0, values, [np.zeros_like(rate) for rate in first[len(values) :]], first)
+
+    def tried(
+        self, here: _Place, part: float, relaxes: bool, accuracy: float, *, is_last: bool
+    ) -> _Trial:
+        """Return what a part of the increment would end with."""
+        values, limits, count = here.values, self.limits, len(here.values)
+        span, first = part * self.length, here.rates
+        along = partial(_along, self.rates, here.passed, part)
+        if self.of_steps and part < 1:
+            first = along(values, 0.0, 1.0)
+        slopes = relaxing(along, values, first, span, limits) if relaxes else [0.0] * count
+        best, rough, samples, moved = _extrapolated(
+            along,
+            values,
+            first,
+            slopes,
+            span,
+            RELAXING if relaxes else PLAIN,
+            limits,
+            self.of_steps,
+        )
+        sizes = [
+            np.maximum(np.abs(old), np.abs(new)) for old, new in zip(values, best, strict=False)
+        ]
+        sizes += [
+            np.maximum(np.abs(new), part * np.abs(old))
+            for old, new in zip(here.sums, best[count:], strict=True)
+        ]
+        held = [_held(*each) for each in zip(best, limits, strict=False)]
+        at_end = is_last and math.isinf(accuracy)
+        last = first if at_end or self.of_steps else along(held, 1.0, part)
+        off = max(map(_relative, best, rough, sizes), default=0.0)
+        if not self.repeated:
+            # Trials held to a limit agree with each other, whatever the state goes to.
+            off = max(off, *map(_part_of, moved, sizes), 0.0)
+        if off <= accuracy < math.inf and not self.of_steps:
+            off = max(off, _jump(samples, last, span, here.sums, count))
+        sums = [old + new for old, new in zip(here.sums, best[count:], strict=True)]
+        beyond = [_beyond(*each) for each in zip(best, sizes, limits, strict=False)]
+        return _Trial(_Place(here.passed + part, held, sums, last), off, beyond)
+
+
+def _cut(waiting: list[tuple[float, bool]], accurate: float) -> None:
+    """Divide the next part where it is more than twice as long as would be accurate."""
+    whole = waiting[0][0]
+    if whole > 2 * accurate:
+        cut = max(accurate, LEAST * whole)
+        waiting[:1] = [(cut, True), (whole - cut, True)]
 
 
 def _looser(plan: Plan) -> Plan:
