@@ -35,11 +35,14 @@ _FAR = 100.0
 class EffectChecks(LocalChecks):
     """Checks of an effect."""
 
-    _numbers = (0, 1, 2)
+    _numbers = (0, 1, 2, 3)
     _per = "s"
 
     def _inputs(self, component: Any, number: int) -> ContactConditions:
-        return self._lasting(samples.contact_conditions(component, self._fields, number))
+        """Return conditions by number; 3: those of 0, come to rest."""
+        given = samples.contact_conditions(component, self._fields, number % 3)
+        given = self._lasting(given)
+        return replace(given, speed=0.0) if number == 3 else given
 
     def _lasting(self, given: ContactConditions) -> ContactConditions:
         """Return conditions with a state that each point has had for a time of its own."""
@@ -71,7 +74,7 @@ class EffectChecks(LocalChecks):
         """
         effect = GuardedEffect(self._make(), BODIES)
         for given in self._samples(effect.component):
-            for at in (given, replace(given, speed=0.0), _gone_far(effect, given)):
+            for at in (given, _gone_far(effect, given)):
                 effect.fields(replace(at, wear_rates={}))
                 effect.state_rates(at)
 

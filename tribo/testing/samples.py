@@ -50,6 +50,14 @@ STEEL = Material(
     conductivity=46.0,
     heat_capacity=460.0,
 )
+BRONZE = Material(
+    young=110e9,
+    poisson=0.34,
+    hardness=1.5e9,
+    density=8800.0,
+    conductivity=60.0,
+    heat_capacity=380.0,
+)
 ARCHARD = Archard(k=1e-16)
 """It wears a third of the first approach within some metres."""
 
@@ -189,7 +197,7 @@ def contact_conditions(
         speed=SPEEDS[number],
         time=10.0 * (1 + number),
         distance=1.0 + number,
-        materials=dict.fromkeys(names, STEEL),
+        materials=dict(zip(names, (STEEL, BRONZE), strict=True)),
         swept=frozenset(names[1:]),
         fields={name: {body: values.copy() for body in names} for name, values in known.items()},
         state=state,

@@ -26,6 +26,10 @@ debris(
     lambda self, c: 1e-3 * c.speed * (self.source(c) - self.leaving(c)),
 )
 debris(
+    "Debris moves at 1 mm/s at the least, at rest too",
+    lambda self, c: max(c.speed, 1e-3) * (self.source(c) - self.leaving(c)),
+)
+debris(
     "The wear of the body called ball becomes debris",
     source=lambda self, c: self.caught * c.wear_rates["ball"],
 )
@@ -126,6 +130,16 @@ for words, parts in {
             / Settling.passed(self, c, time)
         }
     },
+    "The bath does not cool at rest where it advances": {
+        "advance": lambda self, c, time: (
+            Settling.advance(self, c, time)
+            if c.speed
+            else {"bath_temperature": 0 * c.state["bath_temperature"]}
+        )
+    },
+    "The bath advances by the distance, also at rest": {
+        "passed": lambda self, c, time: Settling.passed(self, c, c.speed * time) / c.speed
+    },
 }.items():
     mistake(words, Settling, **parts)
 
@@ -150,6 +164,14 @@ tribofilm(
     "The film fades although there is none",
     faded=lambda self, c: 1 / self.life + 0 * c.state["film"],
 )
+
+
+def by_the_first_hardness(self, contact):
+    first, second = (material.hardness for material in contact.materials.values())
+    return Tribofilm.formed(self, contact) * first / (first + second)
+
+
+tribofilm("The film forms by the hardness of the first body", formed=by_the_first_hardness)
 tribofilm("The film never forms", formed=lambda self, c: 0 * c.pressure, faded=lambda self, c: 0.0)
 tribofilm("Friction does not follow the film", friction=lambda self, c: self.dry + 0 * c.pressure)
 tribofilm(
