@@ -20,3 +20,11 @@ def test_the_residuals_of_a_scar_are_coloured_about_white():
     figure = depth_fit(measured, np.full((2, 2), 1e-6), 1e-8, (1e-5, 1e-5))
     (image,) = figure.axes[1].images
     np.testing.assert_allclose(image.get_clim(), [-100, 100])
+
+
+def test_the_sign_of_large_residuals_of_a_scar_is_seen_in_grey():
+    off = np.outer(np.ones(9), np.linspace(-8, 8, 9))
+    figure = depth_fit(np.zeros((9, 9)), 1e-8 * off, 1e-8, (1e-5, 1e-5))
+    (lines,) = figure.axes[1].collections
+    np.testing.assert_allclose(lines.levels, [-3, 3])
+    assert [dashes is not None for _, dashes in lines.get_linestyle()] == [True, False]

@@ -8,12 +8,13 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from tribo.core.arrays import Array, Mask
-from tribo.plotting.style import DIFFERENCES, house_style, new_figure
+from tribo.plotting.style import DIFFERENCES, Look, house_style, new_figure
 
 DOUBLE = 140.0
 """Width of a picture with two panels, in mm."""
 SURE = 3.0
-"""Standard deviations from the data that a picture of the residuals reaches at least."""
+"""Standard deviations from the data that a picture of the residuals reaches at least, and beyond
+which a map of them is outlined, so that its sign is seen in grey."""
 Range = tuple[float | None, float | None]
 
 
@@ -51,6 +52,9 @@ def depth_fit(
 ) -> Figure:
     """Draw a measured depth, and how far the fitted one is off it.
 
+    On a map a line surrounds what is more than three deviations too deep, a dashed one what is as
+    much too shallow.
+
     Parameters
     ----------
     measured, computed : ndarray, shape (rows, ny)
@@ -68,7 +72,13 @@ def depth_fit(
         "measured depth (µm)": (1e6 * measured, (None, None)),
         "fit − measured (deviations)": (off, (-largest, largest)),
     }
-    return _drawn(panels, spacing, title, "Blues", DIFFERENCES)
+    figure = _drawn(panels, spacing, title, "Blues", DIFFERENCES)
+    lines = [at for at in (-SURE, SURE) if np.nanmin(off) < at < np.nanmax(off)]
+    if len(off) > 1 and lines:
+        (image,) = figure.axes[1].images
+        look: Look = {"extent": image.get_extent(), "colors": "#202020", "linewidths": 0.7}
+        figure.axes[1].contour(off.T, lines, **look)
+    return figure
 
 
 def _drawn(
