@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 
 from tribo.case import Case
 from tribo.core.errors import CaseError
@@ -16,8 +16,8 @@ def in_order(case: Case) -> tuple[Effect, ...]:
     `CaseError` if an effect or a wear law requires what nothing provides, or a field but the share
     of the load is provided twice, or has the name of what a wear law remembers.
     """
-    known = {PLACE_X.name, PLACE_Y.name}
     of_laws = {f.name for b in case.bodies.values() if b.wear for f in b.wear.state_fields}
+    known = {PLACE_X.name, PLACE_Y.name}
     if case.friction is not None:
         known.add(FRICTION_COEFFICIENT.name)
     for effect in case.effects:
@@ -28,37 +28,38 @@ def in_order(case: Case) -> tuple[Effect, ...]:
     ordered: list[Effect] = []
     waiting = list(case.effects)
     while waiting:
-        # What several provide is known once all have.
-        sharing = [e for e in waiting if LOAD_SHARE.name in _provided(e)]
-        ready = next(
-            (
-                e
-                for e in waiting
-                if set(e.requires) <= known | of_laws
-                and (LOAD_SHARE.name not in e.requires or sharing in ([], [e]))
-            ),
-            None,
-        )
+        ready = next((e for e in waiting if _is_ready(e, waiting, known | of_laws)), None)
         if ready is None:
             first = waiting[0]
             missing = sorted(set(first.requires) - known - of_laws) or [LOAD_SHARE.name]
             text = _missing(f"effect {first.type!r}", missing, waiting)
             raise MissingFieldError(text, "effects", missing)
-        shared = (
-            {LOAD_SHARE.name} if any(LOAD_SHARE.name in _provided(e) for e in ordered) else set()
-        )
+        shares = {LOAD_SHARE.name} & {name for e in ordered for name in _provided(e)}
         waiting.remove(ready)
         ordered.append(ready)
         for field in ready.provides:
-            if field.name in (known | of_laws) - shared:
+            if field.name in (known | of_laws) - shares:
                 raise _twice(field, ready)
             known.add(field.name)
+    _check_laws(case, known)
+    return tuple(ordered)
+
+
+def _is_ready(effect: Effect, waiting: Sequence[Effect], known: Set[str]) -> bool:
+    """Whether all that an effect requires is known before those that wait."""
+    if not set(effect.requires) <= known:
+        return False
+    # What several provide is known once all have.
+    others = [e for e in waiting if e is not effect and LOAD_SHARE.name in _provided(e)]
+    return LOAD_SHARE.name not in effect.requires or not others
+
+
+def _check_laws(case: Case, known: Set[str]) -> None:
     for name, body in case.bodies.items():
         for law in body.laws():
             if missing := sorted(set(law.requires) - known):
                 text = _missing(f"wear law {law.type!r}", missing, [])
                 raise MissingFieldError(text, f"bodies.{name}.wear", missing)
-    return tuple(ordered)
 
 
 def _provided(effect: Effect) -> set[str]:

@@ -14,6 +14,7 @@ from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError, NumericalError, PluginError
 from tribo.core.measures import Measures
 from tribo.core.notices import worn_through
+from tribo.core.state import State
 from tribo.lab.first_contact import HertzContact, hertz_contact
 from tribo.result.provenance import stated_facts
 from tribo.simulation.beginning import first_state
@@ -102,32 +103,10 @@ def predict(model: Model) -> Prediction:
     hertz = None if model.case.begin else hertz_contact(model.system)
     dx, dy = model.grid.spacing
     coarse = _coarse_run(model, first)
-    last, lx, ly = coarse.last, *(1e3 * edge for edge in model.grid.size)
+    last = coarse.last
     holds = None if last is None else _inside(model, last) or model.may_reach_edge
     across = None if hertz is None else (2 * hertz.half_width_x / dx, 2 * hertz.half_width_y / dy)
-    # In the order in which a run would come upon them, with the exit codes that it would have.
-    stopping, warned = [], None
-    try:
-        warned = model.stepping.check(model, state)
-    except CaseError as error:
-        stopping.append((error.exit_code, f"the run would stop at once: {error}"))
-    try:
-        start_sliding(model, state)
-    except NumericalError as error:
-        words = f"the run would stop when sliding starts: {error}"
-        stopping.append((error.exit_code, words))
-    if holds is False:
-        when = "" if coarse.outgrown is None else f", at about {coarse.outgrown:.3g} s"
-        words = (
-            f"the contact outgrows the window of {lx:.4g} × {ly:.4g} mm, and the run would "
-            f"stop there{when}: make grid.size larger (and grid.cells with it)"
-        )
-        stopping.append((NumericalError.exit_code, words))
-    if coarse.error is not None and not any(str(coarse.error) in text for _, text in stopping):
-        # What a coarse grid alone cannot carry through, a finer one may.
-        code = coarse.error.exit_code if isinstance(coarse.error, PluginError) else 0
-        may = "" if code else " (the run, on finer cells, may yet go to its end)"
-        stopping.append((code, f"a trial run on a coarse grid failed{may}: {coarse.error}"))
+    stopping, warned = _stopping(model, state, coarse, window_holds=holds)
     problems = (
         *unusual(model.case),
         few_cells(model, state.contact),
@@ -161,6 +140,39 @@ def predict(model: Model) -> Prediction:
         problems=tuple(problem for problem in problems if problem is not None),
         exit_code=next((code for code, _ in stopping if code), 0),
     )
+
+
+def _stopping(
+    model: Model, state: State, coarse: CoarseRun, *, window_holds: bool | None
+) -> tuple[list[tuple[int, str]], str | None]:
+    """Return what would end a run, with its exit codes, and a warning of its steps.
+
+    In the order in which a run would come upon them.
+    """
+    stopping, warned = list[tuple[int, str]](), None
+    try:
+        warned = model.stepping.check(model, state)
+    except CaseError as error:
+        stopping.append((error.exit_code, f"the run would stop at once: {error}"))
+    try:
+        start_sliding(model, state)
+    except NumericalError as error:
+        words = f"the run would stop when sliding starts: {error}"
+        stopping.append((error.exit_code, words))
+    if window_holds is False:
+        lx, ly = (1e3 * edge for edge in model.grid.size)
+        when = "" if coarse.outgrown is None else f", at about {coarse.outgrown:.3g} s"
+        words = (
+            f"the contact outgrows the window of {lx:.4g} × {ly:.4g} mm, and the run would "
+            f"stop there{when}: make grid.size larger (and grid.cells with it)"
+        )
+        stopping.append((NumericalError.exit_code, words))
+    if coarse.error is not None and not any(str(coarse.error) in text for _, text in stopping):
+        # What a coarse grid alone cannot carry through, a finer one may.
+        code = coarse.error.exit_code if isinstance(coarse.error, PluginError) else 0
+        may = "" if code else " (the run, on finer cells, may yet go to its end)"
+        stopping.append((code, f"a trial run on a coarse grid failed{may}: {coarse.error}"))
+    return stopping, warned
 
 
 def _run_time(model: Model, coarse: Model, took: float) -> float:
