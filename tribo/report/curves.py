@@ -60,37 +60,13 @@ def sections(results: Results, times: Sequence[float]) -> list[dict[str, Any]]:
     times : sequence of float
         Of saves that all have, in s.
     """
-    first = next(iter(results.values()))
     saves = {label: [each.save_at(t) for t in times] for label, each in results.items()}
-    depths = {
-        (label, name): [removed(result, name)[i] for i in saves[label]]
+    pressures = {
+        label or "pressure": (result, [result.field("pressure", i) for i in saves[label]])
         for label, result in results.items()
-        for name in first.body_names
     }
-    worn = dict.fromkeys(name for (_, name), fields in depths.items() if np.any(fields))
-    shown: dict[str, tuple[str, Curves]] = {
-        "Contact pressure": (
-            "Pa",
-            {
-                label or "pressure": (result, [result.field("pressure", i) for i in saves[label]])
-                for label, result in results.items()
-            },
-        )
-    }
-    if worn and len(results) == 1:
-        curves = {name: (first, depths["", name]) for name in worn}
-        for name in worn:
-            curves |= _layers(first, name, len(times), float(np.max(depths["", name])))
-        shown["Wear depth"] = "m", curves
-    elif worn:
-        for name in worn:
-            curves = {label: (result, depths[label, name]) for label, result in results.items()}
-            shown[f"Wear depth of {name}"] = "m", curves
-    marked = {label: touched(result, saves[label]) for label, result in results.items()}
-    windows = []
-    for axis in (0, 1):
-        ends = [limits(marked[label], result.grid, axis) for label, result in results.items()]
-        windows.append((min(low for low, _ in ends), max(high for _, high in ends)))
+    shown = {"Contact pressure": ("Pa", pressures), **_depths(results, saves)}
+    windows = _windows(results, saves)
     units = axis_units([max(map(abs, window)) for window in windows])
     count = 2 * len(times) * sum(len(curves) for _, curves in shown.values())
     most = max(min(LONGEST, NUMBERS // count), SHORTEST)
@@ -99,6 +75,39 @@ def sections(results: Results, times: Sequence[float]) -> list[dict[str, Any]]:
         for axis in (0, 1)
         for name, (si, curves) in shown.items()
     ]
+
+
+def _depths(results: Results, saves: Mapping[str, list[int]]) -> dict[str, tuple[str, Curves]]:
+    """Return the depths at saves by chart: of one result in one, of several in one a body."""
+    first = next(iter(results.values()))
+    of_bodies = {
+        name: {
+            label: (result, [removed(result, name)[i] for i in saves[label]])
+            for label, result in results.items()
+        }
+        for name in first.body_names
+    }
+    worn = {
+        name: curves
+        for name, curves in of_bodies.items()
+        if any(np.any(fields) for _, fields in curves.values())
+    }
+    if len(results) > 1 or not worn:
+        return {f"Wear depth of {name}": ("m", curves) for name, curves in worn.items()}
+    curves = {name: of_body[""] for name, of_body in worn.items()}
+    for name, (_, depths) in list(curves.items()):
+        curves |= _layers(first, name, len(depths), float(np.max(depths)))
+    return {"Wear depth": ("m", curves)}
+
+
+def _windows(results: Results, saves: Mapping[str, list[int]]) -> list[tuple[float, float]]:
+    """Return the ends of what was touched in any of the results, along and across, in m."""
+    marked = {label: touched(result, saves[label]) for label, result in results.items()}
+    found = []
+    for axis in (0, 1):
+        ends = [limits(marked[label], result.grid, axis) for label, result in results.items()]
+        found.append((min(low for low, _ in ends), max(high for _, high in ends)))
+    return found
 
 
 def _layers(result: Result, name: str, count: int, deepest: float) -> dict[str, Any]:
