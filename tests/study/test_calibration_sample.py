@@ -9,9 +9,10 @@ import pandas as pd
 import pytest
 from click.testing import CliRunner
 from scipy.optimize import brentq
-from scipy.stats import norm
+from scipy.stats import norm, truncnorm
 
 from tribo.cli.main import tribo
+from tribo.config.load import read_toml
 from tribo.core.errors import CaseError, Interrupted, NumericalError
 from tribo.study.calibration.calibrate import calibrate
 from tribo.study.calibration.fit import fit, interval
@@ -94,7 +95,9 @@ def losses(monkeypatch):
     def made(tables, parameters, values, wanted, *rest):
         k = dict(zip([p.path.split(".")[1] for p in parameters], values, strict=True))
         return Run(
-            np.array([2e-6 / 7.08e-15 * k[w.body] for w in wanted]), np.zeros(len(wanted)), ()
+            np.array([2e-6 / 7.08e-15 * k.get(w.body, 0.0) for w in wanted]),
+            np.zeros(len(wanted)),
+            (),
         )
 
     monkeypatch.setattr("tribo.study.calibration.posed.make_run", made)
@@ -120,19 +123,43 @@ def test_the_command_prints_sampled_intervals_of_the_weighed_coefficients(losses
     )
 
 
-def test_a_fit_that_the_data_leave_open_is_kept_without_samples(monkeypatch):
-    """They tell the product of the coefficients alone."""
+@pytest.fixture
+def products(monkeypatch):
+    """Make each quantity proportional to the product of the coefficients alone."""
 
     def made(tables, parameters, values, wanted, *rest):
         return Run(np.full(len(wanted), 1e-6 * np.prod(values / 3e-16)), np.zeros(len(wanted)), ())
 
     monkeypatch.setattr("tribo.study.calibration.posed.make_run", made)
+
+
+def test_a_fit_that_the_data_leave_open_is_kept_without_samples(products):
     found = calibrate(CASE, WEIGHED, sample=1200)
     assert np.isinf(found.parameters["upper"]).all()
     assert "sampled_lower" not in found.parameters
     assert found.notes[-1].startswith(
         "nothing was sampled, since the data do not bound bodies.ball.wear.k from above: give it"
     )
+
+
+def test_what_the_data_leave_open_is_sampled_up_to_its_bounds(products):
+    fitted = [{"path": f"bodies.{n}.wear.k", "upper": 1e-14} for n in ("ball", "disk")]
+    found = calibrate(CASE, read_toml(WEIGHED) | {"fit": fitted}, sample=1200)
+    assert (found.parameters["sampled_upper"] > 3e-15).all()
+    assert (found.parameters["sampled_upper"] < 1e-14).all()
+
+
+def test_an_estimate_held_by_its_bound_is_sampled_beside_it(losses):
+    """By a loss of 2 ± 0.1 mg, normal but for what is cut off above 0.75 of it."""
+    entry = {"body": "ball", "quantity": "mass", "value": "2 mg", "uncertainty": "0.1 mg"}
+    best = 7.08e-15
+    fitted = {"path": "bodies.ball.wear.k", "start": 0.5 * best, "upper": 0.75 * best}
+    found = calibrate(CASE, {"measured": [entry], "fit": [fitted]}, sample=4000)
+    (only,) = found.parameters.itertuples()
+    low, high = best * truncnorm.ppf([0.025, 0.975], -20, -5, loc=1, scale=0.05)
+    assert only.held
+    assert only.sampled_lower == pytest.approx(low, abs=0.2 * (high - low))
+    assert only.sampled_upper == pytest.approx(high, abs=0.02 * (high - low))
 
 
 def test_what_cannot_be_sampled_is_refused(losses, monkeypatch):

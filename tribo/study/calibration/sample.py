@@ -16,6 +16,8 @@ from tribo.study.calibration.quantities import percent
 
 LEAST, LEFT_OUT = 100, 0.25
 """Fewest samples of a chain, and the part of them, at its beginning, that is left out."""
+WIDE = 1.0
+"""Standard deviation of a logarithm beyond which chains begin anywhere in the interval."""
 NEVER = -1e30
 """Logarithm of the probability where nothing can be run; finite, as chains may begin there."""
 
@@ -58,9 +60,13 @@ def sampled(
         )
     problem, p, chains = fitted.problem, len(estimates), _chains(len(estimates))
     ends, random = np.array([problem.lower, problem.upper]), np.random.default_rng(0)
-    near = random.standard_normal((chains, p)) @ root_covariance(fitted.sensitivity()).T
-    below = np.log(random.uniform(size=(chains, p)) * estimates["upper"].to_numpy())
-    start = np.where(estimates["limited"], below, fitted.point + near)
+    root = root_covariance(fitted.sensitivity())
+    near = fitted.point + random.standard_normal((chains, p)) @ root.T
+    within = np.log(random.uniform(estimates["lower"], estimates["upper"], (chains, p)))
+    start = np.where(np.linalg.norm(root, axis=1) > WIDE, within, near)
+    # Mirrored, so that no two begin on a bound.
+    start = np.where(start > ends[1], 2 * ends[1] - start, start)
+    start = np.where(start < ends[0], 2 * ends[0] - start, start)
     if problem.repeatability is None:
         ends = np.column_stack([ends, np.log(REPEATABILITIES)])
         about = fitted.repeatability * random.uniform(0.5, 1.5, chains)
