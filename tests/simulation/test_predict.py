@@ -5,7 +5,7 @@ import re
 import pytest
 from paper_models import K, archard, flat, half_space, motion, named, small, sphere, steel
 
-from tribo import CaseError, Grid, NumericalError, Simulation, Waves
+from tribo import CaseError, Effect, Field, Grid, NumericalError, Simulation, Waves
 from tribo.simulation.predict import predict
 from tribo.stepping import step
 from tribo.stepping.explicit import Explicit
@@ -123,6 +123,27 @@ def test_a_trial_that_fails_on_coarse_cells_is_told_and_does_not_stop_the_run(mo
         "too coarse",
     )
     assert found.exit_code == 0
+
+
+class Asks(Effect):
+    """Asks for what only the law of one body remembers, from some path on."""
+
+    type = "test.asks"
+    provides = (Field("asked", "1", "Nothing but 0."),)
+
+    def fields(self, contact):
+        if contact.distance > 0:
+            raise CaseError("no law of 'disk' remembers it", "bodies.disk.wear")
+        return {"asked": dict.fromkeys(contact.materials, 0.0)}
+
+
+def test_a_case_refused_on_its_way_ends_check_as_it_ends_the_run():
+    model = small(effects=[Asks()])
+    with pytest.raises(CaseError) as stopped:
+        Simulation(model.case).run()
+    found = predict(model)
+    assert found.exit_code == stopped.value.exit_code == 2
+    assert found.problems == (f"a trial run on a coarse grid failed: {stopped.value}",)
 
 
 def test_a_rough_body_on_a_resolved_track_is_estimated_without_its_relief():

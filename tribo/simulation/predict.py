@@ -83,7 +83,8 @@ class Prediction:
 class CoarseRun:
     """The end of a coarse run, why its average fails then, and why it has no end.
 
-    Its contact outgrew the case's window at `outgrown`, in s; None if it did not.
+    Its contact outgrew the case's window at `outgrown`, in s; None if it did not. An error
+    `on_any_cells` is one of the case or of a component.
     """
 
     last: Measures | None
@@ -91,6 +92,7 @@ class CoarseRun:
     limitation: str | None = None
     worn_through: tuple[Mapping[str, object], ...] = ()
     error: CaseError | NumericalError | None = None
+    on_any_cells: bool = False
     run_time: float | None = None
 
 
@@ -169,7 +171,7 @@ def _stopping(
         stopping.append((NumericalError.exit_code, words))
     if coarse.error is not None and not any(str(coarse.error) in text for _, text in stopping):
         # What a coarse grid alone cannot carry through, a finer one may.
-        code = coarse.error.exit_code if isinstance(coarse.error, PluginError) else 0
+        code = coarse.error.exit_code if coarse.on_any_cells else 0
         may = "" if code else " (the run, on finer cells, may yet go to its end)"
         stopping.append((code, f"a trial run on a coarse grid failed{may}: {coarse.error}"))
     return stopping, warned
@@ -214,11 +216,18 @@ def _coarse_run(model: Model, first: Measures) -> CoarseRun:
             coarse = coarsened(model.case, COARSE, margin, half_width)
             began = time.perf_counter()
             state = begin(coarse)
+        except (CaseError, NumericalError) as error:
+            failed = failed or error
+            continue
+        try:
             for accepted in march(coarse, state):
                 state = accepted.state
                 if outgrown is None and not _inside(model, measure(coarse, state)):
                     outgrown = state.time
-        except (CaseError, NumericalError) as error:
+        except CaseError as error:
+            # Refused on its way: that does not hang on the cells.
+            return CoarseRun(None, error=error, on_any_cells=True)
+        except NumericalError as error:
             failed = failed or error
             continue
         took = time.perf_counter() - began
@@ -231,4 +240,4 @@ def _coarse_run(model: Model, first: Measures) -> CoarseRun:
             if isinstance(model.stepping, Implicit)
             else None,
         )
-    return CoarseRun(None, error=failed)
+    return CoarseRun(None, error=failed, on_any_cells=isinstance(failed, PluginError))
