@@ -13,7 +13,6 @@ from rich.table import Table
 from rich.text import Text
 
 from tribo.cli.console import Console, titled
-from tribo.core.words import signed
 from tribo.lab.inferred import InferredVolume
 from tribo.lab.report import BodyReport, lab_report
 from tribo.lab.running_in import groove_length, rough_bodies, worn_roughness
@@ -261,7 +260,7 @@ def inferred_table(volumes: Sequence[InferredVolume]) -> Table:
             f"{escape(each.body)}: {each.method}"
             + (f" ({each.standard})" if each.standard else ""),
             f"{1e9 * each.volume_m3:.3g}",
-            signed(100 * each.relative_error, 0),
+            each.off,
         )
     return table
 

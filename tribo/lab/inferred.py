@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tribo.core.arrays import middle_rows
+from tribo.core.words import signed
 from tribo.lab.ball import ball_cap_volume, conforming_ball_volume, flat_along_ball_volume
 from tribo.lab.scar import Scar, scar
 from tribo.lab.track import circular_groove_area, groove_radius, planimetric_area
@@ -15,6 +16,9 @@ from tribo.result.read import Result
 
 ROUND = 1e-9
 UNWORN = "groove of an unworn ball"
+SHALLOW = "worn less deep than the contact flattens"
+MOST = 10.0
+"""Times the volume worn from which on a formula is not that of such a scar."""
 
 
 class InferredVolume(NamedTuple):
@@ -32,6 +36,8 @@ class InferredVolume(NamedTuple):
         In m³.
     relative_error : float
         How far it is off the volume worn.
+    premise_broken : str or None
+        Why the formula does not apply here; None where it may.
     """
 
     body: str
@@ -39,13 +45,27 @@ class InferredVolume(NamedTuple):
     standard: str | None
     volume_m3: float
     relative_error: float
+    premise_broken: str | None = None
+
+    @property
+    def off(self) -> str:
+        """How far it is off in %, or why it does not apply."""
+        if self.premise_broken is None:
+            return signed(100 * self.relative_error, 0)
+        return f"does not apply: {self.premise_broken}"
 
 
 def inferred(
-    body: str, method: str, standard: str | None, volume: float, worn: float
+    body: str,
+    method: str,
+    standard: str | None,
+    volume: float,
+    worn: float,
+    premise: str | None = None,
 ) -> InferredVolume:
-    """Return a volume by a formula beside the one worn."""
-    return InferredVolume(body, method, standard, volume, volume / worn - 1)
+    """Return a volume by a formula beside the one worn, and what breaks its premise if far off."""
+    broken = premise if volume > MOST * worn else None
+    return InferredVolume(body, method, standard, volume, volume / worn - 1, broken)
 
 
 def inferred_volumes(result: Result, save: int = -1) -> list[InferredVolume]:
@@ -57,6 +77,10 @@ def inferred_volumes(result: Result, save: int = -1) -> list[InferredVolume]:
     that of a groove as deep as an unworn ball of the track's width would make
     it. The scars are measured by `scar`, and the lab knows the length of the
     track. Plastic indentation is left out.
+
+    G99 asks for the first and the last only where the other body hardly wears, and all take the
+    scar to be deep beside the elastic flattening: where one gives over ten times what is worn, that
+    is said of it.
 
     Returns
     -------
@@ -71,28 +95,45 @@ def inferred_volumes(result: Result, save: int = -1) -> list[InferredVolume]:
     seen = scar(ball.wear_depth[save], result.grid)
     width = scar(flat.wear_depth[save], result.grid).across
     section = track_section(result, flat, save)
+    deepest = {body.name: float(np.max(body.wear_depth[save])) for body in (ball, flat)}
+
+    def too(other: BodyResult, body: BodyResult) -> str:
+        """Return why a formula for a body beside an unworn one fails."""
+        return f"{other.name} wears too" if deepest[other.name] > deepest[body.name] else SHALLOW
+
     found: list[InferredVolume] = []
     if not ball.swept and 0 < seen.mean_diameter < 2 * radius:
         groove = groove_radius(seen.across, section) if section else None
-        found += ball_volumes(ball.name, seen, radius, groove, worn[ball.name])
+        found += ball_volumes(
+            ball.name, seen, radius, groove, worn[ball.name], (too(flat, ball), SHALLOW)
+        )
     if section and 0 < width < 2 * radius:
         volume = worn[flat.name] / section * circular_groove_area(width, radius)
-        found.append(inferred(flat.name, UNWORN, "ASTM G99", volume, worn[flat.name]))
+        lost, premise = worn[flat.name], too(ball, flat)
+        found.append(inferred(flat.name, UNWORN, "ASTM G99", volume, lost, premise))
     return found
 
 
 def ball_volumes(
-    body: str, seen: Scar, radius: float, groove: float | None, worn: float
+    body: str,
+    seen: Scar,
+    radius: float,
+    groove: float | None,
+    worn: float,
+    premises: tuple[str | None, str | None] = (None, None),
 ) -> list[InferredVolume]:
-    """Return a ball's volumes by formulas, of its scar, its radius and that of the groove in m."""
-    methods: list[tuple[str, str | None, float]] = [
-        ("flat scar", "ASTM G99", ball_cap_volume(seen.mean_diameter, radius)),
-        ("scar flat along sliding only", None, flat_along_ball_volume(*seen, radius)),
-    ]
+    """Return a ball's volumes by formulas, of its scar, its radius and that of the groove in m.
+
+    `premises` are what breaks that of a flat scar, and that of the others.
+    """
+    alone, all_of = premises
+    cap, along = ball_cap_volume(seen.mean_diameter, radius), flat_along_ball_volume(*seen, radius)
+    found = [inferred(body, "flat scar", "ASTM G99", cap, worn, alone)]
     if groove and groove > radius:
         volume = conforming_ball_volume(*seen, radius, groove)
-        methods.insert(1, ("scar in a groove", "ASTM D7755", volume))
-    return [inferred(body, *each, worn) for each in methods]
+        found.append(inferred(body, "scar in a groove", "ASTM D7755", volume, worn, all_of))
+    found.append(inferred(body, "scar flat along sliding only", None, along, worn, all_of))
+    return found
 
 
 def track_section(result: Result, body: BodyResult, save: int = -1) -> float | None:

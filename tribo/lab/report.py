@@ -71,8 +71,8 @@ class LabReport:
         """Return it in words, a line each."""
         lines = [f"{name}: {_said(body)}" for name, body in self.bodies.items()]
         for each in self.inferred:
-            off = f"{1e9 * each.volume_m3:.3g} mm³ ({signed(100 * each.relative_error, 0)} %)"
-            lines.append(f"{each.body}, {each.method}: {off}")
+            off = each.off if each.premise_broken else f"{each.off} %"
+            lines.append(f"{each.body}, {each.method}: {1e9 * each.volume_m3:.3g} mm³ ({off})")
         lines += [f"{row.label}: {row.value:.4g} {row.unit}".rstrip() for row in self.rows]
         return "\n".join([*lines, self.first_contact_words])
 
