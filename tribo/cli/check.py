@@ -15,7 +15,8 @@ from rich.text import Text
 from tribo.cli.console import Console
 from tribo.cli.options import CASE, JSON, SET, echo_json
 from tribo.core.errors import CaseError, NumericalError
-from tribo.lab.first_contact import HertzContact, computed_pressure, yield_words
+from tribo.core.words import readable
+from tribo.lab.first_contact import HertzContact, computed_pressure, in_mpa, yield_words
 from tribo.simulation.model import Model
 from tribo.simulation.predict import Prediction
 
@@ -109,13 +110,13 @@ def _facts(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
     if low < high:
         yield "load", f"{first.load:.4g} N at first, {low:.4g} to {high:.4g} N in all"
     if begin := model.case.begin:
-        most = f"p max {1e-6 * first.max_pressure:.1f} MPa"
+        most = f"p max {in_mpa(first.max_pressure)}"
         yield "first contact", f"of the bodies as worn in {begin.result}: {most}"
     elif prediction.hertz_bounds:
         below, above = prediction.hertz_bounds
         said = "{} without the layer, {} of the layer throughout"
         yield "Hertz half-widths", said.format(_widths(below), _widths(above))
-        peaks = (f"{1e-6 * each.peak_pressure:.1f} MPa" for each in (below, above))
+        peaks = (in_mpa(each.peak_pressure) for each in (below, above))
         _, computed = computed_pressure(model.system, first.max_pressure, first.centre_pressure)
         yield "Hertz peak pressure p0", f"{said.format(*peaks)}, computed {computed}"
     elif hertz is None or prediction.cells_across is None:
@@ -126,7 +127,7 @@ def _facts(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
         pressure, computed = computed_pressure(
             model.system, first.max_pressure, first.centre_pressure
         )
-        yield "Hertz peak pressure p0", f"{1e-6 * p0:.1f} MPa, computed {computed}"
+        yield "Hertz peak pressure p0", f"{in_mpa(p0)}, computed {computed}"
         hardness = model.system.cap
         if hardness is not None:
             yield "p0/H", f"{p0 / hardness:.3f}"
@@ -140,8 +141,9 @@ def _facts(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
     if last is None:
         yield "final scar", "not estimated"
     else:
-        size = f"{2e3 * last.half_width_x:.2f} × {2e3 * last.half_width_y:.2f} mm"
-        yield "contact at the end, about", size
+        widths = (2e3 * last.half_width_x, 2e3 * last.half_width_y)
+        size = " × ".join(readable(width, ".2f") for width in widths)
+        yield "contact at the end, about", f"{size} mm"
         window = " × ".join(f"{1e3 * edge:.4g}" for edge in model.grid.size)
         holds = "holds it" if prediction.window_holds else "TOO SMALL"
         yield f"window of {window} mm", holds
@@ -156,5 +158,5 @@ def _facts(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
     if prediction.run_time is not None:
         soonest, latest = prediction.run_time / SPREAD, prediction.run_time * SPREAD
         yield "run time here, about", f"{soonest:.2g} to {latest:.2g} s"
-    yield "memory, at most", f"{prediction.memory / 2**20:.0f} MiB"
+    yield "memory, at most", f"{readable(prediction.memory / 2**20, '.0f')} MiB"
     yield "result file, at most", f"{prediction.file_size / 2**20:.1f} MiB"

@@ -32,8 +32,11 @@ def report(what: tuple[Path, ...], output: Path | None, verified: Path | None) -
       tribo report study-sweep
       tribo report fit.json
     """
+    from tribo.core.words import readable
     from tribo.report.write import write_report
 
     path = output or what[0].with_name("-".join([*(each.stem for each in what), "report.html"]))
     write_report(what[0] if len(what) == 1 else what, path, verified=verified)
-    click.echo(f"Wrote {path} ({path.stat().st_size / 1e6:.1f} MB), for any browser, offline")
+    click.echo(
+        f"Wrote {path} ({readable(path.stat().st_size / 1e6, '.1f')} MB), for any browser, offline"
+    )

@@ -9,7 +9,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from tribo.cli.console import Console
-from tribo.core.words import signed
+from tribo.core.words import readable, signed
 from tribo.study.comparison import Comparison
 from tribo.study.differences import differences
 
@@ -82,7 +82,9 @@ def comparison_table(
         table.add_column(escape(label), justify="right", overflow="fold", min_width=width)
     totals = [comparison.results[label].totals() for label in labels]
     for name, key, digits in _TOTALS:
-        table.add_row(name, *(NOTHING if t[key] is None else f"{t[key]:{digits}}" for t in totals))
+        table.add_row(
+            name, *(NOTHING if t[key] is None else readable(t[key], digits) for t in totals)
+        )
     for time in times:
         table.add_section()
         table.add_row(f"[bold]at {time:g} s[/]")
@@ -107,7 +109,9 @@ def _at(comparison: Comparison, labels: Sequence[str], time: float) -> dict[str,
         if any(values.values()):
             off = {label: _off(values[label], values[reference]) for label in labels}
             off[reference] = ""
-            found[name] = [f"{factor * values[label]:{digits}}{off[label]}" for label in labels]
+            found[name] = [
+                readable(factor * values[label], digits) + off[label] for label in labels
+            ]
     first = comparison.results[reference]
     for i, label in enumerate(labels):
         result = comparison.results[label]

@@ -13,6 +13,7 @@ from rich.table import Table
 from rich.text import Text
 
 from tribo.cli.console import Console, titled
+from tribo.core.words import readable
 from tribo.lab.inferred import InferredVolume
 from tribo.lab.report import BodyReport, lab_report
 from tribo.lab.running_in import groove_length, rough_bodies, worn_roughness
@@ -88,7 +89,7 @@ def print_report(result: Result, console: Console | None = None, *, told: str = 
     for row in lab.rows:
         console.print(f"{row.label}: {row.value:.4g} {row.unit}".rstrip(), markup=False)
     totals, worst = result.totals(), result.worst()
-    took = "" if result.wall_time is None else f", {result.wall_time:.1f} s"
+    took = "" if result.wall_time is None else f", {readable(result.wall_time, '.1f')} s"
     console.print(f"{totals['steps']} steps, {totals['contact_solves']} contact solves{took}.")
     console.print(
         f"At worst: load off by {worst['force_error']:.0e}, worn volume by "
@@ -173,16 +174,15 @@ def saves_table(result: Result, left_out: Sequence[str] = ()) -> Table:
         values = [factor * save[key] for save in saves]
         # Of a flat contact whole MPa are too coarse.
         shown = ".2f" if unit == "MPa" and 0 < max(values) < LOW else digits
-        cells = [f"{value:{shown}}" for value in values]
+        cells = [readable(value, shown) for value in values]
         steady = name in VARYING and len(set(cells)) == 1 and not along
         if name not in left_out and not steady:
             table.add_column(f"{name}\n{unit}", justify="right", no_wrap=True)
             columns.append(cells)
     for body in result.body_names:
         worn = [save["bodies"][body]["max_wear_depth_m"] for save in saves]
-        # Two decimals of a µm leave nothing of a depth of some nm.
         unit, factor = ("nm", 1e9) if 0 < max(worn) < SHALLOW else ("µm", 1e6)
-        depths = [f"{factor * depth:.2f}" for depth in worn]
+        depths = [readable(factor * depth, ".2f") for depth in worn]
         # A long name is broken before a number is.
         table.add_column(
             f"{escape(body)}\n{unit}",
@@ -231,7 +231,7 @@ def _worn(body: BodyReport, save: Mapping[str, float], groove: float | None) -> 
         "largest plastic depth, µm": (save["max_plastic_depth_m"], 1e6, ".3g"),
     }
     cells = {
-        row: NOTHING if value is None else f"{factor * value:{digits}}"
+        row: NOTHING if value is None else readable(factor * value, digits)
         for row, (value, factor, digits) in rows.items()
     }
     if scarred and body.scar_along_m is None and groove is None:

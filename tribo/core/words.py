@@ -28,6 +28,12 @@ def signed(value: float, decimals: int) -> str:
     return text if float(text) else text[1:]
 
 
+def readable(value: float, form: str) -> str:
+    """Return a number in a format, with two digits where that would round a twentieth of it off."""
+    text = f"{value:{form}}"
+    return text if abs(float(text) - value) <= 0.05 * abs(value) else f"{value:.2g}"
+
+
 def did_you_mean(name: object, known: Iterable[str]) -> str | None:
     """Return the name in `known` that is most like `name`, if one is."""
     close = get_close_matches(name, list(known), n=1) if isinstance(name, str) else []

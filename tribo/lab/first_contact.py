@@ -7,6 +7,7 @@ from math import inf
 
 from tribo.closed_forms import hertz
 from tribo.core.contact import ContactSystem
+from tribo.core.words import readable
 from tribo.result.read import Result
 
 AT_THE_CAP = 1 - 1e-9
@@ -98,13 +99,18 @@ def computed_pressure(
     """
     hertz = hertz_contact(system)
     if hertz is None or not hertz.is_line:
-        return max_pressure, f"p max {1e-6 * max_pressure:.1f} MPa"
-    words = f"p {1e-6 * centre_pressure:.1f} MPa at mid-length"
+        return max_pressure, f"p max {in_mpa(max_pressure)}"
+    words = f"p {in_mpa(centre_pressure)} at mid-length"
     if max_pressure > END_PEAK * centre_pressure:
         capped = system.cap is not None and max_pressure >= AT_THE_CAP * system.cap
         why = "the hardness" if capped else "grows as the grid is refined"
-        words += f" and {1e-6 * max_pressure:.1f} MPa at the ends ({why})"
+        words += f" and {in_mpa(max_pressure)} at the ends ({why})"
     return centre_pressure, words
+
+
+def in_mpa(pressure: float) -> str:
+    """Return a pressure, in Pa, in words."""
+    return f"{readable(1e-6 * pressure, '.1f')} MPa"
 
 
 def yield_words(pressure: float, hardness: float, *, line: bool = False) -> str:

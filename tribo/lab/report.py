@@ -9,9 +9,9 @@ from typing import Any, NamedTuple
 
 from tribo.closed_forms.hertz import first_yield_pressure
 from tribo.core.measures import reaches_border
-from tribo.core.words import signed
+from tribo.core.words import readable, signed
 from tribo.lab.conversion import in_mm3_per_newton_metre, mass_from_volume, specific_wear_rate
-from tribo.lab.first_contact import computed_pressure, first_hertz, yield_words
+from tribo.lab.first_contact import computed_pressure, first_hertz, in_mpa, yield_words
 from tribo.lab.inferred import InferredVolume, inferred_volumes, track_section
 from tribo.lab.scar import scar
 from tribo.registry.hookspecs import LabRow
@@ -103,14 +103,16 @@ def lab_report(result: Result) -> LabReport:
 def _said(body: BodyReport) -> str:
     """Return the numbers of a body in a lab's units."""
     values = (
-        ("specific wear rate {:.3g} mm³/(N·m)", body.specific_wear_rate_mm3_per_Nm, 1.0),
-        ("mass {:.3g} mg", body.mass_kg, 1e6),
-        ("scar along sliding {:.3f} mm", body.scar_along_m, 1e3),
-        ("scar across {:.3f} mm", body.scar_across_m, 1e3),
-        ("section of the track {:.3g} mm²", body.track_section_m2, 1e6),
+        ("specific wear rate {} mm³/(N·m)", body.specific_wear_rate_mm3_per_Nm, 1.0, ".3g"),
+        ("mass {} mg", body.mass_kg, 1e6, ".3g"),
+        ("scar along sliding {} mm", body.scar_along_m, 1e3, ".3f"),
+        ("scar across {} mm", body.scar_across_m, 1e3, ".3f"),
+        ("section of the track {} mm²", body.track_section_m2, 1e6, ".3g"),
     )
     return ", ".join(
-        words.format(factor * value) for words, value, factor in values if value is not None
+        words.format(readable(factor * value, form))
+        for words, value, factor, form in values
+        if value is not None
     )
 
 
@@ -144,7 +146,7 @@ def _first_contact(result: Result) -> tuple[FirstContact, str]:
             f"First contact: {words}; no closed form to compare, as {hertz}."
         )
     p0, ratio = hertz.peak_pressure, None
-    words = f"First contact: {words}, Hertz {1e-6 * p0:.1f} MPa"
+    words = f"First contact: {words}, Hertz {in_mpa(p0)}"
     half_space = result.case.get("contact", {}).get("type") == HALF_SPACE
     if half_space and not reaches_border(result.field("pressure", 0)):
         words += f" ({signed(100 * (largest / p0 - 1), 2)} %)"

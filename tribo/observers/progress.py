@@ -15,6 +15,7 @@ from rich.progress import Progress as Bar
 from rich.table import Column
 
 from tribo.core.state import RunInfo, Snapshot
+from tribo.core.words import readable
 from tribo.observers.observer import Observer
 
 QUIET = 2.0
@@ -79,7 +80,7 @@ class Progress(Observer):
         worn = [f"{name} {1e6 * body.max_wear_depth:.3g} µm" for name, body in m.bodies.items()]
         words = (
             f"{m.time:.4g} of {self._run.end_time:.4g} s · step {snapshot.state.steps} · "
-            f"p max {1e-6 * m.max_pressure:.0f} MPa · {', '.join(worn)}"
+            f"p max {readable(1e-6 * m.max_pressure, '.0f')} MPa · {', '.join(worn)}"
         )
         self._bar.update(self._task, completed=self._part(snapshot), description=words)
         self._bar.refresh()

@@ -1,0 +1,21 @@
+"""Numbers in words and tables."""
+
+import numpy as np
+import pytest
+
+from tribo.core.words import readable
+
+
+@pytest.mark.parametrize("form", [".0f", ".1f", ".2f", ".3f", ".3g"])
+def test_what_is_small_is_told_to_a_twentieth(form):
+    for value in np.geomspace(1e-12, 1e6, 400):
+        assert float(readable(value, form)) == pytest.approx(value, rel=0.051, abs=0)
+        assert float(readable(-value, form)) == pytest.approx(-value, rel=0.051, abs=0)
+
+
+def test_what_is_large_keeps_its_format_and_nothing_is_0():
+    assert [readable(value, ".2f") for value in (0.0, 24.331, 0.0042)] == [
+        "0.00",
+        "24.33",
+        "0.0042",
+    ]
