@@ -12,6 +12,7 @@ from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.plotting.sections import (
     draw_profiles,
+    layer_ends,
     number_of_saves,
     removed,
     scar_mask,
@@ -27,6 +28,7 @@ UNWORN: tuple[Look, Look] = (
     {"color": "#404040", "linewidth": 0.8, "linestyle": (0.0, (5.0, 1.6))},
 )
 """Of the upper and of the lower body."""
+LAYER: Look = {"color": "black", "linewidth": 0.6, "linestyle": (0.0, (6.0, 1.5, 1.0, 1.5))}
 UPPER, LOWER = "#e4e4e4", "#b4b4b4"
 
 
@@ -84,8 +86,9 @@ def worn_section(result: Result) -> Figure:
     They are set down on each other without load, so that they touch at their
     closest point and the scars are seen to conform. A swept body lies below.
     The unworn surface of each worn body is drawn where its points were: that
-    of the upper one, dotted, runs inside the lower body. The picture states
-    how much it enlarges heights and how deep the scars are.
+    of the upper one, dotted, runs inside the lower body. A thin line marks where a layer ends
+    that has been worn through or by half at least. The picture states how much it enlarges heights
+    and how deep the scars are.
     """
     last = number_of_saves(result) - 1
     upper, lower = sorted(map(result.body, result.body_names), key=lambda body: body.swept)
@@ -106,6 +109,12 @@ def worn_section(result: Result) -> Figure:
             surfaces.append(surface)
             looks.append(look)
             labels.append(f"{body.name} unworn")
+        # Into the body: upwards in the upper one.
+        inwards = 1.0 if body is upper else -1.0
+        for label, end in layer_ends(result, body.name, depth).items():
+            surfaces.append(surface + inwards * end)
+            looks.append(LAYER)
+            labels.append(label)
     fields = [(result.grid, surface, marked) for surface in surfaces]
     figure = draw_profiles(
         through_centre(fields),

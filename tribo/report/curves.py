@@ -9,7 +9,7 @@ import numpy as np
 
 from tribo.core.arrays import Array, Mask
 from tribo.plotting.kept import kept_fields
-from tribo.plotting.sections import limits, removed, scar_mask
+from tribo.plotting.sections import layer_ends, limits, removed, scar_mask
 from tribo.plotting.units import axis_units, shown_in, size, time_labels, time_unit
 from tribo.report.reduced import Blocks, block_words, each_plain, plain
 from tribo.result.export import profile
@@ -96,7 +96,8 @@ def _depths(results: Results, saves: Mapping[str, list[int]]) -> dict[str, tuple
         return {f"Wear depth of {name}": ("m", curves) for name, curves in worn.items()}
     curves = {name: of_body[""] for name, of_body in worn.items()}
     for name, (_, depths) in list(curves.items()):
-        curves |= _layers(first, name, len(depths), float(np.max(depths)))
+        for label, end in layer_ends(first, name, float(np.max(depths))).items():
+            curves[label] = first, [np.full(first.grid.cells, end)] * len(depths)
     return {"Wear depth": ("m", curves)}
 
 
@@ -108,17 +109,6 @@ def _windows(results: Results, saves: Mapping[str, list[int]]) -> list[tuple[flo
         ends = [limits(marked[label], result.grid, axis) for label, result in results.items()]
         found.append((min(low for low, _ in ends), max(high for _, high in ends)))
     return found
-
-
-def _layers(result: Result, name: str, count: int, deepest: float) -> dict[str, Any]:
-    """Return the depths at which layers of a body end, as curves, down to twice the deepest."""
-    layers = result.case["bodies"][name].get("layers") or ()
-    ends = np.cumsum([float(layer["thickness"]) for layer in layers])
-    return {
-        f"{name}: end of layer {number}": (result, [np.full(result.grid.cells, end)] * count)
-        for number, end in enumerate(ends, start=1)
-        if end <= 2 * deepest
-    }
 
 
 def _section(
