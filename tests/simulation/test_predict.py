@@ -1,6 +1,8 @@
 """What check foresees is what the run then does."""
 
 import re
+from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 from paper_models import K, archard, flat, half_space, motion, named, small, sphere, steel
@@ -123,6 +125,21 @@ def test_a_trial_that_fails_on_coarse_cells_is_told_and_does_not_stop_the_run(mo
         "too coarse",
     )
     assert found.exit_code == 0
+
+
+def test_a_trial_whose_steps_lead_nowhere_is_given_up(monkeypatch):
+    """A check that never ends tells nothing."""
+
+    def creeps(model, state):
+        while True:
+            state = replace(state, distance=state.distance + 1e-9)
+            yield SimpleNamespace(state=state)
+
+    monkeypatch.setattr("tribo.simulation.predict.march", creeps)
+    found = predict(small())
+    (problem,) = found.problems
+    assert "its steps are too short: 1000 of them slid 1e-06 of" in problem
+    assert found.last is None
 
 
 class Asks(Effect):

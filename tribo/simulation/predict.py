@@ -43,6 +43,8 @@ LONGER, FINER, SHARED = 6.5, 0.25, 0.7
 
 Ten templates and the resolved hour take 0.6 to 1.5 times what this says.
 """
+PATIENCE, LITTLE = 1000, 0.01
+"""Steps after which a trial is given up that has slid no more than such a part of the path."""
 BARE_FILE = 1e6
 
 
@@ -220,8 +222,14 @@ def _coarse_run(model: Model, first: Measures) -> CoarseRun:
             failed = failed or error
             continue
         try:
-            for accepted in march(coarse, state):
+            for steps, accepted in enumerate(march(coarse, state), start=1):
                 state = accepted.state
+                if steps >= PATIENCE and state.distance < LITTLE * coarse.end_distance:
+                    raise NumericalError(
+                        f"its steps are too short: {steps} of them slid {state.distance:.3g} of "
+                        f"{coarse.end_distance:.4g} m; find what changes so fast: a wear law, or "
+                        "what fills the gap"
+                    )
                 if outgrown is None and not _inside(model, measure(coarse, state)):
                     outgrown = state.time
         except CaseError as error:
