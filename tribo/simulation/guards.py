@@ -147,12 +147,13 @@ class GuardedEffect(Guard[Effect]):
         if not isinstance(answer, Mapping):
             raise self.wrong(answer, "instead of its fields")
         found: dict[str, dict[str, Array]] = {}
+        when = "" if contact.speed > 0 else " at rest"
         for field in self.provides:
             of_bodies = answer.get(field.name, {})
             found[field.name] = {}
             for body in contact.materials:
                 values = of_bodies.get(body) if isinstance(of_bodies, Mapping) else None
-                what = f"{field.name!r} for body {body!r}"
+                what = f"{field.name!r} for body {body!r}{when}"
                 if values is None:
                     raise PluginError(f"{self} gave no {what}")
                 array = self.field(what, values, contact.pressure.shape, spread=True)

@@ -25,8 +25,6 @@ if TYPE_CHECKING:
 
 COARSE = Plan(((0.25, True), (0.75, True)), np.inf)
 """Where an increment has more parts than these, they do to find slopes."""
-CLOSE = 1e-8
-"""Accuracy of what is accumulated over a course that is known."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +78,13 @@ def course(
     of_model = partial(_rates, model, before, layered, contacts, increment, moment)
     start, limits = _start(model, before, layered)
     values, depths, taken = integrated(
-        of_model, start, increment, limits, plan, of_steps=bool(layered) or model.advances
+        of_model,
+        start,
+        increment,
+        limits,
+        plan,
+        of_steps=bool(layered) or model.advances,
+        layered=len(layered),
     )
     each = iter(depths)
     mean = [
@@ -96,12 +100,13 @@ def accumulated(
     contacts: Sequence[ContactSolution],
     increment: float,
     moment: Moment,
+    plan: Plan,
     rate: Callable[[Memory, float], float],
 ) -> float:
     """Return what a rate per metre comes to over a course, as it follows what is remembered.
 
-    The increment (m), and the `moment` at its end, are those of `course`. The rate is asked with
-    what is remembered and how much of the increment has passed.
+    The increment (m), and the `moment` at its end, are those of `course`, and `plan` is how it was
+    divided. The rate is asked with what is remembered and how much of the increment has passed.
     """
     layered = _layered(model)
     start, limits = _start(model, before, layered)
@@ -111,9 +116,15 @@ def accumulated(
         now = _memory(before, layered, values)
         return [*found[: len(start)], np.array(rate(now, passed))]
 
-    plan = Plan(accuracy=CLOSE)
-    of_steps = bool(layered) or model.advances
-    _, (total,), _ = integrated(rates, start, increment, limits, plan, of_steps=of_steps)
+    _, (total,), _ = integrated(
+        rates,
+        start,
+        increment,
+        limits,
+        Plan(plan.parts),
+        of_steps=bool(layered) or model.advances,
+        layered=len(layered),
+    )
     return float(total)
 
 

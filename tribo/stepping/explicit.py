@@ -116,7 +116,7 @@ class Explicit(Scheme):
         )
         model.tell(Solved(contacts))
         after = accepted(model, counted(after, contacts), contacts, loads)
-        return with_friction_work(model, state, after, state.contacts)
+        return with_friction_work(model, state, after, state.contacts, slid.plan)
 
     def _instability(self, model: Model, state: State, moment: Moment) -> str | None:
         """Return a warning of a step that is beyond the limit where the case allows it.

@@ -31,6 +31,8 @@ FINEST = 2.0**-20
 """The smallest part, where a state goes on to leave its limits."""
 PLAIN, RELAXING = (1, 2, 3), (1, 2, 3, 4)
 """Euler steps of the rows of the extrapolation, without and with the relaxation of the states."""
+FADED = 0.01
+"""Part of what a state begins with, below which its error is relative to that part."""
 NUDGE = 1e-6
 """Part of a state by which it is moved to find how fast it relaxes."""
 
@@ -81,6 +83,7 @@ def integrated(
     plan: Plan | None = None,
     *,
     of_steps: bool = False,
+    layered: int = 0,
 ) -> tuple[Values, Values, Plan]:
     """Return states after an increment, what other rates come to over it, and how it was divided.
 
@@ -105,8 +108,9 @@ def integrated(
         smoothly from the rates.
     of_steps : bool, optional
         Whether rates are the means over the part that they are told of, as where points pass from
-        layer to layer within it, or a model knows them: they are asked anew for each length, and
-        have no jumps.
+        layer to layer within it, or a model knows them: they are asked anew for each length.
+    layered : int, optional
+        How many of the last states are depths worn in layers, at whose bottoms such rates may jump.
 
     Raises
     ------
@@ -122,7 +126,8 @@ def integrated(
     Exponential integrators, Acta Numerica 19, 209-286.
     """
     plan = plan or Plan()
-    problem = _Problem(rates, length, limits, of_steps, repeated=math.isinf(plan.accuracy))
+    sizes = [np.abs(value) for value in start]
+    problem = _Problem(rates, length, limits, sizes, of_steps, layered, math.isinf(plan.accuracy))
     here = begin = problem.begin(start)
     waiting, done, missed = list(plan.parts), list[tuple[float, bool]](), 0.0
     while waiting:
@@ -181,12 +186,17 @@ class _Trial:
 
 @dataclass(frozen=True)
 class _Problem:
-    """What `integrated` integrates; `repeated` where its parts are taken as they are."""
+    """What `integrated` integrates, from states of these `sizes` on.
+
+    It is `repeated` where its parts are taken as they are.
+    """
 
     rates: Rates
     length: float
     limits: Sequence[Limits]
+    sizes: Sequence[Array]
     of_steps: bool
+    layered: int
     repeated: bool
 
     def begin(self, start: Sequence[Array]) -> _Place:
@@ -215,7 +225,8 @@ class _Problem:
             self.of_steps,
         )
         sizes = [
-            np.maximum(np.abs(old), np.abs(new)) for old, new in zip(values, best, strict=False)
+            np.maximum.reduce([np.abs(old), np.abs(new), FADED * size])
+            for old, new, size in zip(values, best, self.sizes, strict=False)
         ]
         sizes += [
             np.maximum(np.abs(new), part * np.abs(old))
@@ -228,11 +239,29 @@ class _Problem:
         if not self.repeated:
             # Trials held to a limit agree with each other, whatever the state goes to.
             off = max(off, *map(_part_of, moved, sizes), 0.0)
-        if off <= accuracy < math.inf and not self.of_steps:
-            off = max(off, _jump(samples, last, span, here.sums, count))
+        if off <= accuracy < math.inf:
+            if self.layered:
+                at = [
+                    self._between(along, values, held, share)
+                    for share in (0, 1 / 2, 1 / 3, 2 / 3, 1)
+                ]
+                off = max(off, _jump(at[:4], at[4], span, here.sums, count))
+            elif not self.of_steps:
+                off = max(off, _jump(samples, last, span, here.sums, count))
         sums = [old + new for old, new in zip(here.sums, best[count:], strict=True)]
-        beyond = [_beyond(*each) for each in zip(best, sizes, limits, strict=False)]
+        beyond = [
+            _beyond(value, np.maximum(size, begun), limit)
+            for value, size, begun, limit in zip(best, sizes, self.sizes, limits, strict=False)
+        ]
         return _Trial(_Place(here.passed + part, held, sums, last), off, beyond)
+
+    def _between(
+        self, along: Rates, start: Sequence[Array], end: Sequence[Array], share: float
+    ) -> Values:
+        """Return the rates where a share of a part has passed, in the layers where it begins."""
+        remembered = len(start) - self.layered
+        states = [s + share * (e - s) for s, e in zip(start, end, strict=True)]
+        return along([*states[:remembered], *start[remembered:]], share, 0.0)
 
 
 def _cut(waiting: list[tuple[float, bool]], accurate: float) -> None:
@@ -363,7 +392,10 @@ def _relative(fine: Array, coarse: Array, size: Array) -> float:
 
 def _part_of(amount: float, size: Array) -> float:
     whole = float(np.sum(size))
-    return amount / whole if whole > 0 else 0.0
+    if whole > 0:
+        return amount / whole
+    # Of what comes out as 0 nothing tells how large it is.
+    return 0.0 if amount == 0 else math.inf
 
 
 def _beyond(values: Array, size: Array, limit: Limits) -> float:

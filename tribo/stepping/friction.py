@@ -2,27 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.integrate import quad
 
 from tribo.core.arrays import Array, readonly
 from tribo.core.contact import ContactSolution
 from tribo.core.fields import FRICTION_COEFFICIENT
 from tribo.core.state import State
 from tribo.stepping.evolution import accumulated
+from tribo.stepping.extrapolation import Plan
 from tribo.stepping.memory import Memory, remembered, under
 from tribo.stepping.rates import Moment, local_fields
 
 if TYPE_CHECKING:
     from tribo.simulation.model import Model
 
-ACCURACY = 1e-10
-"""Relative error of the work of a force that only time, place and pressure rule."""
+ACCURACY = 1e-6
+"""Difference of two rules of Gauss, of all work so far, above which a part of a step is halved. The
+finer of them is far closer, where friction has no jumps."""
+HALVINGS = 3
+"""After which it is taken as it is."""
+RULES = [np.polynomial.legendre.leggauss(count) for count in (3, 5)]
+"""Places and weights, from -1 to 1."""
 
 
 def friction_force(model: Model, state: State) -> float:
@@ -60,16 +65,16 @@ def _mean(model: Model, pressures: Sequence[Array], memory: Memory, moment: Mome
 
 
 def with_friction_work(
-    model: Model, before: State, after: State, contacts: Sequence[ContactSolution]
+    model: Model, before: State, after: State, contacts: Sequence[ContactSolution], plan: Plan
 ) -> State:
     """Return `after`, the end of a step, with the work of friction over it.
 
     Load and pressure go in a straight line from one end of the step to the other: from after a jump
     of the load that it begins with, to before one that it ends with. What is remembered goes on
-    under `contacts`, those that the bodies wear under.
+    under `contacts`, those that the bodies wear under, in the parts of `plan`.
     """
     if model.friction_varies:
-        work = _varying_work(model, before, after, contacts)
+        work = _varying_work(model, before, after, contacts, plan)
     else:
         friction = model.friction_coefficient or 0.0
         work = friction * (after.load_distance - before.load_distance)
@@ -77,7 +82,7 @@ def with_friction_work(
 
 
 def _varying_work(
-    model: Model, before: State, after: State, contacts: Sequence[ContactSolution]
+    model: Model, before: State, after: State, contacts: Sequence[ContactSolution], plan: Plan
 ) -> float:
     """Return the integral of what effects give, times the load, over a step, in J."""
     time, increment = after.time - before.time, after.distance - before.distance
@@ -98,7 +103,23 @@ def _varying_work(
     memory = remembered(before)
     if model.friction_remembers:
         end = Moment(after.time, after.distance, after.speed)
-        return accumulated(model, memory, contacts, increment, end, force)
-    # A third answer beside the result and its error says what a warning would.
-    mean, *_ = quad(partial(force, memory), 0, 1, epsrel=ACCURACY, epsabs=0, full_output=1)
-    return float(increment * mean)
+        return accumulated(model, memory, contacts, increment, end, plan, force)
+    allowed = ACCURACY * before.friction_energy / increment
+    return increment * _integral(partial(force, memory), 0.0, 1.0, allowed)
+
+
+def _integral(
+    values: Callable[[float], float], begin: float, end: float, allowed: float, halved: int = 0
+) -> float:
+    """Return the integral of values, to an accuracy of itself, or to what is `allowed`."""
+    half, middle = 0.5 * (end - begin), 0.5 * (begin + end)
+    coarse, fine = (
+        half
+        * sum(weight * values(middle + half * place) for place, weight in zip(*rule, strict=True))
+        for rule in RULES
+    )
+    if abs(fine - coarse) <= max(ACCURACY * fine, allowed) or halved == HALVINGS:
+        return float(fine)
+    return _integral(values, begin, middle, allowed, halved + 1) + _integral(
+        values, middle, end, allowed, halved + 1
+    )

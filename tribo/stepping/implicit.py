@@ -19,6 +19,7 @@ from tribo.core.units import Quantity
 from tribo.stepping.contacts import solve_cycle
 from tribo.stepping.events import Worn
 from tribo.stepping.evolution import Course, course, sloped
+from tribo.stepping.extrapolation import Plan
 from tribo.stepping.friction import with_friction_work
 from tribo.stepping.linear_wear import linear_wear
 from tribo.stepping.memory import filling, remembered
@@ -69,11 +70,18 @@ class StepRejected(NumericalError):
 class Trial:
     """The state after a backward Euler step, and what forward Euler would have worn.
 
-    `forward` has the depth by body, on the body's surface, in m.
+    `forward` has the depth by body, on the body's surface, in m; `contacts` are those that the
+    bodies wore under, and `plan` is how the step was divided for what is remembered.
     """
 
     state: State
     forward: Mapping[str, Array]
+    contacts: Sequence[ContactSolution]
+    plan: Plan
+
+    def ended(self, model: Model, before: State) -> State:
+        """Return its end, with the work of friction over it."""
+        return with_friction_work(model, before, self.state, self.contacts, self.plan)
 
 
 @dataclass(frozen=True)
@@ -161,7 +169,7 @@ class Implicit(Scheme):
                 if changes and increment < AT_REST * target and errors.depth <= 1:
                     # The load goes on to change over a rest, however short the step.
                     return replace(
-                        trial.state,
+                        trial.ended(model, state),
                         increment=0.0,
                         rejected_steps=state.rejected_steps + rejected,
                     )
@@ -185,12 +193,14 @@ class Implicit(Scheme):
         # A step cut short to meet a save says little about the next: keep the longer of the two.
         proposal = max(errors.factor * increment, natural if increment < natural else 0.0)
         return replace(
-            trial.state, increment=proposal, rejected_steps=state.rejected_steps + rejected
+            trial.ended(model, state),
+            increment=proposal,
+            rejected_steps=state.rejected_steps + rejected,
         )
 
     def step(self, model: Model, state: State, increment: float, time: float) -> State:
         """Return the state after one backward Euler step; see `Scheme.step`."""
-        return self.attempt(model, state, increment, time).state
+        return self.attempt(model, state, increment, time).ended(model, state)
 
     def attempt(self, model: Model, state: State, increment: float, time: float) -> Trial:
         """Try one backward Euler step.
@@ -269,8 +279,7 @@ class Implicit(Scheme):
             # remembered changes them along a step, and so do layers.
             after = replace(after, rates=rates)
         model.tell(Worn(contacts, state.time, increment, moment, before, slid.plan))
-        after = accepted(model, after, contacts, loads)
-        return Trial(with_friction_work(model, state, after, contacts), forward)
+        return Trial(accepted(model, after, contacts, loads), forward, contacts, slid.plan)
 
     def errors(self, model: Model, before: State, trial: Trial) -> Errors:
         """Return the step's depth, pressure and volume errors as multiples of their tolerances.
