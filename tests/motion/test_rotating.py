@@ -4,14 +4,16 @@ import numpy as np
 import pytest
 from paper_models import archard, flat, foundation, last, named, small, sphere, steel
 
-from tribo import Archard, CaseError, Grid, Rotating, Unidirectional, WearRate
+from tribo import Archard, CaseError, Effect, Field, Grid, Rotating, Unidirectional, WearRate
 
 K, LOAD, RADIUS = 3e-16, 100.0, 2e-3
 GRID = Grid((0.75e-3, 1e-3), (20, 25))
 RADII = RADIUS + GRID.mesh[1][0]
 
 
-def run(pin, worn=("pin", "disk"), motion=Rotating, ends_at_window=False, law=None, **end):
+def run(
+    pin, worn=("pin", "disk"), motion=Rotating, ends_at_window=False, law=None, effects=(), **end
+):
     surfaces, law = {"pin": pin, "disk": flat()}, law or archard(K)
     return small(
         grid=GRID,
@@ -21,6 +23,7 @@ def run(pin, worn=("pin", "disk"), motion=Rotating, ends_at_window=False, law=No
             for name, surface in surfaces.items()
         ],
         contact=foundation(),
+        effects=effects,
         kinematics=motion(speed=0.1, **{"track_radius": RADIUS, **end}),
     )
 
@@ -65,6 +68,21 @@ def test_a_law_is_asked_at_the_speed_of_each_row():
     # Worn evenly, p r v is the same everywhere.
     even = LOAD / (GRID.size[0] * GRID.size[1]) / np.mean(RADII**-2.0) / RADII**2
     np.testing.assert_allclose(last(model).contact.pressure, np.tile(even, (20, 1)), rtol=3e-3)
+
+
+class Clock(Effect):
+    """A second for each second."""
+
+    type = "test.clock"
+    state_fields = (Field("seconds", "s", "Time that has passed."),)
+
+    def state_rates(self, contact):
+        return {"seconds": np.ones(contact.pressure.shape)}
+
+
+def test_time_is_the_same_for_all_rows():
+    model = run(sphere(), distance=1, effects=(Clock(),))
+    np.testing.assert_allclose(last(model).between["seconds"], 10, rtol=1e-9)
 
 
 def test_far_from_the_axis_it_is_a_straight_track():

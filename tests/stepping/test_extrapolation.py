@@ -63,11 +63,37 @@ def test_a_state_relaxes_alike_with_limits_and_without_however_long_the_incremen
     assert slowed[0, 0] == pytest.approx(1 / (1 + length), rel=1e-3)
 
 
-def test_a_loss_that_ends_at_a_limit_is_never_left_out():
-    """It may need shorter steps; then it says so."""
+BETWEEN = Limits(0.0, 1.0, "'a' of a test")
 
-    def loss(values, passed, step):
-        return [-1.0 * (values[0] > 0)]
 
-    with pytest.raises(BadValues, match="shorten the steps"):
-        integrated(loss, [ONE], 3.5, [Limits(0.0, 1.0, "'a' of a test")])
+@pytest.mark.parametrize("length", [2.0, 3.5, 7.1, 70.0, 3e5])
+def test_a_state_that_begins_at_a_limit_leaves_it_however_long_the_increment(length):
+    (grown,), _, _ = integrated(lambda values, *_: [1 - values[0]], [0 * ONE], length, [BETWEEN])
+    assert grown[0, 0] == pytest.approx(-np.expm1(-length), rel=1e-6)
+
+
+@pytest.mark.parametrize("length", [0.7, 1.5, 12.0, 1000.0])
+def test_a_state_may_come_to_its_limit_within_the_increment(length):
+    (left,), _, _ = integrated(
+        lambda values, *_: [-2 * np.sqrt(np.maximum(values[0], 0))], [ONE], length, [BETWEEN]
+    )
+    assert left[0, 0] == pytest.approx(max(1 - length, 0) ** 2, abs=1e-3)
+
+
+@pytest.mark.parametrize("length", [0.7, 1.5, 10.0])
+def test_a_steady_loss_ends_at_a_limit(length):
+    (left,), _, _ = integrated(
+        lambda values, *_: [-1.0 * (values[0] > 0)], [ONE], length, [BETWEEN]
+    )
+    assert left[0, 0] == pytest.approx(max(1 - length, 0), abs=1e-3)
+
+
+def test_a_rate_that_jumps_is_followed_beside_depths_in_layers():
+    """Rates are the means over a part, but for what a state makes jump within it."""
+
+    def rates(values, passed, step):
+        return [1 - values[0], ONE, (1.0 if values[0][0, 0] > 0.5 else 0.1) * ONE]
+
+    limits = [BETWEEN, Limits(-np.inf, np.inf, "a depth", relaxes=False)]
+    _, (total,), _ = integrated(rates, [0 * ONE, 0 * ONE], 2.0, limits, of_steps=True, layered=1)
+    assert total[0, 0] == pytest.approx(2 - 0.9 * np.log(2), rel=3e-3)

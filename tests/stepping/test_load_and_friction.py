@@ -251,12 +251,30 @@ def test_the_work_of_friction_that_follows_a_state_is_that_of_its_course(law):
 
 
 def test_at_rest_there_is_no_force_of_friction():
-    stages = [{"until": 10, "speed": "0.1 m/s"}, {"until": 20, "speed": 0}]
-    motion = Unidirectional(speed=stages, track_length="2 mm", duration=20)
-    with run(friction_coefficient=0.3, kinematics=motion, save_times=(10,)) as result:
+    stages = [(2, 0), (12, "0.1 m/s"), (20, 0)]
+    speed = [{"until": until, "speed": speed} for until, speed in stages]
+    motion = Unidirectional(speed=speed, track_length="2 mm", duration=20)
+    with run(friction_coefficient=0.3, kinematics=motion, save_times=(12,)) as result:
         forces = [save["friction_force_N"] for save in result.saves()]
-    assert forces[:2] == pytest.approx([30, 30])
-    assert forces[2] == 0
+    assert forces[1] == pytest.approx(30)
+    assert forces[::2] == [0, 0]
+
+
+class Jumps(Effect):
+    """A coefficient of friction that jumps at a time."""
+
+    type = "test.jumps"
+    provides = (FRICTION_COEFFICIENT,)
+
+    def fields(self, contact):
+        friction = np.full((1, 1), 0.1 if contact.time < 13.37 else 0.4)
+        return {"friction_coefficient": dict.fromkeys(contact.materials, friction)}
+
+
+def test_the_work_of_friction_that_jumps_is_close():
+    with run(effects=[Jumps()], **pin(archard())) as result:
+        work = result.saves()[-1]["friction_energy_J"]
+    assert work == pytest.approx(100 * 0.1 * (0.1 * 13.37 + 0.4 * 6.63), rel=1e-4)
 
 
 def test_friction_has_one_source():

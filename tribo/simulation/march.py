@@ -23,7 +23,7 @@ from tribo.simulation.validity import (
     short_of_a_lap,
 )
 from tribo.stepping.invariants import chattering_words, chatters, hold
-from tribo.stepping.step import start_sliding
+from tribo.stepping.step import distance_until, start_sliding
 
 DEPTH_ACCURACY = 1e-6
 MOST_CUTS = 40
@@ -51,7 +51,15 @@ def begin(model: Model) -> State:
         state = state.with_notice("positions", model.chosen)
     if _depth(model, state) >= _limit(model):
         state = _stopped(model, state)
-    return _noticed(model, replace(state, saves=1, speed=model.end_distance / model.end_time))
+    rests = distance_until(model, state, 0.5 * _stops(model)[0]) is None
+    speed = 0.0 if rests else model.end_distance / model.end_time
+    return _noticed(model, replace(state, saves=1, speed=speed))
+
+
+def _stops(model: Model) -> list[float]:
+    """Return the times (s) that steps end at: saves, and where the load or the speed jumps."""
+    edges = (*model.loads.edges, *model.motion.edges())
+    return sorted(model.saves | {time for time in edges if 0 < time < model.end_time})
 
 
 def march(model: Model, state: State) -> Iterator[Accepted]:
@@ -62,11 +70,9 @@ def march(model: Model, state: State) -> Iterator[Accepted]:
     limit = _limit(model)
     if _depth(model, state) >= limit:
         return
-    # Which stops are left follows from the time alone, so a resumed run sees the same.
-    both = *model.loads.edges, *model.motion.edges()
-    edges = {time for time in both if 0 < time < model.end_time}
     with doubting(model.case):
-        for until in sorted(model.saves | edges):
+        # Which stops are left follows from the time alone, so a resumed run sees the same.
+        for until in _stops(model):
             while state.time < until:
                 state = _advanced(model, state, until, limit)
                 worn_out = _depth(model, state) >= limit

@@ -27,7 +27,7 @@ SAFETY, LEAST = 0.9, 0.1
 that is cut off it."""
 EXACT = 1e-10
 """Relative difference of one step from two by which means over a step are known to be exact."""
-FINEST = 2.0**-20
+FINEST = 2.0**-30
 """The smallest part, where a state goes on to leave its limits."""
 PLAIN, RELAXING = (1, 2, 3), (1, 2, 3, 4)
 """Euler steps of the rows of the extrapolation, without and with the relaxation of the states."""

@@ -22,10 +22,10 @@ if TYPE_CHECKING:
     from tribo.simulation.model import Model
 
 ACCURACY = 1e-6
-"""Difference of two rules of Gauss, of all work so far, above which a part of a step is halved. The
+"""Difference of two rules of Gauss, of all work so far, above which parts of a step are halved. The
 finer of them is far closer, where friction has no jumps."""
-HALVINGS = 3
-"""After which it is taken as it is."""
+MOST_PARTS = 12
+"""Parts after which they are taken as they are."""
 RULES = [np.polynomial.legendre.leggauss(count) for count in (3, 5)]
 """Places and weights, from -1 to 1."""
 
@@ -105,21 +105,28 @@ def _varying_work(
         end = Moment(after.time, after.distance, after.speed)
         return accumulated(model, memory, contacts, increment, end, plan, force)
     allowed = ACCURACY * before.friction_energy / increment
-    return increment * _integral(partial(force, memory), 0.0, 1.0, allowed)
+    return increment * _mean_of(partial(force, memory), allowed)
 
 
-def _integral(
-    values: Callable[[float], float], begin: float, end: float, allowed: float, halved: int = 0
-) -> float:
-    """Return the integral of values, to an accuracy of itself, or to what is `allowed`."""
-    half, middle = 0.5 * (end - begin), 0.5 * (begin + end)
-    coarse, fine = (
-        half
-        * sum(weight * values(middle + half * place) for place, weight in zip(*rule, strict=True))
-        for rule in RULES
-    )
-    if abs(fine - coarse) <= max(ACCURACY * fine, allowed) or halved == HALVINGS:
-        return float(fine)
-    return _integral(values, begin, middle, allowed, halved + 1) + _integral(
-        values, middle, end, allowed, halved + 1
-    )
+def _mean_of(values: Callable[[float], float], allowed: float) -> float:
+    """Return the mean of values from 0 to 1, to an accuracy of itself, or to what is `allowed`."""
+
+    def tried(begin: float, end: float) -> tuple[float, float, float, float]:
+        half, middle = 0.5 * (end - begin), 0.5 * (begin + end)
+        coarse, fine = (
+            half
+            * sum(weight * values(middle + half * at) for at, weight in zip(*rule, strict=True))
+            for rule in RULES
+        )
+        return abs(fine - coarse), begin, end, fine
+
+    parts = [tried(0.0, 1.0)]
+    while len(parts) < MOST_PARTS:
+        total = sum(fine for *_, fine in parts)
+        if sum(error for error, *_ in parts) <= max(ACCURACY * total, allowed):
+            break
+        worst = max(parts)
+        parts.remove(worst)
+        _, begin, end, _ = worst
+        parts += [tried(begin, 0.5 * (begin + end)), tried(0.5 * (begin + end), end)]
+    return float(sum(fine for *_, fine in parts))

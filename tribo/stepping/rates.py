@@ -138,33 +138,38 @@ def _sliding_at(
     """Return the rates at a position per metre that is slid there: the mean over its speeds."""
     place = model.cycle[position]
     speeds = place.speeds or [(moment.speed, 1.0)]
-    weighed = speeds if place.reach is None else by_row(speeds, place.reach)
+    weighed = by_row(speeds, place.reach)
     found = [
-        (share, _rates_of(model, position, contact, memory, replace(moment, speed=speed)))
-        for speed, share in weighed
+        (part, time, _rates_of(model, position, contact, memory, replace(moment, speed=speed)))
+        for speed, part, time in weighed
     ]
-    (_, first), *others = found
-    if not others and np.ndim(found[0][0]) == 0 and found[0][0] == 1:
-        return first
-    wear = {name: _mean([(share, each.wear[name]) for share, each in found]) for name in first.wear}
+    if len(found) == 1 and np.ndim(found[0][0]) == 0 and found[0][0] == 1:
+        return found[0][2]
+    first = found[0][2]
+    wear = {
+        name: _mean([(part, each.wear[name]) for part, _, each in found]) for name in first.wear
+    }
     between = {
-        key: _sum((share, each.between[key]) for share, each in found) for key in first.between
+        key: _sum((time, each.between[key]) for _, time, each in found) for key in first.between
     }
     return Rates(wear, between)
 
 
-def by_row(speeds: Speeds, reach: Array) -> list[tuple[float, Array]]:
-    """Return speeds, each with what the rate there counts for in each row, shape (ny,).
+def by_row(speeds: Speeds, reach: Array | None) -> list[tuple[float, float | Array, float | Array]]:
+    """Return speeds, each with what rates per metre and changes in time there count for.
 
-    A row of which the points slide further is faster by as much; in between speeds rates are taken
-    to go in straight lines.
+    A row of which the points slide further, by its part of `reach`, (ny,), is faster by as much,
+    and takes the same time; in between speeds what happens is taken to go in straight lines.
     """
+    if reach is None:
+        return [(speed, share, share) for speed, share in speeds]
     least, most = float(np.min(reach)), float(np.max(reach))
     nodes = np.linspace(least, most, 2 + int((most - least) / FINE)) if most > least else [least]
+    hats = [np.interp(reach, nodes, hat) for hat in np.eye(len(nodes))]
     return [
-        (speed * float(node), share * reach * np.interp(reach, nodes, np.eye(len(nodes))[at]))
+        (speed * float(node), share * reach * hat, share * float(node) * hat)
         for speed, share in speeds
-        for at, node in enumerate(nodes)
+        for node, hat in zip(nodes, hats, strict=True)
     ]
 
 
