@@ -7,6 +7,9 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.special import lambertw
 from tribo import CaseError, Simulation
+from tribo.config.load import validate_case
+from tribo.simulation.assembly import assemble
+from tribo.simulation.march import begin, march
 from tribo.simulation.predict import predict
 from tribo.verification.refinement import refine
 
@@ -154,3 +157,23 @@ def ball(effects):
 def test_it_takes_a_few_times_the_solves_of_archards_law(length, times):
     debris = {"type": "thirdbody.debris", "ejection_length": length, "cover": "50 nm"}
     assert ball([debris]) <= times * ball([])
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::tribo.TriboWarning")
+def test_under_a_ball_it_leaves_without_coming_and_going_where_it_just_touches():
+    steel = {"young": "210 GPa", "poisson": 0.3}
+    wear = {"type": "archard", "k": 1e-15}
+    surfaces = {"ball": {"type": "sphere", "radius": "3 mm"}, "disk": "flat"}
+    case = pin(length=0.5, cover=1e-6, fills=True) | {
+        "grid": {"size": "0.8 mm", "cells": 24},
+        "load": "10 N",
+        "contact": "dcfft",
+        "bodies": {
+            name: {"surface": surface, "material": steel, "wear": wear}
+            for name, surface in surfaces.items()
+        },
+    }
+    model = assemble(validate_case(case | {"kinematics": {**case["kinematics"], "distance": 4}}))
+    for taken, _ in enumerate(march(model, begin(model))):
+        assert taken < 400

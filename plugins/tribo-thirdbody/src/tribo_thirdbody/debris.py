@@ -36,7 +36,8 @@ class Debris(Effect):
     on: str | None = None
     """The body on which it lies; in the contact, between both, if left out."""
     fills: bool = False
-    """Whether the bodies meet on it, at its height without pores, or as if it gave way. Where a
+    """Whether the bodies meet on it, at its height without pores, or as if it gave way. Then it
+    leaves in proportion to the pressure, relative to the mean over the load Σp²/Σp. Where a
     body that passes wears too, it must lie `on` that: elsewhere it would fill a gap faster than
     that opens, which is refused.
     """
@@ -60,5 +61,10 @@ class Debris(Effect):
     def state_rates(self, contact: ContactConditions) -> Mapping[str, Array]:
         """Return what wear adds and sliding takes away per second, where the bodies touch."""
         caught = self.caught * np.sum([*contact.wear_rates.values()], axis=0)
-        leaves = contact.state[THICKNESS.name] / self.ejection_length * (contact.pressure > 0)
+        pressure = contact.pressure
+        pressed: Array = (pressure > 0).astype(float)
+        if self.fills and pressure.any():
+            # All or nothing would make it come and go where it just touches.
+            pressed = pressure * np.sum(pressure) / np.sum(pressure**2)
+        leaves = pressed * contact.state[THICKNESS.name] / self.ejection_length
         return {THICKNESS.name: contact.speed * (caught - leaves)}
