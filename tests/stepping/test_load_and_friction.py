@@ -178,7 +178,8 @@ def test_friction_may_follow_the_speed():
     stages = [{"until": 10, "speed": "0.1 m/s"}, {"until": 20, "speed": "0.2 m/s"}]
     motion = Unidirectional(speed=stages, track_length="2 mm", duration=20)
     with run(effects=[Faster()], kinematics=motion, save_times=(10,)) as result:
-        first, last = result.saves()[1:]
+        begin, first, last = result.saves()
+    assert begin["friction_force_N"] == pytest.approx(20.0, rel=1e-9)
     assert first["friction_force_N"] == pytest.approx(20.0, rel=1e-9)
     assert last["friction_force_N"] == pytest.approx(40.0, rel=1e-9)
     assert first["friction_energy_J"] == pytest.approx(20.0, rel=1e-9)

@@ -78,8 +78,8 @@ class State:
         Pressure at each position a step ago, in Pa, by which chattering is told; empty before the
         first.
     speed : float
-        Mean sliding speed of the last step, in m/s, 0 at rest; of the whole motion before the
-        first.
+        Mean sliding speed of the last step, in m/s, 0 at rest; at first that of the motion soon
+        after.
     """
 
     time: float

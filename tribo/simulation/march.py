@@ -51,8 +51,9 @@ def begin(model: Model) -> State:
         state = state.with_notice("positions", model.chosen)
     if _depth(model, state) >= _limit(model):
         state = _stopped(model, state)
-    rests = distance_until(model, state, 0.5 * _stops(model)[0]) is None
-    speed = 0.0 if rests else model.end_distance / model.end_time
+    # The mean over a time in which no stage of the motion ends.
+    soon = 0.5 * _stops(model)[0]
+    speed = (distance_until(model, state, soon) or 0.0) / soon
     return _noticed(model, replace(state, saves=1, speed=speed))
 
 
