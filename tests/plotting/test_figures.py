@@ -4,14 +4,17 @@ from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from itertools import pairwise
 
+import matplotlib
 import numpy as np
 import pytest
 from made_results import SHAPES, TIMES, made
+from matplotlib.figure import Figure
 from matplotlib.image import imread
 
 from tribo.core.errors import CaseError, OutputError
 from tribo.core.grid import Grid
 from tribo.plotting import figures, pressure_map, pressure_sections, save_figures
+from tribo.report.page import stills
 
 CONTACT = ["pressure_map", "pressure_map_early", "pressure_sections"]
 OVER_TIME = ["wear_history", "contact_history"]
@@ -136,3 +139,13 @@ def test_threads_can_draw_at_the_same_time():
         drawn = list(pool.map(lambda _: pressure_sections(result), range(4)))
     assert {figure.axes[0].xaxis.label.get_fontsize() for figure in drawn} == {8.0}
     assert {len(figure.axes[1].lines) for figure in drawn} == {len(TIMES) + 1}
+
+
+def test_a_plugins_picture_is_drawn_in_the_house_style(tmp_path):
+    def draw():
+        assert matplotlib.rcParams["font.size"] == 8.0
+        return Figure(figsize=(3.35, 2.5))
+
+    (path,) = figures.write_figures({"mine": draw}, tmp_path)
+    assert imread(path).shape[:2] == (500, 670)
+    assert len(stills({"mine": draw})) == 1

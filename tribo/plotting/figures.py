@@ -86,8 +86,8 @@ def write_figures(
         folder.mkdir(parents=True, exist_ok=True)
         for name, draw in pictures.items():
             path = folder / f"{name}.{suffix}"
-            figure = draw()
             with house_style():
+                figure = draw()
                 figure.savefig(path, metadata=_METADATA.get(suffix))
             paths.append(path)
     return paths

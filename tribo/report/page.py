@@ -75,8 +75,9 @@ def stills(pictures: Mapping[str, Callable[[], Figure]]) -> list[dict[str, str]]
 
     drawn = []
     for name, draw in pictures.items():
-        image, figure = BytesIO(), draw()
+        image = BytesIO()
         with house_style():
+            figure = draw()
             figure.savefig(image, format="png", dpi=STILL_DPI)
         data = b64encode(image.getvalue()).decode()
         wide = "wide" if figure.get_figwidth() > WIDE else ""

@@ -152,11 +152,18 @@ def test_ten_to_one_says_what_the_readme_shows(ten_to_one, sharing, friction, en
 def test_the_lab_is_told_the_temperature_that_the_wear_followed():
     with Simulation(case(duration=20)).run() as result:
         ball, disk = tribo_lab_rows(result)
-        assert list(tribo_figures(result)) == ["contact_temperature"]
+        (draw,) = tribo_figures(result).values()
+        axes = draw().axes[0]
+        first, second = axes.lines
         config = Flash.model_validate(result.case["effects"][0])
     assert ball.value == disk.value
     # The first contact is the smallest, and so the hottest; its rise is that of a lone source.
-    assert config.ambient - 273.15 + 5 < ball.value < config.ambient - 273.15 + 50
+    assert config.ambient + 5 < ball.value < config.ambient + 50
+    assert ball.unit == "K"
+    assert axes.get_ylabel() == "Temperature in the contact (K)"
+    assert max(first.get_ydata()) == ball.value
+    # Both are seen where they coincide.
+    assert first.get_markersize() > second.get_markersize()
 
 
 def test_the_temperature_is_shown_drawn_exported_and_in_the_dataset(tmp_path):

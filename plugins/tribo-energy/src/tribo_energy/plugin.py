@@ -55,8 +55,8 @@ def tribo_figures(result: Result) -> dict[str, Callable[[], Figure]]:
         return {}
 
     def draw() -> Figure:
-        figure = Figure(figsize=(3.35, 2.5), layout="constrained")
-        axes = figure.add_subplot(xlabel="Dissipated energy, J", ylabel="Worn volume, mm³")
+        figure = Figure(figsize=(3.35, 2.5))
+        axes = figure.add_subplot(xlabel="Dissipated energy (J)", ylabel="Worn volume (mm³)")
         history = result.table("history")
         for name in result.body_names:
             axes.plot(energy, 1e9 * history[f"bodies.{name}.wear_volume_m3"], label=name)

@@ -29,12 +29,10 @@ def tribo_templates() -> list[CaseTemplate]:
 
 
 def temperatures(result: Result) -> dict[str, Array]:
-    """Return the highest temperature of each body at each save, in °C; empty without `Flash`."""
+    """Return the highest temperature of each body at each save, in K; empty without `Flash`."""
     kept = {name: result.body(name).effects.get(TEMPERATURE.name) for name in result.body_names}
     return {
-        name: at.max(axis=(1, 2)) - 273.15
-        for name, at in kept.items()
-        if at is not None and len(at) > 1
+        name: at.max(axis=(1, 2)) for name, at in kept.items() if at is not None and len(at) > 1
     }
 
 
@@ -42,7 +40,7 @@ def temperatures(result: Result) -> dict[str, Array]:
 def tribo_lab_rows(result: Result) -> list[LabRow]:
     """Offer the highest temperature of each body at any save."""
     return [
-        LabRow(f"highest temperature of {name} in the contact", float(at.max()), "°C")
+        LabRow(f"highest temperature of {name} in the contact", float(at.max()), "K")
         for name, at in temperatures(result).items()
     ]
 
@@ -53,10 +51,12 @@ def tribo_figures(result: Result) -> dict[str, Callable[[], Figure]]:
     found = temperatures(result)
 
     def draw() -> Figure:
-        figure = Figure(figsize=(3.35, 2.5), layout="constrained")
-        axes = figure.add_subplot(xlabel="Time, s", ylabel="Temperature in the contact, °C")
-        for name, at in found.items():
-            axes.plot(result.times, at, marker=".", label=name)
+        figure = Figure(figsize=(3.35, 2.5))
+        axes = figure.add_subplot(xlabel="Time (s)", ylabel="Temperature in the contact (K)")
+        axes.set_title("at the saves; not known between", loc="right", fontsize=7)
+        # The marks of the second lie within those of the first where both are as hot.
+        for (name, at), look, size in zip(found.items(), ("o:", "s:"), (6, 3), strict=True):
+            axes.plot(result.times, at, look, markersize=size, linewidth=0.8, label=name)
         axes.legend()
         return figure
 
