@@ -103,6 +103,9 @@ def test_a_field_of_the_models_is_drawn_from_above_and_over_time():
     assert axes.child_axes[0].get_ylabel() == "Film (nm)"
     above, _ = fields_history(result).axes
     largest, mean = (line.get_ydata() for line in above.lines)
+    assert above.get_title(loc="right") == "at the saves; not known between"
+    for line, mark in zip(above.lines, "os", strict=True):
+        assert (line.get_linestyle(), line.get_marker()) == (":", mark)
     np.testing.assert_allclose(largest, [1e9 * np.max(each) for each in film.values])
     touched = result.field("pressure", -1) > 0
     assert mean[-1] == pytest.approx(1e9 * np.mean(film.values[-1][touched]))

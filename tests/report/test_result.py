@@ -167,7 +167,9 @@ def test_what_effects_provide_and_models_keep_has_maps_and_curves():
     assert "film, nm" in page
     assert [each["name"] for each in data["maps"][-2:]] == ["Film", "Load share"]
     panel = data["history"]["axes"][0]["panels"][-2]
-    assert (panel["name"], panel["unit"], panel["note"]) == ("Film", "nm", "A mark for each save.")
+    assert (panel["name"], panel["unit"], panel["dotted"]) == ("Film", "nm", True)
+    assert panel["note"] == "A mark for each save; not known between."
+    assert not data["history"]["axes"][0]["panels"][0]["dotted"]
 
 
 def test_a_coating_is_drawn_and_told():

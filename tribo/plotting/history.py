@@ -25,6 +25,8 @@ BODIES: tuple[Look, Look] = (
     {**OVER, "marker": "s", "markersize": 3.0},
 )
 LARGEST: Look = {**UNDER, "color": "#e69f00"}
+AT_SAVES: Look = {"linestyle": ":", "linewidth": 0.8, "clip_on": False}
+"""Joins values that are known at the saves only."""
 _DECADE = 10.0
 """Values that span more than this factor are drawn on a logarithmic scale."""
 
@@ -150,8 +152,8 @@ def fields_history(result: Result) -> Figure:
     """
     kept = kept_fields(result)
     looks = [
-        {**look, "marker": mark, "markersize": 4.0, "clip_on": False}
-        for look, mark in ((LARGEST, "o"), (OVER, "s"))
+        {**look, **AT_SAVES, "marker": mark, "markersize": size}
+        for look, mark, size in ((LARGEST, "o", 6.0), (OVER, "s", 3.0))
     ]
     with house_style():
         figure = new_figure(12.0 + 40.0 * len(kept))
@@ -161,6 +163,7 @@ def fields_history(result: Result) -> Figure:
             curves = {label: (result.times, values) for label, values in found.items()}
             _draw(axes, result, field.name.capitalize(), field.unit, curves, looks, _around)
             axes.label_outer()
+        panels[0].set_title("at the saves; not known between", loc="right", fontsize=7.0)
     return figure
 
 

@@ -20,6 +20,7 @@ LONGEST, SHORTEST = 400, 64
 """Points of a section, and of a history."""
 NUMBERS = 150_000
 """Numbers in all sections together, which keeps the file below 4 MB."""
+AT_SAVES = "A mark for each save; not known between."
 
 Results = Mapping[str, Result]
 """By label; that of a single one is empty."""
@@ -153,7 +154,7 @@ def history(results: Results) -> dict[str, Any]:
     note = f"{left_out} further steps are left out of the curves." if left_out else ""
     names = next(iter(results.values())).body_names
     panels = [(*p, note or "Every step is shown.") for p in _panels(tables, kept, names)]
-    panels += [(*p, "A mark for each save.") for p in _of_models(results)]
+    panels += [(*p, AT_SAVES) for p in _of_models(results)]
     unit = time_unit(max((result.times for result in results.values()), key=lambda t: t[-1]))
     axes = []
     for across, (words, shown) in enumerate((("Sliding distance", "m"), ("Time", unit))):
@@ -166,6 +167,7 @@ def history(results: Results) -> dict[str, Any]:
                     "unit": fit,
                     "log": si == "Pa",
                     "note": note,
+                    "dotted": note == AT_SAVES,
                     "curves": [
                         {"name": called, "x": plain(x / size(shown)), "y": each_plain(y / factor)}
                         for called, (*xs, y) in curves.items()

@@ -130,9 +130,9 @@ function drawMap(plot, map, peers, save, moment, fixed) {
 }
 
 /** Return curves, each with a look that differs in grey too; the first show beneath those that coincide. */
-const lines = (curves) => curves.map(({ name, x, y, apart }, i) => ({
-  type: "scatter", x, y, name: wrapped(name, 60), line: { ...LINES[i % LINES.length], width: 2 + 1.5 * Math.min(curves.length - 1 - i, 3) }, marker: apart ? { size: 10, symbol: MARKS[i % MARKS.length] } : { size: 6 },
-  mode: apart ? "markers" : x.length > 30 ? "lines" : "lines+markers",
+const lines = (curves, dotted = false) => curves.map(({ name, x, y, apart }, i) => ({
+  type: "scatter", x, y, name: wrapped(name, 60), line: { ...LINES[i % LINES.length], ...(dotted ? { dash: "dot", width: 1 } : { width: 2 + 1.5 * Math.min(curves.length - 1 - i, 3) }) }, marker: apart ? { size: 10, symbol: MARKS[i % MARKS.length] } : { size: 6 },
+  mode: apart ? "markers" : x.length > 30 && !dotted ? "lines" : "lines+markers",
 }));
 
 function drawSection(plot, section, save, moment, fixed) {
@@ -189,7 +189,7 @@ function drawSurface(plot, data, surface, save, moment, camera) {
 function drawHistory(plot, panel, label, isLog) {
   const ends = panel.curves.map(({ name, y }) => `${name} ${y[y.length - 1]} ${panel.unit}`);
   plot.setAttribute("aria-label", `${panel.name} against ${label}; at the end: ${ends.join(", ")}.`);
-  return Plotly.react(plot, lines(panel.curves), layout(panel.name, {
+  return Plotly.react(plot, lines(panel.curves, panel.dotted), layout(panel.name, {
     xaxis: isLog ? scaled(label, panel.curves.flatMap(({ x }) => x)) : axis(label, { rangemode: "tozero" }),
     yaxis: panel.log ? scaled(panel.unit, panel.curves.flatMap(({ y }) => y)) : axis(panel.unit, { rangemode: "tozero" }),
     ...legend(panel.curves),
