@@ -80,7 +80,7 @@ class Body(Table):
 class Friction(Table):
     """Friction, for the laws and effects that ask for it; it does not act on the contact."""
 
-    coefficient: Annotated[float, Quantity("1", at_least=0)]
+    coefficient: Annotated[float, Quantity("1", at_least=0, usual=(1e-4, 2.0))]
     """Coefficient of friction, uniform and constant."""
 
 

@@ -110,6 +110,20 @@ def test_a_template_is_the_example_of_its_name_and_names_the_next_command(tmp_pa
         load_case(tmp_path / "my.toml")
 
 
+def test_a_template_is_printed_for_a_dash_and_an_unknown_one_is_told_before_the_missing_file(
+    tmp_path,
+):
+    printed = tribo("new", "duty_cycle", "-", cwd=tmp_path)
+    assert (printed.returncode, printed.stdout) == (0, template("duty_cycle"))
+    assert not list(tmp_path.iterdir())
+    for args in (["thirdbody"], ["thirdbody", "my.toml"]):
+        unknown = tribo("new", *args, cwd=tmp_path)
+        assert unknown.returncode == 2
+        assert "'thirdbody'" in unknown.stderr
+        assert "duty_cycle (" in unknown.stderr
+    assert tribo("new", "duty_cycle", cwd=tmp_path).returncode == 2
+
+
 @pytest.mark.parametrize("name", ["ball_on_disk", "pin_on_disk"])
 def test_a_template_is_predicted(tmp_path, name):
     assert tribo("new", name, "case.toml", cwd=tmp_path).returncode == 0
@@ -138,8 +152,9 @@ def test_check_begins_with_its_verdict(case):
     assert "depth of ball, for 1 % more of:" in done.stdout
     small = [*LARGE_STROKE, *setting("grid.size=0.9 mm", "grid.cells=64", "stop.depth=1 mm")]
     done = tribo("check", "my.toml", *small)
-    assert (done.returncode, done.stderr) == (3, "error: a run of my.toml would stop on its way\n")
     verdict, first, *_ = done.stdout.splitlines()
+    assert done.returncode == 3
+    assert done.stderr.startswith("error: a run of my.toml would stop on its way: the contact outg")
     assert verdict == "my.toml would stop on its way:"
     assert first.startswith("  - the contact outgrows the window of 0.9 × 0.9 mm")
     data, told = json.loads(tribo("check", "my.toml", *small, "--json").stdout), done.stdout.split()
@@ -148,7 +163,7 @@ def test_check_begins_with_its_verdict(case):
     assert data["sensitivity"] is None
     why = data["sensitivity_refused"]
     assert why.startswith("stop.depth: a run that a depth ends has another length")
-    assert f"which numbers rule the depth not told: {why}" in " ".join(told)
+    assert f"sensitivity not known, since {why}" in " ".join(told)
 
 
 @pytest.mark.slow

@@ -4,6 +4,7 @@ import pytest
 from command_line import tribo
 
 from tribo.config.load import validate_case
+from tribo.core.units import parse, stated
 from tribo.simulation.doubt import unusual
 
 FORGOTTEN = {
@@ -29,6 +30,54 @@ def test_a_failure_names_the_quantity_out_of_its_usual_range(folder, command, se
     assert failed.returncode == 2
     assert failed.stderr.count("a unit forgotten") == 1
     assert failed.stderr.startswith(f"error: {FORGOTTEN[setting]}, usual are ")
+
+
+def body_of(young, hardness=None):
+    material = {"young": young, "poisson": 0.3, **({"hardness": hardness} if hardness else {})}
+    return {"surface": "flat", "material": material}
+
+
+CASE = {
+    "grid": {"size": "1 mm", "cells": 32},
+    "load": {"normal": 1},
+    "bodies": {"ball": body_of("207 GPa"), "disk": body_of("207 GPa")},
+    "contact": "dcfft",
+    "kinematics": {"type": "rotating", "speed": 1, "track_radius": 1, "distance": 1},
+}
+
+
+@pytest.mark.parametrize(
+    ("young", "hardness", "friction", "places"),
+    [
+        ("210 MPa", "7 GPa", 0.6, ["bodies.ball.material.hardness"]),
+        ("210 GPa", "7 GPa", 60, ["friction.coefficient"]),
+        # Diamond, and a rubber on glass.
+        ("1140 GPa", "100 GPa", 2.0, []),
+    ],
+)
+def test_a_hardness_beyond_young_and_a_friction_beyond_any_are_asked_about(
+    young, hardness, friction, places
+):
+    case = {**CASE, "friction": {"coefficient": friction}}
+    case["bodies"] = {"ball": body_of(young, hardness), "disk": body_of("210 GPa")}
+    assert [
+        asked.split(" is ")[0].split(",")[0] for asked in unusual(validate_case(case))
+    ] == places
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "said"),
+    [
+        (2e12, "Pa", "2 TPa"),
+        (1e-9, "m", "1 nm"),
+        (1e-12, "m/s", "1 pm/s"),
+        (3e4, "kg/m^3", "30000 "),
+    ],
+)
+def test_a_range_is_told_in_units_that_a_case_takes(value, unit, said):
+    text = stated(value, unit)
+    assert text.startswith(said)
+    assert parse(text, unit) == pytest.approx(value, rel=1e-9, abs=0)
 
 
 def test_a_check_that_finds_nothing_else_still_asks(folder):
@@ -71,13 +120,5 @@ PATH = {"length": "5 mm", "area": "28 mm^2"}
     ],
 )
 def test_packages_ask_too(effect, forgotten, asked):
-    body = {"surface": "flat", "material": {"young": "207 GPa", "poisson": 0.3}}
-    case = {
-        "grid": {"size": "1 mm", "cells": 32},
-        "load": {"normal": 1},
-        "bodies": {"ball": body, "disk": body},
-        "contact": "dcfft",
-        "kinematics": {"type": "rotating", "speed": 1, "track_radius": 1, "distance": 1},
-    }
-    (doubt,) = unusual(validate_case({**case, "effects": [{**effect, **forgotten}]}))
+    (doubt,) = unusual(validate_case({**CASE, "effects": [{**effect, **forgotten}]}))
     assert doubt.startswith(f"effects[0].{asked}, usual are ")

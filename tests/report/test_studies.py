@@ -104,7 +104,7 @@ def test_a_calibration_tells_its_estimates(tmp_path):
     )
     assert second.endswith("the data do not bound it.")
     page = (tmp_path / "fit-report.html").read_text(encoding="utf-8")
-    assert "the data tell the best to 2.0 %, the worst to 20 % (one standard deviation)" in page
+    assert "is known to 2.0 %, the least known to 20 % (one standard deviation)" in page
     assert "Correlation of bodies.ball.wear.k and bodies.disk.wear.k: 0.00." in page
     assert "The case as fitted, to copy" in page
     assert "sphere, radius 5 mm" in page

@@ -352,8 +352,8 @@ def judgement(found: Calibration) -> Iterator[str]:
     best, worst = (_known(found.singular_values[i]) for i in (0, -1))
     if len(found.parameters) > 1:
         yield (
-            f"Of all combinations of these numbers the data tell the best {best}, the worst "
-            f"{worst} (one standard deviation)."
+            f"Of all combinations of these numbers the best known by the data is known {best}, "
+            f"the least known {worst} (one standard deviation)."
         )
     paths = list(found.parameters["path"])
     for i, first in enumerate(paths):

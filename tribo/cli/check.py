@@ -46,6 +46,7 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
     numerical failure; where it must stop, the code that it would end with.
     """
     from tribo.config.load import load_case
+    from tribo.simulation.doubt import unusual
     from tribo.simulation.predict import predict
     from tribo.simulation.run import Simulation
     from tribo.study.gradient.sensitivity import sensitivity
@@ -66,7 +67,9 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
         _print(case, model, prediction, ruled)
     for kind in (CaseError, NumericalError):
         if prediction.exit_code == kind.exit_code:
-            raise kind(f"a run of {case} would stop on its way")
+            # What is doubted comes before what stops the run, as in the message of that run.
+            why = prediction.problems[: len(unusual(model.case)) + 1]
+            raise kind(f"a run of {case} would stop on its way: {' '.join(why)}")
 
 
 def _print(case: Path, model: Model, prediction: Prediction, ruled: Sensitivity | str) -> None:
@@ -78,7 +81,7 @@ def _print(case: Path, model: Model, prediction: Prediction, ruled: Sensitivity 
     console.print(_rows(("  -", problem) for problem in prediction.problems))
     console.print(_rows((f"  {name}", text) for name, text in _facts(model, prediction)))
     if isinstance(ruled, str):
-        console.print(_rows([("  which numbers rule the depth", f"not told: {ruled}")]))
+        console.print(_rows([("  sensitivity", f"not known, since {ruled}")]))
     else:
         console.print(f"  depth of {ruled.body}, for 1 % more of:", markup=False)
         first = list(ruled.percent.items())[:SHOWN]

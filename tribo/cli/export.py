@@ -35,7 +35,7 @@ def export(output: Path, directory: Path | None, name: str) -> None:
 
     write = export_csv
     if name != "csv":
-        write = choose("tribo_export_formats", name, "format").write
+        write = choose("tribo_export_formats", name, "format", {"csv": "tables"}).write
     folder = directory or output.with_name(f"{output.stem}-{name}")
     with Result.open(output) as result:
         with writing(folder):

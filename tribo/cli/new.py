@@ -14,7 +14,7 @@ HOOK = "tribo_templates"
 
 
 _LISTED = "\n".join(f"  {name:14} {summary}" for name, summary in TEMPLATES.items())
-HELP = f"""Write a commented case, study or measurements from TEMPLATE to FILE.
+HELP = f"""Write a commented case, study or measurements from TEMPLATE to FILE; - prints it.
 
 \b
 Templates:
@@ -33,14 +33,19 @@ Example:
 @click.option("--force", is_flag=True, help="Replace an existing file.")
 def new(name: str | None, file: Path | None, force: bool) -> None:
     """Write a template to a file."""
-    if name is None or file is None:
-        missing = "TEMPLATE" if name is None else "FILE"
-        raise click.UsageError(f"Missing argument '{missing}'. Templates:\n{_LISTED}")
+    if name is None:
+        raise click.UsageError(f"Missing argument 'TEMPLATE'. Templates:\n{_LISTED}")
     from tribo.core.errors import CaseError
     from tribo.core.files import write_whole, writing
     from tribo.registry.registry import choose
 
-    text = template(name) if name in TEMPLATES else choose(HOOK, name, "template").text
+    plugged = None if name in TEMPLATES else choose(HOOK, name, "template", TEMPLATES)
+    text = plugged.text if plugged else template(name)
+    if file is None:
+        raise click.UsageError("Missing argument 'FILE'; - prints the template.")
+    if file == Path("-"):
+        click.echo(text, nl=False)
+        return
     with writing(file):
         if file.exists() and not force:
             raise CaseError(f"{file} exists; choose another name, or replace it with --force")

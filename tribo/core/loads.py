@@ -24,7 +24,10 @@ from tribo.core.units import Quantity
 FEW = 50
 """Stages of an estimate."""
 FILES = (".csv", ".npy")
-NormalLoad = Annotated[float, Quantity("N", above=0, usual=(1e-12, 1e6))]
+USUAL = (1e-12, 1e6)
+"""Loads that are usual, in N."""
+PAUSE = "for a pause give frequency = 0 or speed = 0 in stages"
+NormalLoad = Annotated[float, Quantity("N", above=0, usual=USUAL)]
 ByPosition = tuple[float, ...]
 """Loads at the positions of a cycle, in N."""
 
@@ -39,7 +42,7 @@ class Stage(Table):
     """When a load ends that is held from the stage before."""
     at: Annotated[float, Quantity("s", at_least=0)] | None = None
     """When a load is reached to which the one before goes in a straight line."""
-    normal: NormalLoad
+    normal: Annotated[float, Quantity("N", above=0, usual=USUAL, remedy=PAUSE)]
     """The load, at all times more than 0: bodies that lift off are not modelled."""
 
     @model_validator(mode="after")
@@ -286,6 +289,6 @@ def _read(file: Path) -> Sequence[dict[str, float]]:
     if len(idle):
         raise ValueError(
             f"{file} has a load of {rows[idle[0], 1]:g} N at {rows[idle[0], 0]:g} s: each must be "
-            "greater than 0"
+            f"greater than 0; {PAUSE}"
         )
     return [{"at": float(time), "normal": float(load)} for time, load in rows]

@@ -63,6 +63,12 @@ _INSTEAD = {
 """What to do about a quantity, by the unit that is needed and that which was given."""
 _TURNS = ("rpm", "rev/min", "rev/s")
 
+_PREFIXED = re.compile(r"(m|N|Pa|Hz|W|J)(?!\^|\w)")
+"""Start of a unit that is written with prefixes."""
+_PREFIXES = {
+    1e-12: "p", 1e-9: "n", 1e-6: "µ", 1e-3: "m", 1.0: "", 1e3: "k", 1e6: "M", 1e9: "G", 1e12: "T"
+}  # fmt: skip
+
 _LONGEST = 100
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3}(?!\d))?)(?![\d.])(.*)", re.S)
 _AFTER_COMMA = re.compile(r",\d")
@@ -99,6 +105,14 @@ def parse(text: str, unit: str) -> float:
         raise CaseError(f"{text!r} is not finite; {_needed(unit)}") from None
 
 
+def stated(value: float, unit: str) -> str:
+    """Return a value in an SI unit as text, as ``"2 TPa"`` and not 2e+12 Pa."""
+    known = _PREFIXED.match(unit)
+    prefixes = _PREFIXES if known else {1.0: ""}
+    factor = max((f for f in prefixes if f <= abs(value) * (1 + 1e-9)), default=min(prefixes))
+    return f"{value / factor:g} {prefixes[factor]}{unit}"
+
+
 @dataclass(frozen=True)
 class Quantity:
     """Marks a float as a quantity that may be written with a unit.
@@ -115,6 +129,8 @@ class Quantity:
     usual : tuple of float, optional
         Range, in `unit`. A value beyond it, other than 0, is allowed, but
         `tribo check` and the message of a failed run ask about it.
+    remedy : str, optional
+        What to do instead of a value out of bounds, for its message.
     """
 
     unit: str
@@ -123,6 +139,7 @@ class Quantity:
     below: float | None = None
     at_most: float | None = None
     usual: tuple[float, float] | None = None
+    remedy: str | None = None
 
     def hint(self, info: object = None) -> str:
         """Return what is needed, as "a length [m] is needed, as in '5 mm'"."""
@@ -152,7 +169,8 @@ class Quantity:
             bound = getattr(self, field)
             if bound is not None and not holds(number, bound):
                 unit = "" if self.unit == "1" or (bound == 0 and self.unit != "K") else self.unit
-                raise CaseError(f"{given}: must be {words} {bound:g} {unit}".rstrip())
+                remedy = f"; {self.remedy}" if self.remedy else ""
+                raise CaseError(f"{given}: must be {words} {bound:g} {unit}".rstrip() + remedy)
         return number
 
     def doubt(self, value: float) -> str | None:
@@ -163,8 +181,8 @@ class Quantity:
         if self.unit == "1":
             return f"{value:g}, usual are {low:g} to {high:g}: is that meant?"
         return (
-            f"{value:g} {self.unit}, usual are {low:g} to {high:g} {self.unit}: a unit forgotten, "
-            f"as in '{_example(self.unit)}'?"
+            f"{value:g} {self.unit}, usual are {stated(low, self.unit)} to "
+            f"{stated(high, self.unit)}: a unit forgotten, as in '{_example(self.unit)}'?"
         )
 
     def __get_pydantic_core_schema__(

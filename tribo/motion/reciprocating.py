@@ -103,8 +103,8 @@ class Reciprocating(Kinematics):
             raise ValueError("give exactly one of duration, cycles and distance")
         if self.waveform == "sinusoidal" and not isinstance(self.frequency, float):
             raise ValueError(
-                'a frequency in stages is for waveform = "constant_speed"; give the path of '
-                'another as type = "measured"'
+                'a frequency in stages is for waveform = "constant_speed": leave waveform out, or '
+                'give the path as type = "measured"'
             )
         return self
 

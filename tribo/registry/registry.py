@@ -7,7 +7,7 @@ import re
 import sys
 import warnings
 from collections import defaultdict
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager, redirect_stdout, suppress
 from functools import cache
 from traceback import walk_tb
@@ -229,18 +229,20 @@ def default_registry() -> Registry:
     return Registry([builtin(), *installed()])
 
 
-def choose(hook: str, name: str, words: str) -> Any:
+def choose(hook: str, name: str, words: str, own: Mapping[str, str] | None = None) -> Any:
     """Return the format or template of this name that a plugin offers by `hook`.
 
-    `words` is what it is, for the message: ``"format"`` or ``"template"``.
+    `words` is what it is, for the message: ``"format"`` or ``"template"``; `own` are those of tribo
+    itself, none of them called so, with what each is.
     """
     registry = default_registry()
     for plugin in registry.load_all():
         warnings.warn(f"{plugin} is left out: {plugin.reason}", TriboWarning, stacklevel=3)
     known = {each.name: each for answer in registry.ask(hook) for each in answer}
     if name not in known:
-        listed = "; ".join(f"{each.name} ({each.summary.rstrip('.')})" for each in known.values())
-        meant = suggestion(did_you_mean(name, known))
+        summaries = {**(own or {}), **{each.name: each.summary for each in known.values()}}
+        listed = "; ".join(f"{each} ({said.rstrip('.')})" for each, said in summaries.items())
+        meant = suggestion(did_you_mean(name, summaries))
         raise CaseError(f"no {words} is called {name!r}{meant} Known: {listed}")
     return known[name]
 

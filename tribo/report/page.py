@@ -33,7 +33,8 @@ def check_installed() -> None:
         import plotly.offline  # noqa: F401
     except ImportError as error:
         raise CaseError(
-            f"a report needs {error.name}, which is not installed: pip install jinja2 plotly"
+            f"a report needs jinja2 and plotly, and {error.name} is not installed: pip install "
+            "jinja2 plotly, or pip install '.[report]' in the folder of tribo's sources"
         ) from error
 
 

@@ -5,20 +5,21 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 
-from pydantic import BaseModel
-
 from tribo.case import Case
 from tribo.config.overrides import leaves
 from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError, NumericalError, PluginError
 from tribo.core.explain import path
 from tribo.core.measures import BodyMeasures
+from tribo.core.units import stated
 
 DEEP = 0.1
 """Wear depth, relative to the radius of curvature, from which on it is doubted."""
+HARD = 0.2
+"""Hardness, relative to Young's modulus, above which one of them is doubted; diamond has 0.1."""
 
 
-def unusual(case: BaseModel) -> list[str]:
+def unusual(case: Case) -> list[str]:
     """Ask about each quantity of a case that is out of its usual range, by place."""
     found = []
     for place, value, mark in leaves(case):
@@ -28,6 +29,13 @@ def unusual(case: BaseModel) -> list[str]:
                 # A pair may be written as one value.
                 place = place[:-1]
             found.append(f"{path(place)} is {doubt}")
+    for name, body in case.bodies.items():
+        young, hardness = body.material.young, body.material.hardness or 0.0
+        if hardness > HARD * young:
+            found.append(
+                f"bodies.{name}.material.hardness, {stated(hardness, 'Pa')}, is more than a fifth "
+                f"of young, {stated(young, 'Pa')}: is the unit of one wrong, as MPa for GPa?"
+            )
     return list(dict.fromkeys(found))
 
 

@@ -113,9 +113,9 @@ def predict(model: Model) -> Prediction:
     stopping, warned = _stopping(model, state, coarse, window_holds=holds)
     problems = (
         *unusual(model.case),
+        *(text for _, text in stopping),
         few_cells(model, state.contact),
         broken_period(model),
-        *(text for _, text in stopping),
         warned,
         *(too_wide(model, first) or too_wide(model, last or first)),
         *(too_deep(model.system, last.bodies) if last else ()),

@@ -121,8 +121,8 @@ def recorded(model: Model, looked_at: Sequence[float], tape: Tape) -> dict[float
         before, state = state, accepted.state
         if model.between and state.distance == before.distance:
             raise CaseError(
-                f"what an effect remembers changes over a rest, as before {state.time:g} s: no "
-                "gradient goes through that",
+                "an effect's state changes during a pause, as in the one that ends at "
+                f"{state.time:g} s, and derivatives do not follow that",
                 "effects",
             )
         _keep(tape, model, heard, "before", state.time, before.time)

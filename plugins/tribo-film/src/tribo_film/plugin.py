@@ -24,7 +24,7 @@ def tribo_lab_rows(result: Result) -> list[LabRow]:
     first, *_, last = result.saves()
     depth = max(body["max_wear_depth_m"] for body in last["bodies"].values())
     part = depth / first["approach_m"]
-    verdict = "" if part < SHALLOW else ": BEYOND it, the film does not know the worn shape"
+    verdict = "" if part < SHALLOW else ", which is exceeded"
     return [
-        LabRow(f"wear depth over elastic approach (film.mixed holds below 1){verdict}", part, "")
+        LabRow(f"wear depth over elastic approach (film.mixed holds below 1{verdict})", part, "")
     ]
