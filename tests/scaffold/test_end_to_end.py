@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 import sysconfig
@@ -79,6 +80,33 @@ def test_their_own_tests_pass_untouched(fresh: Fresh) -> None:
     # Where it is not installed, as here, it says what to do.
     untold = run(sys.executable, "-m", "pytest", *quiet, tests[0], folder=fresh.scratch, code=4)
     assert "install it first" in untold
+
+
+LAW = '''
+    model_config = ConfigDict(json_schema_extra={"examples": [{"wear_rate": 1e-15, "mild": "1 GPa"}]})
+
+    type = "acme.fretting"
+    wear_rate: Annotated[float, Quantity("1/Pa", at_least=0)]
+    """Specific wear rate at the mild pressure."""
+    mild: Annotated[float, Quantity("Pa", above=0)]
+    """Pressure, above which it grows."""
+
+    def rate(self, local: LocalConditions) -> WearRate:
+        return WearRate(self.wear_rate * local.pressure**2 / self.mild)
+'''
+
+
+def test_the_tests_pass_of_a_law_with_other_keys(fresh: Fresh, tmp_path: Path) -> None:
+    copied = Path(shutil.copytree(fresh.folders["wear-law"], tmp_path / "other"))
+    model = copied / "src" / "acme_fretting" / "fretting.py"
+    before, _ = model.read_text().split("\n    model_config")
+    model.write_text(before + LAW)
+    said = run(
+        *(fresh.python, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-W", "error"),
+        *("-o", "pythonpath=src", "tests"),
+        folder=copied,
+    )
+    assert " passed" in said
 
 
 def test_their_code_is_clean(fresh: Fresh) -> None:
