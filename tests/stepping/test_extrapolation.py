@@ -88,6 +88,19 @@ def test_a_steady_loss_ends_at_a_limit(length):
     assert left[0, 0] == pytest.approx(max(1 - length, 0), abs=1e-3)
 
 
+@pytest.mark.parametrize("length", [1.0, 35.0, 1e3, 1e5])
+def test_a_state_that_goes_on_beyond_its_limit_is_told_at_once(length):
+    asked = []
+
+    def rates(values, passed, step):
+        asked.append(passed)
+        return [ONE]
+
+    with pytest.raises(BadValues, match="beyond its limits of 0 to 1"):
+        integrated(rates, [0.5 * ONE], length, [BETWEEN])
+    assert len(asked) < 2000
+
+
 def test_a_rate_that_jumps_is_followed_beside_depths_in_layers():
     """Rates are the means over a part, but for what a state makes jump within it."""
 

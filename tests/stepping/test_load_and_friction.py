@@ -31,6 +31,7 @@ from tribo import (
 from tribo.core.errors import PluginError
 from tribo.motion.unidirectional import Unidirectional
 from tribo.stepping.explicit import Explicit
+from tribo.stepping.implicit import Implicit
 from tribo.wear.power import Power
 from tribo.wear.running_in import RunningIn
 
@@ -265,17 +266,43 @@ class Jumps(Effect):
     """A coefficient of friction that jumps at a time."""
 
     type = "test.jumps"
+    at: float = 10.0
     provides = (FRICTION_COEFFICIENT,)
 
     def fields(self, contact):
-        friction = np.full((1, 1), 0.1 if contact.time < 13.37 else 0.4)
+        friction = np.full((1, 1), 0.1 if contact.time < self.at else 0.4)
         return {"friction_coefficient": dict.fromkeys(contact.materials, friction)}
 
 
-def test_the_work_of_friction_that_jumps_is_close():
-    with run(effects=[Jumps()], **pin(archard())) as result:
+@pytest.mark.parametrize("stepping", [Implicit(), Explicit(time_step="6.67 s")])
+@pytest.mark.parametrize("at", [6.5, 13.37, 19.9])
+def test_the_work_of_friction_that_jumps_is_close(at, stepping):
+    with run(effects=[Jumps(at=at)], stepping=stepping, **pin(archard())) as result:
         work = result.saves()[-1]["friction_energy_J"]
-    assert work == pytest.approx(100 * 0.1 * (0.1 * 13.37 + 0.4 * 6.63), rel=1e-4)
+    assert work == pytest.approx(100 * 0.1 * (0.1 * at + 0.4 * (20 - at)), rel=1e-3)
+
+
+class Square(Effect):
+    """A coefficient of friction that jumps, to and fro, with what it remembers."""
+
+    type = "test.square"
+    provides = (FRICTION_COEFFICIENT,)
+    state_fields = (Field("covered", "1", "Part that is covered.", uniform=True, at_most=1),)
+
+    def state_rates(self, contact):
+        return {"covered": (1 - contact.state["covered"]) * contact.speed / 0.5}
+
+    def fields(self, contact):
+        friction = 0.3 + 0.2 * np.sign(np.sin(40 * np.pi * contact.state["covered"]))
+        return {"friction_coefficient": dict.fromkeys(contact.materials, friction)}
+
+
+def test_friction_that_jumps_often_shortens_steps():
+    with run(effects=[Square()], **pin(archard())) as result:
+        work = result.saves()[-1]["friction_energy_J"]
+    slid = np.linspace(0, 2, 2_000_001)
+    friction = 0.3 + 0.2 * np.sign(np.sin(40 * np.pi * -np.expm1(-slid / 0.5)))
+    assert work == pytest.approx(100 * 2 * np.mean(friction), rel=1e-2)
 
 
 def test_friction_has_one_source():

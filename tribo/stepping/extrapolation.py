@@ -19,7 +19,9 @@ LOOSER, LOOSEST = 10.0, 3e-3
 MOST_PARTS = 32
 """Parts of an increment after which that is done."""
 ROUGHEST = 0.05
-"""Error, in the mean over those parts, up to which they are taken as they are."""
+"""Error, in the mean over those parts and in each of all there is, up to which they are taken."""
+MOST_LEAVING = 64
+"""Parts of an increment after which a state that leaves its limits is not followed further."""
 JUMP = 0.1
 """Relative difference from a smooth rate at which one is looked at as one that jumps."""
 SAFETY, LEAST = 0.9, 0.1
@@ -130,18 +132,20 @@ def integrated(
     problem = _Problem(rates, length, limits, sizes, of_steps, layered, math.isinf(plan.accuracy))
     here = begin = problem.begin(start)
     waiting, done, missed = list(plan.parts), list[tuple[float, bool]](), 0.0
+    worst = [0.0] * len(begin.rates)
     while waiting:
         part, relaxes = waiting[0]
         trial = problem.tried(here, part, relaxes, plan.accuracy, is_last=len(waiting) == 1)
         left = max(trial.beyond, default=0.0) > ACCURACY
         if trial.off <= plan.accuracy and not left:
             here, missed = trial.end, missed + part * trial.off
+            worst = [max(each) for each in zip(worst, trial.errors, strict=True)]
             done.append(waiting.pop(0))
             if waiting and trial.off > 0:
                 _cut(waiting, SAFETY * part * (plan.accuracy / trial.off) ** (1 / 3))
         elif not relaxes:
             waiting[0] = part, True
-        elif left and part <= FINEST:
+        elif left and (part <= FINEST or len(waiting) + len(done) > MOST_LEAVING):
             limit = limits[int(np.argmax(trial.beyond))]
             raise BadValues(
                 f"{limit.name} goes on beyond its limits of {limit.least:g} to {limit.most:g}: "
@@ -153,6 +157,10 @@ def integrated(
             # Rates that jump, at one point after the other.
             plan = _looser(plan)
             here, waiting, done, missed = begin, list(plan.parts), [], 0.0
+            worst = [0.0] * len(worst)
+    if math.isinf(plan.accuracy) and not problem.repeated:
+        amounts = [*map(np.maximum, sizes, map(np.abs, here.values)), *map(np.abs, here.sums)]
+        missed = max(missed, *map(_part_of, worst, amounts))
     if not missed <= ROUGHEST:
         names = ", ".join(limit.name for limit in limits)
         raise BadValues(
@@ -176,11 +184,13 @@ class _Place:
 class _Trial:
     """Where a part of an increment ends, its error, and how far each state leaves its limits.
 
-    The error is relative to all that came before, as is what is beyond.
+    The largest error `off` is relative to all that came before, as is what is beyond; `errors` are
+    summed over the cells.
     """
 
     end: _Place
     off: float
+    errors: Sequence[float]
     beyond: Sequence[float]
 
 
@@ -235,7 +245,10 @@ class _Problem:
         held = [_held(*each) for each in zip(best, limits, strict=False)]
         at_end = is_last and math.isinf(accuracy)
         last = first if at_end or self.of_steps else along(held, 1.0, part)
-        off = max(map(_relative, best, rough, sizes), default=0.0)
+        errors = [
+            float(np.sum(np.abs(fine - coarse))) for fine, coarse in zip(best, rough, strict=True)
+        ]
+        off = max(map(_part_of, errors, sizes), default=0.0)
         if not self.repeated:
             # Trials held to a limit agree with each other, whatever the state goes to.
             off = max(off, *map(_part_of, moved, sizes), 0.0)
@@ -253,7 +266,7 @@ class _Problem:
             _beyond(value, np.maximum(size, begun), limit)
             for value, size, begun, limit in zip(best, sizes, self.sizes, limits, strict=False)
         ]
-        return _Trial(_Place(here.passed + part, held, sums, last), off, beyond)
+        return _Trial(_Place(here.passed + part, held, sums, last), off, errors, beyond)
 
     def _between(
         self, along: Rates, start: Sequence[Array], end: Sequence[Array], share: float

@@ -22,12 +22,19 @@ if TYPE_CHECKING:
     from tribo.simulation.model import Model
 
 ACCURACY = 1e-6
-"""Difference of two rules of Gauss, of all work so far, above which parts of a step are halved. The
-finer of them is far closer, where friction has no jumps."""
+"""Difference of two rules, of all work so far, above which parts of a step are halved. The finer of
+them is far closer, where friction is smooth."""
 MOST_PARTS = 12
 """Parts after which they are taken as they are."""
-RULES = [np.polynomial.legendre.leggauss(count) for count in (3, 5)]
-"""Places and weights, from -1 to 1."""
+PLACES = 0.5 + 0.5 * np.array(
+    [-1, -np.sqrt(2 / 3), -np.sqrt(1 / 5), 0, np.sqrt(1 / 5), np.sqrt(2 / 3), 1]
+)
+"""Places within a part, 0 to 1."""
+COARSE = np.array([1, 0, 5, 0, 5, 0, 1]) / 12
+"""Weights of Lobatto's rule, of four of them."""
+FINE = np.array([77, 432, 625, 672, 625, 432, 77]) / 2940
+"""Those of Kronrod's extension (Gander, W., Gautschi, W. (2000), Adaptive quadrature - revisited,
+BIT 40, 84-101)."""
 
 
 def friction_force(model: Model, state: State) -> float:
@@ -112,12 +119,9 @@ def _mean_of(values: Callable[[float], float], allowed: float) -> float:
     """Return the mean of values from 0 to 1, to an accuracy of itself, or to what is `allowed`."""
 
     def tried(begin: float, end: float) -> tuple[float, float, float, float]:
-        half, middle = 0.5 * (end - begin), 0.5 * (begin + end)
-        coarse, fine = (
-            half
-            * sum(weight * values(middle + half * at) for at, weight in zip(*rule, strict=True))
-            for rule in RULES
-        )
+        length = end - begin
+        found = np.array([values(begin + length * place) for place in PLACES.tolist()])
+        coarse, fine = (length * float(np.sum(rule * found)) for rule in (COARSE, FINE))
         return abs(fine - coarse), begin, end, fine
 
     parts = [tried(0.0, 1.0)]

@@ -164,6 +164,7 @@ class Implicit(Scheme):
                 trial = self.attempt(model, state, increment, time)
                 errors = self.errors(model, state, trial)
                 if max(errors.depth, errors.pressure, errors.volume) <= 1:
+                    ended = trial.ended(model, state)
                     break
                 changes = load_changes(model, state.time, time)
                 if changes and increment < AT_REST * target and errors.depth <= 1:
@@ -192,11 +193,7 @@ class Implicit(Scheme):
             natural = factor * increment
         # A step cut short to meet a save says little about the next: keep the longer of the two.
         proposal = max(errors.factor * increment, natural if increment < natural else 0.0)
-        return replace(
-            trial.ended(model, state),
-            increment=proposal,
-            rejected_steps=state.rejected_steps + rejected,
-        )
+        return replace(ended, increment=proposal, rejected_steps=state.rejected_steps + rejected)
 
     def step(self, model: Model, state: State, increment: float, time: float) -> State:
         """Return the state after one backward Euler step; see `Scheme.step`."""
