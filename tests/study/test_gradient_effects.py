@@ -194,7 +194,7 @@ def test_each_term_counts(monkeypatch, kind, owner, method, change):
                     ],
                 ),
             },
-            "over a rest",
+            "during a pause",
         ),
     ],
 )
