@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from tribo.core.errors import BadValues
-from tribo.stepping.extrapolation import Limits, integrated
+from tribo.stepping.extrapolation import integrated
+from tribo.stepping.relaxation import Limits
 
 ANY = Limits(-np.inf, np.inf, "'a' of a test")
 ONE = np.ones((1, 1))

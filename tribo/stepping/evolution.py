@@ -14,10 +14,11 @@ from tribo.core.contact import ContactSolution
 from tribo.core.fields import WearRate
 from tribo.core.state import State
 from tribo.stepping.contacts import in_stripes
-from tribo.stepping.extrapolation import Limits, Plan, Values, integrated
+from tribo.stepping.extrapolation import Plan, integrated
 from tribo.stepping.layers import in_layers
 from tribo.stepping.memory import Memory, laid, remembered
 from tribo.stepping.rates import CycleRates, Moment, resting_rates, wear_rates
+from tribo.stepping.relaxation import Limits, Values
 
 if TYPE_CHECKING:
     from tribo.simulation.model import Model

@@ -12,7 +12,8 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.units import quantities
-from tribo.stepping.extrapolation import Limits, Plan, integrated
+from tribo.stepping.extrapolation import Plan, integrated
+from tribo.stepping.relaxation import Limits
 from tribo.testing import samples
 from tribo.testing.ageing import aged
 from tribo.testing.checks import Checks

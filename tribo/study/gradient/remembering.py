@@ -16,8 +16,9 @@ from tribo.core.box import Box, whole
 from tribo.core.contact import ContactSolution
 from tribo.simulation.model import Model
 from tribo.stepping.evolution import limits_of, loaded
-from tribo.stepping.extrapolation import PLAIN, RELAXING, Limits, relaxed, relaxing
+from tribo.stepping.extrapolation import PLAIN, RELAXING
 from tribo.stepping.memory import Memory
+from tribo.stepping.relaxation import Limits, relaxed, relaxing
 from tribo.study.gradient.course import Before, pressed, stacked
 from tribo.study.gradient.linear import Carrier
 from tribo.study.gradient.local import localised
