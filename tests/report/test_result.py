@@ -16,7 +16,9 @@ from pages import Checked
 from pydantic import BaseModel
 
 import tribo
-from tribo import Effect, Quantity
+from tribo import Effect, Load, Quantity, Rotating
+from tribo.config.load import case_tables
+from tribo.plotting.figures import result_pictures
 from tribo.report.amounts import component_words, value_words
 from tribo.report.drawing import drawing
 from tribo.report.fields import charts
@@ -211,6 +213,53 @@ def test_every_number_of_the_case_has_its_unit_and_only_wear_coefficients_two():
     assert component_words({"type": "archard", "k": 1e-15}) == (
         "archard, k 1e-15 1/Pa = 1e-06 mm³/(N·m)"
     )
+
+
+def test_a_value_in_stages_is_told_with_their_times():
+    held = [{"until": 600.0, "normal": 50.0}, {"until": 1800.0, "normal": 100.0}]
+    assert value_words({"normal": held}, Load) == "normal 50 N to 10 min, 100 N to 30 min"
+    ramp = [{"at": 0.0, "normal": 50.0}, {"at": 3601.0, "normal": 100.0}]
+    assert value_words({"normal": ramp}, Load) == "normal 50 N at 0 s, 100 N at 3601 s"
+    many = [{"until": i + 1.0, "speed": i % 3} for i in range(20)]
+    assert value_words({"speed": many}, Rotating) == (
+        "speed pause to 1 s, …, 1 m/s to 20 s (20 stages, 1 m/s to 2 m/s with pauses)"
+    )
+
+
+def test_a_duty_cycle_is_told_and_drawn_with_its_pause_and_its_friction(tmp_path):
+    settings = ["grid.cells=32", "grid.size='0.7 mm'", "output.save_times=[]"]
+    settings += ["kinematics.duration=1800", "kinematics.positions='average'"]
+    (tmp_path / "case.toml").write_text(template("ball_on_disk"), encoding="utf-8")
+    case = case_tables(tribo.load_case(tmp_path / "case.toml", overrides=settings))
+    case["kinematics"]["frequency"] = [
+        {"until": 600.0, "frequency": 0.01},
+        {"until": 1200.0, "frequency": 0.0},
+        {"until": 1800.0, "frequency": 0.01},
+    ]
+    case["load"] = {"normal": [{"until": t, "normal": n} for t, n in ((1200, 50), (1800, 100))]}
+    with tribo.Simulation(case | {"friction": {"coefficient": 0.5}}).run() as result:
+        page, pictures, work = result_page(result), result_pictures(result), result.saves()[-1]
+        history = charts(result)["history"]["axes"][1]
+        panels = {panel["name"]: panel["curves"][0] for panel in history["panels"]}
+        force, _ = pictures["friction_history"]().axes
+        widths = pictures["contact_history"]().axes[1].lines
+    assert "frequency 0.01 Hz to 10 min, pause to 20 min, 0.01 Hz to 30 min" in page
+    assert "normal 50 N to 20 min, 100 N to 30 min" in page
+    assert "coefficient 0.5" in page
+    assert f"Friction: 50 N at the end, {work['friction_energy_J']:.4g} J dissipated." in page
+    assert "with pauses" in page
+    assert panels["Work of friction"]["y"][-1] == pytest.approx(work["friction_energy_J"], rel=1e-3)
+    drawn = [panels["Friction force"][axis] for axis in "xy"]
+    for time, newton in ((9.9, 25), (10.1, 0), (19.9, 0), (20.1, 50)):
+        for curve in (drawn, force.lines[0].get_data()):
+            assert np.interp(time, *curve) == pytest.approx(newton, abs=0.01)
+    for line in widths:
+        assert np.ptp(np.interp([10.0, 19.999], *line.get_data())) == 0
+
+
+def test_a_friction_force_that_stays_has_no_picture():
+    with made() as result:
+        assert "friction_history" not in result_pictures(result)
 
 
 def test_block_means_keep_the_load():

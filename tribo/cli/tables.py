@@ -81,11 +81,8 @@ def print_report(result: Result, console: Console | None = None, *, told: str = 
     if max(plastic) > 0:
         first, last = (f"{100 * part:.2g} %" for part in plastic)
         console.print(f"At the hardness: {first} of the contact at first, {last} at the end.")
-    if "friction_energy_J" in saves[-1]:
-        console.print(
-            f"Friction: {saves[-1]['friction_force_N']:.4g} N at the end, "
-            f"{saves[-1]['friction_energy_J']:.4g} J dissipated."
-        )
+    for words in friction_words(result):
+        console.print(words)
     for row in lab.rows:
         console.print(f"{row.label}: {row.value:.4g} {row.unit}".rstrip(), markup=False)
     totals, worst = result.totals(), result.worst()
@@ -103,6 +100,15 @@ def print_report(result: Result, console: Console | None = None, *, told: str = 
     for notice in result.notices:
         if notice.partition(":")[0] != told:
             console.print(f"[yellow]Note:[/] {escape(notice)}")
+
+
+def friction_words(result: Result) -> list[str]:
+    """Return a line with the friction force at the end and the work; none without friction."""
+    last = result.saves()[-1]
+    if "friction_energy_J" not in last:
+        return []
+    force, work = last["friction_force_N"], last["friction_energy_J"]
+    return [f"Friction: {force:.4g} N at the end, {work:.4g} J dissipated."]
 
 
 def print_provenance(result: Result, console: Console | None = None) -> None:

@@ -3,6 +3,7 @@
 from tribo.plotting.figures import save_figures
 from tribo.plotting.history import (
     contact_history,
+    friction_history,
     real_contact,
     roughness_history,
     wear_history,
@@ -15,6 +16,7 @@ from tribo.plotting.scar import scar_map
 __all__ = [
     "body_profiles",
     "contact_history",
+    "friction_history",
     "groove",
     "height_map",
     "material_ratio_curves",

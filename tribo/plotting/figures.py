@@ -17,11 +17,12 @@ from tribo.lab.running_in import reliefs, rough_bodies
 from tribo.plotting.history import (
     contact_history,
     fields_history,
+    friction_history,
     real_contact,
     roughness_history,
     wear_history,
 )
-from tribo.plotting.kept import field_map, kept_fields
+from tribo.plotting.kept import field_map, kept_fields, steady
 from tribo.plotting.pressure import pressure_map, pressure_sections
 from tribo.plotting.profiles import along_track, body_profiles, groove, worn_section
 from tribo.plotting.relief import height_map, material_ratio_curves
@@ -58,7 +59,8 @@ def save_figures(result: Result, folder: Path, suffix: str = "png") -> list[Path
         ``NAME_profiles`` of each worn body NAME, or ``NAME_groove`` of a
         swept one and ``NAME_along_track`` where the cycle is resolved,
         ``NAME_height_map`` and ``NAME_material_ratio`` of each rough one,
-        ``worn_section``, ``wear_history``, ``contact_history`` and, of rough
+        ``worn_section``, ``wear_history``, ``contact_history``,
+        ``friction_history`` where the friction force changes and, of rough
         bodies, ``real_contact`` and ``roughness_history``; ``FIELD_map`` of each field that
         effects and laws keep or provide, and ``fields_history``; besides those of the plugins
         of the result's models.
@@ -122,6 +124,9 @@ def result_pictures(result: Result) -> dict[str, Callable[[], Figure]]:
         pictures["wear_history"] = partial(wear_history, result)
     if len(history["time_s"]) > 1:
         pictures["contact_history"] = partial(contact_history, result)
+        force = history["friction_force_N"]
+        if np.isfinite(force).all() and not steady(force):
+            pictures["friction_history"] = partial(friction_history, result)
         if rough:
             pictures["real_contact"] = partial(real_contact, result)
         if any(label.endswith(".Sq_m") for label in history):

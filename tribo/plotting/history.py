@@ -94,7 +94,7 @@ def contact_history(result: Result) -> Figure:
     """
     number_of_saves(result)
     history, spacing = result.table("history"), result.grid.spacing
-    time = history["time_s"]
+    time, resting = history["time_s"], np.diff(history["distance_m"]) == 0
     pressures = {
         label: (time, history[f"{name}_pressure_Pa"])
         for label, name in (("largest", "max"), ("centre", "centre"))
@@ -103,6 +103,9 @@ def contact_history(result: Result) -> Figure:
     for axis, cell, label in zip("xy", spacing, ("along", "across"), strict=True):
         width = history[f"contact_half_width_{axis}_m"]
         kept = _steps(width, cell)
+        # In a rest, a long step, nothing changes.
+        kept[1:] |= resting
+        kept[:-1] |= resting
         widths[f"{label} sliding"] = time[kept], width[kept]
     with house_style():
         figure = new_figure(88.0)
@@ -114,6 +117,38 @@ def contact_history(result: Result) -> Figure:
         cells = dict.fromkeys(f"{cell / size(cell_unit):.3g}" for cell in spacing)
         cells_words = f"± 1 cell, {' × '.join(cells)} {cell_unit}"
         lower.set_title(cells_words, loc="right", fontsize=7.0)
+    return figure
+
+
+def with_rests(history: Mapping[str, Array]) -> dict[str, Array]:
+    """Return a history in which the friction force jumps where a rest begins and ends.
+
+    A row has the force of the step before it, so that a line between two would creep all along a
+    rest; rows are added that have that of the step after them.
+    """
+    resting = np.diff(history["distance_m"]) == 0
+    turns = np.flatnonzero(resting[1:] != resting[:-1]) + 1
+    return {
+        name: np.insert(column, turns + 1, column[turns + (name == "friction_force_N")])
+        for name, column in history.items()
+    }
+
+
+def friction_history(result: Result) -> Figure:
+    """Draw the friction force and its work against time."""
+    number_of_saves(result)
+    history = with_rests(result.table("history"))
+    with house_style():
+        figure = new_figure(88.0)
+        upper, lower = figure.subplots(2, 1, sharex=True)
+        for axes, what, unit, name in (
+            (upper, "Friction force", "N", "friction_force_N"),
+            (lower, "Work of friction", "J", "friction_energy_J"),
+        ):
+            curves = {"": (history["time_s"], history[name])}
+            _draw(axes, result, what, unit, curves, ({"color": OVER["color"]},), _from_zero)
+            axes.ticklabel_format(axis="y", useMathText=True)
+            axes.label_outer()
     return figure
 
 

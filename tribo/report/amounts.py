@@ -6,12 +6,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from typing import Any
 
+import numpy as np
 from pydantic import BaseModel
 
 from tribo.core.dimensions import scale
 from tribo.core.errors import CaseError
 from tribo.core.units import Quantity, parts
 from tribo.lab.conversion import in_mm3_per_newton_metre
+from tribo.plotting.units import time_labels
 from tribo.registry.registry import default_registry
 from tribo.wear.law import WearLaw
 
@@ -55,17 +57,38 @@ def value_words(config: Mapping[str, Any], table: type[BaseModel] | None) -> str
     return ", ".join(_values(config, table))
 
 
-def load_words(load: Mapping[str, Any]) -> str:
-    """Return the normal load, or its range over the stages."""
-    normal = load.get("normal")
-    if isinstance(normal, int | float):
-        return amount(float(normal), "N")
-    stages = [float(s["normal"]) for s in normal or () if isinstance(s, Mapping)]
-    if not stages:
-        return "as the case says"
-    if min(stages) == max(stages):
-        return amount(stages[0], "N")
-    return f"{amount(min(stages), 'N')} to {amount(max(stages), 'N')}"
+def range_words(table: Mapping[str, Any], key: str, unit: str) -> str:
+    """Return a number of a table of the case, or its range over stages; "" if it is neither."""
+    value: Any = table.get(key)
+    numbers = [float(stage[key]) for stage in value] if in_stages(value, key) else []
+    if isinstance(value, int | float):
+        numbers = [float(value)]
+    if not numbers:
+        return ""
+    low, high = min(filter(None, numbers), default=0.0), max(numbers)
+    words = amount(low, unit)
+    if high > low:
+        words += f" to {amount(high, unit)}"
+    return words + (" with pauses" if min(numbers) < low else "")
+
+
+def in_stages(value: Any, key: str) -> bool:
+    """Return whether a value is given in stages, as tables with its own key."""
+    listed = isinstance(value, list | tuple) and len(value) > 0
+    return listed and all(isinstance(stage, Mapping) and key in stage for stage in value)
+
+
+def _stage_words(stages: Sequence[Mapping[str, Any]], key: str, unit: str) -> str:
+    """Return until when each stage goes, or of many stages the first, the last and the range."""
+    told, times = [], time_labels(np.array([stage.get("until") or stage["at"] for stage in stages]))
+    for stage, time in zip(stages, times, strict=True):
+        level = amount(float(stage[key]), unit) if stage[key] else "pause"
+        # A load is held to a time, or reached at a time in a straight line.
+        told.append(f"{level} {'to' if stage.get('until') else 'at'} {time}")
+    if len(told) > _LONG:
+        over = range_words({key: stages}, key, unit)
+        return f"{told[0]}, …, {told[-1]} ({len(told)} stages, {over})"
+    return ", ".join(told)
 
 
 def _values(config: Mapping[str, Any], table: type[BaseModel] | None) -> Iterator[str]:
@@ -77,7 +100,8 @@ def _values(config: Mapping[str, Any], table: type[BaseModel] | None) -> Iterato
             yield name
             continue
         marks = _marks(table, key)
-        words = _value(value, marks)
+        staged = in_stages(value, key)
+        words = _stage_words(value, key, _unit(marks)) if staged else _value(value, marks)
         of_law = table is not None and issubclass(table, WearLaw)
         if of_law and _unit(marks) == "1/Pa" and isinstance(value, int | float):
             words += f" = {in_mm3_per_newton_metre(value):.4g} mm³/(N·m)"

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from tribo.core.arrays import Array, Mask
+from tribo.plotting.history import with_rests
 from tribo.plotting.kept import kept_fields
 from tribo.plotting.sections import layer_ends, limits, removed, scar_mask
 from tribo.plotting.units import axis_units, shown_in, size, time_labels, time_unit
@@ -148,7 +149,7 @@ def _section(
 
 def history(results: Results) -> dict[str, Any]:
     """Return what changes over the steps: panels of curves against the distance, and the time."""
-    tables = {label: result.table("history") for label, result in results.items()}
+    tables = {label: with_rests(result.table("history")) for label, result in results.items()}
     kept = {label: thinned(len(table["time_s"]), LONGEST) for label, table in tables.items()}
     left_out = sum(len(table["time_s"]) - len(kept[label]) for label, table in tables.items())
     note = f"{left_out} further steps are left out of the curves." if left_out else ""
@@ -228,3 +229,4 @@ def _columns(bodies: Sequence[str]) -> Iterator[tuple[str, str, dict[str, str]]]
     yield "Contact half-width", "m", widths
     yield "Normal load", "N", {"load": "load_N"}
     yield "Friction force", "N", {"friction": "friction_force_N"}
+    yield "Work of friction", "J", {"work": "friction_energy_J"}

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from html import escape
 from typing import Any
 
-from tribo.report.amounts import amount, load_words
+from tribo.report.amounts import range_words
 
 WIDTH, HEIGHT = 520, 320
 MIDDLE, CONTACT = 260, 160
@@ -23,7 +23,7 @@ def drawing(case: Mapping[str, Any], swept: str | None) -> str:
     coated = {name: bool(body.get("layers")) for name, body in bodies.items()}
     called = {name: f"coated {name}" if coated[name] else name for name in bodies}
     motion = _motion(case.get("kinematics") or {})
-    load = load_words(case.get("load") or {})
+    load = range_words(case.get("load") or {}, "normal", "N") or "as the case says"
     parts = [
         *_body(shapes[lower], coated[lower], up=False),
         *_body(shapes[upper], coated[upper], up=True),
@@ -92,9 +92,9 @@ def _motion(kinematics: Mapping[str, Any]) -> tuple[list[str], bool]:
     }
     name = str(kinematics.get("type", "motion"))
     words = [
-        f"{key.replace('_', ' ')} {amount(float(value), unit)}"
+        f"{key.replace('_', ' ')} {number}"
         for key, unit in units.items()
-        if isinstance(value := kinematics.get(key), int | float)
+        if (number := range_words(kinematics, key, unit))
     ]
     half = (len(words) + 1) // 2
     told = [", ".join([name, *words[:half]]), ", ".join(words[half:])]

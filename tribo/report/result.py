@@ -6,16 +6,24 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from tribo.case import Layer
-from tribo.cli.tables import fields_table, inferred_table, roughness_table, saves_table, wear_table
+from tribo.case import Friction, Layer
+from tribo.cli.tables import (
+    fields_table,
+    friction_words,
+    inferred_table,
+    roughness_table,
+    saves_table,
+    wear_table,
+)
 from tribo.config.write import to_toml
 from tribo.core.errors import CaseError, NumericalError
+from tribo.core.loads import Load
 from tribo.core.material import Material
 from tribo.lab.report import LabReport, lab_report
 from tribo.lab.running_in import rough_bodies
 from tribo.plotting.figures import result_pictures
 from tribo.plotting.sections import number_of_saves
-from tribo.report.amounts import amount, component_words, load_words, value_words
+from tribo.report.amounts import amount, component_words, value_words
 from tribo.report.drawing import drawing
 from tribo.report.fields import charts
 from tribo.report.page import check_installed, render, stills
@@ -110,7 +118,7 @@ def _uncertainty(row: Estimate) -> str:
 
 def _remarks(result: Result, lab: LabReport) -> list[str]:
     rows = [f"{row.label}: {row.value:.4g} {row.unit}".rstrip() for row in lab.rows]
-    return [lab.first_contact_words, *rows]
+    return [lab.first_contact_words, *friction_words(result), *rows]
 
 
 def _held(result: Result) -> str:
@@ -141,8 +149,9 @@ def facts(case: Mapping[str, Any]) -> list[tuple[str, str]]:
             found.append((f"{name}, wear", component_words(body["wear"])))
         for i, layer in enumerate(body.get("layers") or (), start=1):
             found.append((f"{name}, layer {i} from the top", value_words(layer, Layer)))
-    if "load" in case:
-        found.append(("normal load", load_words(case["load"])))
+    for part, table in (("load", Load), ("friction", Friction)):
+        if case.get(part):
+            found.append((part, value_words(case[part], table)))
     found += [
         (part, component_words(case[part]))
         for part in ("kinematics", "contact", "stepping")
