@@ -236,15 +236,15 @@ def test_a_duty_cycle_is_told_and_drawn_with_its_pause_and_its_friction(tmp_path
         {"until": 1200.0, "frequency": 0.0},
         {"until": 1800.0, "frequency": 0.01},
     ]
-    case["load"] = {"normal": [{"until": t, "normal": n} for t, n in ((1200, 50), (1800, 100))]}
+    case["load"] = {"normal": [{"until": t, "normal": n} for t, n in ((900, 50), (1800, 100))]}
     with tribo.Simulation(case | {"friction": {"coefficient": 0.5}}).run() as result:
         page, pictures, work = result_page(result), result_pictures(result), result.saves()[-1]
         history = charts(result)["history"]["axes"][1]
         panels = {panel["name"]: panel["curves"][0] for panel in history["panels"]}
         force, _ = pictures["friction_history"]().axes
-        widths = pictures["contact_history"]().axes[1].lines
+        lines = [line for axes in pictures["contact_history"]().axes for line in axes.lines]
     assert "frequency 0.01 Hz to 10 min, pause to 20 min, 0.01 Hz to 30 min" in page
-    assert "normal 50 N to 20 min, 100 N to 30 min" in page
+    assert "normal 50 N to 15 min, 100 N to 30 min" in page
     assert "coefficient 0.5" in page
     assert f"Friction: 50 N at the end, {work['friction_energy_J']:.4g} J dissipated." in page
     assert "with pauses" in page
@@ -253,8 +253,12 @@ def test_a_duty_cycle_is_told_and_drawn_with_its_pause_and_its_friction(tmp_path
     for time, newton in ((9.9, 25), (10.1, 0), (19.9, 0), (20.1, 50)):
         for curve in (drawn, force.lines[0].get_data()):
             assert np.interp(time, *curve) == pytest.approx(newton, abs=0.01)
-    for line in widths:
-        assert np.ptp(np.interp([10.0, 19.999], *line.get_data())) == 0
+    for line in lines:
+        first, last, *jumped = np.interp([10.0, 14.99, 15.01, 19.99], *line.get_data())
+        # Nothing but the load changes in the pause.
+        assert first == last < jumped[0] == jumped[1]
+    load = panels["Normal load"]
+    assert np.interp([14.99, 15.01], load["x"], load["y"]).tolist() == [50.0, 100.0]
 
 
 def test_a_friction_force_that_stays_has_no_picture():

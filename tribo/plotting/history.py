@@ -93,7 +93,7 @@ def contact_history(result: Result) -> Figure:
     from step to step.
     """
     number_of_saves(result)
-    history, spacing = result.table("history"), result.grid.spacing
+    history, spacing = with_rests(result), result.grid.spacing
     time, resting = history["time_s"], np.diff(history["distance_m"]) == 0
     pressures = {
         label: (time, history[f"{name}_pressure_Pa"])
@@ -120,16 +120,22 @@ def contact_history(result: Result) -> Figure:
     return figure
 
 
-def with_rests(history: Mapping[str, Array]) -> dict[str, Array]:
-    """Return a history in which the friction force jumps where a rest begins and ends.
+def with_rests(result: Result) -> dict[str, Array]:
+    """Return the history with a row more where each step of a rest begins, and where it ends.
 
-    A row has the force of the step before it, so that a line between two would creep all along a
-    rest; rows are added that have that of the step after them.
+    A row has the load and the friction force of the step before it. A line from row to row would
+    creep all along a rest, a long step, to what the load is from its first moment on; only a load
+    that goes in straight lines does so.
     """
+    history = result.table("history")
+    stages = (result.case.get("load") or {}).get("normal")
+    straight = isinstance(stages, list | tuple) and any(stage.get("at") for stage in stages)
     resting = np.diff(history["distance_m"]) == 0
-    turns = np.flatnonzero(resting[1:] != resting[:-1]) + 1
+    starts = np.flatnonzero(resting | np.append(False, resting)[:-1])
+    rows = {"time_s": starts, "friction_force_N": starts + 1}
+    later = starts + (resting[starts] & (not straight))
     return {
-        name: np.insert(column, turns + 1, column[turns + (name == "friction_force_N")])
+        name: np.insert(column, starts + 1, column[rows.get(name, later)])
         for name, column in history.items()
     }
 
@@ -137,7 +143,7 @@ def with_rests(history: Mapping[str, Array]) -> dict[str, Array]:
 def friction_history(result: Result) -> Figure:
     """Draw the friction force and its work against time."""
     number_of_saves(result)
-    history = with_rests(result.table("history"))
+    history = with_rests(result)
     with house_style():
         figure = new_figure(88.0)
         upper, lower = figure.subplots(2, 1, sharex=True)

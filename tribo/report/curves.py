@@ -149,7 +149,7 @@ def _section(
 
 def history(results: Results) -> dict[str, Any]:
     """Return what changes over the steps: panels of curves against the distance, and the time."""
-    tables = {label: with_rests(result.table("history")) for label, result in results.items()}
+    tables = {label: with_rests(result) for label, result in results.items()}
     kept = {label: thinned(len(table["time_s"]), LONGEST) for label, table in tables.items()}
     left_out = sum(len(table["time_s"]) - len(kept[label]) for label, table in tables.items())
     note = f"{left_out} further steps are left out of the curves." if left_out else ""

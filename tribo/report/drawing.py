@@ -96,7 +96,7 @@ def _motion(kinematics: Mapping[str, Any]) -> tuple[list[str], bool]:
         for key, unit in units.items()
         if (number := range_words(kinematics, key, unit))
     ]
-    half = (len(words) + 1) // 2
+    half = len(words) // 2
     told = [", ".join([name, *words[:half]]), ", ".join(words[half:])]
     return told, name in ("reciprocating", "measured")
 
