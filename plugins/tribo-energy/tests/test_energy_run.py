@@ -129,7 +129,9 @@ def test_the_lab_is_told_the_energy_and_the_volume_it_wore():
     with Simulation(data).run() as result:
         energy, volume = tribo_lab_rows(result)
         (draw,) = tribo_figures(result).values()
-        assert draw().axes[0].get_xlabel() == "Dissipated energy (J)"
+        (axes,) = draw().axes
+    assert axes.get_xlabel() == "Dissipated energy (J)"
+    assert [line.get_linestyle() for line in axes.lines] == ["-", "--"]
     # Two bodies, each V = α Σ E.
     assert energy.value == pytest.approx(MU * LOAD * 2 * 2e-3 * 25 * 50, rel=1e-9, abs=0)
     assert volume.value == pytest.approx(1e9 * 2 * ALPHA, rel=1e-9, abs=0)
