@@ -115,6 +115,7 @@ def test_a_case_without_friction_is_refused(without, needs):
 
 
 @pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:averaging:tribo.TriboWarning")
 def test_the_readme_shows_what_the_example_prints(capsys):
     runpy.run_path(str(HERE.parent / "examples" / "compare_with_archard.py"), run_name="__main__")
     printed = capsys.readouterr().out.rstrip()
