@@ -187,11 +187,15 @@ function drawSurface(plot, data, surface, save, moment, camera) {
 }
 
 function drawHistory(plot, panel, label, isLog) {
+  const values = panel.curves.flatMap(({ y }) => y.filter((v) => v !== null));
+  const [low, high] = [Math.min(...values), Math.max(...values)];
+  // As a temperature, far from 0.
+  const isFar = panel.dotted && low < high && low > 0.5 * high;
   const ends = panel.curves.map(({ name, y }) => `${name} ${y[y.length - 1]} ${panel.unit}`);
   plot.setAttribute("aria-label", `${panel.name} against ${label}; at the end: ${ends.join(", ")}.`);
   return Plotly.react(plot, lines(panel.curves, panel.dotted), layout(panel.name, {
     xaxis: isLog ? scaled(label, panel.curves.flatMap(({ x }) => x)) : axis(label, { rangemode: "tozero" }),
-    yaxis: panel.log ? scaled(panel.unit, panel.curves.flatMap(({ y }) => y)) : axis(panel.unit, { rangemode: "tozero" }),
+    yaxis: panel.log ? scaled(panel.unit, values) : axis(panel.unit, { rangemode: isFar ? "normal" : "tozero" }),
     ...legend(panel.curves),
   }), CONFIG);
 }
