@@ -121,4 +121,4 @@ PATH = {"length": "5 mm", "area": "28 mm^2"}
 )
 def test_packages_ask_too(effect, forgotten, asked):
     (doubt,) = unusual(validate_case({**CASE, "effects": [{**effect, **forgotten}]}))
-    assert doubt.startswith(f"effects[0].{asked}, usual are ")
+    assert doubt.startswith(f"effects.0.{asked}, usual are ")

@@ -37,5 +37,5 @@ def test_time_labels(times, labels):
 def test_values_and_units_go_together():
     assert 2e-4 / size(fitting("m", 2e-4)) == pytest.approx(0.2)
     assert [fitting("m", v) for v in (2e-4, 9e-5, 9e-8, 0.0)] == ["mm", "µm", "nm", "mm"]
-    assert [height_unit(v) for v in (1.4e-4, 8e-6, 8e-9)] == ["µm", "µm", "nm"]
+    assert [height_unit(v) for v in (1.4e-4, 8e-6, 8e-9, 0.0)] == ["µm", "µm", "nm", "µm"]
     assert [fitting("Pa", v) for v in (2e9, 2e5, 2e4, 2.0)] == ["MPa", "MPa", "kPa", "Pa"]

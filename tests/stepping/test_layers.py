@@ -211,7 +211,7 @@ def test_a_run_resumed_has_the_same_bits(tmp_path):
         "time_s": pytest.approx(10 * THROUGH, rel=1e-9),
     }
     with Result.open(path) as kept:
-        assert kept.provenance["components"]["bodies.pin.layers[0].wear"]["type"] == "archard"
+        assert kept.provenance["components"]["bodies.pin.layers.0.wear"]["type"] == "archard"
 
 
 def test_a_run_that_ends_at_a_depth_tells_only_of_layers_passed_by_then():
@@ -225,7 +225,7 @@ def test_a_run_that_ends_at_a_depth_tells_only_of_layers_passed_by_then():
         ({**coated(), "wear": None}, "pin: layers are worn through: give wear for what lies below"),
         (
             coated(wear={"type": "archard", "K": 1e-6}),
-            r"pin\.layers\[0\]\.wear: K needs a hardness",
+            r"pin\.layers\.0\.wear: K needs a hardness",
         ),
         (
             {**coated(thickness="5 mm"), "surface": {"type": "sphere", "radius": "4 mm"}},
@@ -236,7 +236,7 @@ def test_a_run_that_ends_at_a_depth_tells_only_of_layers_passed_by_then():
             | {"wear": {"type": "smoothing", "roughness": 2e-6, "depth": 1e-6, **FACTOR}},
             r"pin\.layers: laws of the layers begin with different values of 'roughness'",
         ),
-        (coated(young="400 GPa", thickness=-1), r"pin\.layers\[0\]\.thickness: "),
+        (coated(young="400 GPa", thickness=-1), r"pin\.layers\.0\.thickness: "),
         (
             {**coated(), "layers": [{"thickness": 1e-6, "young": young} for young in (1e11, 2e11)]},
             r"pin\.layers: layers may differ from the body in young and poisson, but not",

@@ -27,7 +27,7 @@ def test_a_null_result_is_as_far_off_as_its_uncertainty_is(sigmas, count):
 @pytest.mark.parametrize("factor", [299.0, 1 / 299])
 def test_what_is_far_off_may_be_meant(factor):
     assert len(off(factor * 1e-6, 1e-9, 1e-6)) == 1
-    with pytest.raises(CaseError, match=r"^measured\[0\] was read as "):
+    with pytest.raises(CaseError, match=r"^measured\.0 was read as "):
         off(factor**1.01 * 1e-6, 1e-9, 1e-6)
 
 

@@ -140,7 +140,7 @@ def test_pixels_are_averaged_over_cells_and_missing_ones_left_out():
 @pytest.mark.parametrize(
     ("data", "words"),
     [
-        ({"map": [{"body": "disk", "depth": "no.npy"}]}, "map[0].uncertainty: "),
+        ({"map": [{"body": "disk", "depth": "no.npy"}]}, "map.0.uncertainty: "),
         (
             {"map": [{"body": "disk", "depth": "a", "uncertainty": 1e-9, "length": 1e-4}]}
             | {"fit": [{"path": "load.normal"}]},

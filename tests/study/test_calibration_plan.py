@@ -102,7 +102,7 @@ def test_what_cannot_be_planned_is_told(changes, within, words):
 
 
 def test_values_are_needed_to_calibrate():
-    with pytest.raises(CaseError, match=r"^measured\[0\]: give value, or before and after"):
+    with pytest.raises(CaseError, match=r"^measured\.0: give value, or before and after"):
         calibrate(CASE, {"measured": [MASS]})
 
 

@@ -330,7 +330,7 @@ def test_a_failing_run_says_with_what_and_what_may_be_off():
     with pytest.raises(NumericalError, match="reached the edge of the window") as caught:
         calibrate(CASE, {"measured": data})
     assert f"with {BALL_K} = " in str(caught.value)
-    assert "or is a measured value off? measured[0] was read as 3.66e-07 kg" in str(caught.value)
+    assert "or is a measured value off? measured.0 was read as 3.66e-07 kg" in str(caught.value)
 
 
 @pytest.mark.parametrize(
@@ -353,7 +353,7 @@ def test_a_forgotten_unit_is_refused_before_anything_is_fitted(entry):
     with pytest.raises(CaseError) as caught:
         calibrate(CASE, {"measured": data}, on_run=lambda run, misfit: runs.append(run))
     # A coefficient may be off by fifty.
-    assert str(caught.value).startswith("measured[1] was read as ")
+    assert str(caught.value).startswith("measured.1 was read as ")
     assert len(str(caught.value).splitlines()) == 1
     assert not runs
 

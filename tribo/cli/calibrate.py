@@ -175,7 +175,7 @@ def _maps(
     from tribo.study.calibration.mapped import calibrate_maps
 
     check_free(output, force)
-    mapped = {f"map[{i}]": entry for i, entry in enumerate(asked.map)}
+    mapped = {f"map.{i}": entry for i, entry in enumerate(asked.map)}
     found = calibrate_maps(tables, mapped, on_run=partial(_tell, "run and pass back"))
     if as_json:
         echo_json(maps_json(found, level))

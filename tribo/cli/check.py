@@ -154,12 +154,13 @@ def _facts(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
             worn = f"{1e6 * body.max_wear_depth:.3g} µm, {1e9 * body.wear_volume:.3g} mm³"
             yield f"wear of {name}, about", worn
         for passed in prediction.worn_through:
-            when = f"{passed['distance_m']:.3g} m, {passed['time_s']:.3g} s"
+            path, end = (readable(passed[key], ".3g") for key in ("distance_m", "time_s"))
+            when = f"{path} m, {end} s"
             yield f"layer {passed['layer']} of {passed['body']} worn through, about", when
         if any(body.layers for body in model.case.bodies.values()) and not prediction.worn_through:
             yield "layers", "none is worn through"
     if prediction.run_time is not None:
         soonest, latest = prediction.run_time / SPREAD, prediction.run_time * SPREAD
-        yield "run time here, about", f"{soonest:.2g} to {latest:.2g} s"
+        yield "run time here, about", f"{readable(soonest, '.2g')} to {readable(latest, '.2g')} s"
     yield "memory, at most", f"{readable(prediction.memory / 2**20, '.0f')} MiB"
     yield "result file, at most", f"{prediction.file_size / 2**20:.1f} MiB"

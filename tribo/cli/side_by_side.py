@@ -119,7 +119,7 @@ def _at(comparison: Comparison, labels: Sequence[str], time: float) -> dict[str,
         for name, each in differences(result, first, time).items() if label != reference else ():
             name = name.removeprefix("bodies.").replace(".wear_depth", " depth")
             cells = found.setdefault(f"{name} {of}", [NOTHING] * len(labels))
-            cells[i] = f"{_percent(each.l2)}, {_percent(each.largest)} %"
+            cells[i] = f"{_percent(each.l2)} %, {_percent(each.largest)} %"
     return found
 
 

@@ -120,15 +120,11 @@ def case_error(error: ValidationError) -> CaseError:
 
 
 def path(keys: tuple[str | int, ...]) -> str:
-    """Return the place in a case to which keys and indices lead, as ``effects[1].type``."""
-    text = ""
-    for key in keys:
-        if isinstance(key, int):
-            text += f"[{key}]"
-        else:
-            plain = key.replace("_", "").replace("-", "").isalnum()
-            text += ("." if text else "") + (key if plain else f'"{key}"')
-    return text
+    """Return the place in a case to which keys and indices lead, as ``effects.1.type``."""
+    return ".".join(
+        key if key.replace("_", "").replace("-", "").isalnum() else f'"{key}"'
+        for key in map(str, keys)
+    )
 
 
 def message(details: ErrorDetails) -> str:

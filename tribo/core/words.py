@@ -29,9 +29,13 @@ def signed(value: float, decimals: int) -> str:
 
 
 def readable(value: float, form: str) -> str:
-    """Return a number in a format, with two digits where that would round a twentieth of it off."""
+    """Return a number in a format, with two digits where that would round a twentieth of it off.
+
+    Below a million it is written out.
+    """
     text = f"{value:{form}}"
-    return text if abs(float(text) - value) <= 0.05 * abs(value) else f"{value:.2g}"
+    text = text if abs(float(text) - value) <= 0.05 * abs(value) else f"{value:.2g}"
+    return f"{float(text):g}" if "e+" in text else text
 
 
 def did_you_mean(name: object, known: Iterable[str]) -> str | None:

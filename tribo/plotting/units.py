@@ -35,8 +35,8 @@ def axis_units(reaches: Sequence[float]) -> list[str]:
 
 
 def height_unit(largest: float) -> str:
-    """Return the unit for heights and depths up to `largest`, in m: µm from 1 µm to 1 mm."""
-    return fitting("m", largest, least=1.0)
+    """Return the unit of heights up to `largest`, in m: µm from 1 µm to 1 mm and of 0."""
+    return fitting("m", largest, least=1.0) if largest else "µm"
 
 
 def shown_in(unit: str, values: Array) -> tuple[str, float]:

@@ -182,7 +182,7 @@ def _plastic(
 def _law(body: Body, name: str, grid: Grid, exposure: Exposure) -> GuardedLaw:
     """Return the law of a body that wears, or those of its layers."""
     laws = []
-    own = (*((f"layers[{i}].wear", layer) for i, layer in enumerate(body.layers)), ("wear", None))
+    own = (*((f"layers.{i}.wear", layer) for i, layer in enumerate(body.layers)), ("wear", None))
     for law, (place, layer) in zip(body.laws(), own, strict=True):
         place = "wear" if layer is None or layer.wear is None else place
         material = body.material if layer is None else layer.material(body.material)

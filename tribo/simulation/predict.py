@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from tribo.core.errors import CaseError, NumericalError, PluginError
 from tribo.core.measures import Measures
 from tribo.core.notices import worn_through
 from tribo.core.state import State
+from tribo.core.words import readable
 from tribo.lab.first_contact import HertzContact, hertz_contact
 from tribo.result.provenance import stated_facts
 from tribo.simulation.beginning import first_state
@@ -63,7 +65,7 @@ class Prediction:
     """Of coated bodies: those without the layer, and those of the layer throughout."""
     cells_across: tuple[float, float] | None
     last: Measures | None
-    worn_through: tuple[Mapping[str, object], ...]
+    worn_through: tuple[Mapping[str, Any], ...]
     window_holds: bool | None
     limitation: str | None
     positions: int
@@ -92,7 +94,7 @@ class CoarseRun:
     last: Measures | None
     outgrown: float | None = None
     limitation: str | None = None
-    worn_through: tuple[Mapping[str, object], ...] = ()
+    worn_through: tuple[Mapping[str, Any], ...] = ()
     error: CaseError | NumericalError | None = None
     on_any_cells: bool = False
     run_time: float | None = None
@@ -165,7 +167,7 @@ def _stopping(
         stopping.append((error.exit_code, words))
     if window_holds is False:
         lx, ly = (1e3 * edge for edge in model.grid.size)
-        when = "" if coarse.outgrown is None else f", at about {coarse.outgrown:.3g} s"
+        when = "" if coarse.outgrown is None else f", at about {readable(coarse.outgrown, '.3g')} s"
         words = (
             f"the contact outgrows the window of {lx:.4g} × {ly:.4g} mm, and the run would "
             f"stop there{when}: make grid.size larger (and grid.cells with it)"

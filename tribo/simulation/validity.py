@@ -12,6 +12,7 @@ from tribo.core.contact import ContactSolution
 from tribo.core.errors import located
 from tribo.core.measures import Measures, half_widths
 from tribo.core.state import State
+from tribo.core.words import readable
 from tribo.lab.first_contact import hertz_contact
 from tribo.motion.cycle import check_spacing, spacing_for
 from tribo.simulation.model import Model
@@ -87,9 +88,10 @@ def too_wide(model: Model, measures: Measures) -> list[str]:
         )
         if ratio > STEEP:
             told.append(
-                f"at {measures.time:.3g} s the contact's half-width a is {ratio:.2f} of the radius "
-                f"R of {name}, {1e3 / curvature:.3g} mm: a half-space with small slopes asks "
-                "for a/R well below 1 (0.1, say), and pressures and depths may be far off"
+                f"at {readable(measures.time, '.3g')} s the contact's half-width a is "
+                f"{ratio:.2f} of the radius R of {name}, {1e3 / curvature:.3g} mm: a half-space "
+                "with small slopes asks for a/R well below 1 (0.1, say), and pressures and "
+                "depths may be far off"
             )
     return told
 

@@ -83,7 +83,7 @@ def choose_case(
         fitted[name] = tuple(entry for entry in asked.fit if is_number(known, entry.path))
     for i, entry in enumerate(asked.fit):
         if not any(entry in own for own in fitted.values()):
-            raise CaseError(f"{entry.path} is a number of none of the cases", f"fit[{i}].path")
+            raise CaseError(f"{entry.path} is a number of none of the cases", f"fit.{i}.path")
     found = {}
     for name, case in cases.items():
         if asked.fit and not fitted[name]:

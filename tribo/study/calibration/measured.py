@@ -231,7 +231,7 @@ class Measurements(Table):
         own = {"": Tested(measured=self.measured)} if self.measured else {}
         named = enumerate(self.test, 1)
         told = (each.model_copy(update={"name": each.name or f"test {i}"}) for i, each in named)
-        return own | {f"test[{i}].": each for i, each in enumerate(told)}
+        return own | {f"test.{i}.": each for i, each in enumerate(told)}
 
     def table(self) -> pd.DataFrame:
         """Return the measured numbers in SI, one row each.
@@ -243,7 +243,7 @@ class Measurements(Table):
         tables, specimens = [], 0
         for of, (place, test) in enumerate(self.tests.items()):
             named = [
-                entry.rows().assign(place=f"{place}measured[{i}]")
+                entry.rows().assign(place=f"{place}measured.{i}")
                 for i, entry in enumerate(test.measured)
             ]
             one = pd.concat(named).assign(test=test.name, of=of)

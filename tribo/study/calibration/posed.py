@@ -199,7 +199,7 @@ def _benches(
             found[key] = test, case, Simulation(case).model
         of.append([*found].index(key))
         for i, entry in enumerate(test.measured):
-            _check_entry(found[key][2], entry, f"{place}measured[{i}]")
+            _check_entry(found[key][2], entry, f"{place}measured.{i}")
     data["bench"] = np.array(of)[data["of"]]
     benches = []
     for (test, case, model), (_, times) in zip(
@@ -284,7 +284,7 @@ def find_parameters(
     case: Case, fit: Sequence[Fitted], measured: Collection[str]
 ) -> list[Parameter]:
     """Return the parameters that are asked for, or else the k of each body in `measured`."""
-    asked = {f"fit[{i}]": entry for i, entry in enumerate(fit)}
+    asked = {f"fit.{i}": entry for i, entry in enumerate(fit)}
     if not fit:
         bodies = [name for name in case.bodies if name in measured]
         with_k = [n for n in bodies if getattr(case.bodies[n].wear, "k", None) is not None]
