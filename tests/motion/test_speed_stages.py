@@ -96,7 +96,7 @@ def test_stages_that_make_no_sense_are_refused(values, words):
 
 
 def test_a_sinusoidal_motion_has_one_frequency():
-    with pytest.raises(ValueError, match=r"a frequency in stages is for .*constant_speed"):
+    with pytest.raises(ValueError, match=r"a frequency in stages is .*leave waveform out"):
         strokes(waveform="sinusoidal")
 
 
