@@ -89,6 +89,19 @@ def test_a_steady_loss_ends_at_a_limit(length):
     assert left[0, 0] == pytest.approx(max(1 - length, 0), abs=1e-3)
 
 
+@pytest.mark.parametrize("length", [1.0, 60.0, 500.0])
+def test_a_state_that_another_drives_fades_with_it(length):
+    """As bodies that cool: b' = 0.1 a − 2 b from 0, while a decays."""
+
+    def rates(values, *_):
+        return [-values[0], 0.1 * values[0] - 2 * values[1]]
+
+    positive = Limits(0.0, np.inf, "'a' of a test")
+    (a, b), _, _ = integrated(rates, [ONE, 0 * ONE], length, [positive, positive])
+    assert a[0, 0] == pytest.approx(np.exp(-length), abs=1e-6)
+    assert b[0, 0] == pytest.approx(0.1 * (np.exp(-length) - np.exp(-2 * length)), abs=1e-6)
+
+
 @pytest.mark.parametrize("length", [1.0, 35.0, 1e3, 1e5])
 def test_a_state_that_goes_on_beyond_its_limit_is_told_at_once(length):
     asked = []

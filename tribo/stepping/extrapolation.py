@@ -35,7 +35,7 @@ FINEST = 2.0**-30
 PLAIN, RELAXING = (1, 2, 3), (1, 2, 3, 4)
 """Euler steps of the rows of the extrapolation, without and with the relaxation of the states."""
 FADED = 0.01
-"""Part of what a state begins with, below which its error is relative to that part."""
+"""Part of the most that a state was, below which its error is relative to that part."""
 
 
 @dataclass(frozen=True)
@@ -114,8 +114,7 @@ def integrated(
     Exponential integrators, Acta Numerica 19, 209-286.
     """
     plan = plan or Plan()
-    sizes = [np.abs(value) for value in start]
-    problem = _Problem(rates, length, limits, sizes, of_steps, layered, math.isinf(plan.accuracy))
+    problem = _Problem(rates, length, limits, of_steps, layered, math.isinf(plan.accuracy))
     here = begin = problem.begin(start)
     waiting, done, missed = list(plan.parts), list[tuple[float, bool]](), 0.0
     worst = [0.0] * len(begin.rates)
@@ -145,7 +144,7 @@ def integrated(
             here, waiting, done, missed = begin, list(plan.parts), [], 0.0
             worst = [0.0] * len(worst)
     if math.isinf(plan.accuracy) and not problem.repeated:
-        amounts = [*map(np.maximum, sizes, map(np.abs, here.values)), *map(np.abs, here.sums)]
+        amounts = [*here.peaks, *map(np.abs, here.sums)]
         missed = max(missed, *map(_part_of, worst, amounts))
     if not missed <= ROUGHEST:
         names = ", ".join(limit.name for limit in limits)
@@ -158,10 +157,14 @@ def integrated(
 
 @dataclass(frozen=True)
 class _Place:
-    """A place along an increment: the part passed, states and sums there, and all rates."""
+    """A place along an increment: the part passed, states and sums there, and all rates.
+
+    `peaks` are the largest values of the states until there.
+    """
 
     passed: float
     values: Values
+    peaks: Values
     sums: Values
     rates: Values
 
@@ -182,15 +185,11 @@ class _Trial:
 
 @dataclass(frozen=True)
 class _Problem:
-    """What `integrated` integrates, from states of these `sizes` on.
-
-    It is `repeated` where its parts are taken as they are.
-    """
+    """What `integrated` integrates; `repeated` where its parts are taken as they are."""
 
     rates: Rates
     length: float
     limits: Sequence[Limits]
-    sizes: Sequence[Array]
     of_steps: bool
     layered: int
     repeated: bool
@@ -198,7 +197,8 @@ class _Problem:
     def begin(self, start: Sequence[Array]) -> _Place:
         """Return the place where the increment begins."""
         values, first = list(start), self.rates(start, 0.0, 1.0)
-        return _Place(0.0, values, [np.zeros_like(rate) for rate in first[len(values) :]], first)
+        sums = [np.zeros_like(rate) for rate in first[len(values) :]]
+        return _Place(0.0, values, [np.abs(value) for value in values], sums, first)
 
     def tried(
         self, here: _Place, part: float, relaxes: bool, accuracy: float, *, is_last: bool
@@ -221,8 +221,8 @@ class _Problem:
             self.of_steps,
         )
         sizes = [
-            np.maximum.reduce([np.abs(old), np.abs(new), FADED * size])
-            for old, new, size in zip(values, best, self.sizes, strict=False)
+            np.maximum.reduce([np.abs(old), np.abs(new), FADED * peak])
+            for old, new, peak in zip(values, best, here.peaks, strict=False)
         ]
         sizes += [
             np.maximum(np.abs(new), part * np.abs(old))
@@ -249,10 +249,12 @@ class _Problem:
                 off = max(off, _jump(samples, last, span, here.sums, count))
         sums = [old + new for old, new in zip(here.sums, best[count:], strict=True)]
         beyond = [
-            _beyond(value, np.maximum(size, begun), limit)
-            for value, size, begun, limit in zip(best, sizes, self.sizes, limits, strict=False)
+            _beyond(value, np.maximum(size, peak), limit)
+            for value, size, peak, limit in zip(best, sizes, here.peaks, limits, strict=False)
         ]
-        return _Trial(_Place(here.passed + part, held, sums, last), off, errors, beyond)
+        peaks = [np.maximum(old, np.abs(new)) for old, new in zip(here.peaks, held, strict=True)]
+        end = _Place(here.passed + part, held, peaks, sums, last)
+        return _Trial(end, off, errors, beyond)
 
     def _between(
         self, along: Rates, start: Sequence[Array], end: Sequence[Array], share: float
