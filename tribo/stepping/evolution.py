@@ -18,7 +18,7 @@ from tribo.stepping.extrapolation import Plan, integrated
 from tribo.stepping.layers import in_layers
 from tribo.stepping.memory import Memory, laid, remembered
 from tribo.stepping.rates import CycleRates, Moment, resting_rates, wear_rates
-from tribo.stepping.relaxation import Limits, Values
+from tribo.stepping.relaxation import Limits, Rates, Values
 
 if TYPE_CHECKING:
     from tribo.simulation.model import Model
@@ -77,16 +77,7 @@ def course(
         wear = tuple(each.wear for each in found)
         return Course(wear, shared, begun=begun if layered else None)
     of_model = partial(_rates, model, before, layered, contacts, increment, moment)
-    start, limits = _start(model, before, layered)
-    values, depths, taken = integrated(
-        of_model,
-        start,
-        increment,
-        limits,
-        plan,
-        of_steps=bool(layered) or model.advances,
-        layered=len(layered),
-    )
+    values, depths, taken = _followed(model, before, layered, of_model, increment, plan)
     each = iter(depths)
     mean = [
         {name: WearRate(np.maximum(next(each), 0.0) / increment) for name in model.laws}
@@ -110,22 +101,14 @@ def accumulated(
     divided. The rate is asked with what is remembered and how much of the increment has passed.
     """
     layered = _layered(model)
-    start, limits = _start(model, before, layered)
+    states = len(before.values) + len(layered)
 
     def rates(values: Sequence[Array], passed: float, step: float) -> Values:
         found = _rates(model, before, layered, contacts, increment, moment, values, passed, step)
         now = _memory(before, layered, values)
-        return [*found[: len(start)], np.array(rate(now, passed))]
+        return [*found[:states], np.array(rate(now, passed))]
 
-    _, (total,), _ = integrated(
-        rates,
-        start,
-        increment,
-        limits,
-        Plan(plan.parts),
-        of_steps=bool(layered) or model.advances,
-        layered=len(layered),
-    )
+    _, (total,), _ = _followed(model, before, layered, rates, increment, Plan(plan.parts))
     return float(total)
 
 
@@ -234,13 +217,25 @@ def _layered(model: Model) -> list[str]:
     return [name for name, law in model.laws.items() if law.bottoms]
 
 
-def _start(
-    model: Model, before: Memory, layered: Sequence[str]
-) -> tuple[list[Array], list[Limits]]:
-    """Return what goes along an increment as it begins, with its limits."""
+def _followed(
+    model: Model,
+    before: Memory,
+    layered: Sequence[str],
+    rates: Rates,
+    increment: float,
+    plan: Plan | None,
+) -> tuple[Values, Values, Plan]:
+    """Integrate, as `integrated`, rates of what is remembered and of the depths in layers."""
     depths = [Limits(-np.inf, np.inf, f"the depth of {name!r}", relaxes=False) for name in layered]
-    start = [*before.values, *(before.worn[name] for name in layered)]
-    return start, [*limits_of(model, before), *depths]
+    return integrated(
+        rates,
+        [*before.values, *(before.worn[name] for name in layered)],
+        increment,
+        [*limits_of(model, before), *depths],
+        plan,
+        of_steps=bool(layered) or model.advances,
+        layered=len(layered),
+    )
 
 
 def loaded(
