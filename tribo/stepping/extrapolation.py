@@ -231,9 +231,7 @@ class _Problem:
         held = [_held(*each) for each in zip(best, limits, strict=False)]
         at_end = is_last and math.isinf(accuracy)
         last = first if at_end or self.of_steps else along(held, 1.0, part)
-        errors = [
-            float(np.sum(np.abs(fine - coarse))) for fine, coarse in zip(best, rough, strict=True)
-        ]
+        errors = [_apart(*each) for each in zip(best, rough, strict=True)]
         off = max(map(_part_of, errors, sizes), default=0.0)
         if not self.repeated:
             # Trials held to a limit agree with each other, whatever the state goes to.
@@ -314,7 +312,7 @@ def _extrapolated(
             if taken:
                 trial = [_held(*each) for each in zip(states, limits, strict=True)]
                 moved = [
-                    max(by, float(np.sum(np.abs(inside - state))))
+                    max(by, _apart(inside, state))
                     for by, state, inside in zip(moved, states, trial, strict=True)
                 ]
                 found = rates(trial, taken / steps, 1 / steps)
@@ -334,7 +332,7 @@ def _extrapolated(
         row = column
         if of_steps and stage == 1:
             pairs = zip(*column, strict=True)
-            if all(_relative(fine, once, np.abs(fine)) <= EXACT for once, fine in pairs):
+            if all(_part_of(_apart(fine, once), np.abs(fine)) <= EXACT for once, fine in pairs):
                 break
     return row[-1], row[-2], samples[:4], moved
 
@@ -360,8 +358,9 @@ def _jump(
     return worst
 
 
-def _relative(fine: Array, coarse: Array, size: Array) -> float:
-    return _part_of(float(np.sum(np.abs(fine - coarse))), size)
+def _apart(one: Array, other: Array) -> float:
+    """Return how far two arrays are apart, summed over the cells."""
+    return float(np.sum(np.abs(one - other)))
 
 
 def _part_of(amount: float, size: Array) -> float:

@@ -287,9 +287,9 @@ def _with_rest_of_track(
     exposure, cells = model.exposures[effect.carrier], model.grid.cells
     completed = dict(rates)
     for field in effect.state_fields:
-        rate, untouched = rates[field.name], np.mean(bare[field.name][ENDS], axis=0)
         if field.uniform:
             continue
+        rate, untouched = rates[field.name], np.mean(bare[field.name][ENDS], axis=0)
         if exposure.averaged:
             covered = exposure.average(np.ones(cells))
             completed[field.name] = rate + (1 / covered - 1) * untouched
