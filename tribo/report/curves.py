@@ -84,7 +84,7 @@ def _depths(results: Results, saves: Mapping[str, list[int]]) -> dict[str, tuple
     first = next(iter(results.values()))
     of_bodies = {
         name: {
-            label: (result, [removed(result, name)[i] for i in saves[label]])
+            label: (result, list(removed(result, name)[saves[label]]))
             for label, result in results.items()
         }
         for name in first.body_names
