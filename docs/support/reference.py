@@ -23,7 +23,7 @@ from tribo.case import Body, Case
 from tribo.cli.main import COMMANDS
 from tribo.cli.main import tribo as command_line
 from tribo.component import Component
-from tribo.core.dimensions import _PREFIXES, _SYMBOLS, _UNPREFIXED
+from tribo.core.dimensions import _SYMBOLS, _UNPREFIXED, PREFIXES
 from tribo.core.errors import TriboError
 from tribo.core.units import _KINDS, Quantity
 from tribo.registry import hookspecs
@@ -123,7 +123,7 @@ def units_table() -> Iterator[str]:
         yield f'| {name.removeprefix("an ").removeprefix("a ")} | {unit} | `"{example}"` |'
     symbols = ", ".join(f"`{symbol}`" for symbol in _SYMBOLS)
     plain = ", ".join(f"`{symbol}`" for symbol in _UNPREFIXED if symbol != "1")
-    prefixes = ", ".join(f"`{p}` (10{_superscript(e)})" for p, e in _PREFIXES.items())
+    prefixes = ", ".join(f"`{p}` (10{_superscript(e)})" for p, e in PREFIXES.items())
     yield f"\nSymbols that take a prefix: {symbols}. Without a prefix: {plain}; and `degC`, alone."
     yield f"Prefixes: {prefixes}; `µ` stands for `u`."
 

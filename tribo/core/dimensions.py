@@ -40,7 +40,8 @@ _UNPREFIXED: dict[str, tuple[str, Dimension]] = {
     "HV": ("9806650", (-1, 1, -2, 0, 0)),
 }
 """Symbols without prefixes. Vickers hardness is in kgf/mm² (ISO 6507-1)."""
-_PREFIXES = {"p": -12, "n": -9, "u": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9, "T": 12}
+PREFIXES = {"p": -12, "n": -9, "u": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9, "T": 12}
+"""Prefixes of a unit, each with its power of ten."""
 _FACTOR = re.compile(r"(1|[A-Za-z]+)(?:\^?(-?[1-9]))?")
 _VICKERS_WITH_LOAD = re.compile(r"\bHV\d+(?:\.\d+)?\b")
 _ROCKWELL = re.compile(r"HR[A-Z]?")
@@ -78,9 +79,9 @@ def _power(factor: str) -> tuple[Fraction, Dimension, int]:
     name, exponent = match[1], int(match[2] or 1)
     if known := _SYMBOLS.get(name) or _UNPREFIXED.get(name):
         return Fraction(known[0]), known[1], exponent
-    if name[0] in _PREFIXES and name[1:] in _SYMBOLS:
+    if name[0] in PREFIXES and name[1:] in _SYMBOLS:
         size, dimension = _SYMBOLS[name[1:]]
-        return Fraction(size) * Fraction(10) ** _PREFIXES[name[0]], dimension, exponent
+        return Fraction(size) * Fraction(10) ** PREFIXES[name[0]], dimension, exponent
     if name == "degC":
         raise ValueError("degC has an offset; use K in a compound unit")
     if name in ("rpm", "rev"):

@@ -15,7 +15,7 @@ from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from tribo.core.dimensions import Dimension, scale
+from tribo.core.dimensions import PREFIXES, Dimension, scale
 from tribo.core.errors import CaseError
 from tribo.core.words import shown
 
@@ -65,9 +65,10 @@ _TURNS = ("rpm", "rev/min", "rev/s")
 
 _PREFIXED = re.compile(r"(m|N|Pa|Hz|W|J)(?!\^|\w)")
 """Start of a unit that is written with prefixes."""
-_PREFIXES = {
-    1e-12: "p", 1e-9: "n", 1e-6: "µ", 1e-3: "m", 1.0: "", 1e3: "k", 1e6: "M", 1e9: "G", 1e12: "T"
-}  # fmt: skip
+_THOUSANDS = {1.0: ""} | {
+    10.0**power: prefix.replace("u", "µ") for prefix, power in PREFIXES.items() if power % 3 == 0
+}
+"""Those of steps of a thousand, by their factor."""
 
 _LONGEST = 100
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3}(?!\d))?)(?![\d.])(.*)", re.S)
@@ -108,7 +109,7 @@ def parse(text: str, unit: str) -> float:
 def stated(value: float, unit: str) -> str:
     """Return a value in an SI unit as text, as ``"2 TPa"`` and not 2e+12 Pa."""
     known = _PREFIXED.match(unit)
-    prefixes = _PREFIXES if known else {1.0: ""}
+    prefixes = _THOUSANDS if known else {1.0: ""}
     factor = max((f for f in prefixes if f <= abs(value) * (1 + 1e-9)), default=min(prefixes))
     return f"{value / factor:g} {prefixes[factor]}{unit}"
 
