@@ -25,7 +25,7 @@ from tribo.core.fields import LOAD_SHARE, Field
 from tribo.effects.effect import Effect
 from tribo.study.gradient import backwards, linear, parameters, remembering
 from tribo.study.gradient.gradient import gradient
-from tribo.study.gradient.objective import Depth, Volume
+from tribo.study.gradient.objective import Depth, Pressure, Volume
 from tribo.wear.archard import Archard
 from tribo.wear.modified import times
 
@@ -99,6 +99,28 @@ class Blurs(Effect):
         return {"temperature": dict.fromkeys(contact.materials, beside)}
 
 
+class Grows(Effect):
+    """A layer that grows under pressure in time, at rest too, and flows off."""
+
+    type = "grows"
+    begins: float = 2e-8
+    rate: float = 5e-17
+    stays: float = 5.0
+    state_fields = (Field("grown", "m", "Height of the layer.", at_least=0, fills=True),)
+
+    def initial_state(self):
+        return {"grown": self.begins}
+
+    def state_rates(self, contact):
+        return {"grown": self.rate * contact.pressure - contact.state["grown"] / self.stays}
+
+
+def pauses(**changes):
+    """A motion that rests from 1 s to 3 s."""
+    stages = [{"until": until, "frequency": by} for until, by in ((1, 25), (3, 0), (4, 25))]
+    return motion(**{"duration": 4, "frequency": stages} | changes)
+
+
 SLOW = few(nonlinear_tolerance=1e-11, cycle_tolerance=1e-11)
 """What fills the gap has no slope, and a step takes many passes."""
 OF_GRAINS = [f"effects.0.{name}" for name in ("begins", "cover", "stays")]
@@ -136,6 +158,35 @@ KINDS = {
         1e-5,
     ),
 }
+KINDS["rest"] = Kind(
+    run(
+        load=[{"at": 0, "normal": 10.0}, {"at": 4, "normal": 20.0}],
+        bodies=pair(FRESH, archard()),
+        effects=[Grows()],
+        kinematics=pauses(),
+        stepping=SLOW,
+        save_times=(2.0,),
+    ),
+    {2.0: Pressure(2e-5, 0), 4.0: Depth("disk")},
+    [
+        *("load.normal.0.normal", "load.normal.1.normal", *SHAPE, "bodies.ball.wear.over"),
+        *(f"effects.0.{name}" for name in ("begins", "rate", "stays")),
+        *(f"kinematics.frequency.{name}" for name in ("0.frequency", "0.until", "1.until")),
+    ],
+    1e-4,
+)
+KINDS["rest, of one temperature"] = Kind(
+    run(
+        bodies=pair(Softens(k=K), archard()),
+        effects=[Heat()],
+        kinematics=pauses(),
+        stepping=LONG,
+        save_times=(2.0,),
+    ),
+    {2.0: Pressure(2e-5, 0), 4.0: Depth("ball")},
+    ["load.normal", "effects.0.capacity", *SHAPE, "kinematics.frequency.1.until"],
+    1e-4,
+)
 
 
 @pytest.mark.slow
@@ -154,7 +205,33 @@ def unheard(method):
     return mutant
 
 
+def unrested(method):
+    return lambda self, record: None if rests(record.slid) else method(self, record)
+
+
+def unseen(method):
+    """What an objective makes of the contact during a rest, left out."""
+
+    def mutant(self, record):
+        if rests(record.slid):
+            self.pressure = None
+        method(self, record)
+
+    return mutant
+
+
+def as_it_is(method):
+    return lambda self, slid, *given: 0.0 if rests(slid) else method(self, slid, *given)
+
+
+def rests(slid):
+    return slid is not None and slid.moment.speed == 0
+
+
 MUTANTS = [
+    ("rest", backwards.Backwards, "press", unrested),
+    ("rest, of one temperature", backwards.Backwards, "press", unseen),
+    ("rest", parameters.Chain, "by_wear", as_it_is),
     ("grains", remembering.Remembering, "_by_pressure", unfelt("own")),
     ("grains", remembering.Remembering, "_back", forgotten),
     ("grains", remembering.Remembering, "_by_factor", unheard),
@@ -182,20 +259,6 @@ def test_each_term_counts(monkeypatch, kind, owner, method, change):
     ("changes", "message"),
     [
         ({"effects": [Blurs()]}, "what 'blurs' makes of a point follows other points"),
-        (
-            {
-                "effects": [Heat()],
-                "kinematics": motion(
-                    duration=3,
-                    frequency=[
-                        {"until": 1, "frequency": 25},
-                        {"until": 2, "frequency": 0},
-                        {"until": 3, "frequency": 25},
-                    ],
-                ),
-            },
-            "during a pause",
-        ),
     ],
 )
 def test_what_is_not_covered_is_refused(changes, message):

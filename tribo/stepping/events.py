@@ -20,7 +20,8 @@ class Worn:
     """The bodies were worn by a step up to a moment, under `contacts`.
 
     It began at a time, with a memory, and was divided as in `plan`. `ahead` tells whether the
-    contacts were those before it, solved without its wear.
+    contacts were those before it, solved without its wear. At rest the increment is a time, and
+    only what lies between the bodies goes on.
     """
 
     contacts: Sequence[ContactSolution]

@@ -12,12 +12,11 @@ import numpy as np
 from tribo.core.arrays import Array, readonly
 from tribo.core.contact import ContactSolution
 from tribo.core.fields import WearRate
-from tribo.core.state import State
 from tribo.stepping.contacts import in_stripes
 from tribo.stepping.extrapolation import Plan, integrated
 from tribo.stepping.layers import in_layers
-from tribo.stepping.memory import Memory, laid, remembered
-from tribo.stepping.rates import CycleRates, Moment, resting_rates, wear_rates
+from tribo.stepping.memory import Memory, laid
+from tribo.stepping.rates import CycleRates, Moment, wear_rates
 from tribo.stepping.relaxation import Limits, Rates, Values
 
 if TYPE_CHECKING:
@@ -58,7 +57,7 @@ def course(
     moment: Moment,
     plan: Plan | None = None,
 ) -> Course:
-    """Return what an increment (m) comes to, from what is remembered before it.
+    """Return what an increment (m; s of a rest) comes to, from what is remembered before it.
 
     `moment` is its end. It is divided as in `plan`, or finer. Without anything to remember, rates
     are those of `moment` throughout, but where a body wears through a layer. With it, the depths
@@ -145,27 +144,6 @@ def sloped(
             np.divide(change, stripe, out=slope, where=stripe != 0)
             rates[name] = replace(rate, depth_slope=np.maximum(slope, 0.0))
     return sloped
-
-
-def rested_memory(model: Model, state: State, time: float) -> Memory:
-    """Return what is remembered after a rest until `time` (s): what relaxes in time goes on."""
-    before = remembered(state)
-    if not before.between:
-        return before
-    rest = time - state.time
-
-    def rates(values: Sequence[Array], passed: float, step: float) -> Values:
-        between = dict(zip(before.between, values, strict=True))
-        over = step * rest if model.advances else 0.0
-        now = Moment(time - (1 - passed) * rest, state.distance, 0.0, over)
-        contacts = loaded(model, state.contacts, time - 0.5 * rest, time, passed)
-        changes = resting_rates(model, contacts, replace(before, between=between), now)
-        return [changes[key] for key in between]
-
-    limits = limits_of(model, Memory({}, before.between))
-    start = [*before.between.values()]
-    values, _, _ = integrated(rates, start, rest, limits, of_steps=model.advances)
-    return replace(before, between=dict(zip(before.between, values, strict=True)))
 
 
 def _rates(

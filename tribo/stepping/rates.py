@@ -25,7 +25,7 @@ from tribo.core.fields import (
 )
 from tribo.core.state import State
 from tribo.motion.cycle import Speeds
-from tribo.stepping.memory import Memory, fields_of, in_window, laid, remembered, state_of, under
+from tribo.stepping.memory import Memory, fields_of, in_window, remembered, state_of, under
 
 if TYPE_CHECKING:
     from tribo.simulation.guards import GuardedEffect
@@ -46,7 +46,7 @@ CycleRates = Sequence[Mapping[str, WearRate]]
 
 @dataclass(frozen=True)
 class Moment:
-    """When rates are asked for (s, m), and the mean speed of the step (m/s).
+    """When rates are asked for (s, m), and the mean speed of the step (m/s), 0 at rest.
 
     The speed is told where the motion does not state those of its cycle. Models that know it give
     the mean of their rates `over` what follows, in m, or in s of a rest.
@@ -58,9 +58,11 @@ class Moment:
     over: float = 0.0
 
     def back(self, distance: float) -> Moment:
-        """Return the moment that lies by a distance (m) before, at its speed."""
+        """Return the moment that lies by a distance (m) before, at its speed; at rest by a time."""
         if distance == 0:
             return self
+        if self.speed == 0:
+            return replace(self, time=self.time - distance)
         return replace(
             self, time=self.time - distance / self.speed, distance=self.distance - distance
         )
@@ -68,7 +70,10 @@ class Moment:
 
 @dataclass(frozen=True)
 class Rates:
-    """Rates per metre in the contact frame, at a position: of wear by body, of effects by field."""
+    """Rates per metre in the contact frame, at a position: of wear by body, of effects by field.
+
+    At rest they are per second.
+    """
 
     wear: Mapping[str, WearRate]
     between: Mapping[str, Array]
@@ -84,30 +89,30 @@ def wear_rates(
 def rates_at_each(
     model: Model, contacts: Sequence[ContactSolution], memory: Memory, moment: Moment
 ) -> list[Rates]:
-    """Return the rates of bodies and effects at each position, as `wear_rates`."""
+    """Return the rates of bodies and effects at each position, as `wear_rates`.
+
+    At rest they are per second. Nobody knows at which position it rests; all have their shares.
+    """
+    rates_at = _rates_at if moment.speed > 0 else _rates_at_rest
     return [
-        _rates_at(model, position, contact, under(model, memory, position), moment)
+        rates_at(model, position, contact, under(model, memory, position), moment)
         for position, contact in enumerate(contacts)
     ]
 
 
-def resting_rates(
-    model: Model, contacts: Sequence[ContactSolution], memory: Memory, moment: Moment
-) -> dict[str, Array]:
-    """Return what effects change per second while nothing slides, where each state lies.
-
-    Nobody knows at which position it rests; it is the mean over the cycle.
-    """
+def _rates_at_rest(
+    model: Model, position: int, contact: ContactSolution, memory: Memory, moment: Moment
+) -> Rates:
+    """Return the rates while nothing slides: those of effects alone."""
+    still = readonly(np.zeros(model.grid.cells))
+    wear = {
+        name: WearRate(still, still, dict.fromkeys(law.initial_state, still))
+        for name, law in model.laws.items()
+    }
     if any(place.rest > 0 for place in model.cycle):
         # The rests of a cycle are in its mean rates.
-        return {key: np.zeros_like(values) for key, values in memory.between.items()}
-    total: dict[str, Array] = {}
-    for position, contact in enumerate(contacts):
-        here = under(model, memory, position)
-        for key, rate in _resting(model, position, contact, here, moment).items():
-            part = model.cycle[position].share * laid(model, key, rate, position)
-            total[key] = total[key] + part if key in total else part
-    return total
+        return Rates(wear, dict.fromkeys(memory.between, still))
+    return Rates(wear, _resting(model, position, contact, memory, moment))
 
 
 def _resting(

@@ -17,8 +17,8 @@ from tribo.core.measures import Invariants, reaches_border
 from tribo.core.notices import Notice
 from tribo.core.state import BodyState, State
 from tribo.stepping.contacts import solve, solve_cycle
-from tribo.stepping.events import Drawn, Solved, Yielded
-from tribo.stepping.evolution import Course, rested_memory
+from tribo.stepping.events import Drawn, Solved, Worn, Yielded
+from tribo.stepping.evolution import Course, course
 from tribo.stepping.invariants import ONE_LOAD, wear_balance
 from tribo.stepping.layers import caps, plastic_share, worn_through
 from tribo.stepping.memory import filling, first_memory, remembered
@@ -174,10 +174,15 @@ def load_changes(model: Model, begin: float, end: float) -> bool:
 
 def rested(model: Model, state: State, time: float) -> State:
     """Return `state` at a later time (s), under the load of then."""
-    between = rested_memory(model, state, time).between
+    memory = remembered(state)
+    if memory.between:
+        rest, moment = time - state.time, Moment(time, state.distance, 0.0)
+        after = course(model, memory, state.contacts, rest, moment)
+        model.tell(Worn(state.contacts, state.time, rest, moment, memory, after.plan, ahead=True))
+        state = replace(state, between=after.memory.between)
     loads = model.loads.before(time)
     anew = loads != model.loads.before(state.time) or any(body is None for body, _ in model.filling)
-    state = replace(state, between=between, speed=0.0)
+    state = replace(state, speed=0.0)
     if anew:
         state = _under(model, state, loads)
     return replace(state, time=time, steps=state.steps + 1, invariants=Invariants())

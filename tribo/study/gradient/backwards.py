@@ -183,6 +183,8 @@ class Backwards:
         behind = [each.back(self.worn_before, self.states) for each in increments]
         if slid is not None and slid.ahead:
             self.pressure = over(self.shares) * sum(each.pressure for each in behind)
+            if pressed is not None:
+                self.pressure += pressed
             self._wear(slid, contacts, known, seen, behind)
             return
         fixed = np.zeros_like(pressure)

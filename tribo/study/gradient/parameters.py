@@ -130,8 +130,9 @@ class Chain:
                 float(np.interp(place, self.stops.distances, each.stops.distances))
                 for place in (end - slid.increment, end)
             )
-            increment = distance - began
-            moment = Moment(ended, distance, increment / (ended - begun))
+            rests = slid.moment.speed == 0
+            increment = ended - begun if rests else distance - began
+            moment = Moment(ended, distance, 0.0 if rests else increment / (ended - begun))
             after = known
             if laws:
                 model = replace(each.model, laws=laws)

@@ -27,7 +27,7 @@ IN_MEMORY = 1 << 26
 
 @dataclass(frozen=True)
 class Slid:
-    """How a step slid: from a time (s) on, and by an increment (m), to a moment.
+    """How a step slid: from a time (s) on, and by an increment (m; s of a rest), to a moment.
 
     `before` is what laws and effects remembered, and `plan` how the step was divided for that;
     `ahead` tells whether it wore under contacts that were solved before it.
@@ -119,12 +119,6 @@ def recorded(model: Model, looked_at: Sequence[float], tape: Tape) -> dict[float
         tape.append(Saved(0.0))
     for accepted in march(telling, state):
         before, state = state, accepted.state
-        if model.between and state.distance == before.distance:
-            raise CaseError(
-                "an effect's state changes during a pause, as in the one that ends at "
-                f"{state.time:g} s, and derivatives do not follow that",
-                "effects",
-            )
         _keep(tape, model, heard, "before", state.time, before.time)
         if accepted.save and state.time in looked_at:
             states[state.time] = state
