@@ -13,10 +13,9 @@ from tribo.core.grid import Grid
 from tribo.core.stages import NUMBER, ONE_OR_STAGES, STAGES, listed
 from tribo.core.table import Table
 from tribo.core.units import Quantity
-from tribo.motion.exposure import Exposure, Track
+from tribo.motion.exposure import Exposure, Track, one_swept_body
 from tribo.motion.held import Held, held
 from tribo.motion.kinematics import Kinematics
-from tribo.motion.swept import one_swept_body
 
 
 class SpeedStage(Table):

@@ -9,6 +9,7 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.contact import WearCompliance
+from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 
 
@@ -191,3 +192,18 @@ class Passing(Stationary):
         contact = self._grid.spacing[0] * np.count_nonzero(pressure, axis=0)
         track = Track(self._grid, np.maximum(contact, self._length))
         return track.compliance(derivative, pressure)
+
+
+def one_swept_body(
+    grid: Grid, bodies: Sequence[str], swept: str | None, exposure: Exposure
+) -> dict[str, Exposure]:
+    """Return `exposure` for the swept body, the last if it has no name, `Stationary` for others.
+
+    `CaseError` if there is no body of that name.
+    """
+    name = bodies[-1] if swept is None else swept
+    if name not in bodies:
+        raise CaseError(
+            f"no body is called {name!r}; the bodies are {', '.join(bodies)}", "kinematics.swept"
+        )
+    return {b: exposure if b == name else Stationary(grid) for b in bodies}

@@ -16,10 +16,9 @@ from tribo.core.files import read_numbers
 from tribo.core.grid import Grid
 from tribo.core.units import Quantity
 from tribo.motion.cycle import Position, Stroke, check_spacing, odd
-from tribo.motion.exposure import Exposure, Passing
+from tribo.motion.exposure import Exposure, Passing, one_swept_body
 from tribo.motion.kinematics import Kinematics
 from tribo.motion.reciprocating import Reciprocating
-from tribo.motion.swept import one_swept_body
 
 CLOSED = 0.01
 """Largest distance between the ends of a path that repeats, of its range."""

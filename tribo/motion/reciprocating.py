@@ -16,10 +16,9 @@ from tribo.core.table import Table
 from tribo.core.units import Quantity
 from tribo.motion.averaging import GOOD, NOTICED, good_stroke, groove_excess, too_deep
 from tribo.motion.cycle import Position, Stroke, check_spacing, odd
-from tribo.motion.exposure import Exposure, Passing, Track
+from tribo.motion.exposure import Exposure, Passing, Track, one_swept_body
 from tribo.motion.held import Held, held
 from tribo.motion.kinematics import Kinematics
-from tribo.motion.swept import one_swept_body
 
 LONG, FEW = 4.0, 17
 """Stroke in half-widths up to which an estimate takes positions, and how many."""

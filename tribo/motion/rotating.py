@@ -15,8 +15,7 @@ from tribo.core.grid import Grid
 from tribo.core.units import Quantity
 from tribo.motion.closed_track import ClosedTrack
 from tribo.motion.cycle import Position
-from tribo.motion.exposure import Exposure, Track
-from tribo.motion.swept import one_swept_body
+from tribo.motion.exposure import Exposure, Track, one_swept_body
 
 
 class Rotating(ClosedTrack):

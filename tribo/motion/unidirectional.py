@@ -13,8 +13,7 @@ from tribo.core.grid import Grid
 from tribo.core.units import Quantity
 from tribo.motion.closed_track import ClosedTrack
 from tribo.motion.cycle import WHOLE, Position, Stroke, odd
-from tribo.motion.exposure import Exposure, Passing, Track
-from tribo.motion.swept import one_swept_body
+from tribo.motion.exposure import Exposure, Passing, Track, one_swept_body
 
 FEW = 9
 """Positions of an estimate."""
