@@ -83,6 +83,17 @@ def read_numbers(file: Path) -> Array:
     return numbers
 
 
+def read_pairs(file: Path, what: str) -> Array:
+    """Return the numbers of a file, shape (rows, 2); `what` names its columns in the message."""
+    rows = read_numbers(file)
+    if rows.ndim != 2 or rows.shape[1] != 2:
+        raise ValueError(
+            f"{file} must have two columns of numbers, {what}, separated by commas and below one "
+            f"header at most, but has the shape {rows.shape}"
+        )
+    return rows
+
+
 def table_of_numbers(file: Path) -> Array:
     """Return the numbers of a file as `read_numbers` does, NaN where some are missing."""
     if not file.is_file():

@@ -16,7 +16,7 @@ from pydantic import Tag, field_validator, model_validator
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
-from tribo.core.files import read_numbers
+from tribo.core.files import read_pairs
 from tribo.core.stages import NUMBER, ONE_OR_STAGES, STAGES, check_times, listed
 from tribo.core.table import Table
 from tribo.core.units import Quantity
@@ -279,16 +279,11 @@ class Loads:
 
 def _read(file: Path) -> Sequence[dict[str, float]]:
     """Return the stages in the two columns of a file."""
-    rows = read_numbers(file)
-    if rows.ndim != 2 or rows.shape[1] != 2:
-        raise ValueError(
-            f"{file} must have two columns of numbers, time in s and load in N, separated by "
-            f"commas and below one header at most, but has the shape {rows.shape}"
-        )
+    rows = read_pairs(file, "time in s and load in N")
     idle = np.flatnonzero(rows[:, 1] <= 0)
     if len(idle):
         raise ValueError(
             f"{file} has a load of {rows[idle[0], 1]:g} N at {rows[idle[0], 0]:g} s: each must be "
             f"greater than 0; {PAUSE}"
         )
-    return [{"at": float(time), "normal": float(load)} for time, load in rows]
+    return [{"at": time, "normal": load} for time, load in rows.tolist()]

@@ -12,7 +12,7 @@ import numpy as np
 from pydantic import ConfigDict, Field, field_validator, model_validator
 
 from tribo.core.arrays import Array
-from tribo.core.files import read_numbers
+from tribo.core.files import read_pairs
 from tribo.core.grid import Grid
 from tribo.core.units import Quantity
 from tribo.motion.cycle import Position, Stroke, check_spacing, odd
@@ -58,7 +58,9 @@ class Measured(Kinematics):
     @field_validator("path", mode="before")
     @classmethod
     def _from_file(cls, value: Any) -> Any:
-        return _read(Path(value)) if isinstance(value, str | Path) else value
+        if isinstance(value, str | Path):
+            return read_pairs(Path(value), "time in s and position in m").tolist()
+        return value
 
     @field_validator("path")
     @classmethod
@@ -162,14 +164,3 @@ class Measured(Kinematics):
         stroke = Stroke(self._range, grid.spacing[0], self.positions, grid.period)
         stroke.check_cells("kinematics.path")
         return stroke
-
-
-def _read(file: Path) -> list[list[float]]:
-    """Return the two columns of a file."""
-    rows = read_numbers(file)
-    if rows.ndim != 2 or rows.shape[1] != 2:
-        raise ValueError(
-            f"{file} must have two columns of numbers, time in s and position in m, separated by "
-            f"commas and below one header at most, but has the shape {rows.shape}"
-        )
-    return [[float(time), float(place)] for time, place in rows]
