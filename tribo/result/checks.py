@@ -5,28 +5,15 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import replace
 from typing import Any
 
 import h5py
 
 from tribo.core.errors import CaseError
-from tribo.result.layout import (
-    BETWEEN,
-    EFFECT,
-    FIXED,
-    ROUGHNESS,
-    STATE,
-    TRACK,
-    TRACK_PLASTIC,
-    TRACK_STATE,
-    Variable,
-)
+from tribo.result.layout import BETWEEN, DIMS, FIXED, ROUGHNESS, TRACK, TRACK_PLASTIC, Variable
 
 _STATUS = ("done", "running", "killed", "interrupted", "failed")
 _JSON = {"case": dict, "provenance": dict, "notices": list, "worn_through": list}
-_LIKE = {STATE: "wear_depth", EFFECT: "wear_depth", TRACK_STATE: TRACK, BETWEEN: "pressure"}
-"""By kind, the variable that a field of a model has the dimensions of."""
 
 
 @contextmanager
@@ -58,36 +45,21 @@ def read_attributes(attributes: Mapping[str, Any]) -> dict[str, Any]:
 
 def read_variables(file: h5py.File, bodies: tuple[str, ...]) -> dict[str, Variable]:
     """Return the variables of a file, none of them read; ValueError if they do not fit."""
-    table = {
-        name: v
-        for name, v in FIXED.items()
-        if name in file or name not in (*ROUGHNESS, TRACK_PLASTIC)
-    }
+    lacking = {*ROUGHNESS, TRACK_PLASTIC} - file.keys()
     if not {"track_x", TRACK} & file.keys():
-        del table["track_x"], table[TRACK]
+        lacking |= {"track_x", TRACK}
+    table = {name: variable for name, variable in FIXED.items() if name not in lacking}
     for name, values in file.items():
         if not isinstance(values, h5py.Dataset):
             raise ValueError(f"{name!r} is no variable")
         if "kind" in values.attrs:
-            kind, field, unit, meaning = (
-                str(values.attrs[key]) for key in ("kind", "field", "units", "long_name")
-            )
-            owners = tuple(map(str, values.attrs["bodies"]))
-            if name in FIXED or kind not in _LIKE or not {*owners} <= {*bodies}:
-                raise ValueError(f"{name!r} is no field of a model of these bodies")
-            like = FIXED[_LIKE[kind]]
-            if kind == BETWEEN and values.ndim == 1:
-                like = FIXED["time"]
-            shaped = replace(like, unit=unit, meaning=meaning)
-            table[name] = replace(shaped, kind=kind, field=field, bodies=owners)
+            table[name] = _field_of_model(name, values, bodies)
     named = tuple(file["body"].asstr()[:].tolist())
     if named != bodies:
         raise ValueError(
             f"it holds the bodies {', '.join(named)}, but its 'case' has {', '.join(bodies)}"
         )
-    sizes = {"body": 2}
-    for dim in dict.fromkeys(dim for v in table.values() for dim in v.dims if dim != "body"):
-        sizes[dim] = file[dim].size
+    sizes = {dim: file[dim].size for variable in table.values() for dim in variable.dims}
     if not sizes["x"] * sizes["y"]:
         raise ValueError("it has no cells")
     for name, variable in table.items():
@@ -96,3 +68,15 @@ def read_variables(file: h5py.File, bodies: tuple[str, ...]) -> dict[str, Variab
             kept = f"{file[name].dtype} of shape {file[name].shape}"
             raise ValueError(f"{name!r} is {kept} instead of real numbers of shape {shape}")
     return table
+
+
+def _field_of_model(name: str, values: h5py.Dataset, bodies: tuple[str, ...]) -> Variable:
+    """Return the variable that a dataset with a kind is, which its attributes describe."""
+    kind, field, unit, meaning = (
+        str(values.attrs[key]) for key in ("kind", "field", "units", "long_name")
+    )
+    owners = tuple(map(str, values.attrs["bodies"]))
+    if name in FIXED or kind not in DIMS or not {*owners} <= {*bodies}:
+        raise ValueError(f"{name!r} is no field of a model of these bodies")
+    dims = ("time",) if kind == BETWEEN and values.ndim == 1 else DIMS[kind]
+    return Variable(dims, unit, meaning, None, kind, field, owners)

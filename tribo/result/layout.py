@@ -5,11 +5,13 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
+from itertools import product
 from typing import Any
 
 import numpy as np
 
 from tribo.core.arrays import Array, middle_rows
+from tribo.core.fields import Field
 from tribo.core.measures import Measures
 from tribo.core.state import RunInfo, Snapshot, State
 from tribo.result.columns import BODY_COLUMNS, COLUMNS, ROUGHNESS_COLUMNS
@@ -43,6 +45,13 @@ class Variable:
 _ON_WINDOW = ("time", "x", "y")
 _ON_BODY = ("time", "body", "x", "y")
 _ON_TRACK = ("time", "body", "track_x", "y")
+DIMS: Mapping[str, tuple[str, ...]] = {
+    STATE: _ON_BODY,
+    EFFECT: _ON_BODY,
+    TRACK_STATE: _ON_TRACK,
+    BETWEEN: _ON_WINDOW,
+}
+"""Dimensions of a field of a model by its kind; one that is uniform has the time alone."""
 
 
 def attributes(run: RunInfo) -> dict[str, Any]:
@@ -104,45 +113,44 @@ def variables(run: RunInfo) -> dict[str, Variable]:
     has ``track_state_``.
     """
     grid, bodies = run.system.grid, run.bodies
+    rows = max(body.rows for body in bodies)
     values = {
         "x": grid.x,
         "y": grid.y,
         "swept": np.array([float(body.swept) for body in bodies]),
         "density": np.array([np.nan if b.density is None else b.density for b in bodies]),
         "height": np.stack([body.height for body in bodies]),
+        "track_x": np.asarray((np.arange(rows) - 0.5 * (rows - 1)) * grid.spacing[0]),
     }
-    table = dict(FIXED)
-    rows = max(body.rows for body in bodies)
-    if rows > grid.cells[0]:
-        values["track_x"] = np.asarray((np.arange(rows) - 0.5 * (rows - 1)) * grid.spacing[0])
-    else:
-        del table["track_x"], table[TRACK]
-    if rows <= grid.cells[0] or run.system.cap is None:
-        del table[TRACK_PLASTIC]
-    if not any(body.rough for body in bodies):
-        table = {name: variable for name, variable in table.items() if name not in ROUGHNESS}
-    table |= {name: replace(table[name], values=array) for name, array in values.items()}
-    everybody = tuple(body.name for body in bodies)
-    fields = {(EFFECT, field): everybody for field in run.effect_fields}
-    fields |= {(BETWEEN, field): () for field in run.between_fields}
-    for body in bodies:
-        for field in body.state_fields:
-            fields[STATE, field] = (*fields.get((STATE, field), ()), body.name)
-            if body.rows > grid.cells[0]:
-                fields[TRACK_STATE, field] = (*fields.get((TRACK_STATE, field), ()), body.name)
-    for (kind, field), owners in fields.items():
+    left_out = set() if any(body.rough for body in bodies) else {*ROUGHNESS}
+    if rows <= grid.cells[0]:
+        left_out |= {"track_x", TRACK, TRACK_PLASTIC}
+    elif run.system.cap is None:
+        left_out.add(TRACK_PLASTIC)
+    table = {
+        name: replace(variable, values=values.get(name))
+        for name, variable in FIXED.items()
+        if name not in left_out
+    }
+    for (kind, field), owners in _owners(run).items():
         name = f"{kind}_{field.name}" if kind == TRACK_STATE else field.name
         while name in FIXED or name in table or name == "body":
             name = f"{kind}_{name}"
-        dims = _dims(kind, uniform=field.uniform)
+        dims = ("time",) if kind == BETWEEN and field.uniform else DIMS[kind]
         table[name] = Variable(dims, field.unit, field.description, None, kind, field.name, owners)
     return table
 
 
-def _dims(kind: str, *, uniform: bool) -> tuple[str, ...]:
-    if kind == BETWEEN:
-        return ("time",) if uniform else _ON_WINDOW
-    return _ON_TRACK if kind == TRACK_STATE else _ON_BODY
+def _owners(run: RunInfo) -> dict[tuple[str, Field], tuple[str, ...]]:
+    """Return the names of the bodies that have a field of a model, by its kind and the field."""
+    everybody = tuple(body.name for body in run.bodies)
+    found = {(EFFECT, field): everybody for field in run.effect_fields}
+    found |= {(BETWEEN, field): () for field in run.between_fields}
+    for body in run.bodies:
+        kinds = (STATE, TRACK_STATE) if body.rows > run.system.grid.cells[0] else (STATE,)
+        for field, kind in product(body.state_fields, kinds):
+            found[kind, field] = (*found.get((kind, field), ()), body.name)
+    return found
 
 
 def step_row(measures: Measures) -> Rows:
