@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, get_args
 
 from pydantic import BaseModel, ValidationError, ValidationInfo
@@ -53,8 +53,7 @@ def told(text: str, kind: str = TOLD) -> PydanticCustomError:
 
 def refused_at(key: str, text: str, value: object) -> ValidationError:
     """Return the error of one key of a table."""
-    details = InitErrorDetails(type=told(text), loc=(key,), input=value)
-    return ValidationError.from_exception_data("case", [details])
+    return ValidationError.from_exception_data("case", [_line((key,), text, value)])
 
 
 def explained(
@@ -64,26 +63,17 @@ def explained(
 
     `data` is what was given; the context of its validation may have a ``registry``.
     """
-    errors = error.errors(include_url=False)
     fields = {field.alias or name: field for name, field in model.model_fields.items()}
     allowed = ["type", *fields] if hasattr(model, "type") and "type" not in fields else [*fields]
-    given = set(data) if isinstance(data, Mapping) else set()
     lines, missing, meant = [], [], set()
-    for details in errors:
+    for details in error.errors():
         kind, loc = details["type"], _keys_of(details, data)
         if kind == "extra_forbidden" and len(details["loc"]) == 1:
-            loc, key = details["loc"], details["loc"][0]
-            # One that is there already may still be meant: an override adds its key beside it.
-            like = did_you_mean(key, [name for name in allowed if name not in given])
-            like = like or did_you_mean(key, allowed)
-            ending = suggestion(like)
-            if key == "diameter" and "radius" in allowed:
-                like, ending = "radius", "; give half of it as radius."
+            kind, loc = UNKNOWN, details["loc"]
+            text, like = _unknown(loc[0], allowed, data)
             meant.add(like)
-            text = f"unknown key {key!r}{ending} Allowed: {', '.join(allowed)}"
-            kind = UNKNOWN
         elif kind == "missing" and len(loc) == 1:
-            missing.append((details, str(loc[0])))
+            missing.append((str(loc[0]), details["input"]))
             continue
         elif kind == "union_tag_not_found":
             models = get_args(fields[str(loc[0])].annotation)
@@ -92,15 +82,27 @@ def explained(
         else:
             loc = (*loc, "type") if kind == "union_tag_invalid" else loc
             text = message(details)
-        lines.append(_line(details, loc, told(text, kind if kind == UNKNOWN else TOLD)))
-    for details, key in missing:
+        lines.append(_line(loc, text, details["input"], UNKNOWN if kind == UNKNOWN else TOLD))
+    for key, given in missing:
         # A key that is misspelt is one mistake, not an unknown key and a missing one.
         if key not in meant:
             marks = parts((fields[key].annotation, *fields[key].metadata))
             # A pair has the same hint twice.
             hints = dict.fromkeys(mark.hint(info) for mark in marks if hasattr(mark, "hint"))
-            lines.append(_line(details, (key,), told("; ".join(["missing", *hints]))))
+            lines.append(_line((key,), "; ".join(["missing", *hints]), given))
     return ValidationError.from_exception_data(error.title, lines)
+
+
+def _unknown(key: object, allowed: Sequence[str], data: object) -> tuple[str, str | None]:
+    """Return what to say of an unknown key, and the key that it is likely to mean."""
+    given = data if isinstance(data, Mapping) else {}
+    # One that is there already may still be meant: an override adds its key beside it.
+    like = did_you_mean(key, [name for name in allowed if name not in given])
+    like = like or did_you_mean(key, allowed)
+    ending = suggestion(like)
+    if key == "diameter" and "radius" in allowed:
+        like, ending = "radius", "; give half of it as radius."
+    return f"unknown key {key!r}{ending} Allowed: {', '.join(allowed)}", like
 
 
 def case_error(error: ValidationError) -> CaseError:
@@ -109,8 +111,7 @@ def case_error(error: ValidationError) -> CaseError:
     Unknown keys come first: a key that is misspelt is often also the one that is missing.
     """
     lines: dict[str, list[str]] = {}
-    errors = error.errors(include_url=False)
-    for details in sorted(errors, key=lambda details: details["type"] != UNKNOWN):
+    for details in sorted(error.errors(), key=lambda details: details["type"] != UNKNOWN):
         texts = lines.setdefault(path(details["loc"]), [])
         text = message(details)
         if text not in texts:
@@ -140,13 +141,11 @@ def message(details: ErrorDetails) -> str:
     if not text and isinstance(given, Mapping) and "type" in given:
         return f"{given['type']!r} refused its keys without saying why"
     text = text or f"{shown(given)} was refused without saying why"
-    return text.replace("Input should be", "must be").replace("Input should", "must")
+    return text.replace("Input should", "must")
 
 
-def _line(
-    details: ErrorDetails, loc: tuple[str | int, ...], kind: PydanticCustomError
-) -> InitErrorDetails:
-    return InitErrorDetails(type=kind, loc=loc, input=details["input"])
+def _line(keys: tuple[str | int, ...], text: str, given: Any, kind: str = TOLD) -> InitErrorDetails:
+    return InitErrorDetails(type=told(text, kind), loc=keys, input=given)
 
 
 def _keys_of(details: ErrorDetails, data: Any) -> tuple[str | int, ...]:
