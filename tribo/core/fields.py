@@ -93,8 +93,6 @@ def check_declared(owner: object, who: str) -> None:
         )
 
 
-PRESSURE = Field("pressure", "Pa", "Contact pressure, positive in compression.")
-SPEED = Field("speed", "m/s", "Sliding speed.")
 FRICTION_COEFFICIENT = Field(
     "friction_coefficient",
     "1",
