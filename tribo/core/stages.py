@@ -12,11 +12,7 @@ NUMBER, STAGES = "number", "stages"
 MOST = 10_000
 
 
-def _kind(value: Any) -> str:
-    return STAGES if isinstance(value, list | tuple) else NUMBER
-
-
-ONE_OR_STAGES = Discriminator(_kind)
+ONE_OR_STAGES = Discriminator(lambda value: STAGES if isinstance(value, list | tuple) else NUMBER)
 """Tells a number from a list of stages, by the tags of these names."""
 
 
