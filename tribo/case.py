@@ -76,6 +76,10 @@ class Body(Table):
             return ()
         return (*(layer.wear or self.wear for layer in self.layers), self.wear)
 
+    def materials(self) -> tuple[Material, ...]:
+        """Return its materials, those of its layers first."""
+        return (*(layer.material(self.material) for layer in self.layers), self.material)
+
 
 class Friction(Table):
     """Friction, for the laws and effects that ask for it; it does not act on the contact."""

@@ -75,8 +75,7 @@ def assemble(case: Case) -> Model:
         )
     shares = case.load.shares_at(_places(grid, len(cycle), exposures), grid.spacing[0])
     loads = Loads(case.load.pieces, shares, tuple(position.share for position in cycle))
-    curvatures = [surface.curvature for surface in surfaces.values()]
-    known = [each for each in curvatures if each is not None]
+    known = [each.curvature for each in surfaces.values() if each.curvature is not None]
     system = ContactSystem(
         grid=grid,
         modulus=contact_modulus([body.material for body in bodies.values()]),
@@ -84,7 +83,7 @@ def assemble(case: Case) -> Model:
         cap=cap,
         # Along x and y; none if a surface states none.
         curvature=(sum(c[0] for c in known), sum(c[1] for c in known))
-        if len(known) == len(curvatures)
+        if len(known) == len(surfaces)
         else None,
         materials={name: body.material for name, body in bodies.items()},
         coatings=_coatings(bodies, surfaces, case.contact),
@@ -143,13 +142,7 @@ def _plastic(
     it takes its part of what yields.
     """
     found = {
-        name: tuple(
-            material.hardness or np.inf
-            for material in (
-                *(layer.material(body.material) for layer in body.layers),
-                body.material,
-            )
-        )
+        name: tuple(material.hardness or np.inf for material in body.materials())
         for name, body in bodies.items()
     }
     if not contact.plasticity or not np.isfinite([min(each) for each in found.values()]).any():
@@ -160,21 +153,19 @@ def _plastic(
             "set contact.plasticity = false, or leave hardness out",
             "contact.plasticity",
         )
-    for name, each in found.items():
-        if len(set(each)) > 1 and not contact.takes_cap_map:
-            raise CaseError(
-                f"contact.type = {contact.type!r} limits the pressure to one hardness throughout; "
-                "set contact.plasticity = false where layers have one of their own, or take "
-                "'dcfft' or 'periodic'",
-                f"bodies.{name}.layers",
-            )
-    if any(len(set(each)) > 1 for each in found.values()):
-        # Below layers without a hardness another may be the first that limits.
-        depths = zip_longest(*found.values(), fillvalue=np.inf)
-        first = next(cap for cap in map(min, depths) if np.isfinite(cap))
-        yields = {name: float(np.isfinite(min(each))) for name, each in found.items()}
-        return first, yields, found
-    cap = min(each[0] for each in found.values())
+    changing = [name for name, each in found.items() if len(set(each)) > 1]
+    if changing and not contact.takes_cap_map:
+        raise CaseError(
+            f"contact.type = {contact.type!r} limits the pressure to one hardness throughout; "
+            "set contact.plasticity = false where layers have one of their own, or take "
+            "'dcfft' or 'periodic'",
+            f"bodies.{changing[0]}.layers",
+        )
+    # Below layers without a hardness another may be the first that limits.
+    depths = zip_longest(*found.values(), fillvalue=np.inf)
+    cap = next(each for each in map(min, depths) if np.isfinite(each))
+    if changing:
+        return cap, {name: float(np.isfinite(min(each))) for name, each in found.items()}, found
     soft = [name for name, each in found.items() if each[0] == cap]
     return cap, {name: (1 / len(soft) if name in soft else 0.0) for name in bodies}, {}
 
@@ -182,10 +173,9 @@ def _plastic(
 def _law(body: Body, name: str, grid: Grid, exposure: Exposure) -> GuardedLaw:
     """Return the law of a body that wears, or those of its layers."""
     laws = []
-    own = (*((f"layers.{i}.wear", layer) for i, layer in enumerate(body.layers)), ("wear", None))
-    for law, (place, layer) in zip(body.laws(), own, strict=True):
-        place = "wear" if layer is None or layer.wear is None else place
-        material = body.material if layer is None else layer.material(body.material)
+    own = [f"layers.{i}.wear" if each.wear else "wear" for i, each in enumerate(body.layers)]
+    places = (*own, "wear")
+    for law, material, place in zip(body.laws(), body.materials(), places, strict=True):
         with located(f"bodies.{name}.{place}"):
             laws.append(GuardedLaw(law, name, material))
             laws[-1].ask(law.check_cells, grid.spacing)
@@ -207,7 +197,8 @@ def _coatings(
     """Return the elastic layer on each body that has one, by name."""
     coatings = {}
     for name, body in bodies.items():
-        base, place = body.material, f"bodies.{name}.layers"
+        *materials, base = body.materials()
+        place = f"bodies.{name}.layers"
         thickness = sum(layer.thickness for layer in body.layers)
         curvature = max(surfaces[name].curvature or (0.0, 0.0))
         if thickness * curvature >= 1:
@@ -216,10 +207,7 @@ def _coatings(
                 f"{1 / curvature:.4g} m; make them thinner, or give the body their material",
                 place,
             )
-        elastic = [
-            (layer.young or base.young, base.poisson if layer.poisson is None else layer.poisson)
-            for layer in body.layers
-        ]
+        elastic = [(each.young, each.poisson) for each in materials]
         while elastic and elastic[-1] == (base.young, base.poisson):
             elastic.pop()
         if not elastic:
@@ -237,7 +225,7 @@ def _coatings(
                 place,
             )
         thickness = sum(layer.thickness for layer in body.layers[: len(elastic)])
-        coatings[name] = Coating(thickness, body.layers[0].material(base), base)
+        coatings[name] = Coating(thickness, materials[0], base)
     return coatings
 
 
