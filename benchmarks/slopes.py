@@ -1,0 +1,96 @@
+"""Slopes of a few values by a few numbers: exact ones, value by value, or differences of runs.
+
+    python benchmarks/slopes.py [cells]
+
+Of each case it prints CPU times in those of a run: of the run that is gone back through, and of a
+pass back for each value. Then slopes, in per cent for one per cent: exact, and by differences where
+the number is raised by a fifth, as `tribo calibrate` does.
+"""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from contextlib import closing
+from time import process_time
+
+import numpy as np
+from gradient_cost import cases
+
+from tribo import Case, Depth, TriboWarning, Volume
+from tribo.simulation.march import begin, march
+from tribo.simulation.run import Simulation
+from tribo.study.calibration.fit import STEP
+from tribo.study.gradient.backwards import swept_back
+from tribo.study.gradient.objective import View
+from tribo.study.gradient.parameters import chain, changed, find
+from tribo.study.gradient.tape import Tape, recorded
+
+VALUES = {
+    f"{name} of the {body}": kind(body)
+    for name, kind in (("volume", Volume), ("depth", Depth))
+    for body in ("ball", "disk")
+}
+
+
+def exact(case: Case, paths: list[str]) -> tuple[np.ndarray, list[float]]:
+    """Return the slopes of all values by all numbers, and the times of the run and the passes."""
+    model = Simulation(case).model
+    chains = [chain(model, *number, {}) for number in find(case, paths)]
+    slopes, times = [], [process_time()]
+    with closing(Tape()) as tape:
+        end = recorded(model, [model.end_time], tape)[model.end_time]
+        times.append(process_time())
+        for value in VALUES.values():
+            number, seeds = value(View(model, end))
+            through = swept_back(model, tape, {model.end_time: seeds}, chains).parameters
+            direct = [
+                sum(each.weight * value(View(each.model, end))[0] for each in one.variants)
+                for one in chains
+            ]
+            scale = [one.value / number for one in chains]
+            slopes.append((np.array(through) + direct) * scale)
+            times.append(process_time())
+    return np.array(slopes), list(np.diff(times))
+
+
+def values(case: Case) -> np.ndarray:
+    """Return the logarithms of all values of a run."""
+    model = Simulation(case).model
+    *_, last = march(model, begin(model))
+    return np.log([value(View(model, last.state))[0] for value in VALUES.values()])
+
+
+def differences(case: Case, paths: list[str]) -> np.ndarray:
+    """Return the slopes by a run more for each number."""
+    base, columns = values(case), []
+    for _, places, value in find(case, paths):
+        moved = case
+        for place in places:
+            moved = changed(moved, place, value * float(np.exp(STEP)))
+        columns.append((values(moved) - base) / STEP)
+    return np.stack(columns, axis=1)
+
+
+def main(cells: int) -> None:
+    """Print times and slopes of each case."""
+    warnings.simplefilter("ignore", TriboWarning)
+    for name, case in cases(cells).items():
+        paths = ["bodies.ball.wear.k", "bodies.disk.wear.k"]
+        power = case.bodies["ball"].wear.type == "power"
+        paths += [f"bodies.{body}.wear.p_exponent" for body in ("ball", "disk") if power]
+        paths += [] if power else ["load.normal", "bodies.ball.material.young"]
+        case.run()
+        started = process_time()
+        case.run()
+        run = process_time() - started
+        slopes, (record, *passes) = exact(case, paths)
+        told = " ".join(f"{each / run:.2f}" for each in passes)
+        print(f"\n{name}, {cells}²: run {run:.2f} s, recorded {record / run:.2f}, back {told}")
+        for what, own, other in zip(VALUES, slopes, differences(case, paths), strict=True):
+            pairs = [f"{one:+.4f} {two:+.4f}" for one, two in zip(own, other, strict=True)]
+            print(f"{what:20}", "   ".join(pairs))
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else 64)
