@@ -37,7 +37,7 @@ from tribo.core.grid import Grid
 from tribo.motion.rotating import Rotating
 from tribo.motion.unidirectional import Unidirectional
 from tribo.stepping.explicit import Explicit
-from tribo.study.gradient import backwards, course, linear, local, parameters, remembering
+from tribo.study.gradient import backwards, course, linear, local, parameters, remembering, slopes
 from tribo.study.gradient.gradient import gradient
 from tribo.study.gradient.objective import Deepest, Depth, Pressure, Volume
 from tribo.surfaces.cylinder import Cylinder
@@ -203,9 +203,9 @@ MUTANTS = [
     ("positions", linear.Carrier, "gathered", zero),
     ("explicit", backwards.Backwards, "_wear", nothing),
     ("explicit", backwards.Backwards, "_wear", unpressed),
-    ("remembers", remembering.Remembering, "_by_pressure", unfelt("own")),
+    ("remembers", slopes.Asked, "_by_pressure", unfelt("own")),
     ("remembers", remembering.Remembering, "_back", forgotten),
-    ("load over time", remembering.Remembering, "_by_pressure", unfelt("load")),
+    ("load over time", slopes.Asked, "_by_pressure", unfelt("load")),
     ("layers", course, "_layers", lambda of: lambda *given: (of(*given)[0], 1.0)),
 ]
 

@@ -1,5 +1,7 @@
 """The gradient of a run whose laws follow what lies between the bodies."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from gradients import (
@@ -23,7 +25,7 @@ from paper_models import K, archard, motion
 from tribo.core.errors import CaseError
 from tribo.core.fields import LOAD_SHARE, Field
 from tribo.effects.effect import Effect
-from tribo.study.gradient import backwards, linear, parameters, remembering
+from tribo.study.gradient import backwards, linear, parameters, remembering, response, slopes
 from tribo.study.gradient.gradient import gradient
 from tribo.study.gradient.objective import Depth, Pressure, Volume
 from tribo.wear.archard import Archard
@@ -88,6 +90,17 @@ class Softens(Archard):
         return times(np.exp(0.02 * local.fields["temperature"]), super().rate(local))
 
 
+class Mirrors(Effect):
+    """A temperature that follows the pressure at the other side."""
+
+    type = "mirrors"
+    provides = Heat.provides
+
+    def fields(self, contact):
+        beyond = 1e-8 * contact.pressure[:, ::-1]
+        return {"temperature": dict.fromkeys(contact.materials, beyond)}
+
+
 class Blurs(Effect):
     """A temperature that follows the pressure beside each point."""
 
@@ -113,6 +126,28 @@ class Grows(Effect):
 
     def state_rates(self, contact):
         return {"grown": self.rate * contact.pressure - contact.state["grown"] / self.stays}
+
+
+class Creeps(Grows):
+    """Such a layer that also spreads, the faster the thicker it is, and wear lands beside it."""
+
+    type = "creeps"
+    spreads: float = 0.05
+    over: float = 1e-7
+    on: str | None = None
+
+    def carrier(self):
+        return self.on
+
+    def state_rates(self, contact):
+        height = contact.state["grown"]
+        flow = height * (1 + height / self.over)
+        rate = -4 * flow
+        for axis in (0, 1):
+            rate += np.roll(flow, 1, axis) + np.roll(flow, -1, axis)
+        lands = contact.speed * np.roll(sum(contact.wear_rates.values()), 1, axis=1)
+        grown = super().state_rates(contact)["grown"]
+        return {"grown": grown + self.spreads * rate + 0.1 * lands}
 
 
 def pauses(**changes):
@@ -187,6 +222,23 @@ KINDS["rest, of one temperature"] = Kind(
     ["load.normal", "effects.0.capacity", *SHAPE, "kinematics.frequency.1.until"],
     1e-4,
 )
+KINDS["spreads"] = Kind(
+    run(
+        bodies=pair(FRESH, archard()),
+        effects=[Creeps()],
+        kinematics=motion(duration=4),
+        stepping=SLOW,
+    ),
+    Depth("disk"),
+    [*BASE[:1], *SHAPE, *(f"effects.0.{name}" for name in ("rate", "stays", "spreads", "over"))],
+    1e-5,
+)
+KINDS["pressure beside"] = Kind(
+    run(bodies=pair(Softens(k=K), archard()), effects=[Blurs()], stepping=LONG),
+    Depth("ball"),
+    ["load.normal", "bodies.ball.wear.k", *SHAPE],
+    1e-5,
+)
 
 
 @pytest.mark.slow
@@ -198,9 +250,11 @@ def test_it_is_that_of_the_same_steps(kind):
 def unheard(method):
     """What an effect makes of the wear of bodies, left out."""
 
-    def mutant(self, states, passed, found):
+    def mutant(self, states, passed, found, reach):
         depths = range(len(self.model.laws))
-        return [[rate * (at == i) for i, rate in enumerate(found)] for at in depths]
+        return [
+            [response.Response(rate * (at == i)) for i, rate in enumerate(found)] for at in depths
+        ]
 
     return mutant
 
@@ -228,18 +282,28 @@ def rests(slid):
     return slid is not None and slid.moment.speed == 0
 
 
+def alone(method):
+    return lambda seeds, responses: method(seeds, [replace(r, beside={}) for r in responses])
+
+
+def of_each_alone(method):
+    return lambda self, states, place, found, reach: method(self, states, place, found, (0, 0))
+
+
 MUTANTS = [
+    ("spreads", slopes, "back", alone),
+    ("spreads", slopes.Asked, "_by_factor", of_each_alone),
     ("rest", backwards.Backwards, "press", unrested),
     ("rest, of one temperature", backwards.Backwards, "press", unseen),
     ("rest", parameters.Chain, "by_wear", as_it_is),
-    ("grains", remembering.Remembering, "_by_pressure", unfelt("own")),
+    ("grains", slopes.Asked, "_by_pressure", unfelt("own")),
     ("grains", remembering.Remembering, "_back", forgotten),
-    ("grains", remembering.Remembering, "_by_factor", unheard),
+    ("grains", slopes.Asked, "_by_factor", unheard),
     ("grains", backwards.Backwards, "_filled", lambda _: lambda self, states, *given: states),
     ("grains", backwards.Backwards, "_of_wear", zero),
     ("grains", parameters.Chain, "by_rest", without("gap")),
-    ("heat", remembering.Remembering, "_by_pressure", unfelt("load")),
-    ("heat", remembering.Remembering, "_by_pressure", unfelt("square")),
+    ("heat", slopes.Asked, "_by_pressure", unfelt("load")),
+    ("heat", slopes.Asked, "_by_pressure", unfelt("square")),
     ("heat", linear.Uniform, "gathered", zero),
 ]
 
@@ -258,7 +322,7 @@ def test_each_term_counts(monkeypatch, kind, owner, method, change):
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"effects": [Blurs()]}, "what 'blurs' makes of a point follows other points"),
+        ({"effects": [Mirrors()]}, "what 'mirrors' makes of a point follows points further than"),
     ],
 )
 def test_what_is_not_covered_is_refused(changes, message):

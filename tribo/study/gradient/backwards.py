@@ -24,6 +24,7 @@ from tribo.study.gradient.local import WatchedLaw
 from tribo.study.gradient.objective import Seeds
 from tribo.study.gradient.parameters import Chain
 from tribo.study.gradient.remembering import Remembering
+from tribo.study.gradient.slopes import Asked
 from tribo.study.gradient.tape import Enveloped, Gave, Pressed, Saved, Slid, Tape
 
 JUST = 1e-9
@@ -249,11 +250,9 @@ class Backwards:
             kept += self.between.values()
             if remembers or self.together:
                 alone = replace(slid, before=replace(slid.before, laws=own))
-                found.append(
-                    Remembering(
-                        model, self.carriers, kept, contacts, alone, remembers, self.model.advances
-                    )
-                )
+                advances = self.model.advances
+                asked = Asked(model, self.carriers, kept, contacts, alone, remembers, advances)
+                found.append(Remembering(asked))
             else:
                 found.append(plain(model, self.carriers[names[0]], contacts, slid, known))
         return found

@@ -1,15 +1,17 @@
-"""How rates follow the pressures of a contact: each point's own, the load, and Σp²."""
+"""How rates follow what they are asked at: at each point, beside it, the load, and Σp²."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import product
 
 import numpy as np
 
 from tribo.contact.projection import CELLS, over
 from tribo.core.arrays import Array
-from tribo.core.errors import CaseError
+from tribo.core.box import whole
+from tribo.study.gradient.linear import Carrier
 
 NUDGE = 3e-5
 """Part of the pressure by which it is varied to find the derivative of a rate, up and down."""
@@ -18,34 +20,131 @@ LEAST = 0.1
 AGREES = 1e-4
 """Relative difference up to which a change in all that is varied is the sum of its parts."""
 
+MOST = 25
+"""Points around one, itself among them, that it may follow."""
+SLIGHT = 1e-9
+"""Of the largest change, what is below it is none."""
+
 Arrays = list[Array]
 Rates = Callable[[Array], Arrays]
-"""Rates at pressures, shape (positions, nx, ny)."""
+"""Rates at pressures, shape (positions, nx, ny), or at other values."""
+Offset = tuple[int, int]
+"""Cells along x and y from a point to another one."""
+ALONE = (0, 0)
+"""How many cells apart along x and y points are that follow each other, where they do not."""
 
 
 @dataclass(frozen=True)
 class Response:
     """The derivatives of a rate at each cell, of the shape (positions, nx, ny) or 0.
 
-    In the pressure of that cell, in the sum of all at its position, and in half the sum of their
-    squares.
+    In the value of that cell, and of those `beside` it, by how far they lie from it; and in the sum
+    of the pressures of all at its position, and in half the sum of their squares.
     """
 
     own: Array
     load: Array | float = 0.0
     square: Array | float = 0.0
+    beside: Mapping[Offset, Array] = field(default_factory=dict)
 
     def change(self, pressure: Array, by: Array) -> Array:
-        """Return what a change of the pressures adds to the rate."""
+        """Return what a change of the pressures, or of other values, adds to the rate."""
         found: Array = self.own * by + self.load * over(np.sum(by, CELLS))
+        for offset, slope in self.beside.items():
+            found = found + slope * np.roll(by, (-offset[0], -offset[1]), CELLS)
         return found + self.square * over(np.sum(pressure * by, CELLS))
 
 
-def local(rates: Rates, pressure: Array) -> list[Response]:
-    """Return the responses of rates that follow the pressure of their own cell alone."""
-    span = np.where(pressure > 0, 2 * NUDGE * pressure, np.inf)
-    pairs = zip(rates((1 + NUDGE) * pressure), rates((1 - NUDGE) * pressure), strict=True)
-    return [Response((higher - lower) / span) for higher, lower in pairs]
+def back(seeds: Arrays, responses: Sequence[Response]) -> Array:
+    """Return derivatives in the values at each cell from those in rates."""
+    found = np.zeros_like(seeds[0])
+    for seed, response in zip(seeds, responses, strict=True):
+        found += seed * response.own
+        for offset, slope in response.beside.items():
+            found += np.roll(seed * slope, offset, CELLS)
+    return found
+
+
+def local(rates: Rates, pressure: Array, reach: Offset = ALONE) -> list[Response]:
+    """Return the responses of rates that follow the pressures of their own cell, and near it."""
+
+    def moved(cells: Array) -> tuple[Array, Array]:
+        by = NUDGE * pressure * cells
+        return pressure + by, pressure - by
+
+    return near(rates, moved, None, pressure.shape, reach)
+
+
+def near(
+    rates: Rates,
+    moved: Callable[[Array], tuple[Array, Array]],
+    carrier: Carrier | None,
+    shape: Sequence[int],
+    reach: Offset,
+) -> list[Response]:
+    """Return the responses of rates in values that lie on cells, of a `shape`.
+
+    Cells so far apart that nothing follows two of them are varied at once: `moved` up and down
+    where a map is 1. They lie on a carrier, or in the window, by position.
+    """
+    colours, span, ends = _colours(shape, reach), np.zeros(shape), []
+    for colour in range(int(np.max(colours)) + 1):
+        up, down = moved((colours == colour).astype(float))
+        span += up - down
+        ends.append([one - other for one, other in zip(rates(up), rates(down), strict=True)])
+    if carrier is not None:
+        box = whole(ends[0][0].shape[1:])
+        span, colours = carrier.seen(span, box), carrier.seen(colours, box)
+    changes = [np.stack(each) for each in zip(*ends, strict=True)]
+    found: dict[Offset, Arrays] = {}
+    for offset in product(*(range(-far, far + 1) for far in reach)):
+        back = -offset[0], -offset[1]
+        by, source = np.roll(span, back, CELLS), np.roll(colours, back, CELLS).astype(int)
+        by[by == 0] = np.inf
+        found[offset[0], offset[1]] = [
+            np.take_along_axis(change, source[None], 0)[0] / by for change in changes
+        ]
+    own = found.pop(ALONE)
+    return [
+        Response(each, beside={o: of[at] for o, of in found.items() if np.any(of[at])})
+        for at, each in enumerate(own)
+    ]
+
+
+def reached(changes: Arrays, place: Sequence[int], carrier: Carrier | None = None) -> Offset:
+    """Return how far apart points are that follow the one at a place, which has changed these.
+
+    `ALONE` where that is too far. What lies on a carrier that is averaged is one along the track.
+    """
+    position, *cell = place
+    far = [0, 0]
+    for change in changes:
+        hit = np.abs(change[position]) > SLIGHT * np.max(np.abs(change[position]))
+        for axis, index in enumerate(cell):
+            apart = np.abs(np.flatnonzero(np.any(hit, axis=1 - axis)) - index)
+            around = np.minimum(apart, hit.shape[axis] - apart)
+            far[axis] = max(far[axis], int(np.max(around, initial=0)))
+    along, across = far
+    if carrier is not None and carrier.weights is not None:
+        along = 0
+    return (along, across) if (2 * along + 1) * (2 * across + 1) <= MOST else ALONE
+
+
+def _colours(shape: Sequence[int], reach: Offset) -> Array:
+    """Return numbers from 0 on, alike only on cells that are too far apart for one to follow both.
+
+    Those at one end of the window may lie beside those at the other.
+    """
+    *_, rows, columns = shape
+    along, across = _in_row(rows, reach[0]), _in_row(columns, reach[1])
+    colours = along[:, None] * (1 + np.max(across)) + across
+    return np.array(np.broadcast_to(colours, shape))
+
+
+def _in_row(count: int, far: int) -> Array:
+    every, cell = 2 * far + 1, np.arange(count)
+    colours = cell % every + every * (cell >= count // every * every)
+    return np.unique(colours, return_inverse=True)[1].astype(float)
 
 
 def shared(rates: Rates, pressure: Array) -> list[Response]:
@@ -107,13 +206,10 @@ def _inverse(one: Array, other: Array) -> Array:
     return np.linalg.pinv(matrix, rcond=1e-6)
 
 
-def check_sum(expected: Arrays, found: Arrays, rates: Arrays, who: str) -> None:
-    """Refuse rates that change otherwise than by their parts, in a change of all at once."""
-    for one, other, rate in zip(expected, found, rates, strict=True):
-        allowed = AGREES * np.max(np.abs(other)) + 1e-8 * NUDGE * np.max(np.abs(rate))
-        if np.max(np.abs(one - other)) > allowed:
-            raise CaseError(
-                f"what {who} makes of a point follows other points, otherwise than by the load "
-                "and the area, through which no gradient goes",
-                "effects",
-            )
+def agrees(expected: Arrays, found: Arrays, rates: Arrays) -> bool:
+    """Whether rates, in a change of all at once, change as by their parts."""
+    return all(
+        np.max(np.abs(one - other))
+        <= AGREES * np.max(np.abs(other)) + 1e-8 * NUDGE * np.max(np.abs(rate))
+        for one, other, rate in zip(expected, found, rates, strict=True)
+    )
