@@ -12,7 +12,7 @@ from click.testing import CliRunner
 from command_line import tribo
 from rich.console import Console
 
-from tribo.cli.calibrate import estimates_table
+from tribo.cli.fitted import estimates_table
 from tribo.cli.main import tribo as main
 from tribo.config.load import load_case
 from tribo.core.errors import CaseError

@@ -8,9 +8,11 @@ import numpy as np
 import pandas as pd
 import pytest
 from click.testing import CliRunner
+from command_line import tribo as command
 from scipy.optimize import brentq
 from scipy.stats import norm, truncnorm
 
+import tribo.study.calibration.posed as posed
 from tribo.cli.main import tribo
 from tribo.config.load import read_toml
 from tribo.core.errors import CaseError, Interrupted, NumericalError
@@ -121,6 +123,29 @@ def test_the_command_prints_sampled_intervals_of_the_weighed_coefficients(losses
     assert (
         str(refused.exception) == "--sample is for one case fitted to [[measured]], without --plan"
     )
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt(), Interrupted("stopped at 5 s of 9 s")])
+def test_an_interrupt_while_it_is_sampled_does_not_lose_the_fit(
+    losses, monkeypatch, tmp_path, error
+):
+    made, runs = posed.make_run, []
+
+    def interrupted(*arguments):
+        runs.append(arguments)
+        if len(runs) > 50:
+            raise error
+        return made(*arguments)
+
+    monkeypatch.setattr(posed, "make_run", interrupted)
+    asked = ["calibrate", CASE, "--measured", WEIGHED, "--sample", 1200]
+    ended = command(*asked, "-o", tmp_path / "fitted.toml")
+    assert ended.returncode == 130
+    assert "7.08e-16 1/Pa" in ended.stdout
+    assert "Note: sampling was interrupted, so that the intervals are not" in ended.stdout
+    assert (str(error) or "interrupted") in ended.stderr
+    assert read_toml(tmp_path / "fitted.toml")["bodies"]["disk"]["wear"]["k"] == 7.08e-16
+    assert len(runs) < 60
 
 
 @pytest.fixture

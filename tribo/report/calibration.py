@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tribo.cli.calibrate import data_table, estimates_table, judgement, predictions_table
+from tribo.cli.fitted import data_table, estimates_table, judgement, predictions_table
 from tribo.cli.fitted_maps import read_maps
 from tribo.config.load import case_tables, validate_case
 from tribo.config.write import to_toml

@@ -106,6 +106,7 @@ def calibrate(
     *,
     level: float = 0.95,
     sample: int = 0,
+    on_fit: Callable[[Calibration], object] = lambda fit: None,
     on_run: Callable[[int, float], object] = lambda run, misfit: None,
 ) -> Calibration:
     """Fit parameters of a case to wear that was measured in one test or several.
@@ -123,6 +124,8 @@ def calibrate(
         Probability with which each interval is to cover the truth.
     sample : int, optional
         How many runs more, of each test's case, to check the intervals by, with emcee.
+    on_fit : callable, optional
+        Called with the fit before it is sampled, which takes long and may be interrupted.
     on_run : callable, optional
         Called after each round of runs with the number of runs and their misfit χ².
 
@@ -172,6 +175,7 @@ def calibrate(
     found = _outcome(fitted, posed, level)
     if not sample:
         return found
+    on_fit(found)
     parameters, note = sampled(responses, fitted, found.parameters, sample, level)
     return replace(found, runs=posed.made, parameters=parameters, notes=(*found.notes, note))
 

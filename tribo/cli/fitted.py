@@ -1,0 +1,196 @@
+"""What `tribo calibrate` prints of numbers that were fitted."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import pandas as pd
+from rich.markup import escape
+from rich.table import Table
+
+from tribo.cli.console import Console, titled
+from tribo.core.words import signed
+from tribo.study.calibration.calibrate import Calibration
+from tribo.study.calibration.choice import Choice
+from tribo.study.calibration.plan import Plan
+from tribo.study.calibration.quantities import in_si, in_words, percent
+
+FAR = 10.0
+"""Factor of an interval's end from the value above which its part in percent tells nothing."""
+BLIND = 0.2
+"""Standard deviations by which a change by a factor e shows, below which the data are blind."""
+LONGEST_NAME = 30
+"""Characters of a name that a table for 80 columns has room for."""
+
+
+def print_fit(found: Calibration) -> None:
+    """Print estimates, how each measured value is met, predictions, and how good the fit is."""
+    console = Console()
+    console.print(estimates_table(found))
+    console.print(data_table(found))
+    if len(found.predictions):
+        console.print(predictions_table(found))
+    for line in judgement(found):
+        console.print(line, markup=False)
+    for note in found.notes:
+        console.print(f"[yellow]Note:[/] {escape(note)}")
+
+
+def print_plan(found: Plan) -> None:
+    """Print how many tests of each kind there are to be."""
+    names = [each or "the case as it is" for each in found.tests["test"]]
+    count = int(found.tests["count"].sum())
+    table = _table("Tests", names, "how many")
+    for name, each in zip(names, found.tests.itertuples(), strict=True):
+        table.add_row(name, str(each.count))
+    parameters = _table(
+        "Expected", list(found.parameters["path"]), f"{100 * found.level:g} % interval"
+    )
+    for each in found.parameters.itertuples():
+        parameters.add_row(each.path, f"±{percent(each.half_width)} %")
+    console = Console()
+    part = f"±{percent(found.within)} %"
+    console.print(f"{count} test{'s' * (count != 1)} give intervals within {part}.")
+    console.print(table)
+    console.print(parameters)
+
+
+def print_choice(found: Choice) -> None:
+    """Print what the data say of several cases."""
+    console, names = Console(), list(found.cases["case"])
+    columns = ["criterion", "weight", "left out", "χ²", "to spare", "parameters"]
+    table = _table("Cases", names, *columns)
+    for each in found.cases.itertuples():
+        own = found.calibrations[each.case]
+        left_out = "" if math.isnan(each.left_out) else f"{each.left_out:.1f}"
+        table.add_row(
+            each.case,
+            f"{each.bic:.1f}",
+            f"{each.weight:.2g}",
+            left_out,
+            f"{own.chi_square:.3g}",
+            str(own.degrees_of_freedom),
+            str(each.parameters),
+        )
+    console.print(table)
+    for name in names:
+        console.print(f"\n{escape(name)}")
+        console.print(estimates_table(found.calibrations[name]))
+    console.print(f"In short: {escape(found.verdict)}.")
+
+
+def _table(title: str, names: list[str], *columns: str) -> Table:
+    """Return a table that breaks names and intervals between words, but no values."""
+    table = titled(title)
+    table.pad_edge, table.collapse_padding = False, True
+    longest = max((len(word) for name in names for word in name.split()), default=0)
+    whole = longest <= LONGEST_NAME and not any(" " in name for name in names)
+    width = None if whole else min(longest, LONGEST_NAME)
+    table.add_column("", overflow="fold", no_wrap=whole, min_width=width)
+    for column in columns:
+        is_interval = column == "" or column.endswith("interval")
+        table.add_column(column, justify="right", overflow="fold", no_wrap=not is_interval)
+    return table
+
+
+def estimates_table(found: Calibration) -> Table:
+    """Return the parameters with their intervals."""
+    names, level = list(found.parameters["path"]), f"{100 * found.level:g} % interval"
+    columns = ["estimate", level, "", "resolution"]
+    if is_sampled := "sampled_lower" in found.parameters:
+        columns.append("sampled interval")
+    table = _table(f"Fitted in {found.runs} runs", names, *columns)
+    for each in found.parameters.itertuples():
+        ends, relative = _interval(each, f"{each.lower:.3g}", f"{each.upper:.3g}")
+        resolution = f"±{percent(each.resolution_limit)} %" if each.resolution_limit else ""
+        if each.held:
+            ends = "held by its bound"
+        value = in_si(each.value, each.unit)
+        if each.limited:
+            value, ends = f"below {in_si(each.upper, each.unit)}", "upper bound"
+        if each.held or each.limited or math.isinf(each.upper):
+            relative = resolution = ""
+        more = [f"{each.sampled_lower:.3g} to {each.sampled_upper:.3g}"] if is_sampled else []
+        table.add_row(each.path, value, ends, relative, resolution, *more)
+    return table
+
+
+def data_table(found: Calibration) -> Table:
+    """Return what was measured, and how the fit meets it."""
+    names = [_name(each) for each in found.data.itertuples()]
+    table = _table("Measured", names, "value", "uncertainty", "computed", "residual")
+    for name, each in zip(names, found.data.itertuples(), strict=True):
+        values = (each.measured, each.sigma, each.computed)
+        shown = [in_words(each.quantity, value) for value in values]
+        if each.below:
+            shown[0] = f"< {shown[0]}"
+        table.add_row(name, *shown, signed(each.residual, 1))
+    return table
+
+
+def predictions_table(found: Calibration) -> Table:
+    """Return what else the fitted case gives."""
+    names = [_name(each) for each in found.predictions.itertuples()]
+    level = f"{100 * found.level:g} % interval"
+    table = _table("Not measured, at the end", names, "computed", level, "")
+    for name, each in zip(names, found.predictions.itertuples(), strict=True):
+        value, low, high = (
+            in_words(each.quantity, value) for value in (each.value, each.lower, each.upper)
+        )
+        table.add_row(name, value, *_interval(each, low.split()[0], high))
+    return table
+
+
+def judgement(found: Calibration) -> Iterator[str]:
+    """Say how good the fit is, and how well the data tell the parameters apart."""
+    if found.p_value is not None:
+        yield (
+            f"χ² {found.chi_square:.3g} with {found.degrees_of_freedom} to spare, "
+            f"p = {found.p_value:.2g}."
+        )
+    if found.repeatability or found.repeatability_estimated:
+        how = "estimated" if found.repeatability_estimated else "as stated"
+        yield f"Repeatability, {how}: ±{percent(found.repeatability)} % from test to test."
+    best, worst = (_known(found.singular_values[i]) for i in (0, -1))
+    if len(found.parameters) > 1:
+        yield (
+            f"Of all combinations of these numbers the best known by the data is known {best}, "
+            f"the least known {worst} (one standard deviation)."
+        )
+    paths = list(found.parameters["path"])
+    for i, first in enumerate(paths):
+        for j, second in enumerate(paths[:i]):
+            both = signed(found.correlation[i, j], 2)
+            yield f"Correlation of {second} and {first}: {both}."
+
+
+def _known(singular_value: float) -> str:
+    """Say how well the data tell a combination of parameters."""
+    if singular_value < BLIND:
+        return "not at all"
+    spread = 1 / singular_value
+    return f"to {percent(spread)} %" if spread < 1 else f"to a factor {math.exp(spread):.2g}"
+
+
+def _name(row: Any) -> str:
+    """Return the name of a row of the data or of the predictions."""
+    text = f"{row.body}, {row.quantity}"
+    if getattr(row, "test", ""):
+        text = f"{row.test}: {text}"
+    if pd.notna(getattr(row, "time_s", None)):
+        text += f" at {row.time_s:g} s"
+    if pd.notna(getattr(row, "position_m", None)):
+        text += f" at {1e3 * row.position_m:g} mm"
+    return text
+
+
+def _interval(row: Any, low: str, high: str) -> tuple[str, str]:
+    """Return the interval of a row, and the same relative to the value, if it is not open."""
+    if math.isinf(row.upper):
+        return f"{low} to open" if row.lower else "open", ""
+    if row.upper > FAR * row.value:
+        return f"{low} to {high}", ""
+    below, above = percent(1 - row.lower / row.value), percent(row.upper / row.value - 1)
+    return f"{low} to {high}", f"±{above} %" if below == above else f"−{below} +{above} %"
