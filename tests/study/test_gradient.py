@@ -124,9 +124,9 @@ KINDS = {
     ),
     "yields": Kind(run(grid=ODD, bodies=YIELDING), Depth("disk"), [*BASE, *SHAPE, HARD], 1e-6),
     "load over time": Kind(
-        run(load=RAMP, bodies=pair(FRESH, archard()), stepping=LONG),
+        run(load=RAMP, bodies=pair(FRESH, power(1.5)), stepping=LONG),
         {20.0: Depth("disk")},
-        [*STAGES, *OF_FRESH, "load.normal.1.at", "load.normal.2.until"],
+        [*STAGES, *OF_FRESH, BASE[2], "load.normal.1.at", "load.normal.2.until"],
         1e-5,
     ),
     "positions": Kind(

@@ -135,8 +135,11 @@ class Chain:
             moment = Moment(ended, distance, 0.0 if rests else increment / (ended - begun))
             after = known
             if laws:
-                model = replace(each.model, laws=laws)
                 before = replace(slid.before, laws={name: slid.before.laws[name] for name in laws})
+                if remembers and not before.values:
+                    # Beside what remembers, a law is asked along the increment, under its loads.
+                    laws, before = dict(each.model.laws), slid.before
+                model = replace(each.model, laws=laws)
                 after = course(model, before, contacts, increment, moment, slid.plan)
             rates = [
                 {name: (of if name in laws else was)[name] for name in wears}
