@@ -21,7 +21,8 @@ from tribo.study.calibration.fit import ABOVE_ROUNDING, NO_EFFECT, fit, interval
 from tribo.study.calibration.linearised import Linearised, root_covariance, weigh
 from tribo.study.calibration.measured import Measurements
 from tribo.study.calibration.notes import notes
-from tribo.study.calibration.posed import Parameter, Posed
+from tribo.study.calibration.parameters import Parameter
+from tribo.study.calibration.posed import Posed
 from tribo.study.calibration.quantities import QUANTITIES, in_si, plain
 from tribo.study.calibration.sample import check_sampling, sampled
 

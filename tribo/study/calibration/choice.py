@@ -17,7 +17,7 @@ from tribo.core.errors import CaseError, TriboError
 from tribo.study.calibration.calibrate import Calibration, calibrate
 from tribo.study.calibration.measured import Measurements, read_measurements
 from tribo.study.calibration.notes import UNLIKELY
-from tribo.study.calibration.posed import is_number
+from tribo.study.calibration.parameters import is_number
 from tribo.study.calibration.quantities import in_words
 
 STRONG = 6.0

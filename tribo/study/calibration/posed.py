@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -15,22 +15,20 @@ import pandas as pd
 
 from tribo.case import Case
 from tribo.config.load import case_tables, validate_case
-from tribo.config.overrides import apply_settings, leaves, path_keys
+from tribo.config.overrides import apply_settings
 from tribo.core.arrays import Array
-from tribo.core.errors import CaseError, NumericalError, TriboWarning, located
-from tribo.core.units import Quantity
-from tribo.core.words import did_you_mean, shown, suggestion
+from tribo.core.errors import CaseError, NumericalError, TriboWarning
 from tribo.simulation.model import Model
 from tribo.simulation.positions import chosen
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.linearised import Problem
 from tribo.study.calibration.measured import (
-    Fitted,
     Measured,
     Measurements,
     Tested,
     read_measurements,
 )
+from tribo.study.calibration.parameters import Parameter, check_set, find_parameters
 from tribo.study.calibration.quantities import (
     AXES,
     EDGES,
@@ -44,19 +42,6 @@ from tribo.study.variation import unknown_body, valid_case
 
 READ = ["body", "quantity", "time_s", "position_m"]
 """Columns of the data that say what is read off a run."""
-WITHIN = 1e-9
-"""Relative distance that a parameter keeps from an open bound."""
-
-
-class Parameter(NamedTuple):
-    """A positive number of a case that is fitted."""
-
-    path: str
-    unit: str
-    start: float
-    lower: float
-    upper: float
-    """Its bounds; 0 and infinity for none."""
 
 
 @dataclass(frozen=True)
@@ -278,96 +263,3 @@ def _check_entry(model: Model, entry: Measured, place: str) -> None:
                 f"{1e3 * half:g} mm from the centre",
                 f"{place}.position",
             )
-
-
-def find_parameters(
-    case: Case, fit: Sequence[Fitted], measured: Collection[str]
-) -> list[Parameter]:
-    """Return the parameters that are asked for, or else the k of each body in `measured`."""
-    asked = {f"fit.{i}": entry for i, entry in enumerate(fit)}
-    if not fit:
-        bodies = [name for name in case.bodies if name in measured]
-        with_k = [n for n in bodies if getattr(case.bodies[n].wear, "k", None) is not None]
-        if not with_k:
-            raise CaseError(
-                "no measured body has a wear coefficient k; say what to fit, as [[fit]] with path "
-                '= "bodies.ball.wear.K"',
-                "fit",
-            )
-        asked = {f"fit {name}": Fitted(path=f"bodies.{name}.wear.k") for name in with_k}
-    found: dict[tuple[str, ...], Parameter] = {}
-    for place, entry in asked.items():
-        with located(f"{place}.path"):
-            keys = tuple(path_keys(entry.path))
-            if keys in found:
-                raise CaseError(f"{entry.path!r} is given twice")
-            value, mark = _number(case, keys)
-        found[keys] = _bounded(place.split()[0], entry, value, mark)
-    return list(found.values())
-
-
-def check_set(parameters: Sequence[Parameter], paths: Iterable[str], place: str) -> None:
-    """Check that no test sets a parameter, or what it is part of; CaseError if one does."""
-    for path in paths:
-        keys = path_keys(path)
-        for each in parameters:
-            if path_keys(each.path)[: len(keys)] == keys or (
-                keys[-1] == "type" and path_keys(each.path)[: len(keys) - 1] == keys[:-1]
-            ):
-                raise CaseError(
-                    f"{path} is given, and {each.path} is fitted, one value for all tests: leave "
-                    "one of them out",
-                    place,
-                )
-
-
-def is_number(case: Case, path: str) -> bool:
-    """Whether a path leads to a number of a case that can be fitted; CaseError if it is no path."""
-    value, _ = _leaves(case).get(tuple(path_keys(path)), (None, None))
-    return isinstance(value, float)
-
-
-def _leaves(case: Case) -> dict[tuple[str, ...], tuple[Any, Quantity | None]]:
-    """Return the values of a case, and what their fields say of them, by their place."""
-    return {tuple(map(str, place)): (value, mark) for place, value, mark in leaves(case)}
-
-
-def _number(case: Case, keys: tuple[str, ...]) -> tuple[float, Quantity]:
-    """Return the number that the keys lead to, and what its field says of it."""
-    known = _leaves(case)
-    value, mark = known.get(keys, (None, None))
-    if not isinstance(value, float):
-        numbers = [".".join(place) for place, (each, _) in known.items() if isinstance(each, float)]
-        path, given = ".".join(keys), "not given" if value is None else shown(value)
-        raise CaseError(
-            f"{path} is {given} in this case{suggestion(did_you_mean(path, numbers))} Only a "
-            "number with decimals can be fitted"
-        )
-    return value, mark or Quantity("1")
-
-
-def _bounded(place: str, entry: Fitted, value: float, mark: Quantity) -> Parameter:
-    positive = Quantity(mark.unit, above=0, below=mark.below, at_most=mark.at_most)
-
-    def read(name: str, given: float | str | None, default: float) -> float:
-        with located(f"{place}.{name}"):
-            return default if given is None else positive.read(given)
-
-    start = read("start", entry.start, value)
-    if start <= 0:
-        raise CaseError(
-            f"{entry.path} is {start:g} in this case; parameters are fitted on a logarithmic "
-            "scale, so give a start above 0",
-            f"{place}.start",
-        )
-    # An open bound itself is no valid value, so stay inside.
-    above = None if mark.above is None else mark.above + WITHIN * abs(mark.above)
-    below = None if mark.below is None else mark.below - WITHIN * abs(mark.below)
-    least = max(b for b in (above, mark.at_least, 0.0) if b is not None)
-    most = min(b for b in (below, mark.at_most, math.inf) if b is not None)
-    lower, upper = read("lower", entry.lower, least), read("upper", entry.upper, most)
-    if not (lower <= start <= upper and lower < upper):
-        raise CaseError(
-            f"the start, {start:g}, must lie between lower, {lower:g}, and upper, {upper:g}", place
-        )
-    return Parameter(entry.path, mark.unit, start, lower, upper)
