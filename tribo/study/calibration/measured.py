@@ -87,10 +87,10 @@ class Measured(Table):
             raise ValueError(str(error)) from None
 
     @model_validator(mode="after")
-    def _fits_together(self) -> Self:
-        depths = self.value if isinstance(self.value, tuple) else ()
+    def _has_its_lists(self) -> Self:
         if self.quantity in PROFILES:
             at = self.position or ()
+            depths = self.value if isinstance(self.value, tuple) else ()
             if not at or len(depths) not in (len(at), 0 if self.value is None else len(at)):
                 raise ValueError(
                     f"{self.quantity} needs value and position, two lists of the same length, not "
@@ -102,22 +102,30 @@ class Measured(Table):
             )
         elif self.value == ():
             raise ValueError("the list of values is empty; give one for each test")
-        is_mass = self.quantity == "mass"
-        readings = sum(reading is not None for reading in (self.before, self.after))
-        if readings and (readings == 1 or not is_mass or self.value is not None):
-            raise ValueError("give value" + (", or before and after" if is_mass else ""))
-        if self.before is not None and self.after is not None and self.before <= self.after:
+        return self
+
+    @model_validator(mode="after")
+    def _is_read_once(self) -> Self:
+        if self.before is None and self.after is None:
+            return self
+        if self.quantity != "mass":
+            raise ValueError("give value")
+        if self.before is None or self.after is None or self.value is not None:
+            raise ValueError("give value, or before and after")
+        if self.before <= self.after:
             raise ValueError(
                 f"before, {1e3 * self.before:g} g, is not more than after, {1e3 * self.after:g} g: "
                 "no loss was weighed, so no coefficient can be fitted to it"
             )
+        return self
+
+    @model_validator(mode="after")
+    def _says_how_exact(self) -> Self:
         if self.uncertainty is None and self.resolution is None:
             raise ValueError(
                 "say how well it was measured: uncertainty (a standard deviation), resolution, "
                 "or both"
             )
-        if np.any(np.isnan(self.values)):
-            return self
         largest = float(np.max(np.abs(self.values)))
         if self.sigma < FINEST * largest:
             raise ValueError(
@@ -125,6 +133,10 @@ class Measured(Table):
                 f"{in_words(self.quantity, largest)}: no run is that exact; check the "
                 "uncertainty and its unit"
             )
+        return self
+
+    @model_validator(mode="after")
+    def _counts_downwards(self) -> Self:
         mean = float(np.mean(self.values))
         if mean < -_BEYOND_NOISE * self.sigma / np.sqrt(len(self.values)):
             raise ValueError(
