@@ -271,9 +271,8 @@ def _predictions(
         _at_bound(fitted, posed, values, one, estimates["upper"].iloc[one])
         for one in np.flatnonzero(limited).tolist()
     ]
-    read_off = posed.run(np.exp(fitted.point)).read_off
+    by_grid = math.sqrt(chdtri(1, 1 - level)) * posed.run(np.exp(fitted.point)).read_off
     positive = np.all([made.responses > 0 for made in posed.runs.values()], axis=0)
-    quantile = math.sqrt(chdtri(1, 1 - level))
     rows = []
     for i, each in enumerate(posed.predicted.itertuples(), len(posed.data)):
         if not positive[i]:
@@ -281,17 +280,22 @@ def _predictions(
         value, ends = float(fitted.responses[i]), (0.0, math.inf)
         slopes = np.where(limited, 0.0, fitted.slopes[i])
         if not np.any(np.abs(slopes[held]) > ABOVE_ROUNDING):
-            below, above = value - value * np.exp(interval(fitted, slopes, level))
-            by = quantile * float(read_off[i])
-            moves = [by, -by, *(float(found[i]) - value for found in at_bounds)]
-            low = value - math.hypot(below, *(move for move in moves if move < 0))
-            high = value + math.hypot(above, *(move for move in moves if move > 0))
+            known = value * np.expm1(interval(fitted, slopes, level))
+            to_bounds = [float(found[i]) - value for found in at_bounds]
+            ends = _ends(value, (*known, -by_grid[i], by_grid[i], *to_bounds))
             # What a coefficient more than doubles vanishes with it.
-            ends = 0.0 if max(moves[2:], default=0) > value else max(low, 0.0), high
+            if max(to_bounds, default=0.0) > value:
+                ends = 0.0, ends[1]
         unit = QUANTITIES[each.quantity].unit
         rows.append((each.test, each.body, each.quantity, unit, value, *ends))
     columns = ["test", "body", "quantity", "unit", "value", "lower", "upper"]
     return pd.DataFrame(rows, columns=columns)
+
+
+def _ends(value: float, moves: Sequence[float]) -> tuple[float, float]:
+    """Return how far down, to 0 at most, and up independent moves take a value together."""
+    down, up = (math.hypot(*(max(sign * move, 0.0) for move in moves)) for sign in (-1, 1))
+    return max(value - down, 0.0), value + up
 
 
 def _at_bound(fitted: Linearised, posed: Posed, values: Array, one: int, bound: float) -> Array:

@@ -167,37 +167,41 @@ def _benches(
     data: pd.DataFrame,
 ) -> list[Bench]:
     """Return the cases of the tests, those alike as one, and add the column `bench` to the data."""
-    found: dict[str, tuple[Tested, Case, Model]] = {}
+    cases: dict[str, tuple[Case, Model]] = {}
+    alike: dict[str, list[Tested]] = {}
     of = []
-    given = validate_case(tables).output.save_times
     for place, test in tests.items():
         try:
             # A test may end before times at which the case is saved.
             case = valid_case(tables, {**test.set, "output.save_times": []})
         except CaseError as error:
             raise error if not place else CaseError(str(error), f"{place}set") from None
-        if (key := repr(case)) not in found:
-            if test.name in [other.name for other, *_ in found.values()]:
-                raise CaseError(
-                    f"two tests that differ are called {test.name!r}; rename one", "test"
-                )
-            found[key] = test, case, Simulation(case).model
-        of.append([*found].index(key))
+        if (key := repr(case)) not in cases:
+            cases[key] = case, Simulation(case).model
+        alike.setdefault(key, []).append(test)
+        of.append([*cases].index(key))
         for i, entry in enumerate(test.measured):
-            _check_entry(found[key][2], entry, f"{place}measured.{i}")
+            _check_entry(cases[key][1], entry, f"{place}measured.{i}")
+    names = [first.name for first, *_ in alike.values()]
+    for name in names:
+        if names.count(name) > 1:
+            raise CaseError(f"two tests that differ are called {name!r}; rename one", "test")
     data["bench"] = np.array(of)[data["of"]]
-    benches = []
-    for (test, case, model), (_, times) in zip(
-        found.values(), data.groupby("bench")["time_s"], strict=True
-    ):
-        changed = apply_settings(tables, test.set)
-        reached = [time for time in given if time <= model.end_time]
-        if len(reached) < len(given):
-            changed = apply_settings(changed, {"output.save_times": reached})
-        kept = {"output.save_times": sorted(times.dropna().unique().tolist()), "observers": []}
-        ready = apply_settings(changed, {**kept, **chosen(case, model)})
-        benches.append(Bench(test.name, changed, ready, model))
-    return benches
+    return [_bench(tables, alike[key], *each) for key, each in cases.items()]
+
+
+def _bench(tables: Mapping[str, Any], tests: Sequence[Tested], case: Case, model: Model) -> Bench:
+    """Return the case of tests that are alike."""
+    changed = apply_settings(tables, tests[0].set)
+    given = validate_case(tables).output.save_times
+    reached = [time for time in given if time <= model.end_time]
+    if len(reached) < len(given):
+        changed = apply_settings(changed, {"output.save_times": reached})
+    entries = [entry for test in tests for entry in test.measured]
+    times = sorted({entry.time for entry in entries if entry.time is not None})
+    kept = {"output.save_times": times, "observers": []}
+    ready = apply_settings(changed, {**kept, **chosen(case, model)})
+    return Bench(tests[0].name, changed, ready, model)
 
 
 def _predicted(tested: Sequence[Bench], data: pd.DataFrame) -> pd.DataFrame:
