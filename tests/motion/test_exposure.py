@@ -23,31 +23,8 @@ def test_track_average_is_over_the_track_not_the_window():
     assert track.average(RATE).shape == (1, 12)
 
 
-def test_track_average_does_not_depend_on_the_window():
-    wide = Grid((2e-3, 2e-3), (16, 12))
-    padded = np.pad(RATE, ((4, 4), (0, 0)))
-    np.testing.assert_allclose(
-        Track(wide, 5e-3).average(padded), Track(GRID, 5e-3).average(RATE), rtol=1e-14
-    )
-
-
-@pytest.mark.parametrize("exposure", [Stationary(GRID), Track(GRID, 5e-3)])
-def test_what_is_removed_in_the_contact_is_the_volume_on_the_body(exposure):
-    removed = RATE.sum() * GRID.cell_area
-    assert exposure.volume(exposure.average(RATE)) == pytest.approx(removed, rel=1e-14, abs=0)
-
-
 def test_envelope_is_the_maximum_along_the_track():
     np.testing.assert_array_equal(Track(GRID, 5e-3).envelope(RATE)[0], RATE.max(axis=0))
-
-
-@pytest.mark.parametrize("exposure", [Stationary(GRID), Track(GRID, 5e-3)])
-def test_compliance_is_the_wear_of_a_linear_law(exposure):
-    k = 3e-16
-    pressure = 1e9 * RATE
-    compliance = exposure.compliance(np.full(GRID.cells, k), pressure)
-    worn = np.broadcast_to(exposure.average(k * pressure), GRID.cells)
-    np.testing.assert_allclose(compliance.depth(pressure, GRID.spacing[0]), worn, rtol=1e-13)
 
 
 def test_an_unloaded_row_has_the_compliance_of_its_law():

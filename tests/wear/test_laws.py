@@ -43,21 +43,3 @@ def test_archard_takes_one_coefficient(given):
 def test_power_of_one_is_archard():
     power = Power(k="3.11e-16 1/Pa", p_exponent=1, reference_pressure="1 GPa")
     np.testing.assert_allclose(power.rate(at(PRESSURE)).depth_rate, 3.11e-16 * PRESSURE)
-
-
-@pytest.mark.parametrize(
-    "law",
-    [
-        Archard(k=3e-16),
-        Power(k=3e-16, p_exponent=1.5, reference_pressure="1 GPa"),
-        Power(k=3e-16, p_exponent=3, reference_pressure="1 GPa"),
-    ],
-    ids=["archard", "p^1.5", "p^3"],
-)
-def test_derivatives_match_differences(law):
-    step = 1e3
-    centre = law.rate(at(PRESSURE + 1e8))
-    up, down = law.rate(at(PRESSURE + 1e8 + step)), law.rate(at(PRESSURE + 1e8 - step))
-    np.testing.assert_allclose(
-        centre.depth_slope, (up.depth_rate - down.depth_rate) / (2 * step), rtol=1e-6
-    )
