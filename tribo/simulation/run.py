@@ -118,10 +118,8 @@ class Simulation:
         Interrupted
             If it was stopped from outside; it can be resumed.
         """
-        path = _checked_output(output, overwrite)
-        recorder = Recorder(path=path)
-        state = begin(self.model)
-        return self._follow(state, recorder, observers, resumed=False, wall_time=0.0)
+        path, state = _checked_output(output, overwrite), begin(self.model)
+        return self._follow(state, Recorder(path=path), observers, resumed=False, wall_time=0.0)
 
     def resume(
         self,
