@@ -24,17 +24,6 @@ MIRRORED = 1e-12
 """Relative difference below which two positions mirror each other: rounding."""
 
 
-def solve(
-    model: Model,
-    gap: Array,
-    load: float,
-    start: ContactSolution | None = None,
-    cap: Array | None = None,
-) -> ContactSolution:
-    """Solve the contact of the case at a gap, shape (nx, ny), in m, under a load, in N."""
-    return model.solver.solve(ContactProblem(model.system, gap, load, None, cap), start)
-
-
 def solve_cycle(
     model: Model,
     gaps: Iterable[Array],

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tribo.core.arrays import Array
-from tribo.core.contact import ContactSolution
+from tribo.core.contact import ContactProblem, ContactSolution
 from tribo.core.errors import CaseError, NumericalError, PluginError
 from tribo.core.loads import ByPosition
 from tribo.core.measures import Invariants, reaches_border
 from tribo.core.notices import Notice
 from tribo.core.state import BodyState, State
-from tribo.stepping.contacts import solve, solve_cycle
+from tribo.stepping.contacts import solve_cycle
 from tribo.stepping.events import Drawn, Solved, Worn, Yielded
 from tribo.stepping.evolution import Course, course
 from tribo.stepping.invariants import ONE_LOAD, wear_balance
@@ -75,9 +75,9 @@ def first_contact(
     for gap, key, cap in zip(gaps, asked, caps(model, state.bodies), strict=True):
         # Where nothing varies along the path, one solve serves all positions.
         if key not in solutions:
-            solutions[key] = solve(
-                model, gap, key[1], next(reversed(solutions.values()), None), cap
-            )
+            problem = ContactProblem(model.system, gap, key[1], cap=cap)
+            start = next(reversed(solutions.values()), None)
+            solutions[key] = model.solver.solve(problem, start)
     contacts = tuple(solutions[key] for key in asked)
     if any(reaches_border(each.pressure) for each in contacts) and not model.may_reach_edge:
         size = f"{1e3 * model.grid.size[0]:.4g} × {1e3 * model.grid.size[1]:.4g} mm"
