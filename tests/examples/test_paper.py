@@ -1,6 +1,5 @@
-"""The example that runs the paper's case: what it computes is what is known of it."""
+"""The example that runs the paper's case both ways; `verification/test_paper` has its table."""
 
-import numpy as np
 import pytest
 
 SHORT = ("kinematics.duration='200 s'", "output.save_times=[0, 100, 200]")
@@ -14,25 +13,6 @@ def paper(example):
 @pytest.fixture(scope="module")
 def implicit(paper):
     return paper.run(*paper.COARSE, *paper.IMPLICIT, *SHORT)
-
-
-@pytest.mark.slow
-def test_the_case_gives_the_expected_table(paper):
-    result = paper.run()
-    mine, cell = paper.table(result), 1e6 * result.grid.spacing[0]
-    for quantity, known in paper.EXPECTED.items():
-        got, known = np.array(mine[quantity]), np.array(known)
-        if "half-width" in quantity:
-            # The contact is counted in cells, on both grids.
-            assert np.all(np.abs(got - known) <= 1.5 * cell)
-        elif "largest pressure" in quantity:
-            # At the contact's edge it depends on where the cells lie: known to 4 %, and from
-            # 316 to 332 MPa at 500 s on grids of 128² to 512² cells.
-            assert np.all(np.abs(got - known) <= 0.05 * known)
-        else:
-            # 2 % in pressure, 0.5 % in depth: what the known values and the steps allow.
-            part = 0.02 if "pressure" in quantity else 0.005
-            assert np.all(np.abs(got - known) <= part * known)
 
 
 @pytest.mark.slow

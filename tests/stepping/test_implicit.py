@@ -69,14 +69,6 @@ def test_wear_is_never_negative_however_long_the_step():
     assert all(np.all(body.wear >= 0) for body in state.bodies.values())
 
 
-def test_volumes_are_k_f_s(paper_small):
-    state = paper_small[-1]
-    model = small()
-    for name, body in state.bodies.items():
-        volume = model.exposures[name].volume(body.wear)
-        assert volume == pytest.approx(K * 100 * state.distance, rel=1e-10, abs=0)
-
-
 def test_halving_tolerances_changes_the_answer_within_them(paper_small):
     # The default tolerances claim 0.5 % in depth and 2 % in centre pressure.
     fine = last(

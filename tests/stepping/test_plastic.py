@@ -78,12 +78,6 @@ def test_without_plasticity_the_pressure_is_hertzs():
     assert first.contact.overlap.max() == 0
 
 
-def test_the_papers_load_does_not_yield():
-    model = yielding(load=100.0, grid=Grid((0.7e-3, 0.7e-3), (48, 48)))
-    assert all(body.plastic.max() == 0 for state in states(model) for body in state.bodies.values())
-    assert model.system.cap == HARDNESS
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("hardness", [("6 GPa", "4 GPa"), ("4 GPa", "3 GPa")])
 def test_a_softer_disk_gets_a_groove_that_comes_to_rest(hardness):

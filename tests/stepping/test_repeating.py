@@ -11,7 +11,6 @@ from paper_models import (
     K,
     archard,
     flat,
-    goes_on,
     last,
     motion,
     named,
@@ -205,11 +204,6 @@ def test_waves_that_slide_over_a_flat_wear_off_evenly():
     model = repeating(track(), contact=Periodic(), bodies=bodies_, load=2000)
     lower = last(model).bodies["lower"].wear
     np.testing.assert_allclose(lower, K * 2000 / (GRID.size[0] * GRID.size[1]), rtol=1e-3)
-
-
-@pytest.mark.slow
-def test_a_stopped_run_goes_on_to_the_same_bits(tmp_path):
-    goes_on(repeating(strokes(40, positions=5), stepping=Implicit()), tmp_path, 5).close()
 
 
 @pytest.mark.parametrize(

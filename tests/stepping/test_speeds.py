@@ -70,10 +70,6 @@ def test_an_effect_is_asked_at_the_same_speeds():
     assert found == pytest.approx(lost(motion(duration=2, **SINE)), rel=1e-9, abs=0)
 
 
-def test_constant_speed_is_its_own_mean():
-    assert lost(motion(duration=2)) == pytest.approx(K * 100 * MEAN * 2, rel=1e-9, abs=0)
-
-
 def test_the_mean_pace_of_the_speeds_is_that_of_the_path():
     # A cycle takes Σ share/v per metre.
     pace = sum(share / speed for speed, share in motion(**SINE).speeds())
