@@ -184,9 +184,11 @@ def _first_half_width(model: Model) -> float | None:
 
 def _costly(model: Model, stroke: float) -> str | None:
     """Return what the average of a model would cost, unless that is little or unknown."""
-    for margin in (1.0,) if model.may_reach_edge else MARGINS:
+    margins = (1.0,) if model.may_reach_edge else MARGINS
+    # Where a shape is too fine for coarse cells, the case's own serve.
+    for cells, margin in [*((CELLS, each) for each in margins), (max(model.grid.cells), 1.0)]:
         try:
-            coarse = coarsened(model.case, CELLS, margin)
+            coarse = coarsened(model.case, cells, margin)
             state = begin(coarse)
             for accepted in islice(march(coarse, state), STEPS):
                 state = accepted.state
