@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import replace
@@ -12,7 +13,7 @@ from tribo.case import Begin, Case
 from tribo.core.errors import CaseError, NumericalError
 from tribo.core.measures import half_widths
 from tribo.motion.averaging import groove_excess, too_deep
-from tribo.motion.cycle import Stroke, least_positions
+from tribo.motion.cycle import Stroke, least_positions, spacing_for
 from tribo.motion.reciprocating import Reciprocating
 from tribo.result.read import Result
 from tribo.simulation.assembly import assemble
@@ -31,6 +32,7 @@ NEARLY = 2 / 3
 """Of the cells of a stroke, from which on all of them are taken."""
 SPARE = 0.85
 """Of half a half-width, between two positions: coarser grids still take as many."""
+MUST = "the load changes along the stroke"
 FEWEST, MOST = 9, 1001
 """Positions that are chosen: with fewer, strokes of one or two half-widths are 1 % off."""
 
@@ -40,9 +42,10 @@ def composed(case: Case) -> Model:
 
     A coarse run with the average foresees what that would cost, by `groove_excess` at its end. From
     1 % on the cycle is resolved, at positions less than half the half-width of the first contact
-    apart, and at 9 at least. A swept body that varies along x is resolved at each cell. The average
-    is taken where stepping is explicit, and where the case cannot be resolved. A load that changes
-    along the stroke is resolved always, and worn bodies of a result as they were.
+    apart, as close as the contact at the end needs for 1 %, and at 9 at least. A swept body that
+    varies along x is resolved at each cell. The average is taken where stepping is explicit, and
+    where the case cannot be resolved. A load that changes along the stroke is resolved always, and
+    worn bodies of a result as they were.
 
     The choice follows from the case alone. The model's case states it.
 
@@ -67,11 +70,12 @@ def composed(case: Case) -> Model:
     if not _resolvable(case) and not must:
         return averaged
     half_width = _first_half_width(averaged)
-    words = "the load changes along the stroke" if must else _costly(averaged, motion.stroke)
-    if half_width is None or words is None:
+    found = (MUST, math.inf) if must else _costly(averaged, motion.stroke)
+    if half_width is None or found is None:
         return assemble(_fixed(case, FEWEST)) if must else averaged
+    words, apart = found
     cells = _cells(case, motion.stroke)
-    count = max(FEWEST, least_positions(motion.stroke, SPARE * half_width))
+    count = max(FEWEST, least_positions(motion.stroke, min(SPARE * half_width, 2 * apart)))
     count = cells if NEARLY * cells < count <= MOST else count
     try:
         if count > MOST:
@@ -182,8 +186,11 @@ def _first_half_width(model: Model) -> float | None:
         return None
 
 
-def _costly(model: Model, stroke: float) -> str | None:
-    """Return what the average of a model would cost, unless that is little or unknown."""
+def _costly(model: Model, stroke: float) -> tuple[str, float] | None:
+    """Return what the average of a model would cost, unless that is little or unknown.
+
+    With it the distance (m) at which positions serve the contact at the end.
+    """
     margins = (1.0,) if model.may_reach_edge else MARGINS
     # Where a shape is too fine for coarse cells, the case's own serve.
     for cells, margin in [*((CELLS, each) for each in margins), (max(model.grid.cells), 1.0)]:
@@ -199,8 +206,9 @@ def _costly(model: Model, stroke: float) -> str | None:
         if excess < WORTH or not average_matters(coarse, half_width):
             return None
         widths = f"{stroke / half_width:.2g}"
-        return (
+        words = (
             f"the stroke of {1e3 * stroke:.3g} mm is {widths} half-width{'s' * (widths != '1')} of "
             f"the contact, for which the average would make the groove {too_deep(excess)}"
         )
+        return words, spacing_for(state.contact.pressure, WORTH) * coarse.grid.spacing[0]
     return None
