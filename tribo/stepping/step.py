@@ -272,15 +272,22 @@ def worn_by(
 
 
 def accepted(
-    model: Model, after: State, contacts: Sequence[ContactSolution], loads: ByPosition
+    model: Model,
+    after: State,
+    contacts: Sequence[ContactSolution],
+    loads: ByPosition,
+    *,
+    exact: bool = True,
 ) -> State:
     """Return `after`, the worn bodies, in contact, with what yields at rest.
 
-    The contacts carry `loads`, in N; they are solved anew where those at the end are others.
+    The contacts carry `loads`, in N; they are solved anew where those at the end are others, or
+    where they do not belong to the bodies `exact`ly.
     """
     after = replace(after, contacts=tuple(contacts))
     at_end = model.loads.before(after.time)
-    return _at_rest(model, after, loads) if loads == at_end else _under(model, after, at_end)
+    kept = exact and loads == at_end
+    return _at_rest(model, after, loads) if kept else _under(model, after, at_end)
 
 
 def _under(model: Model, state: State, loads: ByPosition) -> State:
