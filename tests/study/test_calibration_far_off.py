@@ -6,7 +6,7 @@ import pytest
 from tribo.core.errors import CaseError
 from tribo.study.calibration.calibrate import far_off
 from tribo.study.calibration.measured import read_measurements
-from tribo.study.calibration.posed import Parameter
+from tribo.study.calibration.parameters import Parameter
 from tribo.study.calibration.quantities import percent
 
 

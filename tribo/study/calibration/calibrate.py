@@ -194,9 +194,12 @@ def far_off(data: pd.DataFrame, computed: Array, parameters: Sequence[Parameter]
     for place, unit, sigma, below, value, own in (
         sizes.groupby(data["place"], sort=False).max().itertuples()
     ):
-        # A value below its uncertainty only says that the quantity is no larger than that, as a
-        # limit does.
-        factor = max(0 if below else value / own, own / max(value, sigma)) if own > 0 < value else 1
+        if own == 0 or value == 0:
+            continue
+        # A value below its uncertainty only says that the quantity is no larger, as a limit does.
+        factor = own / max(value, sigma)
+        if not below:
+            factor = max(factor, value / own)
         text = (
             f"{place} was read as {in_si(value, unit)}, and the case gives {in_si(own, unit)} "
             f"with {given}"

@@ -40,7 +40,7 @@ from tribo.study.calibration.quantities import (
 )
 from tribo.study.variation import unknown_body, valid_case
 
-READ = ["body", "quantity", "time_s", "position_m"]
+READ = list(Reading._fields)
 """Columns of the data that say what is read off a run."""
 
 
@@ -147,17 +147,19 @@ class Posed:
 
     def problem(self, values: Array) -> Problem:
         """Return what is to be fitted; how well the grid gives the data a run of `values` says."""
-        data, parameters, read_off = self.data, self.parameters, self.run(values).read_off
+        data, read_off = self.data, self.run(values).read_off
+        with np.errstate(divide="ignore"):
+            lower, upper = np.log([(p.lower, p.upper) for p in self.parameters]).T
         return Problem(
-            names=tuple(p.path for p in parameters),
+            names=tuple(p.path for p in self.parameters),
             observed=data["measured"].to_numpy(),
             sigma=np.hypot(data["sigma"], read_off[: len(data)]).to_numpy(),
             below=data["below"].to_numpy(),
             specimen=data["specimen"].to_numpy(),
             repeatability=self.repeatability,
             logged=np.append(~data["quantity"].isin(PROFILES), np.full(len(self.predicted), True)),
-            lower=np.array([math.log(p.lower) if p.lower > 0 else -math.inf for p in parameters]),
-            upper=np.array([math.log(p.upper) for p in parameters]),
+            lower=lower,
+            upper=upper,
         )
 
 
