@@ -76,21 +76,10 @@ def choose_case(
     """
     if len(cases) < 2:
         raise CaseError("give two cases or more to choose from")
-    asked = read_measurements(measured)
-    fitted = {}
-    for name, case in cases.items():
-        known = validate_case(case_tables(case))
-        fitted[name] = tuple(entry for entry in asked.fit if is_number(known, entry.path))
-    for i, entry in enumerate(asked.fit):
-        if not any(entry in own for own in fitted.values()):
-            raise CaseError(f"{entry.path} is a number of none of the cases", f"fit.{i}.path")
     found = {}
-    for name, case in cases.items():
-        if asked.fit and not fitted[name]:
-            raise CaseError(f"{name} has none of the numbers to fit; add one of its own to fit")
-        own = asked.model_copy(update={"fit": fitted[name]})
+    for name, own in _asked_of_each(cases, read_measurements(measured)).items():
         try:
-            found[name] = calibrate(case, own, level=level, on_run=partial(on_run, name))
+            found[name] = calibrate(cases[name], own, level=level, on_run=partial(on_run, name))
         except TriboError as error:
             raise type(error)(f"{name}: {error}") from error
     rows = pd.DataFrame(
@@ -105,6 +94,24 @@ def choose_case(
     weight = np.exp(-0.5 * (rows["bic"] - rows["bic"].min()))
     rows.insert(2, "weight", weight / weight.sum())
     return Choice(rows, found, _verdict(rows, found))
+
+
+def _asked_of_each(
+    cases: Mapping[str, Case | Mapping[str, Any] | str | Path], asked: Measurements
+) -> dict[str, Measurements]:
+    """Return what is asked of each case, which is to fit those of the parameters that it has."""
+    known = {name: validate_case(case_tables(case)) for name, case in cases.items()}
+    fits = {
+        name: tuple(entry for entry in asked.fit if is_number(case, entry.path))
+        for name, case in known.items()
+    }
+    for i, entry in enumerate(asked.fit):
+        if not any(entry in fit for fit in fits.values()):
+            raise CaseError(f"{entry.path} is a number of none of the cases", f"fit.{i}.path")
+    for name, fit in fits.items():
+        if asked.fit and not fit:
+            raise CaseError(f"{name} has none of the numbers to fit; add one of its own to fit")
+    return {name: asked.model_copy(update={"fit": fit}) for name, fit in fits.items()}
 
 
 def _verdict(rows: pd.DataFrame, found: Mapping[str, Calibration]) -> str:
