@@ -19,7 +19,7 @@ from tribo.core.arrays import readonly
 from tribo.core.errors import TriboError, TriboWarning
 from tribo.core.state import RunInfo, Snapshot
 from tribo.observers.observer import Observer
-from tribo.simulation.guard import calling
+from tribo.simulation.guard import Guard
 
 
 class Audience:
@@ -32,18 +32,16 @@ class Audience:
     def start(self, run: RunInfo) -> None:
         """Tell that the run begins or goes on; each gets a copy of its own."""
         for observer in self._observers:
-            with calling(observer):
-                observer.on_start(deepcopy(run))
+            Guard(observer).ask(observer.on_start, deepcopy(run))
             self._started.append(observer)
 
     def step(self, snapshot: Snapshot, *, save: bool) -> None:
         """Tell of an accepted step, and of the save that it may be."""
         for observer in self._observers:
-            shown = _view(snapshot)
-            with calling(observer):
-                observer.on_step(shown)
-                if save:
-                    observer.on_save(shown)
+            shown, guard = _view(snapshot), Guard(observer)
+            guard.ask(observer.on_step, shown)
+            if save:
+                guard.ask(observer.on_save, shown)
 
     def finish(self, snapshot: Snapshot, reason: str) -> None:
         """Tell those that were started of the end.
@@ -58,8 +56,7 @@ class Audience:
 
 def _finish(observer: Observer, snapshot: Snapshot, reason: str) -> None:
     try:
-        with calling(observer):
-            observer.on_finish(snapshot, reason)
+        Guard(observer).ask(observer.on_finish, snapshot, reason)
     except TriboError as error:
         if reason == "done":
             raise

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Callable
+from contextlib import suppress
 from numbers import Number
-from typing import Any, Generic, NoReturn, ParamSpec, TypeVar
+from typing import Any, Generic, ParamSpec, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,8 +42,19 @@ class Guard(Generic[C]):
         """Call a method of the component; what nobody expects becomes a `PluginError`."""
         try:
             return method(*given, **named)
+        except (KeyboardInterrupt, Interrupted, PluginError):
+            raise
+        except MemoryError as error:
+            raise NumericalError(f"{self} ran out of memory; lower grid.cells") from error
         except BaseException as error:
-            _blame(self, error)
+            if not isinstance(error, TriboError) or not str(error).strip():
+                raise PluginError(
+                    f"{self} raised {said(error)}; this is a fault of that component "
+                    "(TRIBO_DEBUG=1 shows where)"
+                ) from error
+            if isinstance(error, NumericalError):
+                raise NumericalError(f"{self}: {error}") from error
+            raise
 
     def number(self, what: str, value: object) -> float:
         """Return `value`, which is meant to be `what` ("an approach"), as a finite float."""
@@ -93,29 +104,6 @@ class Guard(Generic[C]):
     def wrong(self, answer: object, instead: str) -> PluginError:
         """Return the error of an answer of the wrong type."""
         return PluginError(f"{self} gave a {type(answer).__name__} {instead}")
-
-
-@contextmanager
-def calling(component: Component) -> Iterator[None]:
-    """Name `component` in an error that is raised inside, as `Guard.ask` does."""
-    try:
-        yield
-    except BaseException as error:
-        _blame(Guard(component), error)
-
-
-def _blame(who: object, error: BaseException) -> NoReturn:
-    if isinstance(error, KeyboardInterrupt | Interrupted | PluginError):
-        raise error
-    if isinstance(error, TriboError) and str(error).strip():
-        if isinstance(error, NumericalError):
-            raise NumericalError(f"{who}: {error}") from error
-        raise error
-    if isinstance(error, MemoryError):
-        raise NumericalError(f"{who} ran out of memory; lower grid.cells") from error
-    raise PluginError(
-        f"{who} raised {said(error)}; this is a fault of that component (TRIBO_DEBUG=1 shows where)"
-    ) from error
 
 
 def _plain(value: object) -> NDArray[Any]:

@@ -21,7 +21,7 @@ from tribo.core.measures import between_cells
 from tribo.lab.roughness import is_rough
 from tribo.motion.cycle import Position, missed_shares
 from tribo.motion.exposure import Exposure
-from tribo.simulation.guard import calling
+from tribo.simulation.guard import Guard
 from tribo.simulation.guarded_motion import GuardedMotion
 from tribo.simulation.guards import (
     GuardedEffect,
@@ -244,8 +244,7 @@ class Model:
         """The case as plain data, in SI units, ready for JSON."""
         for _, component in components(self.case):
             # Of the whole case an error would not tell which component it is from.
-            with calling(component):
-                component.model_dump(mode="json")
+            Guard(component).ask(component.model_dump, mode="json")
         return self.case.model_dump(mode="json")
 
     def average(self, name: str, rate: Array, position: int) -> Array:

@@ -22,7 +22,7 @@ from tribo.result.provenance import stated_facts
 from tribo.simulation.beginning import first_state
 from tribo.simulation.coarse import MARGINS, coarsened
 from tribo.simulation.doubt import doubting, too_deep, unusual
-from tribo.simulation.guard import calling
+from tribo.simulation.guard import Guard
 from tribo.simulation.march import begin, march
 from tribo.simulation.measure import measure
 from tribo.simulation.memory import memory_needed, size_of_fields
@@ -124,10 +124,7 @@ def predict(model: Model) -> Prediction:
         coarse.limitation,
         short_of_a_lap(model),
     )
-    facts = {}
-    for place, component in components(model.case):
-        with calling(component):
-            facts[place] = stated_facts(component)
+    facts = {place: Guard(c).ask(stated_facts, c) for place, c in components(model.case)}
     return Prediction(
         first=first,
         hertz=hertz,

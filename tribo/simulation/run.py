@@ -29,7 +29,7 @@ from tribo.simulation.audience import Audience
 from tribo.simulation.beginning import checksum
 from tribo.simulation.doubt import doubting
 from tribo.simulation.effects import MissingFieldError
-from tribo.simulation.guard import calling
+from tribo.simulation.guard import Guard
 from tribo.simulation.interrupt import interrupts_held
 from tribo.simulation.march import begin, march
 from tribo.simulation.measure import measure
@@ -277,10 +277,7 @@ class Simulation:
         return replace(snapshot, effects=effect_fields(self.model, snapshot.state))
 
     def _provenance(self) -> dict[str, object]:
-        components = {}
-        for place, component in named(self.model.case):
-            with calling(component):
-                components[place] = origin(component)
+        components = {place: Guard(c).ask(origin, c) for place, c in named(self.model.case)}
         return provenance(components, [plugin.facts for plugin in self._plugins])
 
     def _info(self, resumed_from: Snapshot | None, wall_time: float) -> RunInfo:
