@@ -174,12 +174,9 @@ class GuardedMotion(Guard[Kinematics]):
         """Raise `CaseError` if its averaging makes no sense for the first contact."""
         self.ask(self.component.check_contact, half_width_x)
 
-    def limitation(
-        self, half_width_x: float, depth: float, approach: float, volume_ratio: float
-    ) -> str | None:
+    def limitation(self, *seen: float) -> str | None:
         """Return why its averaging no longer holds, if so; see `Kinematics.limitation`."""
-        asked = self.component.limitation
-        answer = self.ask(asked, half_width_x, depth, approach, volume_ratio)
+        answer = self.ask(self.component.limitation, *seen)
         if not isinstance(answer, str | None):
             raise self.wrong(answer, "as its limitation")
         return answer
