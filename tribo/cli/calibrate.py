@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import click
 
@@ -22,10 +22,12 @@ from tribo.core.errors import CaseError, TriboError
 from tribo.core.files import check_folder, write_whole
 from tribo.study.calibration.calibrate import Calibration
 from tribo.study.calibration.calibrate import calibrate as fit_numbers
-from tribo.study.calibration.choice import choose_case
+from tribo.study.calibration.choice import Choice, choose_case
 from tribo.study.calibration.measured import Measurements, read_measurements
-from tribo.study.calibration.plan import plan_tests
+from tribo.study.calibration.plan import Plan, plan_tests
 from tribo.study.runs import file_names
+
+Shown = TypeVar("Shown", Calibration, Choice, Plan)
 
 PAUSE = 1.0
 """Least time between two lines that tell of samples, in s."""
@@ -99,10 +101,10 @@ def calibrate(
         )
     if several:
         choice = choose_case(alternatives, asked, level=level, on_run=_tell_of_case)
-        echo_json(choice.as_json()) if as_json else print_choice(choice)
+        _show(choice, print_choice, as_json)
     elif plan is not None:
         tests = plan_tests(tables, asked, plan, level=level, on_run=partial(_tell, "run"))
-        echo_json(tests.as_json()) if as_json else print_plan(tests)
+        _show(tests, print_plan, as_json)
     elif asked.map:
         _maps(tables, asked, level, output, force, as_json)
     else:
@@ -193,17 +195,24 @@ def _give(files: _Files | None, as_json: bool, again: str, found: Calibration) -
     """Write a fit to its files, if any, and print it; `again` runs the case as it was given."""
     if files is not None:
         files.write(found)
+    _show(found, print_fit, as_json)
     if as_json:
-        echo_json(found.as_json())
         return
-    print_fit(found)
     if files is None:
-        settings = [f"--set {path}={value:.4g}" for path, value in found.settings.items()]
-        click.echo(f"Run it: {' '.join([again, *settings])}")
+        settings = (f"{path}={value:.4g}" for path, value in found.settings.items())
+        click.echo(f"Run it: {again} {' '.join(f'--set {shlex.quote(each)}' for each in settings)}")
         return
     click.echo(f"Wrote {files.picture}")
     for name in found.fitted:
         click.echo(f"Run it: tribo run {shlex.quote(str(files.cases[name]))}")
+
+
+def _show(found: Shown, in_words: Callable[[Shown], None], as_json: bool) -> None:
+    """Print what was found, as JSON or in words."""
+    if as_json:
+        echo_json(found.as_json())
+    else:
+        in_words(found)
 
 
 def _tell_of_case(name: str, run: int, misfit: float) -> None:
