@@ -55,8 +55,6 @@ MAX_REJECTIONS = 40
 AT_REST, FEW = 1e-9, 3
 """Of the distance until the next stop, what a step slides that is one over a rest; and the steps
 rejected in a row, while the load changes, after which one is looked for."""
-
-
 LEFT_OVER = 0.02
 """What passes may leave over of the gap, in pressure tolerances, of what the bodies give way."""
 ROUND, ALIKE = 3, 1e-3
@@ -281,9 +279,9 @@ class Implicit(Scheme):
         model.tell(Worn(contacts, state.time, increment, moment, before, slid.plan))
         # What the passes leave over is pressure that does not belong to the worn gap. Stiff bodies
         # would keep so much of it that no later step, however short, could change it little.
-        little = LEFT_OVER * self.pressure_tolerance * _deformed(contacts, base + implied)
-        allowed = max(little, self.nonlinear_tolerance * deepest)
-        state = accepted(model, after, contacts, loads, exact=mismatch <= allowed)
+        little, linear = LEFT_OVER * self.pressure_tolerance, self.nonlinear_tolerance * deepest
+        exact = mismatch <= linear or mismatch <= little * _deformed(contacts, base + implied)
+        state = accepted(model, after, contacts, loads, exact=exact)
         return Trial(state, forward, contacts, slid.plan)
 
     def errors(self, model: Model, before: State, trial: Trial) -> Errors:
