@@ -17,6 +17,7 @@ from tribo.contact.periodic import Periodic
 from tribo.core.errors import OutputError, TriboWarning
 from tribo.observers.observer import Observer
 from tribo.result import checkpoint
+from tribo.simulation.march import begin, march
 from tribo.simulation.predict import predict
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
@@ -80,6 +81,15 @@ def test_a_run_gone_on_with_changed_components_and_stopped_again_says_how_to_go_
     with pytest.raises(Interrupted, match=r"tribo resume \S+ --allow-changed$"):
         Simulation(case()).resume(path, observers=[Stopper(after=6)], allow_changed=True)
     Simulation(case()).resume(path, allow_changed=True).close()
+
+
+def test_a_stop_in_the_last_step_is_not_lost_nor_is_the_result(tmp_path):
+    path, simulation = tmp_path / "run.h5", Simulation(case(kinematics=motion(duration=1)))
+    *_, last = march(simulation.model, begin(simulation.model))
+    with pytest.raises(Interrupted, match="has all of it"):
+        simulation.run(path, observers=[Stopper(after=last.state.steps)])
+    with Result.open(path) as result:
+        assert result.status == "done"
 
 
 @pytest.mark.slow

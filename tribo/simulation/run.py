@@ -268,6 +268,9 @@ class Simulation:
                 with suppress(TriboError):
                     snapshot = self._with_effects(snapshot)
             audience.finish(snapshot, reason)
+        if requested.is_set():
+            whole = f"; {recorder.path} has all of it" if recorder.path else ""
+            raise Interrupted(f"stopped in the last step of a run{whole}")
         return recorder.result()
 
     def _snapshot(self, state: State) -> Snapshot:
