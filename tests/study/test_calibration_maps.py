@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from calibrations import cheap
 from click.testing import CliRunner
+from scipy.optimize import minimize
 from scipy.special import kv
 
 from tribo.cli.main import tribo
@@ -116,6 +117,27 @@ def test_a_dip_of_a_coefficient_is_found_where_the_depth_tells_it(done, truth, d
     with np.load(folder / "found.npz") as arrays:
         assert arrays["disk_factor"] == pytest.approx(factor)
     assert (folder / "found-disk.png").stat().st_size > 5000
+
+
+@pytest.mark.slow
+def test_a_standard_deviation_is_that_of_the_profile_likelihood(depth):
+    """Held that far off at a cell, the most probable map is less so by a factor of exp(-1/2)."""
+    given = {"disk": (depth, NOISE)}, {"disk": Prior(0.4, 0.1e-3)}
+    found = fit_maps(CASE, *given).maps["disk"]
+    waves = _Waves(Simulation(validate_case(CASE)).model, *given, lambda misfit: None)
+
+    def surprise(z):
+        value, slope = waves.gradient(waves.logs(z))
+        return value + 0.5 * z @ z, waves.back(slope) + z
+
+    best = minimize(surprise, np.zeros(16), jac=True, method="BFGS", options={"gtol": 1e-4})
+    # In the groove, and at its edge.
+    for cell, sign in ((6, -1), (11, 1)):
+        held = found.logs[0, cell] + sign * found.deviation[0, cell]
+        along = waves.back(np.eye(16)[cell])
+        off = {"type": "eq", "fun": lambda z: along @ z - held, "jac": lambda z: along}  # noqa: B023
+        beside = minimize(surprise, best.x, jac=True, method="SLSQP", constraints=[off])
+        assert beside.fun - best.fun == pytest.approx(0.5, abs=0.01)
 
 
 @pytest.mark.slow
