@@ -249,9 +249,7 @@ class Model:
 
     def average(self, name: str, rate: Array, position: int) -> Array:
         """Return what the rate (nx, ny) at a position adds, by its share, to a body's mean rate."""
-        exposure = self.exposures[name]
-        mean = exposure.average(rate)
-        return mean if exposure.starts is None else self.spread(name, mean, position)
+        return self.spread(name, self.exposures[name].average(rate), position)
 
     def add_average(
         self, name: str, total: Array | None, rate: Array, position: int, part: float
