@@ -79,8 +79,7 @@ def leaves(
         if isinstance(value, Component):
             yield (*place, "type"), value.type, None
         for name, field in type(value).model_fields.items():
-            declared = (field.annotation, *field.metadata)
-            yield from leaves(getattr(value, name), declared, (*place, name))
+            yield from leaves(getattr(value, name), field, (*place, name))
     elif isinstance(value, Mapping):
         for key, item in value.items():
             yield from leaves(item, annotation, (*place, str(key)))

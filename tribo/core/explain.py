@@ -86,7 +86,7 @@ def explained(
     for key, given in missing:
         # A key that is misspelt is one mistake, not an unknown key and a missing one.
         if key not in meant:
-            marks = parts((fields[key].annotation, *fields[key].metadata))
+            marks = parts(fields[key])
             # A pair has the same hint twice.
             hints = dict.fromkeys(mark.hint(info) for mark in marks if hasattr(mark, "hint"))
             lines.append(_line((key,), "; ".join(["missing", *hints]), given))

@@ -53,7 +53,7 @@ class Table(BaseModel):
         rows = []
         for name, field in type(self).model_fields.items():
             value = getattr(self, name)
-            units = [mark.unit for mark in quantities((field.annotation, *field.metadata))]
+            units = [mark.unit for mark in quantities(field)]
             shown = _html(value) + (f" {units[0]}" if units and units[0] != "1" else "")
             if value != field.default:
                 rows.append(f"<tr><td>{escape(name)}</td><td>{shown}</td></tr>")

@@ -12,6 +12,7 @@ from numbers import Real
 from typing import Any, get_args
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic.fields import FieldInfo
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
@@ -216,14 +217,15 @@ class Quantity:
 
 
 def quantities(annotation: Any) -> Iterator[Quantity]:
-    """Yield the quantities among the `parts` of an annotation."""
+    """Yield the quantities among the `parts` of a field or an annotation."""
     return (part for part in parts(annotation) if isinstance(part, Quantity))
 
 
 def parts(annotation: Any) -> Iterator[Any]:
-    """Yield an annotation, or a tuple of them, and every type and mark inside."""
+    """Yield a field or an annotation, and every type and mark inside."""
     yield annotation
-    for part in annotation if isinstance(annotation, tuple) else get_args(annotation):
+    field = isinstance(annotation, FieldInfo)
+    for part in (annotation.annotation, *annotation.metadata) if field else get_args(annotation):
         yield from parts(part)
 
 

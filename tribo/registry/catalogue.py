@@ -109,7 +109,7 @@ def _parameters(table: type[BaseModel], within: tuple[type[BaseModel], ...] = ()
     """Yield a line for each key of a table; those of tables inside follow, indented."""
     within = (*within, table)
     for name, field in table.model_fields.items():
-        found = list(parts((field.annotation, *field.metadata)))
+        found = list(parts(field))
         unit = next((f" [{mark.unit}]" for mark in found if isinstance(mark, Quantity)), "")
         needed = "needed" if field.is_required() else f"default {field.default!r}"
         if field.default is None or field.default_factory is not None:

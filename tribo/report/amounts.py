@@ -134,7 +134,7 @@ def _listed(values: Sequence[Any], unit: str) -> str:
 def _marks(table: type[BaseModel] | None, key: str) -> list[Any]:
     """Return all types and marks of the annotation of a table's key."""
     field = None if table is None else table.model_fields.get(key)
-    return [] if field is None else [*parts((field.annotation, *field.metadata))]
+    return [] if field is None else [*parts(field)]
 
 
 def _unit(marks: Sequence[Any]) -> str:

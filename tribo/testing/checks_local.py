@@ -250,7 +250,7 @@ def _at(given: Any, name: str, value: float) -> Any:
 def _is_given(config: Any, name: str) -> bool:
     """Whether a field holds a quantity that is neither 0 nor its default."""
     field, value = type(config).model_fields[name], getattr(config, name)
-    marked = any(quantities((field.annotation, *field.metadata)))
+    marked = any(quantities(field))
     return marked and isinstance(value, float) and value not in (0, field.default)
 
 

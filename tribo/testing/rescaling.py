@@ -61,10 +61,7 @@ def rescaled(table: T) -> T:
     cls: Any = type(table)
     return renewed(
         table,
-        {
-            name: _rescaled((field.annotation, *field.metadata), getattr(table, name))
-            for name, field in cls.model_fields.items()
-        },
+        {name: _rescaled(field, getattr(table, name)) for name, field in cls.model_fields.items()},
     )
 
 
