@@ -7,7 +7,7 @@ from inspect import signature
 import numpy as np
 from paper_models import K, archard, case, flat, half_space, motion, named, sphere, steel
 
-from tribo.case import Case
+from tribo.case import Case, Layer
 from tribo.core.grid import Grid
 from tribo.simulation.assembly import assemble
 from tribo.simulation.march import begin, march
@@ -136,6 +136,16 @@ def pair(ball, disk, hardness=(None, None)):
         named("ball", sphere(), steel(hardness[0]), ball),
         named("disk", flat(), steel(hardness[1]), disk),
     ]
+
+
+def layered(ball=None, disk=None, of_ball=None, of_disk=None):
+    """Bodies, each in a layer of this thickness and law, and with the law of what is below."""
+    bodies = []
+    plain = pair(of_ball or archard(), of_disk or archard())
+    for (name, body), top in zip(plain, (ball, disk), strict=True):
+        layers = (Layer(thickness=top[0], wear=top[1]),) if top else ()
+        bodies.append((name, body.model_copy(update={"layers": layers})))
+    return bodies
 
 
 def run(**changes):

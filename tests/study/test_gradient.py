@@ -18,6 +18,7 @@ from gradients import (
     Kind,
     few,
     forgotten,
+    layered,
     nothing,
     pair,
     power,
@@ -27,9 +28,8 @@ from gradients import (
     without,
     zero,
 )
-from paper_models import K, archard, flat, motion, named, sphere, steel
+from paper_models import K, archard, flat, motion, named, steel
 
-from tribo.case import Body, Layer
 from tribo.contact.periodic import Periodic
 from tribo.contact.winkler import Winkler
 from tribo.core.errors import NumericalError
@@ -37,7 +37,16 @@ from tribo.core.grid import Grid
 from tribo.motion.rotating import Rotating
 from tribo.motion.unidirectional import Unidirectional
 from tribo.stepping.explicit import Explicit
-from tribo.study.gradient import backwards, course, linear, local, parameters, remembering, slopes
+from tribo.study.gradient import (
+    backwards,
+    course,
+    linear,
+    local,
+    parameters,
+    passing,
+    remembering,
+    slopes,
+)
 from tribo.study.gradient.gradient import gradient
 from tribo.study.gradient.objective import Deepest, Depth, Pressure, Volume
 from tribo.surfaces.cylinder import Cylinder
@@ -45,6 +54,7 @@ from tribo.surfaces.surface import Surface
 from tribo.surfaces.waves import Waves
 from tribo.wear.archard import Archard
 from tribo.wear.modified import times
+from tribo.wear.running_in import RunningIn
 
 
 def flats():
@@ -63,15 +73,30 @@ def flats():
 
 
 LINE = [named("ball", Cylinder(radius="5 mm"), steel(), archard()), named("disk", flat(), steel())]
-LAYERED = [
-    (name, Body(surface=body, material=steel(), wear=archard(), layers=[layer]))
-    for name, body, layer in (
-        ("ball", sphere(), Layer(thickness="0.3 um", wear=archard(K / 2))),
-        ("disk", flat(), Layer(thickness="0.05 um", wear=archard(2 * K))),
-    )
-]
+FAST = RunningIn(law=archard(2 * K), factor=4.0, over="0.5 GPa m")
+OF_LAYER = ["bodies.disk.layers.0.thickness", "bodies.disk.layers.0.wear.over"]
 YIELDING = pair(archard(), archard(), ("1.2 GPa", "1.1 GPa"))
 SOFT = pair(archard(), archard(), ("1.1 GPa", "1 GPa"))
+
+
+def unworn(method):
+    """What the shares of the layers make of the depth before, left out."""
+
+    def mutant(*given):
+        worn, rates = method(*given)
+        return 0 * worn, rates
+
+    return mutant
+
+
+def steady(method):
+    """What the shares of the layers make of the rates in each, left out."""
+
+    def mutant(*given):
+        worn, rates = method(*given)
+        return worn, [0 * rate for rate in rates]
+
+    return mutant
 
 
 def unpressed(method):
@@ -97,12 +122,28 @@ KINDS = {
         1e-5,
     ),
     "layers": Kind(
-        run(bodies=LAYERED, stepping=LONG),
+        run(bodies=layered(("0.3 um", archard(K / 2)), ("0.05 um", archard(2 * K))), stepping=LONG),
         Depth("disk"),
         [
             *("load.normal", *SHAPE, "bodies.ball.wear.k", "bodies.ball.layers.0.wear.k"),
             *("bodies.ball.layers.0.thickness", "bodies.disk.layers.0.thickness"),
         ],
+        1e-6,
+    ),
+    "layers, remembers": Kind(
+        run(bodies=layered(None, ("0.05 um", FAST), archard(), FRESH), stepping=LONG),
+        Depth("disk"),
+        ["load.normal", *SHAPE, *OF_LAYER, "bodies.disk.wear.over"],
+        1e-6,
+    ),
+    "positions, layers, remembers": Kind(
+        run(
+            bodies=layered(("0.02 um", FAST), ("0.004 um", archard(2 * K)), FRESH, archard()),
+            kinematics=resolved(duration=0.25),
+            stepping=LONG,
+        ),
+        Depth("disk", 5e-5),
+        ["load.normal", *SHAPE, "bodies.ball.layers.0.thickness", "bodies.ball.wear.over"],
         1e-6,
     ),
     "average": Kind(run(), Deepest("disk"), [*BASE, *SHAPE, "kinematics.stroke"], 1e-4),
@@ -203,10 +244,15 @@ MUTANTS = [
     ("positions", linear.Carrier, "gathered", zero),
     ("explicit", backwards.Backwards, "_wear", nothing),
     ("explicit", backwards.Backwards, "_wear", unpressed),
-    ("remembers", slopes.Asked, "_by_pressure", unfelt("own")),
+    ("remembers", slopes.Sloping, "_by_pressure", unfelt("own")),
     ("remembers", remembering.Remembering, "_back", forgotten),
-    ("load over time", slopes.Asked, "_by_pressure", unfelt("load")),
+    ("load over time", slopes.Sloping, "_by_pressure", unfelt("load")),
     ("layers", course, "_layers", lambda of: lambda *given: (of(*given)[0], 1.0)),
+    ("layers, remembers", passing.Layered, "back", unworn),
+    ("layers, remembers", passing.Layered, "back", steady),
+    ("layers, remembers", slopes.Sloping, "_passing", nothing),
+    ("positions, layers, remembers", passing.Layered, "back", unworn),
+    ("positions, layers, remembers", passing.Layered, "back", steady),
 ]
 
 

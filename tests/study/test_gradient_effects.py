@@ -13,6 +13,8 @@ from gradients import (
     Kind,
     few,
     forgotten,
+    layered,
+    nothing,
     pair,
     resolved,
     run,
@@ -239,6 +241,28 @@ KINDS["pressure beside"] = Kind(
     ["load.normal", "bodies.ball.wear.k", *SHAPE],
     1e-5,
 )
+KINDS["layers"] = Kind(
+    run(
+        bodies=layered(None, ("0.005 um", archard(2 * K))),
+        effects=[Grains()],
+        kinematics=motion(duration=1),
+        stepping=SLOW,
+    ),
+    Depth("disk"),
+    ["load.normal", *SHAPE, "bodies.disk.layers.0.thickness", *OF_GRAINS],
+    1e-6,
+)
+KINDS["layers, pressure beside"] = Kind(
+    run(
+        bodies=layered(("0.05 um", archard(K / 2)), ("0.002 um", archard(2 * K)), Softens(k=K)),
+        effects=[Blurs()],
+        kinematics=motion(duration=4),
+        stepping=LONG,
+    ),
+    Depth("ball"),
+    ["load.normal", *SHAPE, "bodies.disk.layers.0.thickness", "bodies.ball.wear.k"],
+    1e-6,
+)
 
 
 @pytest.mark.slow
@@ -278,6 +302,17 @@ def as_it_is(method):
     return lambda self, slid, *given: 0.0 if rests(slid) else method(self, slid, *given)
 
 
+def of_depths(method):
+    """What effects make of the shares of the layers, left out."""
+
+    def mutant(self, *given):
+        of = method(self, *given)
+        depths = len(self.own)
+        return [*of[:depths], response.Response(0 * of[depths].own), *of[depths + 1 :]]
+
+    return mutant
+
+
 def rests(slid):
     return slid is not None and slid.moment.speed == 0
 
@@ -292,19 +327,21 @@ def of_each_alone(method):
 
 MUTANTS = [
     ("spreads", slopes, "back", alone),
-    ("spreads", slopes.Asked, "_by_factor", of_each_alone),
+    ("spreads", slopes.Sloping, "_by_factor", of_each_alone),
     ("rest", backwards.Backwards, "press", unrested),
     ("rest, of one temperature", backwards.Backwards, "press", unseen),
     ("rest", parameters.Chain, "by_wear", as_it_is),
-    ("grains", slopes.Asked, "_by_pressure", unfelt("own")),
+    ("grains", slopes.Sloping, "_by_pressure", unfelt("own")),
     ("grains", remembering.Remembering, "_back", forgotten),
-    ("grains", slopes.Asked, "_by_factor", unheard),
+    ("grains", slopes.Sloping, "_by_factor", unheard),
     ("grains", backwards.Backwards, "_filled", lambda _: lambda self, states, *given: states),
     ("grains", backwards.Backwards, "_of_wear", zero),
     ("grains", parameters.Chain, "by_rest", without("gap")),
-    ("heat", slopes.Asked, "_by_pressure", unfelt("load")),
-    ("heat", slopes.Asked, "_by_pressure", unfelt("square")),
+    ("heat", slopes.Sloping, "_by_pressure", unfelt("load")),
+    ("heat", slopes.Sloping, "_by_pressure", unfelt("square")),
     ("heat", linear.Uniform, "gathered", zero),
+    ("layers", slopes.Sloping, "_by_share", of_depths),
+    ("layers, pressure beside", slopes.Sloping, "_passing", nothing),
 ]
 
 

@@ -63,7 +63,7 @@ def course(
     are those of `moment` throughout, but where a body wears through a layer. With it, the depths
     worn of bodies in layers are integrated as well.
     """
-    layered = _layered(model)
+    layered = layered_bodies(model)
     taken = None
 
     def begun(first: float) -> Course:
@@ -99,12 +99,12 @@ def accumulated(
     The increment (m), and the `moment` at its end, are those of `course`, and `plan` is how it was
     divided. The rate is asked with what is remembered and how much of the increment has passed.
     """
-    layered = _layered(model)
+    layered = layered_bodies(model)
     states = len(before.values) + len(layered)
 
     def rates(values: Sequence[Array], passed: float, step: float) -> Values:
         found = _rates(model, before, layered, contacts, increment, moment, values, passed, step)
-        now = _memory(before, layered, values)
+        now = memory_with(before, layered, values)
         return [*found[:states], np.array(rate(now, passed))]
 
     _, (total,), _ = _followed(model, before, layered, rates, increment, Plan(plan.parts))
@@ -166,7 +166,7 @@ def _rates(
     if model.advances:
         moment = replace(moment, over=step * increment)
     contacts = loaded(model, contacts, end.back(0.5 * increment).time, end.time, passed)
-    now = _memory(before, layered, values)
+    now = memory_with(before, layered, values)
     _, found = in_layers(model, now, contacts, step * increment, moment)
     total: Values = [np.zeros_like(value) for value in values]
     for position, rates in enumerate(found):
@@ -183,14 +183,14 @@ def _rates(
     return total + [rate.depth_rate for rates in found for rate in rates.wear.values()]
 
 
-def _memory(before: Memory, layered: Sequence[str], values: Sequence[Array]) -> Memory:
+def memory_with(before: Memory, layered: Sequence[str], values: Sequence[Array]) -> Memory:
     """Return what is remembered with other values, the depths of bodies in layers at the end."""
     each = iter(values)
     now = before.with_values(each)
     return replace(now, worn={**now.worn, **dict(zip(layered, each, strict=True))})
 
 
-def _layered(model: Model) -> list[str]:
+def layered_bodies(model: Model) -> list[str]:
     """Return the bodies in layers, whose depths go along with what is remembered."""
     return [name for name, law in model.laws.items() if law.bottoms]
 
@@ -204,12 +204,11 @@ def _followed(
     plan: Plan | None,
 ) -> tuple[Values, Values, Plan]:
     """Integrate, as `integrated`, rates of what is remembered and of the depths in layers."""
-    depths = [Limits(-np.inf, np.inf, f"the depth of {name!r}", relaxes=False) for name in layered]
     return integrated(
         rates,
         [*before.values, *(before.worn[name] for name in layered)],
         increment,
-        [*limits_of(model, before), *depths],
+        limits_of(model, before),
         plan,
         of_steps=bool(layered) or model.advances,
         layered=len(layered),
@@ -240,7 +239,7 @@ def loaded(
 
 
 def limits_of(model: Model, memory: Memory) -> list[Limits]:
-    """Return the limits of all that is remembered, in the order of `Memory.values`."""
+    """Return the limits of `Memory.values`, and those of the depths of bodies in layers."""
     of_laws = [
         (field, f"{model.laws[name]}")
         for name, of_law in memory.laws.items()
@@ -249,7 +248,7 @@ def limits_of(model: Model, memory: Memory) -> list[Limits]:
         if field.name == key
     ]
     between = [(model.between[key][1], f"{model.between[key][0]}") for key in memory.between]
-    return [
+    remembered = [
         Limits(
             -np.inf if field.at_least is None else field.at_least,
             np.inf if field.at_most is None else field.at_most,
@@ -257,3 +256,8 @@ def limits_of(model: Model, memory: Memory) -> list[Limits]:
         )
         for field, who in (*of_laws, *between)
     ]
+    depths = [
+        Limits(-np.inf, np.inf, f"the depth of {name!r}", relaxes=False)
+        for name in layered_bodies(model)
+    ]
+    return [*remembered, *depths]

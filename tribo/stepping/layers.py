@@ -52,11 +52,8 @@ def in_layers(
         return staying
     found: dict[str, list[Array]] = {name: [] for name in layered}
     for layer in range(1 + max(map(len, layered.values()))):
-        everywhere = {
-            name: only(min(layer, len(bottoms)), before.worn[name])
-            for name, bottoms in layered.items()
-        }
-        for name, rate in _depths(model, layered, shared(everywhere)[1]).items():
+        everywhere = shared(only(layer, layered, before.worn))[1]
+        for name, rate in _depths(model, layered, everywhere).items():
             found[name].append(rate)
     return shared(
         {
@@ -84,10 +81,15 @@ def _stays(bottoms: Sequence[float], worn: Array, lost: Array) -> bool:
     return all(not np.any((worn < bottom) & (after >= bottom)) for bottom in bottoms)
 
 
-def only(layer: int, worn: Array) -> dict[str, Array]:
-    """Return the shares where one layer is all that wears."""
-    whole = np.ones_like(worn)
-    return {f"rate {layer}": whole, f"slope {layer}": whole}
+def only(
+    layer: int, layered: Mapping[str, Sequence[float]], worn: Mapping[str, Array]
+) -> dict[str, dict[str, Array]]:
+    """Return the shares where one layer, or what is below the last, is all that wears."""
+    shares = {}
+    for name, bottoms in layered.items():
+        whole, here = np.ones_like(worn[name]), min(layer, len(bottoms))
+        shares[name] = {f"rate {here}": whole, f"slope {here}": whole}
+    return shares
 
 
 def over_increment(

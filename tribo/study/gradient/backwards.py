@@ -16,7 +16,7 @@ from tribo.core.errors import CaseError
 from tribo.core.fields import LOAD_SHARE
 from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.model import Model
-from tribo.stepping.evolution import Course, course
+from tribo.stepping.evolution import Course, course, layered_bodies
 from tribo.stepping.memory import Memory, first_memory
 from tribo.study.gradient.course import Before, Plain, plain
 from tribo.study.gradient.linear import StepSystem, carrier_of, carriers_between
@@ -24,7 +24,7 @@ from tribo.study.gradient.local import WatchedLaw
 from tribo.study.gradient.objective import Seeds
 from tribo.study.gradient.parameters import Chain
 from tribo.study.gradient.remembering import Remembering
-from tribo.study.gradient.slopes import Asked
+from tribo.study.gradient.slopes import Sloping
 from tribo.study.gradient.tape import Enveloped, Gave, Pressed, Saved, Slid, Tape
 
 JUST = 1e-9
@@ -53,11 +53,6 @@ def covered(model: Model) -> Model:
     laws = model.laws.values()
     followed = LOAD_SHARE.name in given or any(set(law.requires) & given for law in laws)
     followed = followed or any(field.fills for f in model.effects for field in f.state_fields)
-    if any(law.bottoms for law in laws) and (followed or any(law.state_fields for law in laws)):
-        raise CaseError(
-            "gradients go through layers, or laws that remember or follow effects, not both",
-            "bodies",
-        )
     if model.hardness:
         raise CaseError("gradients go through one hardness; leave that of layers out", "bodies")
     if model.contact.operator(model.system, model.gap <= np.min(model.gap)) is None:
@@ -248,10 +243,11 @@ class Backwards:
             own = {name: slid.before.laws[name] for name in names}
             kept = [self.carriers[name] for name in names for _ in own[name]]
             kept += self.between.values()
+            kept += [self.carriers[name] for name in layered_bodies(model)]
             if remembers or self.together:
                 alone = replace(slid, before=replace(slid.before, laws=own))
                 advances = self.model.advances
-                asked = Asked(model, self.carriers, kept, contacts, alone, remembers, advances)
+                asked = Sloping(model, self.carriers, kept, contacts, alone, remembers, advances)
                 found.append(Remembering(asked))
             else:
                 found.append(plain(model, self.carriers[names[0]], contacts, slid, known))

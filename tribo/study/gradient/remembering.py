@@ -13,10 +13,11 @@ from tribo.core.arrays import Array
 from tribo.stepping.extrapolation import PLAIN, RELAXING
 from tribo.stepping.memory import Memory
 from tribo.stepping.relaxation import relaxed, relaxing
+from tribo.study.gradient.asked import Place
 from tribo.study.gradient.course import Before
 from tribo.study.gradient.linear import Carrier
 from tribo.study.gradient.response import Arrays
-from tribo.study.gradient.slopes import Asked, Slopes
+from tribo.study.gradient.slopes import Slopes, Sloping
 
 SMALL = 1e-4
 """Rise below which the derivative of its mean is that of its series."""
@@ -26,31 +27,37 @@ SMALL = 1e-4
 class _Part:
     """A part of an increment: its rates along each row of the extrapolation.
 
-    `moved` has the rates at each state moved by a little, and by how much, where it relaxes.
+    `moved` has each state that relaxes, the rates where it is moved by a little, and by how much.
     """
 
     length: float
     relaxing: Sequence[Array | float]
     rows: Sequence[Sequence[Slopes]]
-    moved: Sequence[tuple[Slopes, Array]]
+    moved: Sequence[tuple[int, Slopes, Array]]
 
 
 @dataclass(frozen=True)
 class Remembering:
     """An increment of the bodies of a model that wear, of which these rates are asked."""
 
-    asked: Asked
+    asked: Sloping
 
     def back(self, wear: Mapping[str, Array], states: Memory) -> Before:
         """Return derivatives before it from those in the depths and what is remembered after."""
         laws = self.asked.model.laws
         states = replace(states, laws={name: states.laws[name] for name in laws})
+        # What the depths in layers come to within the increment counts as their wear.
+        within = [np.zeros_like(wear[name]) for name in self.asked.layered]
         (own, load, square, *factor), before = self._back(
-            [wear[name] for name in laws], states.values
+            [wear[name] for name in laws], [*states.values, *within]
         )
         factors = dict(zip(laws, factor, strict=True))
-        pressure = own + load + square * self.asked.pressure
-        return Before(pressure, wear, states.with_values(iter(before)), factors)
+        pressure, each = own + load + square * self.asked.pressure, iter(before)
+        states = states.with_values(each)
+        through = {
+            name: wear[name] + seed for name, seed in zip(self.asked.layered, each, strict=True)
+        }
+        return Before(pressure, {**wear, **through}, states, factors)
 
     @cached_property
     def bodies(self) -> Sequence[tuple[Carrier, Array]]:
@@ -60,7 +67,7 @@ class Remembering:
         what it itself remembers: one way back, from 1 on each point, has all derivatives.
         """
         own, columns = self.asked.own, self.asked.model.grid.cells[1]
-        states = [np.zeros_like(value) for value in self.asked.slid.before.values]
+        states = [np.zeros_like(value) for value in self.asked.begin]
         found = []
         for at, carrier in enumerate(own):
             ones = [np.full((each.rows, columns), float(at == i)) for i, each in enumerate(own)]
@@ -72,13 +79,13 @@ class Remembering:
         """Go through the increment as it was divided, once more."""
         asked, slid, passed = self.asked, self.asked.slid, 0.0
         found: list[_Part] = []
-        states = slid.before.values
+        states = asked.begin
         start, _ = asked.first
         if not asked.along:
-            return [_Part(slid.increment, [], [[start]], [])]
+            return [_Part(slid.increment, [0.0] * len(states), [[start]], [])]
         for share, relaxes in slid.plan.parts:
             span = share * slid.increment
-            begin = asked.place(passed, span)
+            begin = Place(passed, span)
             if found:
                 start = asked.sloped(states, begin)
             of_states: list[Array | float] = [0.0] * len(states)
@@ -87,16 +94,17 @@ class Remembering:
                 at_start = partial(asked.of_states, begin)
                 of_states = relaxing(at_start, states, at_start(states), span, asked.limits)
                 for at, nudge in enumerate(asked.nudges(states, start.found)):
-                    state = states[at]
-                    by = np.where(state + nudge > asked.limits[at].most, -nudge, nudge)
-                    other = [*states[:at], state + by, *states[at + 1 :]]
-                    moved.append((asked.sloped(other, begin), by))
+                    if np.any(np.asarray(of_states[at]) < 0):
+                        state = states[at]
+                        by = np.where(state + nudge > asked.limits[at].most, -nudge, nudge)
+                        other = [*states[:at], state + by, *states[at + 1 :]]
+                        moved.append((at, asked.sloped(other, begin), by))
             rows, ends = [], [np.zeros_like(state) for state in states]
             stages = RELAXING if relaxes else PLAIN
             for steps in stages:
                 first = start
-                if steps > 1 and asked.advances:
-                    first = asked.sloped(states, asked.place(passed, span / steps))
+                if steps > 1 and asked.of_steps:
+                    first = asked.sloped(states, Place(passed, span / steps))
                 row, end = self._row(states, first, of_states, passed, share, steps)
                 rows.append(row)
                 counts = _counts(steps, stages)
@@ -124,7 +132,7 @@ class Remembering:
                 for state, mean, slope in zip(states, means, of_states, strict=True)
             ]
             if taken < steps:
-                place = asked.place(passed + share * taken / steps, step)
+                place = Place(passed + share * taken / steps, step)
                 row.append(asked.sloped(states, place))
         return row, states
 
@@ -160,7 +168,7 @@ class Remembering:
                     add(found)
                     seeds = [seed + state for seed, state in zip(seeds, states, strict=True)]
                 before = [old + seed for old, seed in zip(before, seeds, strict=True)]
-            for at, (rates, by) in enumerate(part.moved):
+            for at, rates, by in part.moved:
                 for where, sign in ((rates, 1.0), (part.rows[0][0], -1.0)):
                     seeds = [np.zeros_like(seed) for seed in (*depth, *after)]
                     falls = np.asarray(part.relaxing[at]) < 0

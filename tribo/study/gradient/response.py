@@ -22,6 +22,8 @@ AGREES = 1e-4
 
 MOST = 25
 """Points around one, itself among them, that it may follow."""
+PLACES = 8
+"""About as many cells are varied, one after the other, to see how far points follow them."""
 SLIGHT = 1e-9
 """Of the largest change, what is below it is none."""
 
@@ -111,11 +113,8 @@ def near(
     ]
 
 
-def reached(changes: Arrays, place: Sequence[int], carrier: Carrier | None = None) -> Offset:
-    """Return how far apart points are that follow the one at a place, which has changed these.
-
-    `ALONE` where that is too far. What lies on a carrier that is averaged is one along the track.
-    """
+def reached(changes: Arrays, place: Sequence[int]) -> Offset:
+    """Return how far apart points are that follow the one at a place, which has changed these."""
     position, *cell = place
     far = [0, 0]
     for change in changes:
@@ -124,9 +123,16 @@ def reached(changes: Arrays, place: Sequence[int], carrier: Carrier | None = Non
             apart = np.abs(np.flatnonzero(np.any(hit, axis=1 - axis)) - index)
             around = np.minimum(apart, hit.shape[axis] - apart)
             far[axis] = max(far[axis], int(np.max(around, initial=0)))
-    along, across = far
-    if carrier is not None and carrier.weights is not None:
-        along = 0
+    return far[0], far[1]
+
+
+def furthest(reaches: Sequence[Offset], *, on_track: bool = False) -> Offset:
+    """Return the furthest of all; `ALONE` where that is too far.
+
+    What is one along a track reaches no further along it.
+    """
+    along, across = (max(far) for far in zip(*reaches, strict=True))
+    along = 0 if on_track else along
     return (along, across) if (2 * along + 1) * (2 * across + 1) <= MOST else ALONE
 
 

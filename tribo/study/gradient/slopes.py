@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
@@ -11,39 +11,28 @@ import numpy as np
 
 from tribo.contact.projection import CELLS, over
 from tribo.core.arrays import Array
-from tribo.core.box import Box, whole
-from tribo.core.contact import ContactSolution
 from tribo.core.errors import CaseError
-from tribo.simulation.model import Model
-from tribo.stepping.evolution import limits_of, loaded
-from tribo.stepping.relaxation import Limits
-from tribo.study.gradient.course import pressed, stacked
+from tribo.stepping.layers import only
+from tribo.study.gradient.asked import Asked, Place
+from tribo.study.gradient.course import pressed
 from tribo.study.gradient.linear import Carrier
 from tribo.study.gradient.local import localised
+from tribo.study.gradient.passing import Layered, Passing
 from tribo.study.gradient.response import (
     ALONE,
     NUDGE,
+    PLACES,
     Arrays,
     Offset,
     Response,
     agrees,
     back,
+    furthest,
     local,
     near,
     reached,
     shared,
 )
-from tribo.study.gradient.tape import Slid
-
-FINE = 1e-6
-"""Part of the largest value by which what is remembered is varied."""
-
-
-class Place(NamedTuple):
-    """Which part of an increment has passed, and over how much (m) of it means are asked for."""
-
-    passed: float
-    over: float = 0.0
 
 
 class Reach(NamedTuple):
@@ -55,73 +44,22 @@ class Reach(NamedTuple):
 
 @dataclass(frozen=True)
 class Slopes:
-    """Rates at one state, of depths and states, with their derivatives in each cell."""
+    """Rates at one state, of depths and states, with their derivatives in each cell.
+
+    They are those at given shares of the layers; `passing` has how these follow all else.
+    """
 
     found: Arrays
     by_pressure: Sequence[Response]
     by_state: Sequence[Sequence[Response]]
     by_factor: Sequence[Sequence[Response]]
     inside: Sequence[Array]
+    passing: Passing | None = None
 
 
 @dataclass(frozen=True)
-class Asked:
-    """Whoever is asked for the rates of an increment of the bodies of a model that wear.
-
-    `kept` are the carriers of what is remembered, in the order of `Memory.values`. `along` tells
-    whether rates are integrated along the increment, as where any body remembers, and `advances`
-    whether they are the means that laws know.
-    """
-
-    model: Model
-    carriers: Mapping[str, Carrier]
-    kept: Sequence[Carrier]
-    contacts: Sequence[ContactSolution]
-    slid: Slid
-    along: bool
-    advances: bool
-
-    @cached_property
-    def own(self) -> Sequence[Carrier]:
-        """The carriers of the depths worn."""
-        return [self.carriers[name] for name in self.model.laws]
-
-    @cached_property
-    def pressure(self) -> Array:
-        """The pressures of the increment, shape (positions, nx, ny)."""
-        return np.stack([contact.pressure for contact in self.contacts])
-
-    @cached_property
-    def limits(self) -> list[Limits]:
-        """The limits of what is remembered."""
-        return limits_of(self.model, self.slid.before)
-
-    def held(self, states: Sequence[Array]) -> Arrays:
-        """Return states within their limits."""
-        pairs = zip(states, self.limits, strict=True)
-        return [np.clip(state, limit.least, limit.most) for state, limit in pairs]
-
-    def nudges(self, states: Sequence[Array], found: Arrays) -> Arrays:
-        """Return by how much each state is varied to find what follows it."""
-        nudges = []
-        for state, rate in zip(states, found[len(self.own) :], strict=True):
-            fastest = self.slid.increment * float(np.max(np.abs(rate)))
-            largest = max(float(np.max(np.abs(state))), fastest) or 1.0
-            nudges.append(np.full_like(state, FINE * largest))
-        return nudges
-
-    def place(self, passed: float, over: float) -> Place:
-        """Return a place along the increment."""
-        return Place(passed, over if self.advances else 0.0)
-
-    def means(self, rates: Arrays) -> Arrays:
-        """Return the mean rates of what is remembered, where it lies."""
-        pairs = zip(self.kept, rates[len(self.own) :], strict=True)
-        return [kept.mean(rate, self._shares) for kept, rate in pairs]
-
-    def of_states(self, place: Place, values: Sequence[Array], *_: float) -> Arrays:
-        """Return the mean rates of what is remembered at other values of it."""
-        return self.means(self._asked(values, place))
+class Sloping(Asked):
+    """What is asked for the derivatives of its rates too."""
 
     @cached_property
     def first(self) -> tuple[Slopes, Reach]:
@@ -129,8 +67,10 @@ class Asked:
 
         Effects are refused of which a change in all at once is not the sum of its parts.
         """
-        states, share = self.slid.before.values, self.slid.plan.parts[0][0]
-        place = self.place(0.0, share * self.slid.increment) if self.along else Place(1.0)
+        states, increment = self.begin, self.slid.increment
+        share = self.slid.plan.parts[0][0]
+        place = Place(0.0, share * increment) if self.along else Place(1.0, increment)
+        place = self.in_layers(states, place)
         reach = Reach(ALONE, [ALONE] * len(states))
         slopes = self._sloped(states, place, reach)
         if not self.model.effects or self._agrees(slopes, states, place):
@@ -148,7 +88,7 @@ class Asked:
 
     def sloped(self, states: Sequence[Array], place: Place) -> Slopes:
         """Return rates with their derivatives, at a place along the increment."""
-        return self._sloped(states, place, self.first[1])
+        return self._sloped(states, self.in_layers(states, place), self.first[1])
 
     def behind(self, slopes: Slopes, seeds: Arrays) -> tuple[Arrays, Arrays]:
         """Return derivatives in what rates follow, from those in the rates of depths and states.
@@ -157,7 +97,7 @@ class Asked:
         on the bodies' rates; the second in the states.
         """
         seen = [
-            carrier.part * carrier.seen(seed, self._window)
+            carrier.part * carrier.seen(seed, self.window)
             for carrier, seed in zip((*self.own, *self.kept), seeds, strict=True)
         ]
 
@@ -169,7 +109,7 @@ class Asked:
         square = through([each.square for each in slopes.by_pressure])
 
         def gathered(carrier: Carrier, responses: Sequence[Response]) -> Array:
-            return carrier.gathered(over(self._shares) * back(seen, responses), self._window)
+            return carrier.gathered(over(self.shares) * back(seen, responses), self.window)
 
         factors = map(gathered, self.own, slopes.by_factor)
         states = [
@@ -178,42 +118,28 @@ class Asked:
                 self.kept, slopes.inside, slopes.by_state, strict=True
             )
         ]
-        return [back(seen, slopes.by_pressure), load, square, *factors], states
-
-    @cached_property
-    def _shares(self) -> Array:
-        return np.array([position.share for position in self.model.cycle])
-
-    @property
-    def _window(self) -> Box:
-        return whole(self.model.grid.cells)
-
-    def _told(self, place: Place, pressure: Array | None = None) -> Sequence[ContactSolution]:
-        """Return the contacts as laws are told of them where a part of the increment has passed."""
-        contacts = self.contacts if pressure is None else pressed(self.contacts, pressure)
-        if not self.along:
-            return contacts
-        end, half = self.slid.moment, 0.5 * self.slid.increment
-        return loaded(self.model, contacts, end.back(half).time, end.time, place.passed)
-
-    def _asked(
-        self,
-        states: Sequence[Array],
-        place: Place,
-        told: Sequence[ContactSolution] | None = None,
-        model: Model | None = None,
-    ) -> Arrays:
-        """Return the rates at each position where a part of the increment has passed."""
-        moment = self.slid.moment
-        if self.along:
-            moment = moment.back((1 - place.passed) * self.slid.increment)
-            moment = replace(moment, over=place.over)
-        memory = self.slid.before.with_values(iter(states))
-        return stacked(model or self.model, told or self._told(place), memory, moment)
+        total = [back(seen, slopes.by_pressure), load, square, *factors]
+        passing = slopes.passing
+        if passing is None:
+            return total, states
+        of_layers = [[np.zeros_like(seed) for seed in seeds] for _ in passing.of_layers]
+        for at, name in enumerate(self.model.laws):
+            if name in passing.bodies:
+                shares = [gathered(self.own[at], each) for each in passing.by_share[name]]
+                worn, rates = passing.bodies[name].back(shares)
+                depth = self.layered.index(name) - len(self.layered)
+                states[depth] = states[depth] + worn
+                for each, rate in zip(of_layers, rates, strict=False):
+                    each[at] = rate
+        for layer, of_layer in zip(passing.of_layers, of_layers, strict=True):
+            more, others = self.behind(layer, of_layer)
+            total = [a + b for a, b in zip(total, more, strict=True)]
+            states = [a + b for a, b in zip(states, others, strict=True)]
+        return total, states
 
     def _sloped(self, states: Sequence[Array], place: Place, reach: Reach) -> Slopes:
         held = self.held(states)
-        found = self._asked(held, place)
+        found = self.rates(held, place)
         by_state = [
             self._by_state(at, held, nudge, place, reach.states[at])
             for at, nudge in enumerate(self.nudges(held, found))
@@ -221,21 +147,66 @@ class Asked:
         inside = [s == h for s, h in zip(states, held, strict=True)]
         by_pressure = self._by_pressure(held, place, reach.pressure)
         by_factor = self._by_factor(held, place, found, reach.pressure)
-        return Slopes(found, by_pressure, by_state, by_factor, inside)
+        passing = self._passing(held, place, reach)
+        return Slopes(found, by_pressure, by_state, by_factor, inside, passing)
+
+    def _passing(self, states: Sequence[Array], place: Place, reach: Reach) -> Passing | None:
+        """Return how points pass from layer to layer; None where all stay in theirs."""
+        shares = [share for of_body in place.shares.values() for share in of_body.values()]
+        if not any(np.any((share > 0) & (share < 1)) for share in shares):
+            return None
+        bottoms = {name: self.model.laws[name].bottoms for name in self.layered}
+        worn = self.memory(states).worn
+        of_layers = [
+            self._sloped(states, place._replace(shares=only(layer, bottoms, worn)), reach)
+            for layer in range(1 + max(map(len, bottoms.values())))
+        ]
+        bodies, by_share = {}, {}
+        for at, (name, carrier) in enumerate(zip(self.model.laws, self.own, strict=True)):
+            if name not in bottoms:
+                continue
+            means = [carrier.mean(each.found[at], self.shares) for each in of_layers]
+            rates = means[: 1 + len(bottoms[name])]
+            bodies[name] = Layered(bottoms[name], worn[name], rates, place.over)
+            by_share[name] = [
+                self._by_share(name, carrier, layer, states, place, reach.pressure)
+                for layer in range(len(rates))
+            ]
+        return Passing(bodies, by_share, of_layers)
+
+    def _by_share(
+        self,
+        name: str,
+        carrier: Carrier,
+        layer: int,
+        states: Sequence[Array],
+        place: Place,
+        reach: Offset,
+    ) -> Sequence[Response]:
+        of_body, key = place.shares[name], f"rate {layer}"
+
+        def rates(share: Array) -> Arrays:
+            shares = {**place.shares, name: {**of_body, key: share}}
+            return self.rates(states, place._replace(shares=shares))
+
+        def moved(cells: Array) -> tuple[Array, Array]:
+            return of_body[key] + NUDGE * cells, of_body[key] - NUDGE * cells
+
+        return near(rates, moved, carrier, of_body[key].shape, reach)
 
     def _by_pressure(
         self, states: Sequence[Array], place: Place, reach: Offset
     ) -> Sequence[Response]:
         def rates(pressure: Array) -> Arrays:
-            return self._asked(states, place, self._told(place, pressure))
+            return self.rates(states, place, self.told(place, pressure))
 
         if self.model.effects and reach == ALONE:
             return shared(rates, self.pressure)
         if self.model.effects:
             return local(rates, self.pressure, reach)
-        told = self._told(place)
+        told = self.told(place)
         pressure = np.stack([contact.pressure for contact in told])
-        found = local(lambda p: self._asked(states, place, pressed(told, p)), pressure)
+        found = local(lambda p: self.rates(states, place, pressed(told, p)), pressure)
         if told is self.contacts:
             return found
         # Along the increment pressures are told in proportion to the load.
@@ -247,10 +218,13 @@ class Asked:
     def _by_state(
         self, at: int, states: Arrays, nudge: Array, place: Place, reach: Offset
     ) -> Sequence[Response]:
+        if at >= len(self.slid.before.values):
+            # The depth counts through the shares of the layers alone.
+            return [Response(np.zeros(()))] * (len(self.own) + len(self.kept))
         limit = self.limits[at]
 
         def rates(state: Array) -> Arrays:
-            return self._asked([*states[:at], state, *states[at + 1 :]], place)
+            return self.rates([*states[:at], state, *states[at + 1 :]], place)
 
         def moved(cells: Array) -> tuple[Array, Array]:
             up, down = states[at] + nudge * cells, states[at] - nudge * cells
@@ -264,14 +238,13 @@ class Asked:
         names = list(self.model.laws)
         if not self.slid.before.between:
             return [
-                [Response(rate * (at == of)) for of, rate in enumerate(found)]
-                for at in range(len(names))
+                [Response(rate * (rate is found[at])) for rate in found] for at in range(len(names))
             ]
         of_bodies = []
         for name, carrier in zip(names, self.own, strict=True):
 
             def rates(factor: Array, name: str = name) -> Arrays:
-                return self._asked(states, place, model=localised(self.model, {name: factor}))
+                return self.rates(states, place, model=localised(self.model, {name: factor}))
 
             def moved(cells: Array) -> tuple[Array, Array]:
                 return 1 + NUDGE * cells, 1 - NUDGE * cells
@@ -281,22 +254,31 @@ class Asked:
         return of_bodies
 
     def _reached(self, found: Arrays, states: Sequence[Array], place: Place) -> Reach:
-        """Return how far apart points follow each other, about where the pressure is largest."""
-        one = np.zeros_like(self.pressure)
-        where = [int(at) for at in np.unravel_index(np.argmax(self.pressure), one.shape)]
-        one[tuple(where)] = 1.0
+        """Return how far apart points follow each other, as seen from some that touch."""
+        touching = np.argwhere(self.pressure > 0)
+        nudges = self.nudges(states, found)
+        of_pressure, of_states = [], [list[Offset]() for _ in states]
 
-        def changes(now: Arrays) -> Arrays:
-            return [after - before for after, before in zip(now, found, strict=True)]
+        def far(now: Arrays) -> Offset:
+            changes = [after - before for after, before in zip(now, found, strict=True)]
+            return reached(changes, where)
 
-        told = self._told(place, self.pressure * (1 + NUDGE * one))
-        pressure, of_states = reached(changes(self._asked(states, place, told)), where), []
-        for at, (kept, nudge) in enumerate(zip(self.kept, self.nudges(states, found), strict=True)):
-            cell = kept.gathered(one, self._window) > 0
-            moved = self.held([*states[:at], states[at] + nudge * cell, *states[at + 1 :]])
-            far = reached(changes(self._asked(moved, place)), where, kept)
-            of_states.append(ALONE if cell.size == 1 else far)
-        return Reach(pressure, of_states)
+        for where in touching[:: 1 + len(touching) // PLACES].tolist():
+            one = np.zeros_like(self.pressure)
+            one[tuple(where)] = 1.0
+            told = self.told(place, self.pressure * (1 + NUDGE * one))
+            of_pressure.append(far(self.rates(states, place, told)))
+            for at, (kept, nudge) in enumerate(zip(self.kept, nudges, strict=True)):
+                cell = kept.gathered(one, self.window) > 0
+                moved = self.held([*states[:at], states[at] + nudge * cell, *states[at + 1 :]])
+                of_states[at].append(far(self.rates(moved, place)))
+        return Reach(
+            furthest(of_pressure),
+            [
+                ALONE if nudge.size == 1 else furthest(each, on_track=kept.weights is not None)
+                for kept, nudge, each in zip(self.kept, nudges, of_states, strict=True)
+            ],
+        )
 
     def _agrees(self, slopes: Slopes, states: Sequence[Array], place: Place) -> bool:
         """Whether a change in all at once is the sum of its parts."""
@@ -311,12 +293,12 @@ class Asked:
             for sign in (1, -1)
         ]
         higher, lower = (
-            self._asked(end, place, self._told(place, self.pressure + sign * by))
+            self.rates(end, place, self.told(place, self.pressure + sign * by))
             for end, sign in zip(ends, (1, -1), strict=True)
         )
         expected = [each.change(self.pressure, 2 * by) for each in slopes.by_pressure]
         for kept, responses, up, down in zip(self.kept, slopes.by_state, *ends, strict=True):
-            span = kept.seen(up - down, self._window)
+            span = kept.seen(up - down, self.window)
             pairs = zip(expected, responses, strict=True)
             expected = [total + each.change(span, span) for total, each in pairs]
         found = [up - down for up, down in zip(higher, lower, strict=True)]

@@ -1,0 +1,63 @@
+"""Points that pass from layer to layer within an increment, differentiated backwards."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from tribo.core.arrays import Array
+from tribo.stepping.layers import over_increment
+from tribo.study.gradient.response import Arrays, Response
+
+if TYPE_CHECKING:
+    from tribo.study.gradient.slopes import Slopes
+
+FINE = 1e-6
+"""Part of the largest depth or rate by which it is varied."""
+
+
+@dataclass(frozen=True)
+class Layered:
+    """A body in layers as an increment (m) begins: its depth worn, and its rate in each layer."""
+
+    bottoms: Sequence[float]
+    worn: Array
+    rates: Arrays
+    increment: float
+
+    def back(self, seeds: Arrays) -> tuple[Array, Arrays]:
+        """Return derivatives in the depth and the rates, from those in the shares of the layers."""
+        found = []
+        given = [self.worn, *self.rates]
+        for at, values in enumerate(given):
+            by = FINE * (float(np.max(np.abs(values))) or self.bottoms[-1])
+            up, down = (
+                self._shares([*given[:at], values + sign * by, *given[at + 1 :]])
+                for sign in (1, -1)
+            )
+            changes = [one - other for one, other in zip(up, down, strict=True)]
+            pairs = zip(seeds, changes, strict=True)
+            found.append(np.sum([seed * change for seed, change in pairs], axis=0) / (2 * by))
+        worn, *rates = found
+        return worn, rates
+
+    def _shares(self, given: Arrays) -> Arrays:
+        worn, *rates = given
+        shares = over_increment(self.bottoms, worn, rates, self.increment)
+        return [shares[f"rate {layer}"] for layer in range(len(rates))]
+
+
+@dataclass(frozen=True)
+class Passing:
+    """Bodies of which points pass from layer to layer, by name.
+
+    `by_share` has what the rates follow of the share of each layer, and `of_layers` the slopes
+    where points are in that layer alone.
+    """
+
+    bodies: Mapping[str, Layered]
+    by_share: Mapping[str, Sequence[Sequence[Response]]]
+    of_layers: Sequence[Slopes]
