@@ -35,6 +35,7 @@ from tribo.stepping.step import (
     moment_after,
     rested,
     start_sliding,
+    time_at,
     undeformed,
     worn_by,
     worn_depths,
@@ -159,7 +160,7 @@ class Implicit(Scheme):
         while True:
             increment = _fitted(natural, remaining, settle * target)
             last = increment == remaining
-            time = until if last else _time_at(model, state, state.distance + increment, until)
+            time = until if last else time_at(model, state, state.distance + increment, until)
             try:
                 trial = self.attempt(model, state, increment, time)
                 errors = self.errors(model, state, trial)
@@ -228,11 +229,9 @@ class Implicit(Scheme):
         slide = partial(course, model, before, increment=increment)
         # What is remembered is integrated along the step; other rates are those where it begins.
         begin = moment if before.values else moment.back(increment)
-        slid = (
-            Course(state.rates, before)
-            if state.rates
-            else slide(contacts=state.contacts, moment=begin)
-        )
+        slid = Course(state.rates, before)
+        if not state.rates:
+            slid = slide(contacts=state.contacts, moment=begin)
         height = filling(model, before)
         guess = _guess(model, height, state.contacts, slid, increment)
         loads = model.loads.mean(state.time, time)
@@ -246,10 +245,9 @@ class Implicit(Scheme):
             wear = linear_wear(model, rates, guess.contacts, increment)
             # Of what changes the gap, the part that is not linear in the pressures.
             beyond = guess.depths - guess.filled - wear.depths(guess.contacts, dx)
+            gaps = base + beyond
             try:
-                contacts = solve_cycle(
-                    model, base + beyond, loads, guess.contacts, state.bodies, wear
-                )
+                contacts = solve_cycle(model, gaps, loads, guess.contacts, state.bodies, wear)
             except PluginError:
                 raise
             except NumericalError as error:
@@ -382,17 +380,6 @@ def _first_increment(model: Model, state: State, remaining: float) -> float:
     first = FIRST * state.reference_depth / fastest if fastest > 0 else 0.0
     # Two flats that repeat have no approach but rounding, and wear evenly.
     return min(remaining, first) if first > SMALLEST * remaining else remaining
-
-
-def _time_at(model: Model, state: State, distance: float, until: float) -> float:
-    """Return the time at which it has slid `distance` (m), between now and `until` (s)."""
-    time = model.motion.time_at(distance)
-    if not state.time < time <= until * (1 + 1e-9):
-        raise PluginError(
-            f"{model.motion} puts {distance:g} m at {time:g} s, which "
-            f"does not lie between {state.time:g} s and {until:g} s"
-        )
-    return time
 
 
 def _largest(arrays: Iterable[Array]) -> float:

@@ -166,6 +166,17 @@ def distance_until(model: Model, state: State, time: float) -> float | None:
     return distance
 
 
+def time_at(model: Model, state: State, distance: float, until: float) -> float:
+    """Return the time at which it has slid `distance` (m), between now and `until` (s)."""
+    time = model.motion.time_at(distance)
+    if not state.time < time <= until * (1 + 1e-9):
+        raise PluginError(
+            f"{model.motion} puts {distance:g} m at {time:g} s, which "
+            f"does not lie between {state.time:g} s and {until:g} s"
+        )
+    return time
+
+
 def load_changes(model: Model, begin: float, end: float) -> bool:
     """Whether the load changes between two times (s), so that the pressure does."""
     pairs = zip(model.loads.after(begin), model.loads.before(end), strict=True)
