@@ -84,6 +84,14 @@ class Heat(Effect):
         return {"bulk": np.reshape(rate, (1, 1))}
 
 
+class Sinks(Heat):
+    """Of which both bodies lead the more away the better they conduct."""
+
+    def power(self, contact):
+        leads = sum(material.conductivity for material in contact.materials.values())
+        return 90.0 / leads * super().power(contact)
+
+
 class Softens(Archard):
     type = "softens"
     requires = ("temperature",)
@@ -195,6 +203,22 @@ KINDS = {
         1e-5,
     ),
 }
+METAL = {"young": "207 GPa", "poisson": 0.3, "conductivity": 45.0}
+KINDS["heat through a body that does not wear"] = Kind(
+    run(
+        bodies={
+            "ball": {"surface": {"type": "sphere", "radius": "5 mm"}, "material": METAL}
+            | {"wear": Softens(k=K)},
+            "disk": {"surface": {"type": "flat"}, "material": METAL},
+        },
+        effects=[Sinks()],
+        kinematics=motion(duration=4),
+        stepping=LONG,
+    ),
+    Depth("ball"),
+    ["bodies.disk.material.conductivity"],
+    1e-5,
+)
 KINDS["rest"] = Kind(
     run(
         load=[{"at": 0, "normal": 10.0}, {"at": 4, "normal": 20.0}],

@@ -331,13 +331,16 @@ def _wears(base: Model, model: Model) -> dict[str, frozenset[str]]:
         if model.effects or any(position.reach is not None for position in model.cycle):
             return everything
         return dict.fromkeys(model.laws, frozenset({SPEED}))
+    if model.effects and any(
+        (was.wear, was.layers, was.material) != (now.wear, now.layers, now.material)
+        for was, now in zip(one.bodies.values(), other.bodies.values(), strict=True)
+    ):
+        # An effect that a law follows may look at either body.
+        return everything
     found = {}
     for name in model.laws:
         was, now = one.bodies[name], other.bodies[name]
-        same_law = (was.wear, was.layers) == (now.wear, now.layers)
-        if model.effects and not (same_law and was.material == now.material):
-            return everything
-        if not same_law:
+        if (was.wear, was.layers) != (now.wear, now.layers):
             found[name] = frozenset({LAW})
         elif was.material != now.material:
             found[name] = frozenset(
