@@ -2,13 +2,14 @@
 
 import numpy as np
 import pytest
-from paper_models import archard, case, flat, foundation, last, motion, named, sphere, steel
+from paper_models import K, archard, case, flat, foundation, last, motion, named, sphere, steel
 
 from tribo import (
     Begin,
     CaseError,
     Grid,
     Load,
+    Periodic,
     Pin,
     Simulation,
     TriboWarning,
@@ -95,6 +96,28 @@ def test_a_flat_pin_has_positions_close_enough_for_its_edge():
     exact = groove(99)
     assert groove("auto") == pytest.approx(exact, rel=0.01)
     assert groove(9) != pytest.approx(exact, rel=0.01)
+
+
+@pytest.mark.parametrize(("stroke", "count"), [("0.05 mm", 5), ("0.4 mm", 1), ("2 mm", 32)])
+def test_a_contact_without_ends_is_averaged_over_its_own_period_only(stroke, count):
+    # Whatever the stroke, each of two bodies that repeat loses the same all over.
+    edge, load, distance = 0.4e-3, 20.0, 0.5
+    bodies = [
+        named("ball", Waves(amplitude=1e-7, wavelength=edge / 2, along="x"), steel(), archard()),
+        named("disk", flat(), steel(), archard()),
+    ]
+    model = composed(
+        case(
+            grid=Grid((edge, edge), (32, 4)),
+            load=load,
+            contact=Periodic(),
+            bodies=bodies,
+            kinematics=motion(stroke=stroke, duration=None, distance=distance, positions="auto"),
+        )
+    )
+    assert len(model.cycle) == count
+    mean = np.mean(last(model).bodies["disk"].wear)
+    assert mean == pytest.approx(K * load * distance / edge**2, rel=1e-9, abs=0)
 
 
 def test_a_groove_too_shallow_to_matter_is_averaged():

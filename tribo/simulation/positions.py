@@ -20,7 +20,7 @@ from tribo.simulation.assembly import assemble
 from tribo.simulation.coarse import MARGINS, coarsened
 from tribo.simulation.march import begin, march
 from tribo.simulation.model import Model
-from tribo.simulation.validity import average_matters, track_average
+from tribo.simulation.validity import is_endless, track_average
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.step import first_contact
 
@@ -74,8 +74,10 @@ def composed(case: Case) -> Model:
     if half_width is None or found is None:
         return assemble(_fixed(case, FEWEST)) if must else averaged
     words, apart = found
-    cells = _cells(case, motion.stroke)
-    count = max(FEWEST, least_positions(motion.stroke, min(SPARE * half_width, 2 * apart)))
+    # What repeats has its positions over the window alone.
+    length = min(motion.stroke, case.grid.size[0] if case.contact.periodic else math.inf)
+    cells = _cells(case, length)
+    count = max(FEWEST, least_positions(length, min(SPARE * half_width, 2 * apart)))
     count = cells if NEARLY * cells < count <= MOST else count
     try:
         if count > MOST:
@@ -202,8 +204,12 @@ def _costly(model: Model, stroke: float) -> tuple[str, float] | None:
         except (CaseError, NumericalError):
             continue
         seen = half_width, *_ = track_average(coarse, state)
+        if not coarse.changing:
+            return None
+        if is_endless(coarse, half_width):
+            return _endless(model, stroke)
         excess = groove_excess(stroke, *seen)
-        if excess < WORTH or not average_matters(coarse, half_width):
+        if excess < WORTH:
             return None
         widths = f"{stroke / half_width:.2g}"
         words = (
@@ -212,3 +218,15 @@ def _costly(model: Model, stroke: float) -> tuple[str, float] | None:
         )
         return words, spacing_for(state.contact.pressure, WORTH) * coarse.grid.spacing[0]
     return None
+
+
+def _endless(model: Model, stroke: float) -> tuple[str, float] | None:
+    """Return the same for a contact that goes on into the next window: all of its cells count."""
+    window = model.grid.size[0]
+    if abs(stroke - window) <= WORTH * window:
+        return None
+    words = (
+        f"the contact goes on beyond the window of {1e3 * window:.3g} mm, and the average would "
+        f"spread what it wears there over the stroke of {1e3 * stroke:.3g} mm"
+    )
+    return words, 0.5 * model.grid.spacing[0]

@@ -129,7 +129,7 @@ def check_stroke(model: Model, state: State) -> None:
         passes = any(e.starts is not None for e in model.exposures.values())
         if not model.contact.periodic or not passes:
             model.motion.check_contact(half_width)
-        elif not _is_endless(model, half_width) and model.apart > model.grid.spacing[0]:
+        elif not is_endless(model, half_width) and model.apart > model.grid.spacing[0]:
             gaps = len(model.cycle) - 1
             check_spacing(gaps * model.apart, gaps + 1, half_width)
 
@@ -137,7 +137,7 @@ def check_stroke(model: Model, state: State) -> None:
 def limitation(model: Model, state: State) -> str | None:
     """Return why the motion does not hold for a contact that has ends, as in `state`, if so."""
     seen = half_width, *_ = track_average(model, state)
-    return None if _is_endless(model, half_width) else model.motion.limitation(*seen)
+    return None if is_endless(model, half_width) else model.motion.limitation(*seen)
 
 
 def track_average(model: Model, state: State) -> tuple[float, float, float, float]:
@@ -153,12 +153,7 @@ def track_average(model: Model, state: State) -> tuple[float, float, float, floa
     return half_width, max(depths, default=0.0), state.reference_depth, ratio
 
 
-def average_matters(model: Model, half_width: float) -> bool:
-    """Whether a swept body changes its shape, in a contact that has ends."""
-    return bool(model.changing) and not _is_endless(model, half_width)
-
-
-def _is_endless(model: Model, half_width: float) -> bool:
+def is_endless(model: Model, half_width: float) -> bool:
     """Whether the contact goes on into the next period of what repeats along x."""
     return model.contact.periodic and 2 * half_width > model.grid.size[0] * (1 - 1e-9)
 
