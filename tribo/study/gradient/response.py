@@ -100,8 +100,8 @@ def near(
     changes = [np.stack(each) for each in zip(*ends, strict=True)]
     found: dict[Offset, Arrays] = {}
     for offset in product(*(range(-far, far + 1) for far in reach)):
-        back = -offset[0], -offset[1]
-        by, source = np.roll(span, back, CELLS), np.roll(colours, back, CELLS).astype(int)
+        here = -offset[0], -offset[1]
+        by, source = np.roll(span, here, CELLS), np.roll(colours, here, CELLS).astype(int)
         by[by == 0] = np.inf
         found[offset[0], offset[1]] = [
             np.take_along_axis(change, source[None], 0)[0] / by for change in changes

@@ -29,8 +29,8 @@ IN_MEMORY = 1 << 26
 class Slid:
     """How a step slid: from a time (s) on, and by an increment (m; s of a rest), to a moment.
 
-    `before` is what laws and effects remembered, and `plan` how the step was divided for that;
-    `ahead` tells whether it wore under contacts that were solved before it.
+    `before` is what laws and effects remembered, and `plan` how the step was divided for that, and
+    is to be again; `ahead` tells whether it wore under contacts that were solved before it.
     """
 
     time: float
@@ -160,7 +160,8 @@ def _written(event: Event, model: Model, load: str, time: float) -> Record:
         worn = {name: event.before.worn[name] for name, law in model.laws.items() if law.bottoms}
         laws = {name: event.before.laws[name] for name in model.laws}
         before = Memory(laws, event.before.between if model.effects else {}, worn)
-        slid = Slid(event.time, event.increment, event.moment, before, event.plan, event.ahead)
+        plan = replace(event.plan, accuracy=np.inf)
+        slid = Slid(event.time, event.increment, event.moment, before, plan, event.ahead)
     contacts = event.contacts
     region = reduce(union, (bounds(contact.pressure > 0) for contact in contacts))
     yields = any(np.any(contact.overlap > 0) for contact in contacts)
