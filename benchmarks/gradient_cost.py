@@ -59,12 +59,16 @@ def cases(cells: int) -> dict[str, Case]:
     }
     motion = {"type": "reciprocating", "stroke": "2 mm", "frequency": 25, "duration": 200}
     power = {"type": "power", "k": 3.11e-16, "p_exponent": 1.5, "reference_pressure": "1 GPa"}
+    archard = {"type": "archard", "k": "3.11e-16 1/Pa"}
+    fresh = {"type": "running_in", "factor": 4, "over": "1 GPa m", "law": archard}
+    running_in = {n: {**dict(b), "wear": fresh} for n, b in base.bodies.items()}
     nonlinear = {n: {**dict(b), "wear": power} for n, b in base.bodies.items()}
     return {
         "half-space, average": base,
         "springs, average": case(cells, contact={"type": "winkler"}),
         "half-space, yielding": case(cells, bodies=bodies),
         "half-space, not linear in pressure": case(cells, bodies=nonlinear),
+        "half-space, running-in": case(cells, bodies=running_in),
         "half-space, 33 positions": case(cells, kinematics={**motion, "positions": 33}),
     }
 

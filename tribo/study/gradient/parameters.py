@@ -119,7 +119,7 @@ class Chain:
             laws = {
                 name: each.model.laws[name]
                 for name, through in each.wears.items()
-                if remembers or LAW in through or through & seen[name]
+                if through & {LAW, *seen[name]} or (remembers and SPEED in through)
             }
             wears = {name for name, through in each.wears.items() if SPEED in through} | set(laws)
             if not wears:
