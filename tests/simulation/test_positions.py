@@ -120,6 +120,22 @@ def test_a_contact_without_ends_is_averaged_over_its_own_period_only(stroke, cou
     assert mean == pytest.approx(K * load * distance / edge**2, rel=1e-9, abs=0)
 
 
+def test_a_stroke_beyond_the_window_passes_a_contact_that_repeats_more_than_once():
+    # It touches in the middle of the window alone, and each point meets it five times a stroke.
+    edge, load, distance = 0.4e-3, 5.0, 0.5
+    model = composed(
+        case(
+            grid=Grid((edge, edge), (32, 32)),
+            load=load,
+            contact=Periodic(),
+            bodies=[named("ball", sphere(), steel()), named("disk", flat(), steel(), archard())],
+            kinematics=motion(stroke="2 mm", duration=None, distance=distance, positions="auto"),
+        )
+    )
+    mean = np.mean(last(model).bodies["disk"].wear)
+    assert mean == pytest.approx(K * load * distance / edge**2, rel=1e-9, abs=0)
+
+
 def test_a_groove_too_shallow_to_matter_is_averaged():
     assert composed(left_open(distance="0.1 m")).case.kinematics.positions == "average"
 

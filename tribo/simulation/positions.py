@@ -206,8 +206,9 @@ def _costly(model: Model, stroke: float) -> tuple[str, float] | None:
         seen = half_width, *_ = track_average(coarse, state)
         if not coarse.changing:
             return None
-        if is_endless(coarse, half_width):
-            return _endless(model, stroke)
+        beyond = model.contact.periodic and stroke > (1 + WORTH) * model.grid.size[0]
+        if beyond or is_endless(coarse, half_width):
+            return _repeating(model, stroke)
         excess = groove_excess(stroke, *seen)
         if excess < WORTH:
             return None
@@ -220,13 +221,13 @@ def _costly(model: Model, stroke: float) -> tuple[str, float] | None:
     return None
 
 
-def _endless(model: Model, stroke: float) -> tuple[str, float] | None:
-    """Return the same for a contact that goes on into the next window: all of its cells count."""
+def _repeating(model: Model, stroke: float) -> tuple[str, float] | None:
+    """Return the same for a contact that meets those of the next windows: all cells count."""
     window = model.grid.size[0]
     if abs(stroke - window) <= WORTH * window:
         return None
     words = (
-        f"the contact goes on beyond the window of {1e3 * window:.3g} mm, and the average would "
-        f"spread what it wears there over the stroke of {1e3 * stroke:.3g} mm"
+        f"the contact repeats every {1e3 * window:.3g} mm, and the average would spread what it "
+        f"wears there over the stroke of {1e3 * stroke:.3g} mm"
     )
     return words, 0.5 * model.grid.spacing[0]
