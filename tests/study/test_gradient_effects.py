@@ -384,6 +384,7 @@ def test_each_term_counts(monkeypatch, kind, owner, method, change):
     ("changes", "message"),
     [
         ({"effects": [Mirrors()]}, "what 'mirrors' makes of a point follows points further than"),
+        ({"effects": [Heat(), Creeps()]}, "or points beside it and the load or the area too"),
     ],
 )
 def test_what_is_not_covered_is_refused(changes, message):

@@ -81,8 +81,8 @@ class Sloping(Asked):
             return slopes, reach
         who = ", ".join(repr(effect.component.type) for effect in self.model.effects)
         raise CaseError(
-            f"what {who} makes of a point follows points further than a few cells from it, "
-            "otherwise than by the load and the area, through which no gradient goes",
+            f"what {who} makes of a point follows points further than a few cells from it, or "
+            "points beside it and the load or the area too, through which no gradient goes",
             "effects",
         )
 
