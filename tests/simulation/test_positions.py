@@ -17,7 +17,7 @@ from tribo import (
     WearLaw,
 )
 from tribo.config.load import validate_case
-from tribo.simulation import positions
+from tribo.simulation import coarse, positions
 from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.positions import alike, chosen, composed
 from tribo.simulation.predict import predict
@@ -67,6 +67,21 @@ def test_the_positions_taken_are_enough_for_one_percent():
 
     assert groove("auto") == pytest.approx(groove(99), rel=0.01)
     assert groove("average") > 1.1 * groove(99)
+
+
+def test_a_coarse_run_that_fails_is_not_run_again_on_the_cells_of_the_case(monkeypatch):
+    # Without its unit a coefficient wears bodies away, which takes minutes to see on fine cells.
+    cells = []
+
+    def coarsened(case, count, margin):
+        cells.append(count)
+        return coarse.coarsened(case, count, margin)
+
+    monkeypatch.setattr(positions, "coarsened", coarsened)
+    bodies = [named("ball", sphere(), steel(), archard(1e-6)), named("disk", flat(), steel())]
+    model = composed(left_open().model_copy(update={"bodies": dict(bodies)}))
+    assert model.case.kinematics.positions == "average"
+    assert set(cells) == {positions.CELLS}
 
 
 def test_a_pin_whose_edge_is_too_sharp_for_coarse_cells_is_foreseen_on_its_own():

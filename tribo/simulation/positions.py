@@ -194,14 +194,20 @@ def _costly(model: Model, stroke: float) -> tuple[str, float] | None:
     With it the distance (m) at which positions serve the contact at the end.
     """
     margins = (1.0,) if model.may_reach_edge else MARGINS
-    # Where a shape is too fine for coarse cells, the case's own serve.
+    too_fine = True
     for cells, margin in [*((CELLS, each) for each in margins), (max(model.grid.cells), 1.0)]:
+        # Where a shape is too fine for coarse cells, the case's own serve.
+        if cells > CELLS and not too_fine:
+            break
         try:
             coarse = coarsened(model.case, cells, margin)
             state = begin(coarse)
             for accepted in islice(march(coarse, state), STEPS):
                 state = accepted.state
-        except (CaseError, NumericalError):
+        except CaseError:
+            continue
+        except NumericalError:
+            too_fine = False
             continue
         seen = half_width, *_ = track_average(coarse, state)
         if not coarse.changing:
