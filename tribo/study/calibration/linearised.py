@@ -160,8 +160,14 @@ class Linearised:
         weights = 1 / self.problem.sigma
         if repeatability > 0:
             scatter = repeatability**2 * self.problem.together(self.effects(point))
-            root = np.linalg.cholesky(np.diag(self.problem.sigma**2) + scatter)
-            weights = solve_triangular(root, np.eye(len(root)), lower=True)
+            covariance = np.diag(self.problem.sigma**2) + scatter
+            weights = np.zeros_like(covariance)
+            # Tests are independent; together, a map's many depths would take long.
+            for test in np.unique(self.problem.specimen):
+                same = np.flatnonzero(self.problem.specimen == test)
+                own = np.ix_(same, same)
+                root = np.linalg.cholesky(covariance[own])
+                weights[own] = solve_triangular(root, np.eye(len(root)), lower=True)
         return replace(self, weights=weights, repeatability=repeatability)
 
     def freedom(self, direction: Array) -> float:
