@@ -119,14 +119,17 @@ def estimates_table(found: Calibration) -> Table:
 
 def data_table(found: Calibration) -> Table:
     """Return what was measured, and how the fit meets it."""
-    names = [_name(each) for each in found.data.itertuples()]
+    data = list(found.brief.itertuples())
+    names = [_name(each) for each in data]
     table = _table("Measured", names, "value", "uncertainty", "computed", "residual")
-    for name, each in zip(names, found.data.itertuples(), strict=True):
+    for name, each in zip(names, data, strict=True):
         values = (each.measured, each.sigma, each.computed)
         shown = [in_words(each.quantity, value) for value in values]
         if each.below:
             shown[0] = f"< {shown[0]}"
-        table.add_row(name, *shown, signed(each.residual, 1))
+        is_map = each.depths > 1
+        residual = f"rms {each.residual:.1f}" if is_map else signed(each.residual, 1)
+        table.add_row(name, *shown, residual)
     return table
 
 
@@ -183,6 +186,8 @@ def _name(row: Any) -> str:
         text += f" at {row.time_s:g} s"
     if pd.notna(getattr(row, "position_m", None)):
         text += f" at {1e3 * row.position_m:g} mm"
+    if getattr(row, "depths", 1) > 1:
+        text += ", mean"
     return text
 
 

@@ -85,7 +85,7 @@ def calibration_page(found: Calibration, title: str) -> str:
         notes=found.notes,
         has_moments=False,
         curves_title="",
-        stills=stills({"fit, over what was measured": partial(fit_picture, found.data)}),
+        stills=stills({"fit, over what was measured": partial(fit_picture, found.brief)}),
         always=True,
         provenance=[("report made with", ", ".join(f"{k} {v}" for k, v in packages.items()))],
         citation=CITATION.format(version=packages.get("tribo", "")),

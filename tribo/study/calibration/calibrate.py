@@ -23,12 +23,14 @@ from tribo.study.calibration.measured import Measurements
 from tribo.study.calibration.notes import notes
 from tribo.study.calibration.parameters import Parameter
 from tribo.study.calibration.posed import Posed
-from tribo.study.calibration.quantities import QUANTITIES, in_si, plain
+from tribo.study.calibration.quantities import DEPTH_MAP, QUANTITIES, in_si, plain
 from tribo.study.calibration.sample import check_sampling, sampled
 
 DATA = ["test", "body", "quantity", "time_s", "position_m", "unit"]
 DATA += ["measured", "below", "sigma", "computed", "residual"]
 """Columns of a calibration's data."""
+PLACE = ["x_m", "y_m"]
+"""More of them, where a depth map is among the data."""
 AT_BOUND = 1e-6
 """Relative distance below which an estimate counts as on its bound."""
 ALIKE = 0.05
@@ -55,9 +57,10 @@ class Calibration:
     """
     data: pd.DataFrame
     """A row a measured value: `test`, empty for one of the case as it is; `body`, `quantity`,
-    `time_s`, `position_m` of a profile's point, `unit`, `measured`, `below` for a limit, `sigma`,
-    of the measurement, the grid, and from test to test, `computed`, and `residual`, computed less
-    measured in units of `sigma`; of a limit z of them above the computed value √(−2 ln Φ(z))."""
+    `time_s`, `position_m` of a profile's point, `x_m` and `y_m` of a part of a map, `unit`,
+    `measured`, `below` for a limit, `sigma`, of the measurement, the grid, and from test to test,
+    `computed`, and `residual`, computed less measured in units of `sigma`; of a limit z of them
+    above the computed value √(−2 ln Φ(z))."""
     predictions: pd.DataFrame
     """What else the fitted case gives at the end of each test, in the mean, where tests scatter:
     `test`, `body`, `quantity`, `unit`, `value`, `lower`, `upper`; 0 and infinite where it depends
@@ -87,6 +90,22 @@ class Calibration:
     def settings(self) -> dict[str, float]:
         """The estimates by path, as `tribo.config.overrides.apply_settings` takes them."""
         return {each.path: each.value for each in self.parameters.itertuples()}
+
+    @property
+    def brief(self) -> pd.DataFrame:
+        """The data, a depth map in one row.
+
+        That has the number of its `depths`, the mean of those measured and computed, and the root
+        mean squares of `sigma` and `residual`.
+        """
+        is_map = self.data["quantity"] == DEPTH_MAP
+        parts = [self.data[~is_map].assign(depths=1)]
+        keys = ["test", "body", "time_s"]
+        for _, rows in self.data[is_map].groupby(keys, dropna=False):
+            means = rows[["measured", "computed"]].mean()
+            squares = (rows[["sigma", "residual"]] ** 2).mean() ** 0.5
+            parts.append(rows[:1].assign(depths=len(rows), **means, **squares))
+        return pd.concat(parts).sort_index()
 
     @property
     def p_value(self) -> float | None:
@@ -241,7 +260,7 @@ def _outcome(fitted: Linearised, posed: Posed, level: float) -> Calibration:
         level=level,
         runs=posed.made,
         parameters=estimates,
-        data=data[DATA],
+        data=data[[*DATA, *(name for name in PLACE if name in data)]],
         predictions=predictions,
         chi_square=float(np.sum(fitted.residuals(fitted.point)[~problem.below] ** 2)),
         degrees_of_freedom=spare,

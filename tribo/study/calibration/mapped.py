@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
+import pandas as pd
 from scipy.stats import binned_statistic_2d
 
 from tribo.case import Case
@@ -16,11 +17,14 @@ from tribo.core.errors import CaseError, located
 from tribo.core.table import Table
 from tribo.core.units import Quantity
 from tribo.lab.heights import Heights, read_heights
+from tribo.simulation.model import Model
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.maps import FittedMaps, Prior, fit_maps
 from tribo.study.variation import unknown_body
 
 FINER = 1e-6
+MOST = 600
+"""Numbers that a map is averaged to where a few parameters are fitted to it."""
 
 
 class Mapped(Table):
@@ -59,13 +63,43 @@ def calibrate_maps(
             raise CaseError(f"{entry.body!r} has two maps; give one", place)
         if entry.body not in model.laws:
             raise CaseError(f"{entry.body!r} does not wear in this case", f"{place}.body")
-        shape = model.exposures[entry.body].rows, model.grid.cells[1]
-        with located(f"{place}.depth"):
-            pitch = None if entry.pitch is None else (entry.pitch, entry.pitch)
-            depth = on_cells(read_heights(entry.depth, pitch), shape, model.grid.spacing)
+        depth = read_depth(model, entry.body, entry.depth, entry.pitch, place)
         depths[entry.body] = depth, entry.uncertainty
         priors[entry.body] = Prior(entry.spread, entry.length)
     return fit_maps(model, depths, priors, on_run=on_run)
+
+
+def read_depth(model: Model, body: str, file: str, pitch: float | None, place: str) -> Array:
+    """Return a map's depth at the cells of a body's own surface, in m; NaN where missing."""
+    shape = model.exposures[body].rows, model.grid.cells[1]
+    with located(f"{place}.depth"):
+        heights = read_heights(file, None if pitch is None else (pitch, pitch))
+        return on_cells(heights, shape, model.grid.spacing)
+
+
+def in_blocks(depth: Array, spacing: tuple[float, float]) -> pd.DataFrame:
+    """Return the mean of a map over equal blocks of cells, 600 at most, a row each.
+
+    `measured` is the mean, `x_m` and `y_m` its place, and `cells` those that were measured, counted
+    row by row.
+    """
+    side = 1
+    while np.prod(-(-np.array(depth.shape) // side)) > MOST:
+        side += 1
+    (rows, ny), cells = depth.shape, np.arange(depth.size)
+    i, j = cells // ny, cells % ny
+    known = pd.DataFrame(
+        {
+            "measured": depth.ravel(),
+            "x_m": spacing[0] * (i - 0.5 * (rows - 1)),
+            "y_m": spacing[1] * (j - 0.5 * (ny - 1)),
+            "cells": cells,
+            "block": i // side * ny + j // side,
+        }
+    ).dropna()
+    blocks = known.groupby("block")
+    means = blocks[["measured", "x_m", "y_m"]].mean()
+    return means.assign(cells=blocks["cells"].agg(tuple)).reset_index(drop=True)
 
 
 def on_cells(heights: Heights, shape: tuple[int, int], spacing: tuple[float, float]) -> Array:

@@ -18,7 +18,7 @@ from tribo.core.explain import case_error
 from tribo.core.table import Table
 from tribo.core.units import Quantity
 from tribo.study.calibration.mapped import Mapped
-from tribo.study.calibration.quantities import PROFILES, QUANTITIES, in_words
+from tribo.study.calibration.quantities import DEPTH_MAP, PROFILES, QUANTITIES, in_words
 from tribo.study.sweeping.study_file import by_path
 
 
@@ -45,6 +45,7 @@ class Measured(Table):
         "section",
         "profile_along",
         "profile_across",
+        "depth_map",
     ]
     """What was measured; what a body lost, the diameters of its scar, its largest depth."""
     value: float | tuple[float, ...] | None = None
@@ -58,8 +59,11 @@ class Measured(Table):
     """The reading after it."""
     position: tuple[Annotated[float, Quantity("m")], ...] | None = None
     """Where a profile's depths were measured, from the centre of the contact."""
+    depth: str | None = None
+    pitch: Annotated[float, Quantity("m", above=0)] | None = None
+    """Of a depth map its file, instead of a value, and the distance between its pixels."""
     uncertainty: float | None = None
-    """Standard deviation; of a profile, that of each depth."""
+    """Standard deviation; of a profile, that of each depth, of a map that of a cell's."""
     resolution: float | None = None
     """Smallest step that the instrument shows."""
     time: Annotated[float, Quantity("s", above=0)] | None = None
@@ -85,6 +89,17 @@ class Measured(Table):
             return tuple(map(read, value)) if is_list else read(value)
         except CaseError as error:
             raise ValueError(str(error)) from None
+
+    @model_validator(mode="after")
+    def _has_its_file(self) -> Self:
+        if self.quantity != DEPTH_MAP:
+            if self.depth is not None or self.pitch is not None:
+                raise ValueError(f"{self.quantity} has no depth or pitch; those are of a depth_map")
+        elif self.depth is None:
+            raise ValueError("depth_map needs depth, the file of a height map")
+        elif {"value", "before", "after", "position"} & self.model_fields_set:
+            raise ValueError("depth_map has its numbers in the file depth; give no others")
+        return self
 
     @model_validator(mode="after")
     def _has_its_lists(self) -> Self:
@@ -137,13 +152,8 @@ class Measured(Table):
 
     @model_validator(mode="after")
     def _counts_downwards(self) -> Self:
-        mean = float(np.mean(self.values))
-        if mean < -_BEYOND_NOISE * self.sigma / np.sqrt(len(self.values)):
-            raise ValueError(
-                f"the depths are negative, {1e6 * mean:.3g} µm in the mean; depths count downwards "
-                "from the unworn surface, positive where it is worn: turn the sign round, or level "
-                "the profile"
-            )
+        if told := told_negative(self.values, self.sigma):
+            raise ValueError(told)
         return self
 
     @property
@@ -171,6 +181,8 @@ class Measured(Table):
             quantity=self.quantity,
             time_s=math.nan if self.time is None else self.time,
             position_m=self.position or math.nan,
+            cells=[()] * len(values),
+            entry=[self] * len(values),
             unit=QUANTITIES[self.quantity].unit,
             sigma=self.sigma,
             step=self.resolution or 0.0,
@@ -189,6 +201,17 @@ class Measured(Table):
     def sigma(self) -> float:
         """Standard deviation of each value, from uncertainty and resolution."""
         return float(np.hypot(self.uncertainty or 0.0, self.from_resolution[0]))
+
+
+def told_negative(depths: Array, sigma: float) -> str:
+    """Say that depths of such a standard deviation are negative in the mean; nothing if not."""
+    mean = float(np.mean(depths))
+    if not mean < -_BEYOND_NOISE * sigma / np.sqrt(len(depths)):
+        return ""
+    return (
+        f"the depths are negative, {1e6 * mean:.3g} µm in the mean; depths count downwards from "
+        "the unworn surface, positive where it is worn: turn the sign round, or level them"
+    )
 
 
 class Fitted(Table):
@@ -246,11 +269,11 @@ class Measurements(Table):
         return own | {f"test.{i}.": each for i, each in enumerate(told)}
 
     def table(self) -> pd.DataFrame:
-        """Return the measured numbers in SI, one row each.
+        """Return the measured numbers in SI, one row each; of a depth map one without a value.
 
         `place` is the entry in the file, `test` the name of its test, `of` the index of that in
-        `tests`, `specimen` that of the single test; `step_sigma` and `step_most` are the standard
-        deviation and the largest error due to the resolution, `step`.
+        `tests`, `specimen` that of the single test, `entry` the `Measured`; `step_sigma` and
+        `step_most` are the standard deviation and the largest error due to the resolution, `step`.
         """
         tables, specimens = [], 0
         for of, (place, test) in enumerate(self.tests.items()):

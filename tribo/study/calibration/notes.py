@@ -11,7 +11,7 @@ import pandas as pd
 from scipy.special import chdtrc
 
 from tribo.core.arrays import Array
-from tribo.study.calibration.quantities import in_si, in_words, percent
+from tribo.study.calibration.quantities import FIELDS, in_si, in_words, percent
 
 UNLIKELY = 0.01
 """Probability of so large a misfit below which data and model are said to disagree."""
@@ -109,8 +109,8 @@ def _on_misfit(data: pd.DataFrame, spare: int | None) -> Iterator[str]:
 
 
 def _on_patterns(data: pd.DataFrame) -> Iterator[str]:
-    """Name profiles whose residuals are alike from place to place, as noise is not."""
-    along = data[data["position_m"].notna()].sort_values("position_m")
+    """Name profiles and maps whose residuals are alike from place to place, as noise is not."""
+    along = data[data["quantity"].isin(FIELDS)].sort_values("position_m", kind="stable")
     for _, rows in along.groupby("place", sort=False):
         residuals = rows["residual"].to_numpy()
         alike = np.sum(residuals[1:] * residuals[:-1]) / np.sum(residuals**2)

@@ -22,17 +22,19 @@ from tribo.simulation.model import Model
 from tribo.simulation.positions import chosen
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.linearised import Problem
+from tribo.study.calibration.mapped import in_blocks, read_depth
 from tribo.study.calibration.measured import (
     Measured,
     Measurements,
     Tested,
     read_measurements,
+    told_negative,
 )
 from tribo.study.calibration.parameters import Parameter, check_set, find_parameters
 from tribo.study.calibration.quantities import (
     AXES,
     EDGES,
-    PROFILES,
+    FIELDS,
     QUANTITIES,
     Reading,
     read,
@@ -70,7 +72,10 @@ class Posed:
     tested: list[Bench]
     parameters: list[Parameter]
     data: pd.DataFrame
-    """As `Measurements.table` has it, with `bench`, and `edge`: the σ of a computed diameter."""
+    """As `Measurements.table` has it, with `bench`, and `edge`: the σ of a computed diameter.
+
+    A depth map has a row for each block of cells that it is averaged over, and these `x_m`, `y_m`.
+    """
     predicted: pd.DataFrame
     """What is read off at the end but was not measured: `bench`, `test` and `READ`."""
     repeatability: float | None
@@ -91,6 +96,7 @@ class Posed:
         base = validate_case(tables)
         data = asked.table()
         tested = _benches(tables, asked.tests, data)
+        data = _with_maps(data, tested)
         parameters = find_parameters(base, asked.fit, data["body"].unique())
         for place, test in asked.tests.items():
             check_set(parameters, test.set, f"{place}set")
@@ -135,7 +141,8 @@ class Posed:
             made = make_run(tables, self.parameters, values, wanted, name)
             responses[rows], read_off[rows] = made.responses, made.read_off
             notices |= dict.fromkeys(made.notices)
-        nothing = (responses <= 0)[: len(self.data)] & self.data["position_m"].isna().to_numpy()
+        positive = ~self.data["quantity"].isin(FIELDS).to_numpy()
+        nothing = positive & (responses <= 0)[: len(self.data)]
         for each in self.data[nothing].itertuples() if np.any(nothing) else ():
             raise CaseError(
                 f"the {each.quantity} of {each.body!r} comes out as 0 in the case; begin with more "
@@ -157,7 +164,7 @@ class Posed:
             below=data["below"].to_numpy(),
             specimen=data["specimen"].to_numpy(),
             repeatability=self.repeatability,
-            logged=np.append(~data["quantity"].isin(PROFILES), np.full(len(self.predicted), True)),
+            logged=np.append(~data["quantity"].isin(FIELDS), np.full(len(self.predicted), True)),
             lower=lower,
             upper=upper,
         )
@@ -192,6 +199,24 @@ def _benches(
     return [_bench(tables, alike[key], *each) for key, each in cases.items()]
 
 
+def _with_maps(data: pd.DataFrame, tested: Sequence[Bench]) -> pd.DataFrame:
+    """Return the data with the depths of each map, averaged over blocks of cells, in its place."""
+    parts = []
+    for place, rows in data.groupby("place", sort=False):
+        entry = rows["entry"].iloc[0]
+        if entry.depth is not None:
+            model = tested[rows["bench"].iloc[0]].model
+            depth = read_depth(model, entry.body, entry.depth, entry.pitch, place)
+            if told := told_negative(depth[np.isfinite(depth)], entry.sigma):
+                raise CaseError(told, f"{place}.depth")
+            blocks = in_blocks(depth, model.grid.spacing)
+            rows = rows.loc[rows.index.repeat(len(blocks))].reset_index(drop=True).assign(**blocks)
+            for error in ("sigma", "step_sigma"):
+                rows[error] /= rows["cells"].map(len) ** 0.5
+        parts.append(rows)
+    return pd.concat(parts, ignore_index=True)
+
+
 def _bench(tables: Mapping[str, Any], tests: Sequence[Tested], case: Case, model: Model) -> Bench:
     """Return the case of tests that are alike."""
     changed = apply_settings(tables, tests[0].set)
@@ -212,11 +237,11 @@ def _predicted(tested: Sequence[Bench], data: pd.DataFrame) -> pd.DataFrame:
     at_end = data[~(data["time_s"] < ends[data["bench"]] * (1 - 1e-12))]
     known = {*at_end[["bench", "body", "quantity"]].itertuples(index=False, name=None)}
     rows = [
-        (i, bench.name, body, quantity, math.nan, math.nan)
+        (i, bench.name, body, quantity, math.nan, math.nan, ())
         for i, bench in enumerate(tested)
         for body in bench.model.bodies
         for quantity in QUANTITIES
-        if quantity not in PROFILES
+        if quantity not in FIELDS
         and (i, body, quantity) not in known
         and not unavailable(bench.model, body, quantity)
     ]

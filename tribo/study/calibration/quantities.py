@@ -8,12 +8,14 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 import pandas as pd
 
+from tribo.core.arrays import Array
 from tribo.core.measures import between_cells
 from tribo.lab.conversion import mass_from_volume
 from tribo.lab.inferred import track_section
 from tribo.lab.scar import crown, diameter
 from tribo.result.body import BodyResult
 from tribo.result.export import profile
+from tribo.result.layout import TRACK
 from tribo.result.read import Result
 from tribo.simulation.model import Model
 
@@ -43,20 +45,28 @@ QUANTITIES = {
     "section": WornQuantity("m^2", "mm²", 1e6, "swept"),
     "profile_along": _DEPTH._replace(of="stationary"),
     "profile_across": _DEPTH,
+    "depth_map": _DEPTH,
 }
 """By the name in a file of measured values."""
 AXES = {"scar_along": 0, "scar_across": 1, "profile_along": 0, "profile_across": 1}
 PROFILES = ("profile_along", "profile_across")
 """The axis that a diameter or a profile follows; those are depths at several positions along it."""
+DEPTH_MAP = "depth_map"
+FIELDS = (*PROFILES, DEPTH_MAP)
+"""Quantities that are depths at many places, which may be 0, rather than one positive number."""
 
 
 class Reading(NamedTuple):
-    """One number to read off a run: a body and a quantity; when, if not at the end, and where."""
+    """One number to read off a run: a body and a quantity; when, if not at the end, and where.
+
+    Of a depth map it is the mean over `cells` of the body's own surface, counted row by row.
+    """
 
     body: str
     quantity: str
     time_s: float = math.nan
     position_m: float = math.nan
+    cells: tuple[int, ...] = ()
 
 
 def plain(found: Any) -> dict[str, Any]:
@@ -86,8 +96,12 @@ def percent(part: float) -> str:
 
 def read(result: Result, asked: Reading) -> tuple[float, float]:
     """Return the computed value, and its standard deviation due to the grid."""
-    body = result.body(asked.body)
     save = -1 if math.isnan(asked.time_s) else result.save_at(asked.time_s)
+    if asked.quantity == DEPTH_MAP:
+        # Of a track that is the same all along the result repeats the one row that it has.
+        own = _whole(result, asked.body, save).ravel()
+        return float(np.mean(own[list(asked.cells)])), DEPTHS * float(np.max(own))
+    body = result.body(asked.body)
     depth, spacing, name = body.wear_depth[save], result.grid.spacing, asked.quantity
     if name in ("scar_along", "scar_across"):
         axis = AXES[name]
@@ -106,6 +120,15 @@ def read(result: Result, asked: Reading) -> tuple[float, float]:
         return value, DEPTHS * float(np.max(depth))
     volume = float(result.table("saves")[f"bodies.{body.name}.wear_volume_m3"][save])
     return mass_from_volume(volume, body.density or 0.0) if name == "mass" else volume, 0.0
+
+
+def _whole(result: Result, body: str, save: int) -> Array:
+    """Return the depth on a body's own surface, longer than the window under a resolved stroke."""
+    if TRACK in dir(result):
+        track = result.field(TRACK, save, body)
+        if np.any(known := np.isfinite(track[:, 0])):
+            return track[known]
+    return result.field("wear_depth", save, body)
 
 
 def _crown(result: Result, body: BodyResult, save: int) -> tuple[float, float]:

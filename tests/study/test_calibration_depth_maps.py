@@ -1,0 +1,252 @@
+"""Numbers of a case are fitted to depth maps, beside and in the way of other measured values."""
+
+import copy
+import warnings
+
+import numpy as np
+import pytest
+from calibrations import cheap, kept_runs
+from rich.console import Console
+from scipy.stats import binom
+
+from tribo.cli.fitted import data_table
+from tribo.config.load import validate_case
+from tribo.config.overrides import apply_settings
+from tribo.core.errors import CaseError, TriboWarning
+from tribo.plotting.curves import fit_picture
+from tribo.simulation.run import Simulation
+from tribo.study.calibration.calibrate import calibrate
+from tribo.study.calibration.choice import choose_case
+from tribo.study.calibration.fit import differenced, fit, interval
+from tribo.study.calibration.mapped import in_blocks
+from tribo.study.calibration.plan import plan_tests
+from tribo.study.calibration.posed import Posed
+
+K, N = "bodies.ball.wear.k", "bodies.ball.wear.p_exponent"
+DISK_K = "bodies.disk.wear.k"
+ARCHARD = apply_settings(cheap(60), {"grid.cells": 16, K: 3e-16, DISK_K: 3e-16})
+POWER = apply_settings(
+    ARCHARD,
+    {"bodies.ball.wear": {"type": "power", "k": 3e-16, "reference_pressure": "1 GPa"}, N: 1.3},
+)
+TRUE = {K: 3e-16, N: 1.3}
+NOISE = 10e-9
+
+
+@pytest.fixture(scope="module", autouse=True)
+def runs_made_once():
+    with kept_runs():
+        yield
+
+
+def run(case, **changes):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", TriboWarning)
+        return Simulation(validate_case(apply_settings(case, changes))).run()
+
+
+@pytest.fixture(scope="module")
+def noisy(tmp_path_factory):
+    """Return an entry of a body's map, with noise, in a file; missing in a corner."""
+    folder, random = tmp_path_factory.mktemp("maps"), np.random.default_rng(3)
+
+    def entry(case, body="ball", field=None, **changes):
+        with run(case, **changes) as result:
+            depth = result.body(body).wear_depth[-1]
+            if field is not None:
+                depth = result.field(field, len(result.times) - 1, body)
+            pitch = result.grid.spacing[0]
+        depth = depth + NOISE * random.standard_normal(depth.shape)
+        depth[:3, :5] = np.nan
+        file = folder / f"{len(list(folder.iterdir()))}.npy"
+        np.save(file, depth)
+        map_of = {"body": body, "quantity": "depth_map", "depth": str(file), "pitch": pitch}
+        return map_of | {"uncertainty": NOISE}
+
+    return entry
+
+
+@pytest.fixture(scope="module")
+def two_loads(noisy):
+    """Maps of the ball, worn by the power law, of the case as it is and of half the load."""
+    light = {"load.normal": 50.0}
+    tests = [
+        {"name": "heavy", "measured": [noisy(POWER)]},
+        {"name": "light", "set": light, "measured": [noisy(POWER, **light)]},
+    ]
+    return {"test": tests, "fit": [{"path": K, "start": 5e-16}, {"path": N, "start": 1.1}]}
+
+
+@pytest.fixture(scope="module")
+def found(two_loads):
+    return calibrate(POWER, two_loads)
+
+
+@pytest.mark.slow
+def test_a_coefficient_and_an_exponent_are_found_from_maps_at_two_loads(found):
+    for each in found.parameters.itertuples():
+        assert each.lower < TRUE[each.path] < each.upper
+        assert each.value == pytest.approx(TRUE[each.path], rel=0.02, abs=0)
+    assert len(found.data) == 2 * (16 * 16 - 15)
+    assert found.p_value > 0.01
+    assert list(found.brief["test"]) == ["heavy", "light"]
+
+
+@pytest.mark.slow
+def test_a_map_is_one_row_of_the_table_and_of_the_picture(found, capsys):
+    Console(width=80).print(data_table(found))
+    text = capsys.readouterr().out
+    (row,) = (line.split() for line in text.splitlines() if "heavy" in line)
+    assert " ".join(row).startswith("heavy: ball, depth_map, mean 0.")
+    assert row[-2] == "rms"
+    assert float(row[-1]) == pytest.approx(1, abs=0.15)
+    (axes,) = fit_picture(found.brief).axes
+    assert len(axes.get_yticks()) == 2
+
+
+@pytest.mark.slow
+def test_another_law_is_noticed_and_not_chosen(two_loads, found):
+    """Archard's coefficient would be 20 % less at half the load, where pressures are less."""
+    choice = choose_case({"power": POWER, "archard": ARCHARD}, two_loads)
+    assert list(choice.cases["case"]) == ["power", "archard"]
+    wrong = choice.calibrations["archard"]
+    assert wrong.p_value < 1e-6
+    assert any("data and model disagree" in note for note in wrong.notes)
+    assert any("the depth_map of 'ball' follow a pattern" in note for note in wrong.notes)
+    assert not any("follow a pattern" in note for note in found.notes)
+
+
+@pytest.mark.slow
+def test_a_weighed_mass_goes_with_a_map(noisy):
+    """The map tells of the disk, the balance of the ball; together of the load between them."""
+    lost = 3e-16 * 100 * 6 * 7850
+    mass = {"body": "ball", "quantity": "mass", "value": lost, "uncertainty": 0.05 * lost}
+    fitted = [{"path": K, "start": 4e-16}, {"path": DISK_K, "start": 2e-16}]
+    found = calibrate(ARCHARD, {"measured": [mass, noisy(ARCHARD, "disk")], "fit": fitted})
+    ball, disk = found.parameters.itertuples()
+    assert ball.value == pytest.approx(3e-16, rel=0.05, abs=0)
+    assert disk.value == pytest.approx(3e-16, rel=0.05, abs=0)
+    assert (ball.upper - ball.lower) / ball.value == pytest.approx(2 * 1.96 * 0.05, rel=0.3)
+    # Every point of the track is the same, so that each line across it is a number.
+    assert len(found.data) == 1 + 16
+    assert list(found.brief["quantity"]) == ["mass", "depth_map"]
+
+
+@pytest.mark.slow
+def test_maps_of_tests_that_scatter_are_off_together(noisy):
+    entries = [noisy(ARCHARD, **{K: factor * 3e-16}) for factor in (0.85, 1.2, 0.95)]
+    tests = [{"measured": [entry]} for entry in entries]
+    found = calibrate(ARCHARD, {"test": tests, "fit": [{"path": K, "start": 4e-16}]})
+    assert found.repeatability == pytest.approx(np.std([0.85, 1.2, 0.95], ddof=1), rel=0.1)
+    (each,) = found.parameters.itertuples()
+    assert each.value == pytest.approx(3e-16, rel=0.02, abs=0)
+    assert each.upper / each.value > 1.3
+
+
+@pytest.mark.slow
+def test_a_map_of_the_whole_track_is_met_where_the_stroke_is_resolved(noisy):
+    """The disk's own surface, three windows long, to its ends; a map of the ball in mid-test."""
+    changes = {"kinematics.positions": 33, "kinematics.duration": 20}
+    resolved = apply_settings(ARCHARD, changes)
+    track = noisy(resolved, "disk", field="track_depth")
+    early = noisy(resolved, **{"kinematics.duration": 10}) | {"time": 10.0}
+    posed = Posed.of(resolved, {"measured": [track, early]})
+    computed = posed.run(posed.start).responses
+    off = (computed[: len(posed.data)] - posed.data["measured"]) / posed.problem(posed.start).sigma
+    for body, count in (("disk", 48 * 16 // 4), ("ball", 16 * 16 - 15)):
+        own = off[posed.data["body"] == body]
+        assert len(own) == count - (body == "disk") * 2
+        assert np.std(own) == pytest.approx(1, abs=0.15)
+    assert posed.data["x_m"].max() == pytest.approx(1.5e-3, abs=0.1e-3)
+
+
+@pytest.mark.slow
+def test_intervals_cover_the_coefficient_as_often_as_they_say(tmp_path):
+    """Linear about the truth, with noise on each cell, of which numbers are means of four."""
+    case = apply_settings(ARCHARD, {"grid.cells": 32, "stepping.depth_tolerance": 0.1})
+    with run(case) as result:
+        clean, spacing = result.body("ball").wear_depth[-1].copy(), result.grid.spacing
+    clean[:, 20:23] = np.nan
+    noise = 100e-9
+    np.save(tmp_path / "clean.npy", clean)
+    entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "clean.npy")}
+    entry |= {"pitch": spacing[0], "uncertainty": noise}
+    posed = Posed.of(case, {"measured": [entry], "fit": [{"path": K}, {"path": DISK_K}]})
+    truth = np.log(posed.start)
+    problem = posed.problem(posed.start)
+    assert problem.sigma.min() == pytest.approx(noise / 2, rel=0.02)
+    made = lambda values: posed.run(values).responses  # noqa: E731
+    here = differenced(made, problem, truth, made(posed.start))
+    random, draws, covered, squares = np.random.default_rng(5), 60, np.zeros(2, int), []
+    for _ in range(draws):
+        noisy_map = clean + noise * random.standard_normal(clean.shape)
+        observed = in_blocks(noisy_map, spacing)["measured"].to_numpy()
+        drawn = problem.__class__(**{**vars(problem), "observed": observed})
+        found = fit(lambda values: here.at(np.log(values)), drawn, posed.start)
+        for i in range(2):
+            low, high = interval(found, np.eye(2)[i], 0.95)
+            covered[i] += low <= truth[i] - found.point[i] <= high
+        squares.append(np.mean(found.residuals(found.point) ** 2))
+    low, high = binom.ppf([0.002, 0.998], draws, 0.95)
+    assert np.all((covered >= low) & (covered <= high)), covered
+    assert np.mean(squares) == pytest.approx(1, abs=0.05)
+
+
+def test_blocks_leave_out_what_was_not_measured():
+    depth = np.arange(50.0 * 50).reshape(50, 50)
+    depth[:3, :2] = np.nan
+    depth[0, 4] = np.nan
+    blocks = in_blocks(depth, (2e-6, 1e-6))
+    # Three by three, the last ones two wide.
+    assert len(blocks) == 17 * 17
+    assert blocks["cells"][0] == (2, 52, 102)
+    assert blocks["measured"][0] == pytest.approx(np.mean([2, 52, 102]))
+    assert len(blocks["cells"][1]) == 8
+    assert blocks[["x_m", "y_m"]].iloc[-1].to_list() == pytest.approx([48e-6, 24e-6])
+    assert sum(map(len, blocks["cells"])) == np.isfinite(depth).sum()
+    assert len(in_blocks(depth[:1], (2e-6, 1e-6))) == 47
+
+
+@pytest.mark.slow
+def test_a_map_as_one_has_it_can_be_planned_with(two_loads):
+    plan = plan_tests(POWER, {**two_loads, "repeatability": 0.0}, 0.1)
+    assert plan.tests["count"].sum() >= 1
+
+
+@pytest.mark.parametrize(
+    ("changes", "place", "words"),
+    [
+        ({"depth": "no.npy"}, ".0.depth", "no.npy"),
+        ({"depth": None}, ".0", "depth_map needs depth, the file of a height map"),
+        ({"pitch": None}, ".0.depth", "give the distance between pixels"),
+        ({"pitch": "0.1 mm"}, ".0.depth", "larger than cells"),
+        ({"depth": "beside.npy"}, ".0.depth", "does not lie on the window"),
+        ({"depth": "upwards.npy"}, ".0.depth", "turn the sign round"),
+        ({"depth": "missing.npy"}, ".0.depth", "every height of the map is missing"),
+        ({"value": "1 um"}, ".0", "has its numbers in the file"),
+        ({"uncertainty": None}, ".0", "say how well it was measured"),
+        ({"uncertainty": "1 mg"}, ".0.uncertainty", "a length [m] is needed"),
+        ({"quantity": "crown", "value": "1 um"}, ".0", "crown has no depth or pitch"),
+        ({"body": "bal"}, ".0.body", "did you mean 'ball'?"),
+        ({"body": "disk"}, ".0.quantity", "does not wear in this case"),
+        ({"time": "2 h"}, ".0.time", "is not reached"),
+    ],
+)
+def test_a_wrong_map_is_told(changes, place, words, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    worn = np.full((16, 16), 1e-6)
+    beside = np.full((80, 80), np.nan)
+    beside[0, 0] = 1e-6
+    files = {"good": worn, "beside": beside, "upwards": -worn, "missing": np.nan * worn}
+    for name, depth in files.items():
+        np.save(f"{name}.npy", depth)
+    entry = {"body": "ball", "quantity": "depth_map", "depth": "good.npy", "pitch": "50 um"}
+    entry = {**entry, "uncertainty": "10 nm", **changes}
+    entry = {key: value for key, value in entry.items() if value is not None}
+    case = copy.deepcopy(ARCHARD)
+    del case["bodies"]["disk"]["wear"]
+    with pytest.raises(CaseError) as caught:
+        calibrate(case, {"measured": [entry], "fit": [{"path": K}]})
+    assert str(caught.value).startswith(f"measured{place}: ")
+    assert words in str(caught.value)
+    assert len(str(caught.value).splitlines()) == 1
