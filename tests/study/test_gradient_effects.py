@@ -391,3 +391,16 @@ def test_what_is_not_covered_is_refused(changes, message):
     bodies = pair(Softens(k=K), archard())
     with pytest.raises(CaseError, match=message):
         gradient(run(bodies=bodies, stepping=LONG, **changes), Volume("ball"), [])
+
+
+def test_the_load_and_the_area_are_told_apart_where_pressures_are_nearly_even():
+    random = np.random.default_rng(1)
+    pressure = 1e8 * (1 + 2e-3 * random.uniform(-1, 1, (1, 8, 8)))
+
+    def rates(p):
+        return [np.sum(p) * np.sqrt(np.sum(p**2)) * np.ones_like(p)]
+
+    by = 1e-5 * pressure * random.uniform(-1, 1, pressure.shape)
+    ((higher,), (lower,)) = rates(pressure + by), rates(pressure - by)
+    (found,) = response.shared(rates, pressure)
+    np.testing.assert_allclose(found.change(pressure, 2 * by), higher - lower, rtol=1e-5)

@@ -209,13 +209,17 @@ def _inverse(one: Array, other: Array) -> Array:
     """Return the inverse of [[1, 1], [one, other]] at each position."""
     ones = np.ones_like(one)
     matrix = np.moveaxis(np.array([[ones, ones], [one, other]]), -1, 0)
-    return np.linalg.pinv(matrix, rcond=1e-6)
+    return np.linalg.pinv(matrix, rcond=1e-9)
 
 
-def agrees(expected: Arrays, found: Arrays, rates: Arrays) -> bool:
-    """Whether rates, in a change of all at once, change as by their parts."""
+def agrees(parts: Sequence[Arrays], found: Arrays, rates: Arrays) -> bool:
+    """Whether rates, in a change of all at once, change by the sum of what they do by each part.
+
+    The parts, as of pressures and of a state, may all but cancel.
+    """
     return all(
-        np.max(np.abs(one - other))
-        <= AGREES * np.max(np.abs(other)) + 1e-8 * NUDGE * np.max(np.abs(rate))
-        for one, other, rate in zip(expected, found, rates, strict=True)
+        np.max(np.abs(sum(changes) - other))
+        <= AGREES * max(np.max(np.abs(each)) for each in (other, *changes))
+        + 1e-8 * NUDGE * np.max(np.abs(rate))
+        for *changes, other, rate in zip(*parts, found, rates, strict=True)
     )

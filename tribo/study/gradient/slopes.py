@@ -296,10 +296,9 @@ class Sloping(Asked):
             self.rates(end, place, self.told(place, self.pressure + sign * by))
             for end, sign in zip(ends, (1, -1), strict=True)
         )
-        expected = [each.change(self.pressure, 2 * by) for each in slopes.by_pressure]
+        parts = [[each.change(self.pressure, 2 * by) for each in slopes.by_pressure]]
         for kept, responses, up, down in zip(self.kept, slopes.by_state, *ends, strict=True):
             span = kept.seen(up - down, self.window)
-            pairs = zip(expected, responses, strict=True)
-            expected = [total + each.change(span, span) for total, each in pairs]
+            parts.append([each.change(span, span) for each in responses])
         found = [up - down for up, down in zip(higher, lower, strict=True)]
-        return agrees(expected, found, slopes.found)
+        return agrees(parts, found, slopes.found)
