@@ -212,7 +212,8 @@ def fit_picture(data: pd.DataFrame) -> Figure:
 def _measured_name(row: dict[str, Any]) -> str:
     """Return which test, body and quantity a measured value is of, when and where."""
     test = row.get("test")
-    time, place = (float(row.get(key) or np.nan) for key in ("time_s", "position_m"))
+    given = (row.get(key) for key in ("time_s", "position_m"))
+    time, place = (np.nan if value is None else float(value) for value in given)
     words = f"{row['body']}: {str(row['quantity']).replace('_', ' ')}"
     return (
         (f"{test}, " if test else "")
