@@ -308,7 +308,10 @@ def _varied(
         )
     ratio = _symbol(model) / _symbol(base)
     if np.ptp(ratio) > 1e-9 * float(np.max(ratio)):
-        raise CaseError("it changes the shape of the displacement under a pressure")
+        raise CaseError(
+            "it changes how far around a pressure the surface gives way, as the elasticity of a "
+            "layer does"
+        )
     if len(Stops.of(model).times) != len(Stops.of(base).times):
         raise CaseError("it changes how many stops the run makes")
     return model
