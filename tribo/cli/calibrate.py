@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import shlex
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -18,7 +18,7 @@ from tribo.cli.options import JSON, PATH, SET, echo_json
 from tribo.config.load import read_toml
 from tribo.config.overrides import apply_settings
 from tribo.config.write import to_toml
-from tribo.core.errors import CaseError, TriboError
+from tribo.core.errors import CaseError, Interrupted, TriboError
 from tribo.core.files import check_folder, write_whole
 from tribo.study.calibration.calibrate import Calibration
 from tribo.study.calibration.calibrate import calibrate as fit_numbers
@@ -123,15 +123,17 @@ def _numbers(
 ) -> None:
     """Fit numbers, and give what was found, also if sampling is stopped afterwards."""
     unsampled: list[Calibration] = []
-    told = _Told(asked, sample)
+    told = _Told(asked, sample, unsampled)
     try:
         found = fit_numbers(
             tables, asked, level=level, sample=sample, on_fit=unsampled.append, on_run=told
         )
-    except (TriboError, KeyboardInterrupt):
+    except (TriboError, KeyboardInterrupt) as error:
         for fit in unsampled:
             note = "sampling was interrupted, so that the intervals are not checked by it"
             give(replace(fit, notes=(*fit.notes, note)))
+            if isinstance(error, Interrupted | KeyboardInterrupt):
+                raise Interrupted("stopped while sampling; the fit is as printed") from error
         raise
     give(found)
 
@@ -228,16 +230,18 @@ def _tell(what: str, run: int, misfit: float = math.nan, left: float = 0.0) -> N
 class _Told:
     """Tell of runs, and how long those that are needed at least will take."""
 
-    def __init__(self, asked: Measurements, sample: int) -> None:
+    def __init__(self, asked: Measurements, sample: int, unsampled: Sequence[Calibration]) -> None:
         tests = asked.tests.values()
         measured = {entry.body for test in tests for entry in test.measured}
         self._fewest = len({repr(test.set) for test in tests}) * (
             2 + (len(asked.fit) or len(measured)) + sample
         )
         self._began, self._pause, self._last = time.monotonic(), bool(sample), -math.inf
+        self._unsampled = unsampled
 
     def __call__(self, run: int, misfit: float) -> None:
         if self._pause and time.monotonic() - self._last < PAUSE:
             return
         self._last = time.monotonic()
-        _tell("run", run, misfit, (self._fewest - run) * (self._last - self._began) / run)
+        what = "sampling, run" if self._unsampled else "run"
+        _tell(what, run, misfit, (self._fewest - run) * (self._last - self._began) / run)
