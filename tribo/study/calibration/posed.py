@@ -37,7 +37,7 @@ from tribo.study.calibration.quantities import (
     FIELDS,
     QUANTITIES,
     Reading,
-    read,
+    read_all,
     unavailable,
 )
 from tribo.study.variation import unknown_body, valid_case
@@ -271,8 +271,7 @@ def make_run(
             named = ", ".join(f"{path} = {value:.4g}" for path, value in settings.items())
             raise type(error)(f"{name}, with {named}: {error}") from error
     with result:
-        given, blurred = np.array([read(result, each) for each in wanted]).T
-        return Run(given, blurred, result.notices)
+        return Run(*read_all(result, wanted), result.notices)
 
 
 def _check_entry(model: Model, entry: Measured, place: str) -> None:

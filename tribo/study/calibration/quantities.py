@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from functools import cache, partial
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -94,14 +96,23 @@ def percent(part: float) -> str:
     return f"{100 * part:.0f}" if part >= 0.095 else f"{100 * part:.1f}"
 
 
+def read_all(result: Result, asked: Sequence[Reading]) -> tuple[Array, Array]:
+    """Return the computed values, and their standard deviations due to the grid."""
+    # A map is read once for all of its blocks.
+    whole = cache(partial(_whole, result))
+    found = [
+        _of_block(*whole(each.body, _save(result, each)), each.cells)
+        if each.quantity == DEPTH_MAP
+        else read(result, each)
+        for each in asked
+    ]
+    values, errors = np.array(found).T
+    return values, errors
+
+
 def read(result: Result, asked: Reading) -> tuple[float, float]:
-    """Return the computed value, and its standard deviation due to the grid."""
-    save = -1 if math.isnan(asked.time_s) else result.save_at(asked.time_s)
-    if asked.quantity == DEPTH_MAP:
-        # Of a track that is the same all along the result repeats the one row that it has.
-        own = _whole(result, asked.body, save).ravel()
-        return float(np.mean(own[list(asked.cells)])), DEPTHS * float(np.max(own))
-    body = result.body(asked.body)
+    """Return the computed value, and its standard deviation due to the grid; no depth map's."""
+    save, body = _save(result, asked), result.body(asked.body)
     depth, spacing, name = body.wear_depth[save], result.grid.spacing, asked.quantity
     if name in ("scar_along", "scar_across"):
         axis = AXES[name]
@@ -122,13 +133,26 @@ def read(result: Result, asked: Reading) -> tuple[float, float]:
     return mass_from_volume(volume, body.density or 0.0) if name == "mass" else volume, 0.0
 
 
-def _whole(result: Result, body: str, save: int) -> Array:
-    """Return the depth on a body's own surface, longer than the window under a resolved stroke."""
+def _of_block(depth: Array, largest: float, cells: tuple[int, ...]) -> tuple[float, float]:
+    return float(np.mean(depth[list(cells)])), DEPTHS * largest
+
+
+def _save(result: Result, asked: Reading) -> int:
+    return -1 if math.isnan(asked.time_s) else result.save_at(asked.time_s)
+
+
+def _whole(result: Result, body: str, save: int) -> tuple[Array, float]:
+    """Return the depth on a body's own surface, row by row, and the largest.
+
+    The surface is longer than the window under a resolved stroke. Of a track that is the same all
+    along the result repeats the one row that it has.
+    """
+    depth = result.field("wear_depth", save, body)
     if TRACK in dir(result):
         track = result.field(TRACK, save, body)
         if np.any(known := np.isfinite(track[:, 0])):
-            return track[known]
-    return result.field("wear_depth", save, body)
+            depth = track[known]
+    return depth.ravel(), float(np.max(depth))
 
 
 def _crown(result: Result, body: BodyResult, save: int) -> tuple[float, float]:
