@@ -117,13 +117,11 @@ class Load(Table):
         return along
 
     def shares_at(self, places: Array, reach: float) -> tuple[float, ...]:
-        """Return the load at `places` along the stroke, as multiples of `normal`.
+        """Return a load that changes along the stroke, at `places`, as multiples of `normal`.
 
         A place, in m from the middle, may lie `reach` (m) beyond those given; `CaseError` if one
         lies further off.
         """
-        if not self.along:
-            return (1.0,) * len(places)
         if len(places) == 1:
             raise CaseError(
                 "the load can change along the stroke only where the motion is resolved; give "

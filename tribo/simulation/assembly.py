@@ -67,13 +67,16 @@ def assemble(case: Case) -> Model:
                 _check_ring(surfaces[name], exposure, case.kinematics.lap, grid)
         if body.wear is not None:
             laws[name] = _law(body, name, grid, exposure)
-    if case.load.along and case.contact.periodic:
-        raise CaseError(
-            f"contact.type = {case.contact.type!r} repeats with the window, so that it is at many "
-            "places of the stroke at once; leave it out, or take a contact that does not repeat",
-            "load.along",
-        )
-    shares = case.load.shares_at(_places(grid, len(cycle), exposures), grid.spacing[0])
+    shares = (1.0,) * len(cycle)
+    if case.load.along:
+        if case.contact.periodic:
+            raise CaseError(
+                f"contact.type = {case.contact.type!r} repeats with the window, so that it is at "
+                "many places of the stroke at once; leave it out, or take a contact that does not "
+                "repeat",
+                "load.along",
+            )
+        shares = case.load.shares_at(_places(grid, len(cycle), exposures), grid.spacing[0])
     loads = Loads(case.load.pieces, shares, tuple(position.share for position in cycle))
     known = [each.curvature for each in surfaces.values() if each.curvature is not None]
     system = ContactSystem(
@@ -145,7 +148,10 @@ def _plastic(
         name: tuple(material.hardness or np.inf for material in body.materials())
         for name, body in bodies.items()
     }
-    if not contact.plasticity or not np.isfinite([min(each) for each in found.values()]).any():
+    # Below layers without a hardness another may be the first that limits.
+    softest = map(min, zip_longest(*found.values(), fillvalue=np.inf))
+    cap = next(filter(np.isfinite, softest), None)
+    if cap is None or not contact.plasticity:
         return None, dict.fromkeys(bodies, 0.0), {}
     if not contact.honours_cap:
         raise CaseError(
@@ -161,13 +167,10 @@ def _plastic(
             "'dcfft' or 'periodic'",
             f"bodies.{changing[0]}.layers",
         )
-    # Below layers without a hardness another may be the first that limits.
-    depths = zip_longest(*found.values(), fillvalue=np.inf)
-    cap = next(each for each in map(min, depths) if np.isfinite(each))
     if changing:
         return cap, {name: float(np.isfinite(min(each))) for name, each in found.items()}, found
     soft = [name for name, each in found.items() if each[0] == cap]
-    return cap, {name: (1 / len(soft) if name in soft else 0.0) for name in bodies}, {}
+    return cap, {name: (name in soft) / len(soft) for name in bodies}, {}
 
 
 def _law(body: Body, name: str, grid: Grid, exposure: Exposure) -> GuardedLaw:
