@@ -75,32 +75,29 @@ def attributes(run: RunInfo) -> dict[str, Any]:
     return {name: value for name, value in values.items() if value is not None}
 
 
-def _fixed() -> dict[str, Variable]:
-    table = {
-        "x": Variable(("x",), "m", "Position along the sliding direction"),
-        "y": Variable(("y",), "m", "Position across the sliding direction"),
-        "step": Variable(("step",), "1", "Number of the step"),
-        "swept": Variable(("body",), "1", "Whether its points pass through the contact"),
-        "density": Variable(("body",), "kg/m^3", "Density"),
-        "height": Variable(("body", "x", "y"), "m", "Initial height, outward"),
-        "pressure": Variable(_ON_WINDOW, "Pa", "Contact pressure"),
-        "wear_depth": Variable(_ON_BODY, "m", "Depth worn away"),
-        "plastic_depth": Variable(_ON_BODY, "m", "Permanent displacement"),
-        "track_x": Variable(("track_x",), "m", "Position along the track"),
-        TRACK: Variable(_ON_TRACK, "m", "Depth worn away along the whole track"),
-        TRACK_PLASTIC: Variable(_ON_TRACK, "m", "Permanent displacement along the whole track"),
-    }
-    for prefix, dim in (("", "time"), ("history_", "step")):
-        for column in COLUMNS:
-            table[prefix + column.name] = Variable((dim,), column.unit, column.description)
-        for part in BODY_COLUMNS:
-            table[prefix + part.name] = Variable((dim, "body"), part.unit, part.description)
-    for part in ROUGHNESS_COLUMNS:
-        table["history_" + part.name] = Variable(("step", "body"), part.unit, part.description)
-    return table
-
-
-FIXED = _fixed()
+FIXED = {
+    "x": Variable(("x",), "m", "Position along the sliding direction"),
+    "y": Variable(("y",), "m", "Position across the sliding direction"),
+    "step": Variable(("step",), "1", "Number of the step"),
+    "swept": Variable(("body",), "1", "Whether its points pass through the contact"),
+    "density": Variable(("body",), "kg/m^3", "Density"),
+    "height": Variable(("body", "x", "y"), "m", "Initial height, outward"),
+    "pressure": Variable(_ON_WINDOW, "Pa", "Contact pressure"),
+    "wear_depth": Variable(_ON_BODY, "m", "Depth worn away"),
+    "plastic_depth": Variable(_ON_BODY, "m", "Permanent displacement"),
+    "track_x": Variable(("track_x",), "m", "Position along the track"),
+    TRACK: Variable(_ON_TRACK, "m", "Depth worn away along the whole track"),
+    TRACK_PLASTIC: Variable(_ON_TRACK, "m", "Permanent displacement along the whole track"),
+} | {
+    prefix + column.name: Variable(dims, column.unit, column.description)
+    for prefix, dims, columns in (
+        ("", ("time",), COLUMNS),
+        ("", ("time", "body"), BODY_COLUMNS),
+        ("history_", ("step",), COLUMNS),
+        ("history_", ("step", "body"), BODY_COLUMNS + ROUGHNESS_COLUMNS),
+    )
+    for column in columns
+}
 """What every result has by name, but for those of a track, and no fields of models."""
 ROUGHNESS = tuple(f"history_{part.name}" for part in ROUGHNESS_COLUMNS)
 """The variables of `FIXED` that a result has only where a body is rough."""
@@ -117,8 +114,9 @@ def variables(run: RunInfo) -> dict[str, Variable]:
     values = {
         "x": grid.x,
         "y": grid.y,
-        "swept": np.array([float(body.swept) for body in bodies]),
-        "density": np.array([np.nan if b.density is None else b.density for b in bodies]),
+        "swept": np.array([body.swept for body in bodies], dtype=float),
+        # NaN where there is none.
+        "density": np.array([body.density for body in bodies], dtype=float),
         "height": np.stack([body.height for body in bodies]),
         "track_x": np.asarray((np.arange(rows) - 0.5 * (rows - 1)) * grid.spacing[0]),
     }
