@@ -65,31 +65,28 @@ def explained(
     """
     fields = {field.alias or name: field for name, field in model.model_fields.items()}
     allowed = ["type", *fields] if hasattr(model, "type") and "type" not in fields else [*fields]
-    lines, missing, meant = [], [], set()
+    lines, missing, meant = [], {}, set()
     for details in error.errors():
-        kind, loc = details["type"], _keys_of(details, data)
+        kind, loc, given = details["type"], _keys_of(details, data), details["input"]
         if kind == "extra_forbidden" and len(details["loc"]) == 1:
-            kind, loc = UNKNOWN, details["loc"]
-            text, like = _unknown(loc[0], allowed, data)
+            text, like = _unknown(details["loc"][0], allowed, data)
             meant.add(like)
+            lines.append(_line(details["loc"], text, given, UNKNOWN))
         elif kind == "missing" and len(loc) == 1:
-            missing.append((str(loc[0]), details["input"]))
-            continue
+            missing[str(loc[0])] = given
         elif kind == "union_tag_not_found":
             models = get_args(fields[str(loc[0])].annotation)
-            names = [m.model_fields["type"].default for m in models]
-            loc, text = (*loc, "type"), f"type is missing; allowed: {', '.join(names)}"
+            names = ", ".join(model.model_fields["type"].default for model in models)
+            lines.append(_line((*loc, "type"), f"type is missing; allowed: {names}", given))
         else:
             loc = (*loc, "type") if kind == "union_tag_invalid" else loc
-            text = message(details)
-        lines.append(_line(loc, text, details["input"], UNKNOWN if kind == UNKNOWN else TOLD))
-    for key, given in missing:
-        # A key that is misspelt is one mistake, not an unknown key and a missing one.
-        if key not in meant:
-            marks = parts(fields[key])
-            # A pair has the same hint twice.
-            hints = dict.fromkeys(mark.hint(info) for mark in marks if hasattr(mark, "hint"))
-            lines.append(_line((key,), "; ".join(["missing", *hints]), given))
+            # Those of tables inside are told already.
+            lines.append(_line(loc, message(details), given, UNKNOWN if kind == UNKNOWN else TOLD))
+    # A key that is misspelt is one mistake, not an unknown key and a missing one.
+    for key in [key for key in missing if key not in meant]:
+        # A pair has the same hint twice.
+        hints = dict.fromkeys(m.hint(info) for m in parts(fields[key]) if hasattr(m, "hint"))
+        lines.append(_line((key,), "; ".join(["missing", *hints]), missing[key]))
     return ValidationError.from_exception_data(error.title, lines)
 
 
