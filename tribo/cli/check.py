@@ -108,7 +108,21 @@ def _widths(hertz: HertzContact) -> str:
 
 def _facts(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
     """Yield the first contact, the end and the size of the run, each with its name."""
-    hertz, first, last = prediction.hertz, prediction.first, prediction.last
+    yield from _first_contact(model, prediction)
+    if model.chosen is not None or prediction.positions > 1:
+        yield "positions", model.chosen or f"the cycle is resolved at {prediction.positions}"
+        if prediction.positions_for_1_percent is not None:
+            yield "positions for 1 % of the depth, about", f"{prediction.positions_for_1_percent}"
+    yield from _end(model, prediction)
+    if prediction.run_time is not None:
+        soonest, latest = prediction.run_time / SPREAD, prediction.run_time * SPREAD
+        yield "run time here, about", f"{readable(soonest, '.2g')} to {readable(latest, '.2g')} s"
+    yield "memory, at most", f"{readable(prediction.memory / 2**20, '.0f')} MiB"
+    yield "result file, at most", f"{prediction.file_size / 2**20:.1f} MiB"
+
+
+def _first_contact(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
+    hertz, first = prediction.hertz, prediction.first
     low, high = model.loads.least, model.loads.largest
     if low < high:
         yield "load", f"{first.load:.4g} N at first, {low:.4g} to {high:.4g} N in all"
@@ -137,30 +151,24 @@ def _facts(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
             yield "yield", yield_words(pressure, hardness, line=hertz.is_line)
         across = [f"{n:.0f}" for n in prediction.cells_across if math.isfinite(n)]
         yield "cells across the contact", " × ".join(across)
-    if model.chosen is not None or prediction.positions > 1:
-        yield "positions", model.chosen or f"the cycle is resolved at {prediction.positions}"
-        if prediction.positions_for_1_percent is not None:
-            yield "positions for 1 % of the depth, about", f"{prediction.positions_for_1_percent}"
+
+
+def _end(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
+    last = prediction.last
     if last is None:
         yield "final scar", "not estimated"
-    else:
-        widths = (2e3 * last.half_width_x, 2e3 * last.half_width_y)
-        size = " × ".join(readable(width, ".2f") for width in widths)
-        yield "contact at the end, about", f"{size} mm"
-        window = " × ".join(f"{1e3 * edge:.4g}" for edge in model.grid.size)
-        holds = "holds it" if prediction.window_holds else "TOO SMALL"
-        yield f"window of {window} mm", holds
-        for name, body in last.bodies.items():
-            worn = f"{1e6 * body.max_wear_depth:.3g} µm, {1e9 * body.wear_volume:.3g} mm³"
-            yield f"wear of {name}, about", worn
-        for passed in prediction.worn_through:
-            path, end = (readable(passed[key], ".3g") for key in ("distance_m", "time_s"))
-            when = f"{path} m, {end} s"
-            yield f"layer {passed['layer']} of {passed['body']} worn through, about", when
-        if any(body.layers for body in model.case.bodies.values()) and not prediction.worn_through:
-            yield "layers", "none is worn through"
-    if prediction.run_time is not None:
-        soonest, latest = prediction.run_time / SPREAD, prediction.run_time * SPREAD
-        yield "run time here, about", f"{readable(soonest, '.2g')} to {readable(latest, '.2g')} s"
-    yield "memory, at most", f"{readable(prediction.memory / 2**20, '.0f')} MiB"
-    yield "result file, at most", f"{prediction.file_size / 2**20:.1f} MiB"
+        return
+    widths = (2e3 * last.half_width_x, 2e3 * last.half_width_y)
+    size = " × ".join(readable(width, ".2f") for width in widths)
+    yield "contact at the end, about", f"{size} mm"
+    window = " × ".join(f"{1e3 * edge:.4g}" for edge in model.grid.size)
+    yield f"window of {window} mm", "holds it" if prediction.window_holds else "TOO SMALL"
+    for name, body in last.bodies.items():
+        worn = f"{1e6 * body.max_wear_depth:.3g} µm, {1e9 * body.wear_volume:.3g} mm³"
+        yield f"wear of {name}, about", worn
+    for passed in prediction.worn_through:
+        path, end = (readable(passed[key], ".3g") for key in ("distance_m", "time_s"))
+        when = f"{path} m, {end} s"
+        yield f"layer {passed['layer']} of {passed['body']} worn through, about", when
+    if any(body.layers for body in model.case.bodies.values()) and not prediction.worn_through:
+        yield "layers", "none is worn through"
