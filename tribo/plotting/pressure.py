@@ -5,6 +5,7 @@ Each raises CaseError if the result holds no such save.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -21,7 +22,7 @@ from tribo.core.arrays import Array, Mask
 from tribo.lab.first_contact import HertzContact, first_hertz
 from tribo.plotting import style
 from tribo.plotting.maps import Map, new_maps
-from tribo.plotting.sections import Curve, Limits, limits, number_of_saves, through_centre
+from tribo.plotting.sections import Curve, Limits, Section, limits, number_of_saves, through_centre
 from tribo.plotting.units import fitting, size, time_labels
 from tribo.result.read import Result
 
@@ -115,17 +116,8 @@ def pressure_sections(result: Result) -> Figure:
             # Across a line there is no profile to show.
             parts = np.ptp(windows, axis=1) / grid.size
             axis = int(np.argmin(np.where(parts < 1.0, np.ptp(windows, axis=1), np.inf)))
-            drawn = [0, *range(count, len(labels))]
-            whole_curves = [sections[axis].curves[i] for i in drawn]
-            whole = replace(sections[axis], window=windows[axis], curves=whole_curves)
-            top = 1.05 * max(float(np.max(values)) for _, values in whole.curves)
-            whole.draw(
-                panels[0], unit, [looks[i] for i in drawn], [labels[i] for i in drawn], (0.0, top)
-            )
-            panels[0].xaxis.set_major_locator(MaxNLocator(2))
-            panels[0].set_xlabel(f"{'xy'[axis]} ({whole.unit})")
-            panels[0].set_ylabel(f"Pressure ({unit})")
-            panels[0].set_title(f"{labels[0]}, whole", loc="left", fontsize=7.0)
+            whole = replace(sections[axis], window=windows[axis])
+            _draw_whole(panels[0], whole, unit, looks, labels, [0, *range(count, len(labels))])
             main[0].set_title("enlarged", loc="left", fontsize=7.0)
         if cap is not None and highest >= 0.9 * cap:
             whole_panels = panels[:1] if faded else panels
@@ -134,6 +126,24 @@ def pressure_sections(result: Result) -> Figure:
         # A mark's name is longer than that of a save.
         style.legend_below(figure, curves, 4 if marks else _COLUMNS, marks)
     return figure
+
+
+def _draw_whole(
+    axes: Axes,
+    section: Section,
+    unit: str,
+    looks: Sequence[style.Look],
+    labels: Sequence[str],
+    drawn: Sequence[int],
+) -> None:
+    """Draw the first pressure from top to bottom: of a section, the curves in `drawn`."""
+    whole = replace(section, curves=[section.curves[i] for i in drawn])
+    up = (0.0, 1.05 * max(float(np.max(values)) for _, values in whole.curves))
+    whole.draw(axes, unit, [looks[i] for i in drawn], [labels[i] for i in drawn], up)
+    axes.xaxis.set_major_locator(MaxNLocator(2))
+    axes.set_xlabel(f"{'xy'[whole.axis]} ({whole.unit})")
+    axes.set_ylabel(f"Pressure ({unit})")
+    axes.set_title(f"{labels[0]}, whole", loc="left", fontsize=7.0)
 
 
 def _ends(result: Result, touched: Mask, axis: int) -> bool:
