@@ -5,13 +5,7 @@ import numpy as np
 from tribo.core.contact import ContactSolution, ContactSystem, Residuals
 from tribo.core.fields import Field
 from tribo.core.grid import Grid
-from tribo.core.measures import (
-    BodyMeasures,
-    Measures,
-    centre,
-    contact_area,
-    half_widths,
-)
+from tribo.core.measures import BodyMeasures, Measures, centre, contact_area, half_widths
 from tribo.core.state import BodyInfo, BodyState, RunInfo, Snapshot, State
 from tribo.lab.running_in import contact_roughness
 from tribo.observers.recorder import Recorder

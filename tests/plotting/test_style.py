@@ -10,14 +10,7 @@ import pytest
 from tribo import plotting
 from tribo.plotting.history import BODIES, LARGEST
 from tribo.plotting.profiles import UNWORN, WORN
-from tribo.plotting.style import (
-    OVER,
-    PRESSURES,
-    house_style,
-    legend_below,
-    new_figure,
-    save_looks,
-)
+from tribo.plotting.style import OVER, PRESSURES, house_style, legend_below, new_figure, save_looks
 
 
 def lightness(colour):

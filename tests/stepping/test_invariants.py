@@ -7,18 +7,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from paper_models import (
-    K,
-    archard,
-    flat,
-    last,
-    motion,
-    named,
-    small,
-    sphere,
-    states,
-    steel,
-)
+from paper_models import K, archard, flat, last, motion, named, small, sphere, states, steel
 
 from tribo import Result, Simulation
 from tribo.cli.show import show

@@ -7,18 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from tribo import (
-    Archard,
-    Body,
-    Case,
-    CaseError,
-    Effect,
-    Field,
-    Layer,
-    Observer,
-    Result,
-    Simulation,
-)
+from tribo import Archard, Body, Case, CaseError, Effect, Field, Layer, Observer, Result, Simulation
 from tribo.core.errors import Interrupted
 from tribo.core.fields import LOAD_SHARE
 from tribo.simulation.march import begin, march

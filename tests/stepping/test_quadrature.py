@@ -5,13 +5,7 @@ from functools import partial
 import numpy as np
 import pytest
 import stroke
-from paper_models import (
-    archard,
-    last,
-    named,
-    sphere,
-    steel,
-)
+from paper_models import archard, last, named, sphere, steel
 
 from tribo import Grid, Rough, Simulation
 from tribo.motion.cycle import Stroke, missed_shares, spacing_for
