@@ -5,7 +5,7 @@ from functools import cached_property
 from inspect import signature
 
 import numpy as np
-from paper_models import K, archard, case, flat, half_space, motion, named, sphere, steel
+from paper_models import archard, case, half_space, motion, pair
 
 from tribo.case import Case, Layer
 from tribo.core.grid import Grid
@@ -18,7 +18,6 @@ from tribo.study.gradient.gradient import gradient
 from tribo.study.gradient.local import localised
 from tribo.study.gradient.objective import View
 from tribo.study.gradient.parameters import Stops, changed, find
-from tribo.wear.power import Power
 from tribo.wear.running_in import RunningIn, Smoothing
 
 
@@ -125,17 +124,6 @@ def few(**values):
         **{"depth_tolerance": 0.1, "pressure_tolerance": 0.5, "settle": 1, "max_passes": 500}
         | values
     )
-
-
-def power(exponent):
-    return Power(k=K, p_exponent=exponent, reference_pressure="1 GPa")
-
-
-def pair(ball, disk, hardness=(None, None)):
-    return [
-        named("ball", sphere(), steel(hardness[0]), ball),
-        named("disk", flat(), steel(hardness[1]), disk),
-    ]
 
 
 def layered(ball=None, disk=None, of_ball=None, of_disk=None):

@@ -18,6 +18,7 @@ from tribo.surfaces.flat import Flat
 from tribo.surfaces.paraboloid import Paraboloid
 from tribo.surfaces.sphere import Sphere
 from tribo.wear.archard import Archard
+from tribo.wear.power import Power
 
 K = 3.11e-16
 FOUNDATION = 1.2973e15  # Pa/m: matches Hertz's contact radius in the paper's case
@@ -29,6 +30,10 @@ def steel(hardness=None):
 
 def archard(k=K):
     return Archard(k=k)
+
+
+def power(exponent):
+    return Power(k=K, p_exponent=exponent, reference_pressure="1 GPa")
 
 
 def sphere():
@@ -61,15 +66,20 @@ def named(name, surface, material, wear=None):
     return name, Body(surface=surface, material=material, wear=wear)
 
 
+def pair(ball=None, disk=None, hardness=(None, None)):
+    """A ball on a disk, each with its wear law, or None if it does not wear."""
+    return [
+        named("ball", sphere(), steel(hardness[0]), ball),
+        named("disk", flat(), steel(hardness[1]), disk),
+    ]
+
+
 def case(*, ends_at_window=False, save_times=(), friction_coefficient=None, **changes):
     """The paper's test for 200 s on 48² cells, with changes."""
     parts = {
         "grid": Grid((0.7e-3, 0.7e-3), (48, 48)),
         "load": 100.0,
-        "bodies": [
-            named("ball", sphere(), steel(), archard()),
-            named("disk", flat(), steel(), archard()),
-        ],
+        "bodies": pair(archard(), archard()),
         "contact": half_space(),
         "kinematics": motion(),
         "stepping": Implicit(),
@@ -97,6 +107,12 @@ def states(model):
 
 def last(model):
     return states(model)[-1]
+
+
+def lost(case):
+    """The volume that the ball loses in a run of a case or of its model, in m³."""
+    with Simulation(case).run() as result:
+        return result.saves()[-1]["bodies"]["ball"]["wear_volume_m3"]
 
 
 def pin(law=None, **changes):

@@ -5,7 +5,7 @@ import io
 import numpy as np
 import pytest
 from made_results import made
-from paper_models import archard, case, flat, foundation, motion, named, sphere, steel
+from paper_models import archard, case, foundation, motion, pair
 
 from tribo import Effect, Field, Grid, Load, Simulation, Stage
 from tribo.cli.console import Console
@@ -24,10 +24,7 @@ def row(text, label):
 
 
 def brief(**changes):
-    bodies = [
-        named("ball", sphere(), steel(4e9), archard()),
-        named("disk", flat(), steel(4e9), archard()),
-    ]
+    bodies = pair(archard(), archard(), hardness=(4e9, 4e9))
     kinematics = motion(duration=1)
     return Simulation(case(**{"bodies": bodies, "kinematics": kinematics, **changes})).run()
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from paper_models import K, flat, foundation, named, small, sphere, states, steel
+from paper_models import K, foundation, pair, small, states
 
 from tribo import (
     CaseError,
@@ -65,7 +65,7 @@ class Faster(WearLaw):
     ids=lambda m: m.type,
 )
 def test_a_law_is_asked_at_the_speed_of_each_stage_by_itself(motion, stepping):
-    bodies = [named("ball", sphere(), steel(), Faster()), named("disk", flat(), steel())]
+    bodies = pair(Faster())
     grid = Grid((0.7e-3, 0.7e-3), (24, 24))
     model = small(
         grid=grid, bodies=bodies, kinematics=motion, contact=foundation(), stepping=stepping

@@ -10,7 +10,7 @@ from contextlib import closing
 import numpy as np
 import pytest
 from edited import bits
-from paper_models import case, motion
+from paper_models import StopAfter, case, motion
 
 from tribo import CaseError, Grid, Interrupted, Result, Simulation
 from tribo.core import locks
@@ -19,14 +19,6 @@ from tribo.observers import recorder
 from tribo.observers.observer import Observer
 from tribo.result.checkpoint import RunFolder, _load, _store
 from tribo.result.sealed import open_sealed
-
-
-class StopAfter(Observer):
-    steps: int = 13
-
-    def on_step(self, snapshot):
-        if snapshot.state.steps == self.steps:
-            raise KeyboardInterrupt
 
 
 def simulation():
@@ -52,7 +44,7 @@ def left(tmp_path_factory):
         # As if it were killed before it writes the whole result.
         patch.setattr(recorder, "filled_image", full)
         with pytest.warns(TriboWarning, match="No space"), pytest.raises(Interrupted):
-            simulation().run(folder / "run.h5", observers=[StopAfter()])
+            simulation().run(folder / "run.h5", observers=[StopAfter(steps=13)])
     return folder
 
 

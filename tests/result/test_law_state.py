@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from paper_models import archard, case, flat, named, small, sphere, steel
+from paper_models import archard, case, pair, small
 from strangers.running_in import RunningIn
 
 from tribo import Field, Result, Simulation
@@ -16,7 +16,7 @@ LAW = RunningIn(k_first=9e-16, k_last=3e-16, length=20.0)
 
 
 def model(**changes):
-    bodies = [named("ball", sphere(), steel(), LAW), named("disk", flat(), steel(), LAW)]
+    bodies = pair(LAW, LAW)
     return small(bodies=bodies, save_times=(20,), **changes)
 
 
@@ -52,7 +52,7 @@ def test_what_one_law_does_not_keep_is_nan_there_and_a_taken_name_gets_its_kind(
             return replace(found, state_rates={"pressure": found.state_rates["slip"]})
 
     law = Named(k_first=9e-16, k_last=3e-16, length=20.0)
-    bodies = [named("ball", sphere(), steel(), law), named("disk", flat(), steel(), archard())]
+    bodies = pair(law, archard())
     with Simulation(case(bodies=bodies)).run() as result:
         kept = result.dataset.state_pressure
         assert np.isfinite(kept.sel(body="ball")).all()
@@ -74,10 +74,7 @@ def test_the_predicted_size_counts_it(path):
     def size(grid_model):
         return predict(grid_model).file_size
 
-    bodies = [
-        named("ball", sphere(), steel(), archard()),
-        named("disk", flat(), steel(), archard()),
-    ]
+    bodies = pair(archard(), archard())
     without = small(bodies=bodies, save_times=(20,))
     # Three saves of a field on the ball and on the disk.
     assert size(model()) - size(without) == 3 * 8 * 2 * 48 * 48

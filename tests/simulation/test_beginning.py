@@ -7,6 +7,7 @@ import pytest
 from edited import edited
 from paper_models import (
     K,
+    StopAfter,
     archard,
     case,
     flat,
@@ -14,6 +15,7 @@ from paper_models import (
     half_space,
     motion,
     named,
+    pair,
     paraboloid,
     sphere,
     steel,
@@ -37,7 +39,6 @@ from tribo import (
 from tribo.cli.check import _facts
 from tribo.cli.console import Console
 from tribo.cli.tables import print_report
-from tribo.observers.observer import Observer
 from tribo.plotting.pressure import pressure_map
 from tribo.simulation.beginning import first_state
 from tribo.simulation.predict import predict
@@ -121,10 +122,7 @@ def test_a_resolved_cycle_goes_on_along_its_whole_track(tmp_path):
 
 @pytest.mark.slow
 def test_what_has_yielded_along_a_resolved_track_is_kept(tmp_path):
-    bodies = [
-        named("ball", sphere(), steel(), archard()),
-        named("disk", flat(), steel(1.2e9), archard()),
-    ]
+    bodies = pair(archard(), archard(), hardness=(None, 1.2e9))
     kinematics = motion(stroke=24 * GRID.spacing[0], duration=0.2, positions=13)
     parts = {"bodies": bodies, "contact": half_space(), "kinematics": kinematics}
     begin = tmp_path / "first.h5"
@@ -173,10 +171,7 @@ class Slips(WearLaw):
 
 @pytest.mark.slow
 def test_a_law_keeps_what_it_remembers_and_another_starts_afresh(tmp_path):
-    bodies = [
-        named("ball", sphere(), steel(), Slips()),
-        named("disk", flat(), steel(), Slips()),
-    ]
+    bodies = pair(Slips(), Slips())
     with Simulation(worn_case(bodies=bodies)).run(tmp_path / "first.h5") as first:
         slipped = {name: first.field("slip", -1, name) for name in first.body_names}
     others = [bodies[0], named("disk", flat(), steel(), archard())]
@@ -189,7 +184,7 @@ def test_a_law_keeps_what_it_remembers_and_another_starts_afresh(tmp_path):
 
 
 def test_a_law_keeps_what_it_remembers_along_a_resolved_track(tmp_path):
-    bodies = [named("ball", sphere(), steel(), archard()), named("disk", flat(), steel(), Slips())]
+    bodies = pair(archard(), Slips())
     kinematics = motion(stroke=12 * GRID.spacing[0], duration=0.2, positions=9)
     parts = {"bodies": bodies, "kinematics": kinematics}
     begin = tmp_path / "first.h5"
@@ -207,7 +202,7 @@ def test_what_a_law_within_a_law_remembers_goes_on(tmp_path):
     begin, small = tmp_path / "first.h5", {"grid": Grid((0.7e-3, 0.7e-3), (24, 24))}
 
     def bodies(law):
-        return [named("ball", sphere(), steel(), law), named("disk", flat(), steel())]
+        return pair(law)
 
     with Simulation(worn_case(duration=1, bodies=bodies(Slips()), **small)).run(begin) as first:
         slipped = first.field("slip", -1, "ball")
@@ -265,10 +260,7 @@ def test_what_an_effect_remembers_goes_on_at_its_place_only_and_the_notice_tells
 
 @pytest.mark.slow
 def test_hard_bodies_keep_what_has_yielded(tmp_path):
-    bodies = [
-        named("ball", sphere(), steel(), archard()),
-        named("disk", flat(), steel(1.2e9), archard()),
-    ]
+    bodies = pair(archard(), archard(), hardness=(None, 1.2e9))
     parts = {"bodies": bodies, "contact": half_space()}
     with Simulation(worn_case(duration=0.2, **parts)).run(tmp_path / "first.h5") as first:
         before = first.field("plastic_depth", -1, "disk")
@@ -280,14 +272,6 @@ def test_hard_bodies_keep_what_has_yielded(tmp_path):
         np.testing.assert_allclose(each, before, atol=1e-4 * before.max())
 
 
-class StopAfter(Observer):
-    steps: int = 3
-
-    def on_step(self, snapshot):
-        if snapshot.state.steps == self.steps:
-            raise KeyboardInterrupt
-
-
 @pytest.mark.slow
 def test_a_stopped_run_goes_on_to_the_same_bits_without_the_result_it_began_with(tmp_path):
     first = tmp_path / "first.h5"
@@ -295,7 +279,7 @@ def test_a_stopped_run_goes_on_to_the_same_bits_without_the_result_it_began_with
     simulation = Simulation(worn_case(begin=first, duration=1))
     with simulation.run() as whole:
         with pytest.raises(Interrupted):
-            simulation.run(tmp_path / "second.h5", observers=[StopAfter()])
+            simulation.run(tmp_path / "second.h5", observers=[StopAfter(steps=3)])
         first.unlink()
         with simulation.resume(tmp_path / "second.h5") as resumed:
             assert resumed.dataset.equals(whole.dataset)

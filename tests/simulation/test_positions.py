@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from paper_models import K, archard, case, flat, foundation, last, motion, named, sphere, steel
+from paper_models import K, archard, case, flat, foundation, last, motion, named, pair, steel
 
 from tribo import (
     Begin,
@@ -78,7 +78,7 @@ def test_a_coarse_run_that_fails_is_not_run_again_on_the_cells_of_the_case(monke
         return coarse.coarsened(case, count, margin)
 
     monkeypatch.setattr(positions, "coarsened", coarsened)
-    bodies = [named("ball", sphere(), steel(), archard(1e-6)), named("disk", flat(), steel())]
+    bodies = pair(archard(1e-6))
     model = composed(left_open().model_copy(update={"bodies": dict(bodies)}))
     assert model.case.kinematics.positions == "average"
     assert set(cells) == {positions.CELLS}
@@ -143,7 +143,7 @@ def test_a_stroke_beyond_the_window_passes_a_contact_that_repeats_more_than_once
             grid=Grid((edge, edge), (32, 32)),
             load=load,
             contact=Periodic(),
-            bodies=[named("ball", sphere(), steel()), named("disk", flat(), steel(), archard())],
+            bodies=pair(disk=archard()),
             kinematics=motion(stroke="2 mm", duration=None, distance=distance, positions="auto"),
         )
     )
@@ -156,7 +156,7 @@ def test_a_groove_too_shallow_to_matter_is_averaged():
 
 
 def test_a_track_that_does_not_wear_is_averaged():
-    bodies = [named("ball", sphere(), steel(), archard()), named("disk", flat(), steel())]
+    bodies = pair(archard())
     still = left_open().model_copy(update={"bodies": dict(bodies)})
     assert composed(still).case.kinematics.positions == "average"
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
-from paper_models import K, archard, flat, half_space, motion, named, small, sphere, steel
+from paper_models import K, archard, half_space, motion, named, pair, small, sphere, steel
 
 from tribo import CaseError, Effect, Field, Grid, NumericalError, Simulation, Waves
 from tribo.simulation.predict import predict
@@ -14,10 +14,7 @@ from tribo.stepping.explicit import Explicit
 
 
 def bodies(k=K, hardness=None):
-    return [
-        named("ball", sphere(), steel(hardness), archard(k)),
-        named("disk", flat(), steel(hardness), archard(k)),
-    ]
+    return pair(archard(k), archard(k), (hardness, hardness))
 
 
 def only_problem(model):

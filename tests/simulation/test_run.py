@@ -8,7 +8,7 @@ from unittest.mock import Mock
 import numpy as np
 import pytest
 from edited import bits
-from paper_models import K, archard, case, flat, motion, named, small, sphere, states, steel
+from paper_models import K, archard, case, flat, motion, named, pair, small, states, steel
 
 from tribo import CaseError, Grid, Interrupted, NumericalError, Result, Simulation
 from tribo.case import Stop
@@ -149,7 +149,7 @@ def test_a_contact_that_reaches_the_edge_stops_the_run_with_what_was_saved(tmp_p
 )
 @pytest.mark.slow
 def test_a_run_that_fails_asks_for_the_unit_of_a_wear_coefficient_that_is_absurd(k, failure):
-    bodies = [named("ball", sphere(), steel(), archard(k=k)), named("disk", flat(), steel())]
+    bodies = pair(archard(k=k))
     with pytest.raises(NumericalError, match=failure) as failed:
         Simulation(case(bodies=bodies, grid=Grid((0.7e-3, 0.7e-3), (24, 24)))).run()
     assert f"bodies.ball.wear.k is {k:g} 1/Pa, usual are" in str(failed.value)

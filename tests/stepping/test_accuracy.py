@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from paper_models import K, flat, foundation, motion, named, small, sphere, steel
+from paper_models import K, flat, foundation, lost, motion, named, pair, power, small, steel
 from strangers.running_in import RunningIn
 
 from tribo import Field, Grid, Simulation, WearLaw, WearRate
@@ -40,23 +40,13 @@ class Fading(WearLaw):
         return WearRate(k * local.pressure, k, {"fresh": -fresh / 5.0})
 
 
-def power(exponent):
-    return Power(k=K, p_exponent=exponent, reference_pressure="1 GPa")
-
-
 def running_in(length):
     return RunningIn(k_first=K, k_last=0.1 * K, length=length)
 
 
 def volume(law, stepping):
-    case = small(
-        grid=Grid((0.7e-3, 0.7e-3), (32, 32)),
-        bodies=[named("ball", sphere(), steel(), law), named("disk", flat(), steel())],
-        contact=foundation(),
-        stepping=stepping,
-    )
-    with Simulation(case).run() as result:
-        return result.saves()[-1]["bodies"]["ball"]["wear_volume_m3"]
+    grid = Grid((0.7e-3, 0.7e-3), (32, 32))
+    return lost(small(grid=grid, bodies=pair(law), contact=foundation(), stepping=stepping))
 
 
 @pytest.mark.slow

@@ -6,33 +6,10 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from paper_models import (
-    K,
-    archard,
-    flat,
-    foundation,
-    goes_on,
-    motion,
-    named,
-    pin,
-    small,
-    sphere,
-    states,
-    steel,
-)
+from paper_models import K, archard, foundation, goes_on, motion, pair, pin, small, states
 from strangers.debris import Covered, Debris, Filling
 
-from tribo import (
-    CaseError,
-    Effect,
-    Field,
-    Grid,
-    Result,
-    RunningIn,
-    Simulation,
-    WearLaw,
-    WearRate,
-)
+from tribo import CaseError, Effect, Field, Grid, Result, RunningIn, Simulation, WearLaw, WearRate
 from tribo.case import Begin
 from tribo.cli.show import show
 from tribo.core.errors import PluginError
@@ -83,7 +60,7 @@ class Reads(WearLaw):
 
 
 def model(law=COVERED, effects=(), **changes):
-    bodies = [named("ball", sphere(), steel(), law), named("disk", flat(), steel(), law)]
+    bodies = pair(law, law)
     return small(
         **{
             "grid": Grid((0.7e-3, 0.7e-3), (20, 20)),
@@ -250,7 +227,7 @@ class Rubbed(WearLaw):
 
 
 def test_an_effect_may_require_what_a_law_remembers():
-    bodies = [named("ball", sphere(), steel(), Rubbed()), named("disk", flat(), steel(), archard())]
+    bodies = pair(Rubbed(), archard())
     with Simulation(model(bodies=bodies, effects=[Follows()])).run() as result:
         twice = result.body("disk").effects["rubbed_twice"][-1]
         assert twice.max() == pytest.approx(2 * result.distances[-1])
@@ -263,7 +240,7 @@ class Clashes(Follows):
 
 
 def test_a_field_may_not_have_the_name_of_what_a_law_remembers():
-    bodies = [named("ball", sphere(), steel(), Rubbed()), named("disk", flat(), steel())]
+    bodies = pair(Rubbed())
     with pytest.raises(CaseError, match=r"'rubbed' is provided twice.*test\.clashes"):
         model(bodies=bodies, effects=[Clashes()])
 
@@ -277,7 +254,7 @@ class OfBoth(Follows):
 
 
 def test_a_body_whose_law_does_not_remember_is_named():
-    bodies = [named("ball", sphere(), steel(), Rubbed()), named("disk", flat(), steel())]
+    bodies = pair(Rubbed())
     words = r"^bodies\.disk\.wear: an effect asks for 'rubbed' of 'disk'.*that of ball does"
     with pytest.raises(CaseError, match=words):
         states(model(bodies=bodies, effects=[OfBoth()]))

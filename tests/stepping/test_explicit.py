@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from paper_models import K, archard, flat, last, named, small, sphere, steel
+from paper_models import K, archard, last, pair, small
 
 from tribo import Effect, Field, WearLaw, WearRate
 from tribo.contact.dcfft import DcFft
@@ -11,12 +11,8 @@ from tribo.stepping.rates import Moment
 from tribo.stepping.step import first_contact
 
 
-def ball_only():
-    return [named("ball", sphere(), steel(), archard()), named("disk", flat(), steel())]
-
-
 def test_steps_that_cannot_do_are_refused_before_anything_is_written(tmp_path):
-    model = small(bodies=ball_only(), stepping=Explicit(time_step="60 s"), save_times=(1.0,))
+    model = small(bodies=pair(archard()), stepping=Explicit(time_step="60 s"), save_times=(1.0,))
     # Δs < 2 · 0.58069 Δ/(k E*)
     spacing = model.grid.spacing[0]
     limit = 2 * 0.58069 * spacing / (K * model.system.modulus) / 0.1
@@ -41,7 +37,7 @@ def test_unknown_compliance_is_said_so():
 
 def test_where_only_the_track_wears_the_limit_counts_the_part_of_it_in_contact():
     # λ <= k (2b/ℓ)/K̂: a point of the track is in contact for 2b of every ℓ slid.
-    bodies = [named("ball", sphere(), steel()), named("disk", flat(), steel(), archard())]
+    bodies = pair(disk=archard())
     model = small(bodies=bodies)
     state = first_contact(model)
     touching = np.count_nonzero(state.contact.pressure > 0, axis=0).max()
@@ -87,7 +83,7 @@ def hot(field):
     ],
 )
 def test_the_limit_counts_what_comes_through_fields_that_follow_the_pressure(field, steepest):
-    bodies = [named("ball", sphere(), steel(), hot(field)), named("disk", flat(), steel())]
+    bodies = pair(hot(field))
     stepping = Explicit(time_step="1 h")
     model = small(bodies=bodies, effects=[Load()], stepping=stepping)
     slope = K * steepest(first_contact(model).contact.pressure)

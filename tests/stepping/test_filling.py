@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from paper_models import archard, flat, foundation, motion, named, pin, small, sphere, states, steel
+from paper_models import archard, foundation, motion, pair, pin, small, states
 from strangers.debris import Filling
 
 from tribo import Effect, Field, Grid
@@ -43,11 +43,10 @@ def test_an_even_layer_keeps_the_bodies_apart_and_changes_nothing_else():
 
 def ball(positions):
     """A ball that wears, on a disk that does not, with all its debris."""
-    bodies = [named("ball", sphere(), steel(), archard()), named("disk", flat(), steel())]
     kinematics = motion(stroke="0.4 mm", duration=20, positions=positions)
     return small(
         grid=Grid((0.7e-3, 0.7e-3), (20, 20)),
-        bodies=bodies,
+        bodies=pair(archard()),
         contact=foundation(),
         kinematics=kinematics,
         effects=[Filling(length=1e9, on="ball")],

@@ -2,18 +2,7 @@
 
 import numpy as np
 import pytest
-from paper_models import (
-    K,
-    archard,
-    flat,
-    foundation,
-    half_space,
-    last,
-    named,
-    small,
-    sphere,
-    steel,
-)
+from paper_models import K, archard, foundation, half_space, last, pair, power, small
 
 from tribo.core.contact import ContactProblem
 from tribo.core.fields import ContactConditions, Field, WearRate
@@ -21,15 +10,6 @@ from tribo.effects.effect import Effect
 from tribo.stepping.implicit import Errors, Implicit
 from tribo.stepping.step import first_contact, undeformed
 from tribo.wear.law import WearLaw
-from tribo.wear.power import Power
-
-
-def power(exponent):
-    return Power(k=K, p_exponent=exponent, reference_pressure="1 GPa")
-
-
-def bodies(ball, disk):
-    return [named("ball", sphere(), steel(), ball), named("disk", flat(), steel(), disk)]
 
 
 def one_step(model, increment=1.0):
@@ -43,7 +23,7 @@ LAWS = [(archard(), archard()), (power(1.5), power(1.5)), (power(2), archard()),
 @pytest.mark.parametrize("laws", LAWS, ids=["archard", "p^1.5", "p^2, archard", "p^3, none"])
 @pytest.mark.parametrize("contact", [half_space(tolerance=1e-11), foundation()])
 def test_a_step_is_exact_backward_euler(laws, contact):
-    model = small(bodies=bodies(*laws), contact=contact)
+    model = small(bodies=pair(*laws), contact=contact)
     state = one_step(model)
     pressure = state.contact.pressure
     # The wear is the law's at the new pressure ...
@@ -107,7 +87,7 @@ class Warm(WearLaw):
 
 def test_a_law_gets_the_fields_it_requires_for_its_own_body():
     law = Warm()
-    model = small(bodies=bodies(law, law), effects=[Warmth()])
+    model = small(bodies=pair(law, law), effects=[Warmth()])
     state = one_step(model)
     p = state.contact.pressure
     rise = p / p.max()

@@ -11,8 +11,8 @@ from paper_models import (
     half_space,
     motion,
     named,
+    pair,
     small,
-    sphere,
     states,
     steel,
 )
@@ -80,7 +80,7 @@ def run(law=None, **changes):
         small(
             **{
                 "grid": Grid((0.7e-3, 0.7e-3), (24, 24)),
-                "bodies": [named("ball", sphere(), steel(), law), named("disk", flat(), steel())],
+                "bodies": pair(law),
                 "contact": half_space(),
                 "kinematics": motion(duration=20),
                 **changes,

@@ -10,30 +10,17 @@ from paper_models import (
     K,
     archard,
     case,
-    flat,
     foundation,
     goes_on,
     half_space,
     last,
     motion,
-    named,
+    pair,
     small,
-    sphere,
     states,
-    steel,
 )
 
-from tribo import (
-    CaseError,
-    Explicit,
-    Grid,
-    Implicit,
-    Load,
-    Measured,
-    Simulation,
-    Stage,
-    load_case,
-)
+from tribo import CaseError, Explicit, Grid, Implicit, Load, Measured, Simulation, Stage, load_case
 
 GRID = Grid((0.7e-3, 0.7e-3), (32, 32))
 SPEED = 0.1
@@ -152,10 +139,7 @@ def test_a_jump_costs_no_more_steps_than_a_start():
 
 @pytest.mark.slow
 def test_a_jump_to_a_higher_load_yields_anew_up_to_the_hardness():
-    bodies = [
-        named("ball", sphere(), steel(), archard()),
-        named("disk", flat(), steel(1.2e9), archard()),
-    ]
+    bodies = pair(archard(), archard(), hardness=(None, 1.2e9))
     found = states(loaded(BLOCKS, bodies=bodies, contact=half_space(), save_times=(6,)))
     deepest = {state.time: state.bodies["disk"].plastic.max() for state in found}
     assert deepest[20.0] > 2 * deepest[6.0] > 0

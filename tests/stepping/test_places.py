@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from paper_models import K, flat, foundation, last, motion, named, small, sphere, steel
+from paper_models import K, foundation, last, motion, pair, small
 
 from tribo import CaseError, Grid, LocalConditions, WearLaw, WearRate
 
@@ -22,10 +22,7 @@ class HalfHard(WearLaw):
 
 def sliding(positions):
     kinematics = motion(stroke=12 * GRID.spacing[0], duration=60, positions=positions)
-    bodies = [
-        named("ball", sphere(), steel(), HalfHard()),
-        named("disk", flat(), steel(), HalfHard()),
-    ]
+    bodies = pair(HalfHard(), HalfHard())
     return small(grid=GRID, contact=foundation(), kinematics=kinematics, bodies=bodies)
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from paper_models import archard, flat, half_space, motion, named, small, sphere, states, steel
+from paper_models import archard, half_space, motion, pair, small, states
 
 from tribo import Grid, Load, Measured, Stage
 from tribo.core.contact import ContactProblem
@@ -15,10 +15,7 @@ def yielding(load=1000.0, hardness=("4 GPa", "4 GPa"), **changes):
     parts = {
         "grid": Grid((1.2e-3, 1.2e-3), (60, 60)),
         "load": load,
-        "bodies": [
-            named("ball", sphere(), steel(hardness[0]), archard()),
-            named("disk", flat(), steel(hardness[1]), archard()),
-        ],
+        "bodies": pair(archard(), archard(), hardness=hardness),
         "kinematics": motion(duration=50),
     }
     return small(**{**parts, **changes})
@@ -115,7 +112,7 @@ def test_a_load_that_rises_before_it_slides_presses_in_where_the_first_one_did()
     grid = Grid((0.8e-3, 0.6e-3), (24, 20))
     end = 6 * grid.spacing[0]
     path = [(0, -end), (5, -end), (6, end)]
-    bodies = [named("ball", sphere(), steel()), named("disk", flat(), steel(1.2e9))]
+    bodies = pair(hardness=(None, 1.2e9))
 
     def pressed(load):
         kinematics = Measured(path=path, positions=13)

@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from paper_models import K, flat, foundation, motion, named, small, sphere, steel
+from paper_models import K, foundation, lost, motion, pair, small
 
-from tribo import Effect, Field, Grid, Simulation, WearLaw, WearRate
+from tribo import Effect, Field, Grid, WearLaw, WearRate
 from tribo.core.errors import PluginError
 from tribo.motion.reciprocating import Reciprocating
 from tribo.stepping.explicit import Explicit
@@ -46,28 +46,22 @@ class Warm(WearLaw):
         return WearRate(k * local.pressure, k)
 
 
-def lost(kinematics, law=None, **changes):
-    bodies = [
-        named("ball", sphere(), steel(), law or Fast()),
-        named("disk", flat(), steel()),
-    ]
-    grid = Grid((0.7e-3, 0.7e-3), (32, 32))
-    model = small(grid=grid, bodies=bodies, contact=foundation(), kinematics=kinematics, **changes)
-    with Simulation(model.case).run() as result:
-        return result.saves()[-1]["bodies"]["ball"]["wear_volume_m3"]
+def worn(kinematics, law=None, **changes):
+    parts = {"grid": Grid((0.7e-3, 0.7e-3), (32, 32)), "contact": foundation(), **changes}
+    return lost(small(bodies=pair(law or Fast()), kinematics=kinematics, **parts))
 
 
 @pytest.mark.parametrize("time_step", ["0.002 s", "0.013 s", "0.2 s"])
 @pytest.mark.slow
 def test_short_and_long_steps_wear_the_closed_form(time_step):
-    found = lost(motion(duration=0.4, **SINE), stepping=Explicit(time_step=time_step))
+    found = worn(motion(duration=0.4, **SINE), stepping=Explicit(time_step=time_step))
     needed = K * 100 * MEAN * 0.4 * OVER_PATH / MEAN
     assert found == pytest.approx(needed, rel=1e-5, abs=0)
 
 
 def test_an_effect_is_asked_at_the_same_speeds():
-    found = lost(motion(duration=2, **SINE), Warm(), effects=[Warmth()])
-    assert found == pytest.approx(lost(motion(duration=2, **SINE)), rel=1e-9, abs=0)
+    found = worn(motion(duration=2, **SINE), Warm(), effects=[Warmth()])
+    assert found == pytest.approx(worn(motion(duration=2, **SINE)), rel=1e-9, abs=0)
 
 
 def test_the_mean_pace_of_the_speeds_is_that_of_the_path():
@@ -85,7 +79,7 @@ class Silent(Reciprocating):
 
 def test_a_motion_that_states_no_speeds_has_the_mean_over_the_step():
     whole_cycles = motion(duration=0.4, **SINE)
-    found = lost(Silent(**dict(whole_cycles)), stepping=Explicit(time_step="0.04 s"))
+    found = worn(Silent(**dict(whole_cycles)), stepping=Explicit(time_step="0.04 s"))
     assert found == pytest.approx(K * 100 * MEAN * 0.4, rel=1e-9, abs=0)
 
 
@@ -105,4 +99,4 @@ def test_speeds_that_cannot_be_are_refused(speeds, words):
             return speeds
 
     with pytest.raises(PluginError, match=f"kinematics 'reciprocating'.*{words}"):
-        lost(Wrong(**dict(motion(duration=2))))
+        worn(Wrong(**dict(motion(duration=2))))

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from paper_models import K, archard, flat, foundation, motion, named, small, sphere, steel
+from paper_models import K, archard, foundation, lost, motion, pair, small
 from pydantic import PrivateAttr
 
 from tribo import Effect, Field, Grid, Simulation, WearLaw, WearRate
@@ -55,20 +55,13 @@ class Heated(WearLaw):
 
 
 def model(law, **changes):
-    bodies = [named("ball", sphere(), steel(), law), named("disk", flat(), steel())]
     return small(
         grid=Grid((0.7e-3, 0.7e-3), (32, 32)),
-        bodies=bodies,
+        bodies=pair(law),
         contact=foundation(),
         kinematics=motion(duration=20),
         **changes,
     )
-
-
-def lost(case):
-    with Simulation(case).run() as result:
-        assert result.status == "done"
-        return result.saves()[-1]["bodies"]["ball"]["wear_volume_m3"]
 
 
 @pytest.mark.parametrize("spoil", SPOILT)

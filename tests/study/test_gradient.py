@@ -20,15 +20,13 @@ from gradients import (
     forgotten,
     layered,
     nothing,
-    pair,
-    power,
     resolved,
     run,
     unfelt,
     without,
     zero,
 )
-from paper_models import K, archard, flat, motion, named, steel
+from paper_models import K, archard, flat, motion, named, pair, power, steel
 
 from tribo.contact.periodic import Periodic
 from tribo.contact.winkler import Winkler

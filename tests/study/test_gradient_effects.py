@@ -15,14 +15,13 @@ from gradients import (
     forgotten,
     layered,
     nothing,
-    pair,
     resolved,
     run,
     unfelt,
     without,
     zero,
 )
-from paper_models import K, archard, motion
+from paper_models import K, archard, motion, pair
 
 from tribo.core.errors import CaseError
 from tribo.core.fields import LOAD_SHARE, Field

@@ -5,8 +5,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from gradients import BASE, CLOSE, HARD, Kind, pair, resolved, run
-from paper_models import K, archard, states
+from gradients import BASE, CLOSE, HARD, Kind, resolved, run
+from paper_models import K, archard, pair, states
 from scipy.optimize import minimize
 
 from tribo.case import Layer, Stop

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import h5py
 import numpy as np
-from paper_models import flat, half_space, motion, named, small, sphere, steel
+from paper_models import half_space, motion, pair, small
 from strangers.debris import Debris
 from strangers.running_in import RunningIn
 
@@ -35,7 +35,7 @@ def simulation():
     model = small(
         grid=Grid((0.7e-3, 0.7e-3), (20, 20)),
         contact=half_space(),
-        bodies=[named("ball", sphere(), steel(), law), named("disk", flat(), steel(), law)],
+        bodies=pair(law, law),
         kinematics=motion(duration=40),
         effects=[Debris(length=0.5)],
         save_times=SAVES,
