@@ -6,12 +6,11 @@ import json
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from paper_models import small
+from paper_models import StopAfter, small
 from strangers.oxidation import OXIDE, OxideFilm
 
 from tribo import CaseError, Field, Interrupted, Result, Simulation, TriboError
 from tribo.cli.show import show
-from tribo.observers.observer import Observer
 from tribo.result.export import export_csv
 
 POWER, FRICTION, SPEED = 1e7, 0.1, 0.1
@@ -88,16 +87,10 @@ def test_json_has_its_range_at_each_save(path):
         assert high == pytest.approx(expected(save["max_pressure_Pa"]), rel=1e-9, abs=0)
 
 
-class StopAt(Observer):
-    def on_step(self, snapshot):
-        if snapshot.state.steps == 8:
-            raise KeyboardInterrupt
-
-
 def test_the_last_state_of_a_stopped_run_has_it_too(tmp_path):
     stopped = tmp_path / "stopped.h5"
     with pytest.raises(Interrupted):
-        Simulation(model().case).run(stopped, observers=[StopAt()])
+        Simulation(model().case).run(stopped, observers=[StopAfter(steps=8)])
     with Result.open(stopped) as result:
         np.testing.assert_allclose(
             result.body("disk").effects[OXIDE][-1],
@@ -133,7 +126,7 @@ class Renamed(OxideFilm):
 def test_a_run_does_not_resume_with_effects_that_provide_other_fields(tmp_path):
     stopped = tmp_path / "stopped.h5"
     with pytest.raises(Interrupted):
-        Simulation(model().case).run(stopped, observers=[StopAt()])
+        Simulation(model().case).run(stopped, observers=[StopAfter(steps=8)])
     changed = Simulation(model(Renamed(power=POWER)))
     with pytest.raises(CaseError, match=f"provide film, but the result keeps {OXIDE}"):
         changed.resume(stopped, allow_changed=True)

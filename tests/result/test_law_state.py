@@ -15,9 +15,8 @@ from tribo.simulation.predict import predict
 LAW = RunningIn(k_first=9e-16, k_last=3e-16, length=20.0)
 
 
-def model(**changes):
-    bodies = pair(LAW, LAW)
-    return small(bodies=bodies, save_times=(20,), **changes)
+def model():
+    return small(bodies=pair(LAW, LAW), save_times=(20,))
 
 
 @pytest.fixture(scope="module")
@@ -52,8 +51,7 @@ def test_what_one_law_does_not_keep_is_nan_there_and_a_taken_name_gets_its_kind(
             return replace(found, state_rates={"pressure": found.state_rates["slip"]})
 
     law = Named(k_first=9e-16, k_last=3e-16, length=20.0)
-    bodies = pair(law, archard())
-    with Simulation(case(bodies=bodies)).run() as result:
+    with Simulation(case(bodies=pair(law, archard()))).run() as result:
         kept = result.dataset.state_pressure
         assert np.isfinite(kept.sel(body="ball")).all()
         assert np.isnan(kept.sel(body="disk")).all()
@@ -74,8 +72,7 @@ def test_the_predicted_size_counts_it(path):
     def size(grid_model):
         return predict(grid_model).file_size
 
-    bodies = pair(archard(), archard())
-    without = small(bodies=bodies, save_times=(20,))
+    without = small(save_times=(20,))
     # Three saves of a field on the ball and on the disk.
     assert size(model()) - size(without) == 3 * 8 * 2 * 48 * 48
     assert path.stat().st_size < size(model())

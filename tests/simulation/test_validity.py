@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from paper_models import archard, flat, named, small, steel
+from paper_models import archard, flat, named, pair, small, steel
 
 from tribo import Grid, Simulation, TriboWarning
 from tribo.motion.unidirectional import Unidirectional
@@ -62,10 +62,7 @@ def test_a_whole_lap_is_not(revolutions):
     ],
 )
 def test_a_contact_not_small_beside_its_circle_is_told_by_check_and_by_the_run(radius, said, wears):
-    bodies = [
-        named("ball", Sphere(radius="5 mm"), steel(), archard()),
-        named("disk", flat(), steel(), archard() if wears else None),
-    ]
+    bodies = pair(archard(), archard() if wears else None)
     circle = Unidirectional(speed="0.1 m/s", track_radius=radius, distance="20 m")
     model = small(bodies=bodies, kinematics=circle)
     told = " ".join(predict(model).problems)
