@@ -8,7 +8,7 @@ from scipy.special import j1
 
 from tribo import CaseError, HalfSpace, Periodic, Winkler, residuals
 from tribo.closed_forms import hertz
-from tribo.contact.coated import base_kernel, surface_modulus
+from tribo.contact.coated import base_kernel
 from tribo.contact.dcfft import DcFft
 from tribo.contact.periodic import PeriodicHalfSpace
 from tribo.core.coating import Coating
@@ -258,7 +258,7 @@ def test_the_box_of_the_contact_sees_what_the_whole_window_does(poisson):
     whole = HalfSpace(
         system.grid.cells,
         system.grid.spacing,
-        surface_modulus(system),
+        system.surface_modulus,
         tuple(system.coatings.values()),
     )
     displacement = whole.apply(found.pressure)
@@ -277,7 +277,7 @@ def test_two_coated_bodies_add_their_compliances():
         HalfSpace(grid.cells, grid.spacing, each.modulus, (each,)).apply(pressure)
         for each in (one, other)
     ]
-    joint = HalfSpace(grid.cells, grid.spacing, surface_modulus(both), (one, other))
+    joint = HalfSpace(grid.cells, grid.spacing, both.surface_modulus, (one, other))
     np.testing.assert_allclose(joint.apply(pressure), sum(parts), rtol=1e-12)
 
 
@@ -298,7 +298,7 @@ def test_the_smallest_compliance_is_below_that_of_every_mode(solver):
         asked = system(grid, 1.0, disk=coating)
         smallest = solver.smallest_compliance(asked)
         kind = PeriodicHalfSpace if solver.periodic else HalfSpace
-        operator = kind(grid.cells, grid.spacing, surface_modulus(asked), (coating,))
+        operator = kind(grid.cells, grid.spacing, asked.surface_modulus, (coating,))
         unit = np.eye(144).reshape(144, 12, 12)
         dense = np.array([operator.apply(each).ravel() for each in unit])
         least = np.sort(np.linalg.eigvalsh(dense))[1 if solver.periodic else 0]

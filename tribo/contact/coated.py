@@ -11,7 +11,6 @@ from scipy.special import j0
 
 from tribo.core.arrays import Array
 from tribo.core.coating import Coating
-from tribo.core.contact import ContactSystem
 
 _END = 20.0
 """Wavenumber times thickness from which the base has no influence: e^(−2ξ) is rounding."""
@@ -21,16 +20,6 @@ _POINTS = 500
 _NEAR, _THICK = 8, 3
 """Cells around the load over which the pressure of a cell is integrated exactly, and of which a
 layer may be as thick without that."""
-
-
-def surface_modulus(system: ContactSystem) -> float:
-    """Return the contact modulus of what lies at the surface of both bodies, in Pa."""
-    if not system.coatings:
-        return system.modulus
-    compliance = 1 / system.modulus
-    for coating in system.coatings.values():
-        compliance += 1 / coating.modulus - (1 - coating.base.poisson**2) / coating.base.young
-    return 1 / compliance
 
 
 def base_kernel(

@@ -9,7 +9,6 @@ from functools import lru_cache
 import numpy as np
 
 from tribo.contact.bounded_cg import solve_together
-from tribo.contact.coated import surface_modulus
 from tribo.contact.elastic import ElasticSolver
 from tribo.contact.love import nyquist_compliance
 from tribo.contact.nested_start import coarsen, prolong
@@ -115,7 +114,7 @@ class DcFft(ElasticSolver):
 
 def _half_space(shape: tuple[int, int], system: ContactSystem) -> HalfSpace:
     coatings = tuple(system.coatings.values())
-    return _cached(shape, system.grid.spacing, surface_modulus(system), coatings)
+    return _cached(shape, system.grid.spacing, system.surface_modulus, coatings)
 
 
 _cached = lru_cache(maxsize=16)(HalfSpace)

@@ -10,7 +10,6 @@ import numpy as np
 import scipy.fft
 
 from tribo.contact.bounded_cg import solve_together
-from tribo.contact.coated import surface_modulus
 from tribo.contact.elastic import ElasticSolver
 from tribo.contact.operator import Operator
 from tribo.contact.projection import CELLS, over
@@ -137,7 +136,7 @@ class Periodic(ElasticSolver):
 
 def _half_space(system: ContactSystem) -> PeriodicHalfSpace:
     grid, coatings = system.grid, tuple(system.coatings.values())
-    return _cached(grid.cells, grid.spacing, surface_modulus(system), coatings)
+    return _cached(grid.cells, grid.spacing, system.surface_modulus, coatings)
 
 
 _cached = lru_cache(maxsize=8)(PeriodicHalfSpace)

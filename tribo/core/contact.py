@@ -172,6 +172,16 @@ class ContactSystem:
     materials: Mapping[str, Material] = field(default_factory=dict)
     coatings: Mapping[str, Coating] = field(default_factory=dict)
 
+    @property
+    def surface_modulus(self) -> float:
+        """Contact modulus of what lies at the surface of both bodies, in Pa."""
+        if not self.coatings:
+            return self.modulus
+        compliance = 1 / self.modulus
+        for coating in self.coatings.values():
+            compliance += 1 / coating.modulus - (1 - coating.base.poisson**2) / coating.base.young
+        return 1 / compliance
+
 
 @dataclass(frozen=True)
 class ContactProblem:

@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 
 from tribo.component import components
-from tribo.contact.coated import surface_modulus
 from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError, NumericalError, PluginError
 from tribo.core.measures import Measures
@@ -191,10 +190,8 @@ def _bounds(system: ContactSystem) -> tuple[HertzContact, HertzContact] | None:
     if not system.coatings:
         return None
     bare = replace(system, coatings={})
-    below, above = (
-        hertz_contact(bare),
-        hertz_contact(replace(bare, modulus=surface_modulus(system))),
-    )
+    throughout = replace(bare, modulus=system.surface_modulus)
+    below, above = hertz_contact(bare), hertz_contact(throughout)
     return None if below is None or above is None else (below, above)
 
 
