@@ -8,7 +8,6 @@ from typing import Annotated, Any
 
 import numpy as np
 import pandas as pd
-from scipy.stats import binned_statistic_2d
 
 from tribo.case import Case
 from tribo.config.load import case_tables, validate_case
@@ -22,7 +21,7 @@ from tribo.simulation.run import Simulation
 from tribo.study.calibration.maps import FittedMaps, Prior, fit_maps
 from tribo.study.variation import unknown_body
 
-FINER = 1e-6
+FINER, LEAST = 1e-6, 0.5 - 1e-6
 MOST = 600
 """Numbers that a map is averaged to where a few parameters are fitted to it."""
 
@@ -103,7 +102,10 @@ def in_blocks(depth: Array, spacing: tuple[float, float]) -> pd.DataFrame:
 
 
 def on_cells(heights: Heights, shape: tuple[int, int], spacing: tuple[float, float]) -> Array:
-    """Return the mean of a map over each cell of a surface, centre on centre; NaN beside it."""
+    """Return the mean of a map over each cell of a surface, centre on centre.
+
+    Of the pixels that a cell cuts it has a part. NaN where less than half of it was measured.
+    """
     averaged = shape[0] == 1
     cell = heights.heights.shape[0] * heights.pitch[0] if averaged else spacing[0], spacing[1]
     if any(pitch > (1 + FINER) * size for pitch, size in zip(heights.pitch, cell, strict=True)):
@@ -111,11 +113,34 @@ def on_cells(heights: Heights, shape: tuple[int, int], spacing: tuple[float, flo
             f"its pixels, {1e6 * heights.pitch[0]:g} × {1e6 * heights.pitch[1]:g} µm, are larger "
             f"than cells, {1e6 * cell[0]:g} × {1e6 * cell[1]:g} µm; lower grid.cells"
         )
-    x, y = heights.grid.mesh
-    read = np.isfinite(heights.heights)
-    edges = [0.5 * h * np.arange(-n, n + 1, 2) for n, h in zip(shape, cell, strict=True)]
-    places = np.broadcast_to(x, read.shape)[read], np.broadcast_to(y, read.shape)[read]
-    found = binned_statistic_2d(*places, heights.heights[read], "mean", edges).statistic
-    if np.all(np.isnan(found)):
+    known = np.isfinite(heights.heights)
+    pixels = np.where(known, heights.heights, 0.0)
+    # Heights within a pixel follow those beside it, or parts of one would be off.
+    slopes = [
+        np.where(known, np.nan_to_num(np.gradient(heights.heights, axis=axis)), 0.0)
+        for axis in (0, 1)
+    ]
+    (in_x, off_x), (in_y, off_y) = (
+        _overlaps(n, width, m, pitch)
+        for n, width, m, pitch in zip(shape, cell, known.shape, heights.pitch, strict=True)
+    )
+    total = in_x @ pixels @ in_y.T + off_x @ slopes[0] @ in_y.T + in_x @ slopes[1] @ off_y.T
+    measured = in_x @ known @ in_y.T
+    enough = measured >= LEAST * cell[0] * cell[1]
+    found = np.divide(total, measured, out=np.full(shape, np.nan), where=enough)
+    if not np.any(enough):
         raise CaseError("it does not lie on the window: its middle is taken as the contact's")
     return np.asarray(found)
+
+
+def _overlaps(cells: int, width: float, pixels: int, pitch: float) -> tuple[Array, Array]:
+    """Return what cells and pixels share, centre on centre: lengths, shape (cells, pixels).
+
+    And each times how far the middle of what is shared lies from that of the pixel, in pixels.
+    """
+    to_cell = width * (np.arange(cells + 1)[:, None] - 0.5 * cells)
+    to_pixel = pitch * (np.arange(pixels + 1) - 0.5 * pixels)
+    begin = np.maximum(to_cell[:-1], to_pixel[:-1])
+    end = np.minimum(to_cell[1:], to_pixel[1:])
+    shared = np.maximum(end - begin, 0.0)
+    return shared, 0.5 * shared * (begin + end - to_pixel[:-1] - to_pixel[1:]) / pitch
