@@ -1,11 +1,13 @@
 """Small models of the paper's test, made from objects."""
 
+import numpy as np
 import pytest
 
 from tribo import Interrupted, Simulation
 from tribo.case import Body, Case, Output
 from tribo.contact.dcfft import DcFft
 from tribo.contact.winkler import Winkler
+from tribo.core.fields import WearRate
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.motion.reciprocating import Reciprocating
@@ -18,6 +20,7 @@ from tribo.surfaces.flat import Flat
 from tribo.surfaces.paraboloid import Paraboloid
 from tribo.surfaces.sphere import Sphere
 from tribo.wear.archard import Archard
+from tribo.wear.law import WearLaw
 from tribo.wear.power import Power
 
 K = 3.11e-16
@@ -34,6 +37,16 @@ def archard(k=K):
 
 def power(exponent):
     return Power(k=K, p_exponent=exponent, reference_pressure="1 GPa")
+
+
+class Faster(WearLaw):
+    """Archard's law in proportion to the speed: dh/ds = K p v/(0.1 m/s)."""
+
+    type = "test.faster"
+
+    def rate(self, local):
+        k = np.full_like(local.pressure, K * local.speed / 0.1)
+        return WearRate(k * local.pressure, k)
 
 
 def sphere():

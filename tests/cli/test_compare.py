@@ -80,8 +80,6 @@ def test_json_is_one_object_and_files_compare_alike(folder, compared):
     [
         (["my.toml"], [], "is a case; say what varies in it with --vary"),
         (["my.toml", "b.h5"], CONTACTS, "--vary varies one case, 2 files are given"),
-        (["my.toml"], ["--vary", "contact.type=dcfft"], "1 variant; give 2 to 12"),
-        (["my.toml"], ["--vary", "loda.normal=1,2"], "unknown key 'loda'; did you mean 'load'?"),
         (["my.toml"], [*CONTACTS, "--at", "1 h"], "nothing is saved at 3600 s, only at 0, 20, 60"),
         (["a.h5", "b.h5"], ["--force"], "--set and --force are for a case that varies"),
         (["a.h5", "b.h5"], [], "a.h5 is not a file"),

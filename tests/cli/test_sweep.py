@@ -61,8 +61,6 @@ def test_failed_runs_are_told_by_reason_and_exit_with_3(tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (["none.toml"], "none.toml: there is no such file"),
-        (["case.toml"], "is a case, not a study"),
         (["study.toml", "--scheduler", "tcp://a:1", "--dask"], "has workers of its own"),
         (["study.toml", "--jobs", 0], "0 is not in the range x>=1"),
     ],

@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 import pytest
-from paper_models import motion, small
+from paper_models import case, motion, small
 
 from tribo import CaseError, Grid, Reciprocating
 from tribo.config.load import validate_case
@@ -126,12 +126,5 @@ def test_positions_that_cannot_serve_the_contact_are_refused(stroke, positions, 
 @pytest.mark.parametrize("given", [4, 1, "all", 2.5])
 def test_positions_are_an_odd_number_or_a_word(given):
     motion = {"type": "reciprocating", "stroke": 2e-3, "frequency": 25, "cycles": 1}
-    body = {"surface": {"type": "flat"}, "material": {"young": 2e11, "poisson": 0.3}}
-    case = {
-        "grid": {"size": 1e-3, "cells": 16},
-        "load": {"normal": 1.0},
-        "bodies": {"a": body, "b": body},
-        "kinematics": motion | {"positions": given},
-    }
     with pytest.raises(CaseError, match=r"kinematics\.positions"):
-        validate_case(case)
+        validate_case(case().model_dump() | {"kinematics": motion | {"positions": given}})

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from paper_models import foundation, last, motion, small
+from paper_models import case, foundation, last, motion, small
 
 from tribo import CaseError, Effect, Field, Grid, Measured, Reciprocating, Simulation
 from tribo.config.load import validate_case
@@ -153,15 +153,9 @@ def test_a_path_may_lie_in_a_file(tmp_path, name):
     ],
 )
 def test_a_path_that_is_none_is_refused(changes, words):
-    body = {"surface": {"type": "flat"}, "material": {"young": 2e11, "poisson": 0.3}}
-    case = {
-        "grid": {"size": 1e-3, "cells": 16},
-        "load": {"normal": 1.0},
-        "bodies": {"a": body, "b": body},
-        "kinematics": {"type": "measured", "path": PATH, **changes},
-    }
+    kinematics = {"type": "measured", "path": PATH, **changes}
     with pytest.raises(CaseError, match=f"kinematics.*{words}"):
-        validate_case(case)
+        validate_case(case().model_dump() | {"kinematics": kinematics})
 
 
 @pytest.mark.parametrize("rows", ["0,0,1\n1,2,3\n", "0,0\n1,x\n", "0,0\n1\n"])

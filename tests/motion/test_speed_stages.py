@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from paper_models import K, foundation, pair, small, states
+from paper_models import Faster, K, foundation, pair, small, states
 
 from tribo import (
     CaseError,
@@ -14,9 +14,7 @@ from tribo import (
     Rotating,
     SpeedStage,
     Unidirectional,
-    WearLaw,
 )
-from tribo.core.fields import WearRate
 
 STAGES = [
     SpeedStage(until=4, speed=0.1),
@@ -46,16 +44,6 @@ def test_distance_is_the_integral_of_the_speed_and_time_its_first_inverse(motion
     assert track(duration=None, revolutions=45).end_time == pytest.approx(10)
     assert strokes(duration=None, distance=0.9).end_time == pytest.approx(10)
     assert strokes(duration=None, cycles=22.5).end_time == pytest.approx(10)
-
-
-class Faster(WearLaw):
-    """Wears in proportion to the speed: dh/ds = k p v/(0.1 m/s)."""
-
-    type = "test.faster"
-
-    def rate(self, local):
-        slope = K * local.speed / 0.1
-        return WearRate(slope * local.pressure, np.full_like(local.pressure, slope))
 
 
 @pytest.mark.parametrize("stepping", [Implicit(), Explicit(time_step=0.3)], ids=lambda s: s.type)

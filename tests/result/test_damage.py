@@ -71,13 +71,6 @@ def test_it_is_refused(sound, tmp_path, damage, words):
         Result.open(path)
 
 
-def test_a_case_is_named_as_such(tmp_path):
-    path = tmp_path / "case.toml"
-    path.write_text("[grid]")
-    with pytest.raises(CaseError, match=r"tribo run .*case\.toml"):
-        Result.open(path)
-
-
 @pytest.mark.parametrize("number", [1, [2, 2]])
 def test_another_format_is_refused_with_both_numbers(sound, tmp_path, number):
     path = tmp_path / "old.h5"

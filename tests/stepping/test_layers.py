@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from paper_models import StopAfter
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from tribo import Archard, Body, Case, CaseError, Effect, Field, Layer, Observer, Result, Simulation
+from tribo import Archard, Body, Case, CaseError, Effect, Field, Layer, Result, Simulation
 from tribo.core.errors import Interrupted
 from tribo.core.fields import LOAD_SHARE
 from tribo.simulation.march import begin, march
@@ -174,21 +175,13 @@ def test_the_elasticity_of_a_layer_reaches_the_contact():
     assert peaks[1] < above.peak_pressure
 
 
-class Stop(Observer):
-    type = "test.stop"
-
-    def on_step(self, snapshot):
-        if snapshot.state.steps == 9:
-            raise KeyboardInterrupt
-
-
 def test_a_run_resumed_has_the_same_bits(tmp_path):
     case = flat(pin=coated(), distance="250 m", output={"save_times": ["1500 s"]})
     with Simulation(case).run(tmp_path / "whole.h5") as whole:
         depth, notices = whole.body("pin").wear_depth, whole.notices
     path = tmp_path / "stopped.h5"
     with pytest.raises(Interrupted):
-        Simulation(case).run(path, observers=[Stop()])
+        Simulation(case).run(path, observers=[StopAfter(steps=9)])
     with Simulation(case).resume(path) as resumed:
         np.testing.assert_array_equal(resumed.body("pin").wear_depth, depth)
         assert resumed.notices == notices

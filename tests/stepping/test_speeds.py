@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from paper_models import K, foundation, lost, motion, pair, small
+from paper_models import Faster, K, foundation, lost, motion, pair, small
 
 from tribo import Effect, Field, Grid, WearLaw, WearRate
 from tribo.core.errors import PluginError
@@ -15,16 +15,6 @@ SINE = {"waveform": "sinusoidal"}
 MEAN = 2 * 2e-3 * 25
 # The mean of v over the path of a sine, with v = π S f sin φ and ds ~ sin φ dφ.
 OVER_PATH = math.pi / 4 * math.pi * 2e-3 * 25
-
-
-class Fast(WearLaw):
-    """dh/ds = k p v/v_mean."""
-
-    type = "test.fast"
-
-    def rate(self, local):
-        k = np.full_like(local.pressure, K * local.speed / MEAN)
-        return WearRate(k * local.pressure, k)
 
 
 class Warmth(Effect):
@@ -48,7 +38,7 @@ class Warm(WearLaw):
 
 def worn(kinematics, law=None, **changes):
     parts = {"grid": Grid((0.7e-3, 0.7e-3), (32, 32)), "contact": foundation(), **changes}
-    return lost(small(bodies=pair(law or Fast()), kinematics=kinematics, **parts))
+    return lost(small(bodies=pair(law or Faster()), kinematics=kinematics, **parts))
 
 
 @pytest.mark.parametrize("time_step", ["0.002 s", "0.013 s", "0.2 s"])
