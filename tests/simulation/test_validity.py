@@ -77,7 +77,7 @@ def test_a_contact_not_small_beside_its_circle_is_told_by_check_and_by_the_run(r
 
 def test_a_ring_on_a_block_has_no_axis_across_its_contact():
     ring = Unidirectional(speed=1, track_radius="1 mm", distance=1, turns=True)
-    assert ring.limitation(0.9e-3, 1e-6, 1e-6, 1.0) is None
+    assert ring.limitation(0.9e-3, 1e-6, 1e-6, 1.0, False) is None
 
 
 def test_a_largest_pressure_at_the_edge_alone_is_told():

@@ -106,7 +106,7 @@ class ClosedTrack(Kinematics):
         return one_swept_body(grid, bodies, self.swept, Track(grid, self.lap))
 
     def limitation(
-        self, half_width_x: float, depth: float, approach: float, volume_ratio: float
+        self, half_width_x: float, depth: float, approach: float, volume_ratio: float, line: bool
     ) -> str | None:
         """Return a warning once the contact is longer than the track."""
         if 2 * half_width_x <= self.lap:

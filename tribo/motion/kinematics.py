@@ -88,7 +88,7 @@ class Kinematics(Component):
         """
 
     def limitation(
-        self, half_width_x: float, depth: float, approach: float, volume_ratio: float
+        self, half_width_x: float, depth: float, approach: float, volume_ratio: float, line: bool
     ) -> str | None:
         """Return why the motion's averaging does not hold, or None while it does.
 
@@ -102,6 +102,8 @@ class Kinematics(Component):
             Elastic approach of the first contact, in m.
         volume_ratio : float
             Volume lost by the bodies that stay over that lost by the swept ones.
+        line : bool
+            Whether the contact goes all across the window, as that of a cylinder on a flat.
         """
         return None
 

@@ -208,15 +208,16 @@ class Reciprocating(Kinematics):
         return stroke
 
     def limitation(
-        self, half_width_x: float, depth: float, approach: float, volume_ratio: float
+        self, half_width_x: float, depth: float, approach: float, volume_ratio: float, line: bool
     ) -> str | None:
         """Return what the stroke average costs, once that is more than 5 % of the depth."""
         stroke, widths = self.stroke, self.stroke / half_width_x
-        excess = groove_excess(stroke, half_width_x, depth, approach, volume_ratio)
+        seen = half_width_x, depth, approach, volume_ratio, line
+        excess = groove_excess(stroke, *seen)
         if depth <= 0 or excess < NOTICED or not self._averages:
             return None
         many = f"{widths:.2g} half-width" + ("" if f"{widths:.2g}" == "1" else "s")
-        longer = good_stroke(stroke, half_width_x, depth, approach, volume_ratio)
+        longer = good_stroke(stroke, *seen)
         return (
             f"the groove{f' of {self.swept}' if self.swept else ''} is {too_deep(excess)} at "
             f"mid-stroke, because tribo averages over the stroke ({1e3 * stroke:.3g} mm, {many} of "

@@ -85,11 +85,11 @@ class Unidirectional(ClosedTrack):
         return one_swept_body(grid, bodies, self.swept, passing)
 
     def limitation(
-        self, half_width_x: float, depth: float, approach: float, volume_ratio: float
+        self, half_width_x: float, depth: float, approach: float, volume_ratio: float, line: bool
     ) -> str | None:
         """Return a warning once the contact is not small beside the track radius."""
         radius, width = self.track_radius, f"{2e3 * half_width_x:.3g} mm"
-        beyond = super().limitation(half_width_x, depth, approach, volume_ratio)
+        beyond = super().limitation(half_width_x, depth, approach, volume_ratio, line)
         if beyond or radius is None or self.turns or half_width_x <= NEAR_AXIS * radius:
             return beyond
         circle = f"track_radius = {1e3 * radius:.3g} mm"

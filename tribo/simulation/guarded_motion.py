@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -174,7 +175,7 @@ class GuardedMotion(Guard[Kinematics]):
         """Raise `CaseError` if its averaging makes no sense for the first contact."""
         self.ask(self.component.check_contact, half_width_x)
 
-    def limitation(self, *seen: float) -> str | None:
+    def limitation(self, *seen: Any) -> str | None:
         """Return why its averaging no longer holds, if so; see `Kinematics.limitation`."""
         answer = self.ask(self.component.limitation, *seen)
         if not isinstance(answer, str | None):

@@ -140,8 +140,8 @@ def limitation(model: Model, state: State) -> str | None:
     return None if is_endless(model, half_width) else model.motion.limitation(*seen)
 
 
-def track_average(model: Model, state: State) -> tuple[float, float, float, float]:
-    """Return half-width, depth, approach (m), ratio of volumes for `Kinematics.limitation`."""
+def track_average(model: Model, state: State) -> tuple[float, float, float, float, bool]:
+    """Return half-width, depth, approach (m), ratio of volumes and line for `limitation`."""
     depths = [float(np.max(state.bodies[name].wear)) for name in model.changing]
     half_width = half_widths(state.contact, model.grid)[0]
     # Worn off the bodies that stay over that off those that are swept.
@@ -150,7 +150,8 @@ def track_average(model: Model, state: State) -> tuple[float, float, float, floa
         lost[name in model.swept] += model.exposures[name].volume(body.wear)
     stays, swept = lost[False], lost[True]
     ratio = stays / swept if swept else (np.inf if stays else 1.0)
-    return half_width, max(depths, default=0.0), state.reference_depth, ratio
+    across = bool(np.all(np.any(state.contact.pressure > 0, axis=0)))
+    return half_width, max(depths, default=0.0), state.reference_depth, ratio, across
 
 
 def is_endless(model: Model, half_width: float) -> bool:

@@ -221,7 +221,7 @@ class KinematicsChecks(Checks):
         motion = GuardedMotion(self._make())
         said, taken = [], []
         for half_width in map(float, np.geomspace(1e-6, 10.0, 50)):
-            said.append(motion.limitation(half_width, 1e-5, 1e-6, 1.0) is not None)
+            said.append(motion.limitation(half_width, 1e-5, 1e-6, 1.0, False) is not None)
             try:
                 motion.check_contact(half_width)
             except CaseError:
