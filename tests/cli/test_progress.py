@@ -52,7 +52,6 @@ def test_the_bar_and_the_time_left_go_on_evenly_past_many_saves(monkeypatch):
     assert bars == sorted(bars)
     left = [60 * int(minutes) + int(seconds) for _, minutes, seconds in seen]
     # The estimate falls by what a step takes, give or take as much, at saves and between.
-    print(left)
     later = itertools.pairwise(left[len(left) // 2 :])
     assert all(abs(after - before + 10) <= 25 for before, after in later)
 

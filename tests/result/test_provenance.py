@@ -119,10 +119,8 @@ def test_facts_that_are_not_text_are_an_error_that_names_the_component(facts):
 
 
 PIPED = """
-from typing import Literal
-
 import numpy as np
-from paper_models import flat, named, small, sphere, steel
+from paper_models import pair, small
 
 from tribo import Simulation
 from tribo import WearLaw, WearRate
@@ -135,8 +133,7 @@ class Linear(WearLaw):
         return WearRate(3e-16 * local.pressure, np.full_like(local.pressure, 3e-16))
 
 
-bodies = [named("ball", sphere(), steel(), Linear()), named("disk", flat(), steel())]
-Simulation(small(bodies=bodies)).run("piped.h5")
+Simulation(small(bodies=pair(Linear()))).run("piped.h5")
 """
 
 

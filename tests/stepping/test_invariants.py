@@ -2,7 +2,6 @@
 
 import json
 from dataclasses import replace
-from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -182,15 +181,3 @@ def test_the_worst_of_each_is_shown(tmp_path):
     assert worst["chattering"] > 0
     text = CliRunner().invoke(show, [str(path)], catch_exceptions=False).stdout
     assert "At worst: load off by" in text
-
-
-def test_what_a_track_loses_is_what_its_law_asks_for():
-    # V = kFΔs in every step, on a window that is not the track.
-    model = small(kinematics=motion(stroke="3 mm", duration=100))
-    assert "disk" in model.swept
-    run = states(model)
-    for before, after in pairwise(run):
-        lost = model.exposures["disk"].volume(after.bodies["disk"].wear)
-        lost -= model.exposures["disk"].volume(before.bodies["disk"].wear)
-        assert lost == pytest.approx(K * 100 * (after.distance - before.distance), rel=1e-6, abs=0)
-        assert after.invariants.volume < 1e-3 * VOLUME
