@@ -84,7 +84,7 @@ def print_report(result: Result, console: Console | None = None, *, told: str = 
     for words in friction_words(result):
         console.print(words)
     for row in lab.rows:
-        console.print(f"{row.label}: {row.value:.4g} {row.unit}".rstrip(), markup=False)
+        console.print(str(row), markup=False)
     totals, worst = result.totals(), result.worst()
     took = "" if result.wall_time is None else f", {readable(result.wall_time, '.1f')} s"
     console.print(f"{totals['steps']} steps, {totals['contact_solves']} contact solves{took}.")

@@ -73,7 +73,7 @@ class LabReport:
         for each in self.inferred:
             off = each.off if each.premise_broken else f"{each.off} %"
             lines.append(f"{each.body}, {each.method}: {1e9 * each.volume_m3:.3g} mm³ ({off})")
-        lines += [f"{row.label}: {row.value:.4g} {row.unit}".rstrip() for row in self.rows]
+        lines += map(str, self.rows)
         return "\n".join([*lines, self.first_contact_words])
 
     def as_json(self) -> dict[str, Any]:

@@ -30,6 +30,9 @@ class LabRow(NamedTuple):
     value: float
     unit: str
 
+    def __str__(self) -> str:
+        return f"{self.label}: {self.value:.4g} {self.unit}".rstrip()
+
 
 class ExportFormat(NamedTuple):
     """A format of `tribo export`: its name, what it holds, and a function that writes it."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -36,6 +36,17 @@ from tribo.study.gradient.sensitivity import sensitivity
 LONGEST_CASE = 200_000
 """Characters of a case that a report holds; one with a measured surface has millions."""
 MOST_NUMBERS = 8
+OF_A_BODY: Mapping[str, Callable[[Any], str]] = {
+    "surface": component_words,
+    "material": lambda table: value_words(table, Material),
+    "wear": component_words,
+}
+OF_A_CASE: Mapping[str, Callable[[Any], str]] = {
+    "load": lambda table: value_words(table, Load),
+    "friction": lambda table: value_words(table, Friction),
+    **dict.fromkeys(("kinematics", "contact", "stepping"), component_words),
+}
+"""What puts a part of a body, or of a case, in words."""
 CITATION = (
     "tribo {version}, MIT licence. Its model: J. Andersson, A. Almqvist and R. Larsson, "
     "Simulation of a wear experiment, 29 April 2010."
@@ -55,7 +66,7 @@ def result_page(result: Result, verified: Path | None = None) -> str:
         answer=sentence(result, lab, estimates),
         trust=trust(estimates),
         tables=list(_tables(result, lab, estimates)),
-        remarks=_remarks(result, lab),
+        remarks=[lab.first_contact_words, *friction_words(result), *map(str, lab.rows)],
         notes=result.notices,
         drawing=drawing(case, swept) if _is_whole(case) else "",
         facts=facts(case),
@@ -116,11 +127,6 @@ def _uncertainty(row: Estimate) -> str:
     return f"{amount(found, row['unit'])}{percent}"
 
 
-def _remarks(result: Result, lab: LabReport) -> list[str]:
-    rows = [f"{row.label}: {row.value:.4g} {row.unit}".rstrip() for row in lab.rows]
-    return [lab.first_contact_words, *friction_words(result), *rows]
-
-
 def _held(result: Result) -> str:
     totals, worst = result.totals(), result.worst()
     took = "" if result.wall_time is None else f" in {result.wall_time:.1f} s"
@@ -141,22 +147,11 @@ def facts(case: Mapping[str, Any]) -> list[tuple[str, str]]:
     """Return the numbers of a case in words, by what they are of."""
     found = []
     for name, body in case["bodies"].items():
-        if body.get("surface"):
-            found.append((f"{name}, surface", component_words(body["surface"])))
-        if body.get("material"):
-            found.append((f"{name}, material", value_words(body["material"], Material)))
-        if body.get("wear"):
-            found.append((f"{name}, wear", component_words(body["wear"])))
+        own = [(part, words) for part, words in OF_A_BODY.items() if body.get(part)]
+        found += [(f"{name}, {part}", words(body[part])) for part, words in own]
         for i, layer in enumerate(body.get("layers") or (), start=1):
             found.append((f"{name}, layer {i} from the top", value_words(layer, Layer)))
-    for part, table in (("load", Load), ("friction", Friction)):
-        if case.get(part):
-            found.append((part, value_words(case[part], table)))
-    found += [
-        (part, component_words(case[part]))
-        for part in ("kinematics", "contact", "stepping")
-        if case.get(part)
-    ]
+    found += [(part, words(case[part])) for part, words in OF_A_CASE.items() if case.get(part)]
     grid = case.get("grid", {})
     if "size" in grid and "cells" in grid:
         size = " × ".join(f"{1e3 * edge:.4g}" for edge in grid["size"])
