@@ -10,7 +10,7 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.plotting.kept import kept_fields
-from tribo.plotting.sections import limits, number_of_saves
+from tribo.plotting.sections import limits, number_of_saves, removed
 from tribo.plotting.units import axis_units, shown_in, size
 from tribo.report.curves import history, moments, sections, thinned, touched
 from tribo.report.reduced import Blocks, block_means, block_words, each_plain, plain
@@ -79,9 +79,9 @@ def charts(result: Result) -> dict[str, Any]:
     """
     saves = thinned(number_of_saves(result))
     times = [float(result.times[i]) for i in saves]
-    bodies = [result.body(name) for name in result.body_names]
+    depths_of = {name: removed(result, name)[saves] for name in result.body_names}
     pressures = [result.field("pressure", i) for i in saves]
-    worn = [body for body in bodies if np.any(_depth(body)[saves] != 0)]
+    worn = [result.body(name) for name, depths in depths_of.items() if np.any(depths != 0)]
     kept = [field for field in kept_fields(result) if field.varies]
     count = 1 + len(worn) + len(kept)
     most = int(np.clip(np.sqrt(NUMBERS / (count * len(saves))), FEWEST_CELLS, MOST_CELLS))
@@ -89,7 +89,7 @@ def charts(result: Result) -> dict[str, Any]:
     maps = [_map("Contact pressure", "Pa", "", pressures, window)]
     surfaces = []
     for body in worn:
-        depths, part = [_depth(body)[i] for i in saves], window
+        depths, part = list(depths_of[body.name]), window
         if (track := _track(result, body, saves)) is not None:
             depths, part = track, _whole_track(result, track, window, most)
         # A unit of its own, for one body may wear a thousandth of the other.
@@ -123,10 +123,6 @@ def pressure_maps(results: Mapping[str, Result], times: Sequence[float]) -> list
         name = f"Contact pressure, {label}"
         maps.append(_map(name, "Pa", "", pressures, window, highest))
     return maps
-
-
-def _depth(body: BodyResult) -> Array:
-    return np.asarray(body.wear_depth + body.plastic_depth)
 
 
 def _called(body: BodyResult) -> str:
