@@ -177,6 +177,22 @@ def _stopping(
     return stopping, warned
 
 
+def _worn(model: Model, coarse: Model, state: State) -> tuple[State, float | None]:
+    """Return the end of a coarse run, and when its contact outgrew the window of `model`, in s."""
+    outgrown = None
+    for steps, accepted in enumerate(march(coarse, state), start=1):
+        state = accepted.state
+        if steps >= PATIENCE and state.distance < LITTLE * coarse.end_distance:
+            raise NumericalError(
+                f"its steps are too short: {steps} of them slid {state.distance:.3g} of "
+                f"{coarse.end_distance:.4g} m; find what changes so fast: a wear law, or what "
+                "fills the gap"
+            )
+        if outgrown is None and not _inside(model, measure(coarse, state)):
+            outgrown = state.time
+    return state, outgrown
+
+
 def _run_time(model: Model, coarse: Model, took: float) -> float:
     """Return how long a run will take, from its coarse trial."""
     # Of neighbouring positions some are solved at once, or hardly change.
@@ -209,7 +225,6 @@ def _coarse_run(model: Model, first: Measures) -> CoarseRun:
     half_width = np.inf if model.contact.periodic else first.half_width_x
     # A body or a period that ends at the window has no more to give in a wider one.
     for margin in (1.0,) if model.may_reach_edge else MARGINS:
-        outgrown = None
         try:
             coarse = coarsened(model.case, COARSE, margin, half_width)
             began = time.perf_counter()
@@ -218,16 +233,7 @@ def _coarse_run(model: Model, first: Measures) -> CoarseRun:
             failed = failed or error
             continue
         try:
-            for steps, accepted in enumerate(march(coarse, state), start=1):
-                state = accepted.state
-                if steps >= PATIENCE and state.distance < LITTLE * coarse.end_distance:
-                    raise NumericalError(
-                        f"its steps are too short: {steps} of them slid {state.distance:.3g} of "
-                        f"{coarse.end_distance:.4g} m; find what changes so fast: a wear law, or "
-                        "what fills the gap"
-                    )
-                if outgrown is None and not _inside(model, measure(coarse, state)):
-                    outgrown = state.time
+            state, outgrown = _worn(model, coarse, state)
         except CaseError as error:
             # Refused on its way: that does not hang on the cells.
             return CoarseRun(None, error=error, on_any_cells=True)
