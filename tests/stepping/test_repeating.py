@@ -167,8 +167,28 @@ def test_a_surface_that_ends_at_the_window_is_told_of():
 
 @pytest.mark.parametrize("surface", [rough(3), sphere(), Waves(amplitude=1e-7, wavelength=8e-5)])
 def test_a_surface_that_repeats_goes_without_a_word(surface):
-    model = repeating(motion(stroke=1.0), bodies=bodies(surface, flat()))
+    model = repeating(motion(stroke=GRID.size[0]), bodies=bodies(surface, flat()))
     assert begin(model).notices == ()
+
+
+def test_of_a_contact_without_an_end_the_average_holds_for_a_track_of_one_period():
+    # Two flats wear alike; averaged over 1 m one of them has what a single window wears there.
+    flats = {"bodies": bodies(flat(), flat()), "contact": Periodic()}
+    model = repeating(track(positions="average"), **flats)
+    state = last(model)
+    upper, lower = (np.mean(state.bodies[name].wear) for name in ("upper", "lower"))
+    (notice,) = state.notices
+    assert lower == pytest.approx(3.2e-4 * upper, rel=1e-9, abs=0)
+    assert "lower wears 0.00032 times as much as it would" in notice.text
+    assert notice.text in predict(model).problems
+    for other in (track(), track(positions="average", track_length=GRID.size[0])):
+        assert begin(repeating(other, **flats)).notices == ()
+
+
+def test_a_ball_alone_in_its_window_is_averaged_over_its_own_track():
+    ball = {"bodies": bodies(sphere(), flat()), "load": 5, "contact": Periodic()}
+    notices = begin(repeating(track(positions="average"), **ball)).notices
+    assert "averaging" not in [notice.kind for notice in notices]
 
 
 def test_a_check_foresees_them():

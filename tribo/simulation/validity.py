@@ -24,6 +24,8 @@ STEEP = 0.3
 """Half-width of a contact over the radius of a body, from which on it is spoken of."""
 SHARP = 1.2
 """Largest pressure at the edge over that inside of a contact, from which on it is spoken of."""
+UNLIKE = 0.01
+"""Relative difference of a track from the period, from which on it is spoken of."""
 SEAM = 4
 """How many times more a surface bends at the edge of a window than inside if it ends there."""
 ROUNDING = 1e-9
@@ -135,9 +137,27 @@ def check_stroke(model: Model, state: State) -> None:
 
 
 def limitation(model: Model, state: State) -> str | None:
-    """Return why the motion does not hold for a contact that has ends, as in `state`, if so."""
+    """Return why averaging over a track does not hold for the contact in `state`, if so."""
     seen = half_width, *_ = track_average(model, state)
-    return None if is_endless(model, half_width) else model.motion.limitation(*seen)
+    if is_endless(model, half_width):
+        return _unlike_the_period(model)
+    return model.motion.limitation(*seen)
+
+
+def _unlike_the_period(model: Model) -> str | None:
+    """Say so if a body that meets a contact without an end is averaged over another length."""
+    period = model.grid.size[0]
+    averaged = [name for name in model.changing if model.exposures[name].starts is None]
+    for name in averaged:
+        length = _track_length(model, name)
+        if name in model.laws and abs(length - period) > UNLIKE * period:
+            return (
+                f"the contact repeats every {1e3 * period:.4g} mm without an end, but what one "
+                f"period wears off {name} is averaged over a track of {1e3 * length:.4g} mm: "
+                f"{name} wears {period / length:.2g} times as much as it would; make the track "
+                'as long as the window, or resolve it by kinematics.positions = "cells"'
+            )
+    return None
 
 
 def track_average(model: Model, state: State) -> tuple[float, float, float, float, bool]:
