@@ -12,6 +12,7 @@ from typing import Any
 from tribo.case import Begin, Case
 from tribo.core.errors import CaseError, NumericalError
 from tribo.core.measures import half_widths
+from tribo.core.state import State
 from tribo.motion.averaging import groove_excess, too_deep
 from tribo.motion.cycle import Stroke, least_positions, spacing_for
 from tribo.motion.reciprocating import Reciprocating
@@ -193,37 +194,39 @@ def _costly(model: Model, stroke: float) -> tuple[str, float] | None:
 
     With it the distance (m) at which positions serve the contact at the end.
     """
+    try:
+        foreseen = _foreseen(model)
+    except NumericalError:
+        return None
+    if foreseen is None or not model.changing:
+        return None
+    coarse, state = foreseen
+    seen = half_width, *_ = track_average(coarse, state)
+    beyond = model.contact.periodic and stroke > (1 + WORTH) * model.grid.size[0]
+    if beyond or is_endless(coarse, half_width):
+        return _repeating(model, stroke)
+    excess = groove_excess(stroke, *seen)
+    if excess < WORTH:
+        return None
+    widths = f"{stroke / half_width:.2g}"
+    words = (
+        f"the stroke of {1e3 * stroke:.3g} mm is {widths} half-width{'s' * (widths != '1')} of "
+        f"the contact, for which the average would make the groove {too_deep(excess)}"
+    )
+    return words, spacing_for(state.contact.pressure, WORTH) * coarse.grid.spacing[0]
+
+
+def _foreseen(model: Model) -> tuple[Model, State] | None:
+    """Return the model of a coarse run and its end; None if the case is refused on any cells."""
     margins = (1.0,) if model.may_reach_edge else MARGINS
-    too_fine = True
+    # Where a shape is too fine for coarse cells, the case's own serve.
     for cells, margin in [*((CELLS, each) for each in margins), (max(model.grid.cells), 1.0)]:
-        # Where a shape is too fine for coarse cells, the case's own serve.
-        if cells > CELLS and not too_fine:
-            break
-        try:
+        with suppress(CaseError):
             coarse = coarsened(model.case, cells, margin)
             state = begin(coarse)
             for accepted in islice(march(coarse, state), STEPS):
                 state = accepted.state
-        except CaseError:
-            continue
-        except NumericalError:
-            too_fine = False
-            continue
-        seen = half_width, *_ = track_average(coarse, state)
-        if not coarse.changing:
-            return None
-        beyond = model.contact.periodic and stroke > (1 + WORTH) * model.grid.size[0]
-        if beyond or is_endless(coarse, half_width):
-            return _repeating(model, stroke)
-        excess = groove_excess(stroke, *seen)
-        if excess < WORTH:
-            return None
-        widths = f"{stroke / half_width:.2g}"
-        words = (
-            f"the stroke of {1e3 * stroke:.3g} mm is {widths} half-width{'s' * (widths != '1')} of "
-            f"the contact, for which the average would make the groove {too_deep(excess)}"
-        )
-        return words, spacing_for(state.contact.pressure, WORTH) * coarse.grid.spacing[0]
+            return coarse, state
     return None
 
 
