@@ -112,7 +112,8 @@ def _facts(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
     if model.chosen is not None or prediction.positions > 1:
         yield "positions", model.chosen or f"the cycle is resolved at {prediction.positions}"
         if prediction.positions_for_1_percent is not None:
-            yield "positions for 1 % of the depth, about", f"{prediction.positions_for_1_percent}"
+            words = f"{prediction.positions_for_1_percent} if the contact stays as it is at first"
+            yield "positions for 1 % of the depth, about", words
     yield from _end(model, prediction)
     if prediction.run_time is not None:
         soonest, latest = prediction.run_time / SPREAD, prediction.run_time * SPREAD
