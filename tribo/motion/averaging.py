@@ -45,8 +45,9 @@ def groove_excess(
     A groove that is straight across is as deep at mid-stroke as the average makes it once none of
     the contacts over that place touch its ends: what it costs falls off exponentially, the further
     the deeper it is. Beside cylinders resolved along strokes of 4 to 33 half-widths, with grooves
-    of 0.1 to 7 times the approach, the smaller of the two states 0.8 to 3 times what is found,
-    where that is over 1 %.
+    of 0.1 to 7 times the approach, the smaller of the two states 0.8 to 3 times what is found
+    where that is over 1 %, of springs up to 4.5 times. Where less than 1 % is found it may still
+    state up to 4 %, and never the other way round.
 
     Parameters
     ----------
