@@ -163,14 +163,15 @@ def _unlike_the_period(model: Model) -> str | None:
 def track_average(model: Model, state: State) -> tuple[float, float, float, float, bool]:
     """Return half-width, depth, approach (m), ratio of volumes and line for `limitation`."""
     depths = [float(np.max(state.bodies[name].wear)) for name in model.changing]
-    half_width = half_widths(state.contact, model.grid)[0]
+    contact = state.contact
+    half_width = half_widths(contact, model.grid)[0]
     # Worn off the bodies that stay over that off those that are swept.
     lost = {True: 0.0, False: 0.0}
     for name, body in state.bodies.items():
         lost[name in model.swept] += model.exposures[name].volume(body.wear)
     stays, swept = lost[False], lost[True]
     ratio = stays / swept if swept else (np.inf if stays else 1.0)
-    across = bool(np.all(np.any(state.contact.pressure > 0, axis=0)))
+    across = bool(np.all(np.any(contact.pressure > 0, axis=0)))
     return half_width, max(depths, default=0.0), state.reference_depth, ratio, across
 
 
