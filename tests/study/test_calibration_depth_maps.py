@@ -112,7 +112,7 @@ def test_another_law_is_noticed_and_not_chosen(two_loads, found):
     wrong = choice.calibrations["archard"]
     assert wrong.p_value < 1e-6
     assert any("data and model disagree" in note for note in wrong.notes)
-    assert any("the depth_map of 'ball' follow a pattern" in note for note in wrong.notes)
+    assert any("the depth_map of 'ball' in heavy follow a pattern" in note for note in wrong.notes)
     assert not any("follow a pattern" in note for note in found.notes)
 
 
@@ -141,6 +141,49 @@ def test_maps_of_tests_that_scatter_are_off_together(noisy):
     (each,) = found.parameters.itertuples()
     assert each.value == pytest.approx(3e-16, rel=0.02, abs=0)
     assert each.upper / each.value > 1.3
+    # A map that is 15 % deeper all over is of another test, not of another shape.
+    assert found.data["residual"].abs().max() > 1.5
+    assert not any("pattern" in note for note in found.notes)
+
+
+@pytest.mark.slow
+def test_tests_as_far_apart_as_is_stated_are_no_disagreement(noisy):
+    """By two standard deviations each, in every depth of the scar alike."""
+    tests = [
+        {"name": "alike", "measured": [noisy(ARCHARD, **{K: f * 3e-16})]} for f in (0.95, 1.05)
+    ]
+    stated = {"test": tests, "fit": [{"path": K}], "repeatability": 0.025}
+    found = calibrate(ARCHARD, stated)
+    assert found.p_value > 0.01
+    assert not any("disagree" in note or "pattern" in note for note in found.notes)
+    # Tests of one name keep a row each.
+    assert list(found.brief["test"]) == ["alike", "alike"]
+    less, more = found.brief["measured"]
+    assert more / less == pytest.approx(1.05 / 0.95, rel=0.02)
+
+
+@pytest.mark.slow
+def test_where_tests_hardly_tell_their_scatter_it_is_asked_for(noisy):
+    """A map of one ball, known to parts of a percent, and two weighings to 10 %."""
+    lost = 3e-16 * 100 * 6 * 7850
+    mass = {"body": "ball", "quantity": "mass", "value": [lost, 1.05 * lost]}
+    mass["uncertainty"] = 0.1 * lost
+    found = calibrate(ARCHARD, {"measured": [noisy(ARCHARD), mass], "fit": [{"path": K}]})
+    assert any("do not bound it from below or above; too few tests" in n for n in found.notes)
+
+
+@pytest.mark.slow
+def test_maps_without_a_depth_in_common_tell_how_tests_scatter(noisy):
+    tests = []
+    for odd, factor in enumerate((0.85, 1.15)):
+        entry = noisy(ARCHARD, **{K: factor * 3e-16})
+        depth = np.load(entry["depth"])
+        depth[np.indices(depth.shape).sum(axis=0) % 2 == odd] = np.nan
+        np.save(entry["depth"], depth)
+        tests.append({"measured": [entry]})
+    found = calibrate(ARCHARD, {"test": tests, "fit": [{"path": K}]})
+    assert found.repeatability_estimated
+    assert found.repeatability == pytest.approx(0.3 / 2**0.5, rel=0.2)
 
 
 @pytest.mark.slow
@@ -208,16 +251,23 @@ def test_blocks_leave_out_what_was_not_measured():
 
 
 @pytest.mark.slow
-def test_a_map_as_one_has_it_can_be_planned_with(two_loads):
-    plan = plan_tests(POWER, {**two_loads, "repeatability": 0.0}, 0.1)
-    assert plan.tests["count"].sum() >= 1
+def test_a_map_can_be_planned_with_before_it_is_measured(two_loads):
+    """As with one that was, whose missing depths tell little more."""
+    entry = {"body": "ball", "quantity": "depth_map", "uncertainty": NOISE}
+    ahead = copy.deepcopy(two_loads)
+    for test in ahead["test"]:
+        test["measured"] = [entry]
+    plans = [plan_tests(POWER, {**each, "repeatability": 0.1}, 0.1) for each in (two_loads, ahead)]
+    had, planned = (plan.tests["count"].to_list() for plan in plans)
+    assert had == planned
+    assert sum(planned) >= 2
 
 
 @pytest.mark.parametrize(
     ("changes", "place", "words"),
     [
         ({"depth": "no.npy"}, ".0.depth", "no.npy"),
-        ({"depth": None}, ".0", "depth_map needs depth, the file of a height map"),
+        ({"depth": None}, ".0", "give depth, the file of a height map"),
         ({"pitch": None}, ".0.depth", "give the distance between pixels"),
         ({"pitch": "0.1 mm"}, ".0.depth", "larger than cells"),
         ({"depth": "beside.npy"}, ".0.depth", "does not lie on the window"),
@@ -225,6 +275,7 @@ def test_a_map_as_one_has_it_can_be_planned_with(two_loads):
         ({"depth": "missing.npy"}, ".0.depth", "every height of the map is missing"),
         ({"value": "1 um"}, ".0", "has its numbers in the file"),
         ({"uncertainty": None}, ".0", "say how well it was measured"),
+        ({"uncertainty": "1e-13 m"}, ".0.depth", "less than a millionth of 1 µm"),
         ({"uncertainty": "1 mg"}, ".0.uncertainty", "a length [m] is needed"),
         ({"quantity": "crown", "value": "1 um"}, ".0", "crown has no depth or pitch"),
         ({"body": "bal"}, ".0.body", "did you mean 'ball'?"),

@@ -29,7 +29,7 @@ from tribo.study.calibration.sample import check_sampling, sampled
 DATA = ["test", "body", "quantity", "time_s", "position_m", "unit"]
 DATA += ["measured", "below", "sigma", "computed", "residual"]
 """Columns of a calibration's data."""
-PLACE = ["x_m", "y_m"]
+PLACE = ["place", "x_m", "y_m"]
 """More of them, where a depth map is among the data."""
 AT_BOUND = 1e-6
 """Relative distance below which an estimate counts as on its bound."""
@@ -57,10 +57,10 @@ class Calibration:
     """
     data: pd.DataFrame
     """A row a measured value: `test`, empty for one of the case as it is; `body`, `quantity`,
-    `time_s`, `position_m` of a profile's point, `x_m` and `y_m` of a part of a map, `unit`,
-    `measured`, `below` for a limit, `sigma`, of the measurement, the grid, and from test to test,
-    `computed`, and `residual`, computed less measured in units of `sigma`; of a limit z of them
-    above the computed value √(−2 ln Φ(z))."""
+    `time_s`, `position_m` of a profile's point, `unit`, `measured`, `below` for a limit, `sigma`,
+    of the measurement, the grid, and from test to test, `computed`, and `residual`, computed less
+    measured in units of `sigma`; of a limit z of them above the computed value √(−2 ln Φ(z)). With
+    maps also `place`, their entry in the file, and of each part its middle, `x_m` and `y_m`."""
     predictions: pd.DataFrame
     """What else the fitted case gives at the end of each test, in the mean, where tests scatter:
     `test`, `body`, `quantity`, `unit`, `value`, `lower`, `upper`; 0 and infinite where it depends
@@ -100,8 +100,7 @@ class Calibration:
         """
         is_map = self.data["quantity"] == DEPTH_MAP
         parts = [self.data[~is_map].assign(depths=1)]
-        keys = ["test", "body", "time_s"]
-        for _, rows in self.data[is_map].groupby(keys, dropna=False):
+        for _, rows in self.data[is_map].groupby("place") if np.any(is_map) else ():
             means = rows[["measured", "computed"]].mean()
             squares = (rows[["sigma", "residual"]] ** 2).mean() ** 0.5
             parts.append(rows[:1].assign(depths=len(rows), **means, **squares))
@@ -163,8 +162,11 @@ def calibrate(
         raise CaseError(f"the level, {level:g}, must lie between 0 and 1, as 0.95 does")
     posed = Posed.of(case, measured)
     for each in posed.data[posed.data["measured"].isna()].itertuples():
-        more = ", or before and after" if each.quantity == "mass" else ""
-        raise CaseError(f"give value{more}", each.place)
+        others = {
+            "mass": "value, or before and after",
+            DEPTH_MAP: "depth, the file of a height map",
+        }
+        raise CaseError(f"give {others.get(each.quantity, 'value')}", each.place)
     if (count := len(posed.data)) < len(posed.parameters):
         raise CaseError(
             f"{len(posed.parameters)} parameters cannot be fitted to {count} measured "
@@ -213,7 +215,7 @@ def far_off(data: pd.DataFrame, computed: Array, parameters: Sequence[Parameter]
     for place, unit, sigma, below, value, own in (
         sizes.groupby(data["place"], sort=False).max().itertuples()
     ):
-        if own == 0 or value == 0:
+        if own == 0:
             continue
         # A value below its uncertainty only says that the quantity is no larger, as a limit does.
         factor = own / max(value, sigma)
@@ -252,6 +254,7 @@ def _outcome(fitted: Linearised, posed: Posed, level: float) -> Calibration:
         sigma=sigma,
         computed=computed,
         residual=problem.residuals(computed, 1 / sigma),
+        alone=fitted.residuals(fitted.point),
     )
     told = np.max(np.abs(jacobian[~problem.below]), axis=0, initial=0.0) > NO_EFFECT
     spare = max(int(np.sum(~problem.below)) - int(np.sum(told & ~held)), 0)
@@ -260,7 +263,7 @@ def _outcome(fitted: Linearised, posed: Posed, level: float) -> Calibration:
         level=level,
         runs=posed.made,
         parameters=estimates,
-        data=data[[*DATA, *(name for name in PLACE if name in data)]],
+        data=data[DATA + PLACE if "x_m" in data else DATA],
         predictions=predictions,
         chi_square=float(np.sum(fitted.residuals(fitted.point)[~problem.below] ** 2)),
         degrees_of_freedom=spare,

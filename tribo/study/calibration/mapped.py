@@ -68,9 +68,14 @@ def calibrate_maps(
     return fit_maps(model, depths, priors, on_run=on_run)
 
 
-def read_depth(model: Model, body: str, file: str, pitch: float | None, place: str) -> Array:
-    """Return a map's depth at the cells of a body's own surface, in m; NaN where missing."""
+def read_depth(model: Model, body: str, file: str | None, pitch: float | None, place: str) -> Array:
+    """Return a map's depth at the cells of a body's own surface, in m; NaN where missing.
+
+    Of a map that is not measured yet, without a file, 0 at all of them.
+    """
     shape = model.exposures[body].rows, model.grid.cells[1]
+    if file is None:
+        return np.zeros(shape)
     with located(f"{place}.depth"):
         heights = read_heights(file, None if pitch is None else (pitch, pitch))
         return on_cells(heights, shape, model.grid.spacing)

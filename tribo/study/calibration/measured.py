@@ -95,8 +95,6 @@ class Measured(Table):
         if self.quantity != DEPTH_MAP:
             if self.depth is not None or self.pitch is not None:
                 raise ValueError(f"{self.quantity} has no depth or pitch; those are of a depth_map")
-        elif self.depth is None:
-            raise ValueError("depth_map needs depth, the file of a height map")
         elif {"value", "before", "after", "position"} & self.model_fields_set:
             raise ValueError("depth_map has its numbers in the file depth; give no others")
         return self
@@ -141,18 +139,7 @@ class Measured(Table):
                 "say how well it was measured: uncertainty (a standard deviation), resolution, "
                 "or both"
             )
-        largest = float(np.max(np.abs(self.values)))
-        if self.sigma < FINEST * largest:
-            raise ValueError(
-                f"known to {in_words(self.quantity, self.sigma)}, less than a millionth of "
-                f"{in_words(self.quantity, largest)}: no run is that exact; check the "
-                "uncertainty and its unit"
-            )
-        return self
-
-    @model_validator(mode="after")
-    def _counts_downwards(self) -> Self:
-        if told := told_negative(self.values, self.sigma):
+        if told := told_wrong(self, self.values):
             raise ValueError(told)
         return self
 
@@ -203,10 +190,16 @@ class Measured(Table):
         return float(np.hypot(self.uncertainty or 0.0, self.from_resolution[0]))
 
 
-def told_negative(depths: Array, sigma: float) -> str:
-    """Say that depths of such a standard deviation are negative in the mean; nothing if not."""
-    mean = float(np.mean(depths))
-    if not mean < -_BEYOND_NOISE * sigma / np.sqrt(len(depths)):
+def told_wrong(entry: Measured, values: Array) -> str:
+    """Say that values are too exact, or depths negative in the mean; nothing if they are not."""
+    mean, largest = float(np.mean(values)), float(np.max(np.abs(values)))
+    if entry.sigma < FINEST * largest:
+        return (
+            f"known to {in_words(entry.quantity, entry.sigma)}, less than a millionth of "
+            f"{in_words(entry.quantity, largest)}: no run is that exact; check the "
+            "uncertainty and its unit"
+        )
+    if not mean < -_BEYOND_NOISE * entry.sigma / np.sqrt(len(values)):
         return ""
     return (
         f"the depths are negative, {1e6 * mean:.3g} µm in the mean; depths count downwards from "

@@ -26,10 +26,11 @@ def notes(
 ) -> list[str]:
     """Return notes, with the derivatives of the residuals by the logarithms of the parameters.
 
+    The data have residuals also `alone`: made independent of each other where tests scatter.
     `spare` are the degrees of freedom of χ², None where the data tell their own scatter.
     """
     return [
-        *_on_parameters(estimates, data, jacobian),
+        *_on_parameters(estimates, data, jacobian, spare),
         *_entangled(list(estimates["path"]), jacobian),
         *_on_misfit(data, spare),
         *_on_patterns(data),
@@ -37,7 +38,9 @@ def notes(
     ]
 
 
-def _on_parameters(estimates: pd.DataFrame, data: pd.DataFrame, jacobian: Array) -> Iterator[str]:
+def _on_parameters(
+    estimates: pd.DataFrame, data: pd.DataFrame, jacobian: Array, spare: int | None
+) -> Iterator[str]:
     """Name parameters on a bound or left open, and the instrument that limits each."""
     parts = (data["step_sigma"] / data["sigma"]).to_numpy()
     for each, effect in zip(estimates.itertuples(), np.linalg.pinv(jacobian), strict=True):
@@ -57,7 +60,11 @@ def _on_parameters(estimates: pd.DataFrame, data: pd.DataFrame, jacobian: Array)
             )
         elif any(is_open.values()):
             sides = " or ".join(side for side, so in is_open.items() if so)
-            yield f"{each.path}: the data do not bound it from {sides}"
+            scatter = "; too few tests alike tell how far they scatter: state repeatability"
+            yield (
+                f"{each.path}: the data do not bound it from {sides}"
+                f"{scatter if spare is None and all(is_open.values()) else ''}"
+            )
         if not (each.held or each.limited or is_open["above"]) and each.resolution_share > _MOST:
             entry = data.iloc[int(np.argmax(np.abs(effect) * parts))]
             yield (
@@ -97,12 +104,12 @@ def _on_misfit(data: pd.DataFrame, spare: int | None) -> Iterator[str]:
         )
         return
     read = data[~data["below"]]
-    chi_square = float(np.sum(read["residual"] ** 2))
+    chi_square = float(np.sum(read["alone"] ** 2))
     if chdtrc(spare, chi_square) < UNLIKELY:
-        worst = read.loc[read["residual"].abs().idxmax()]
+        worst = read.loc[read["alone"].abs().idxmax()]
         yield (
             f"data and model disagree: χ² is {chi_square:.3g} where about {spare} is expected; the "
-            f"{worst.quantity} of {worst.body!r} is off by {abs(worst.residual):.3g} times its "
+            f"{_named(worst)} is off by {abs(worst.alone):.3g} times its "
             "uncertainty. The model leaves something out, or uncertainties are larger than stated; "
             "the intervals are then too narrow"
         )
@@ -112,7 +119,7 @@ def _on_patterns(data: pd.DataFrame) -> Iterator[str]:
     """Name profiles and maps whose residuals are alike from place to place, as noise is not."""
     along = data[data["quantity"].isin(FIELDS)].sort_values("position_m", kind="stable")
     for _, rows in along.groupby("place", sort=False):
-        residuals = rows["residual"].to_numpy()
+        residuals = rows["alone"].to_numpy()
         alike = np.sum(residuals[1:] * residuals[:-1]) / np.sum(residuals**2)
         if alike * len(rows) ** 0.5 > _ALIKE and np.max(np.abs(residuals)) > 1:
             yield (
@@ -145,4 +152,6 @@ def _instrument(entry: Any) -> str:
 
 
 def _named(entry: Any) -> str:
-    return f"{entry.quantity} of {entry.body!r}"
+    where = f" in {entry.test}" if entry.test else ""
+    when = "" if math.isnan(entry.time_s) else f" at {entry.time_s:g} s"
+    return f"{entry.quantity} of {entry.body!r}{where}{when}"

@@ -28,11 +28,12 @@ from tribo.study.calibration.measured import (
     Measurements,
     Tested,
     read_measurements,
-    told_negative,
+    told_wrong,
 )
 from tribo.study.calibration.parameters import Parameter, check_set, find_parameters
 from tribo.study.calibration.quantities import (
     AXES,
+    DEPTH_MAP,
     EDGES,
     FIELDS,
     QUANTITIES,
@@ -104,7 +105,9 @@ class Posed:
         axis = data["quantity"].map(AXES).fillna(0).astype(int)
         spacing = np.array([bench.model.grid.spacing for bench in tested])
         data["edge"] = np.where(diameter, EDGES * spacing[data["bench"], axis], 0.0)
-        seen = data[~data["below"]].groupby(["bench", *READ], dropna=False)["specimen"]
+        # Of two maps hardly a block has the same cells, where some are missing.
+        keys = ["bench", *(name for name in READ if name != "cells")]
+        seen = data[~data["below"]].groupby(keys, dropna=False)["specimen"]
         repeatability = asked.repeatability
         if repeatability is None and not np.any(seen.nunique() > 1):
             repeatability = 0.0
@@ -204,12 +207,14 @@ def _with_maps(data: pd.DataFrame, tested: Sequence[Bench]) -> pd.DataFrame:
     parts = []
     for place, rows in data.groupby("place", sort=False):
         entry = rows["entry"].iloc[0]
-        if entry.depth is not None:
+        if entry.quantity == DEPTH_MAP:
             model = tested[rows["bench"].iloc[0]].model
             depth = read_depth(model, entry.body, entry.depth, entry.pitch, place)
-            if told := told_negative(depth[np.isfinite(depth)], entry.sigma):
+            if told := told_wrong(entry, depth[np.isfinite(depth)]):
                 raise CaseError(told, f"{place}.depth")
             blocks = in_blocks(depth, model.grid.spacing)
+            if entry.depth is None:
+                blocks["measured"] = math.nan
             rows = rows.loc[rows.index.repeat(len(blocks))].reset_index(drop=True).assign(**blocks)
             for error in ("sigma", "step_sigma"):
                 rows[error] /= rows["cells"].map(len) ** 0.5
