@@ -19,6 +19,8 @@ FAR, FORETOLD = np.log(2.0), 0.3
 """How far, in the logarithm, slopes are trusted, and up to which error of what they foretold."""
 REACH = np.log(1e4)
 """How far an interval is followed; beyond, the data leave it open."""
+FEW = 0.5
+"""Degrees of freedom below which a scatter is as good as unknown."""
 SETTLED, HARDLY = 0.01, 0.1
 """Change of the data, in standard deviations, that ends the fit; the second if χ² stays the same.
 The first is also the part of χ² that counts as a fall."""
@@ -93,8 +95,10 @@ def interval(here: Linearised, direction: Array, level: float) -> tuple[float, f
     # With point = best + root z, χ² rises to first order by |z|².
     gradient = np.sum(direction[:, None] * root, axis=0)
     spread = float(np.sqrt(np.sum(gradient**2)))
-    if spread > REACH or spread == 0:
-        return (-np.inf, np.inf) if spread else (0.0, 0.0)
+    if spread == 0:
+        return 0.0, 0.0
+    if spread > REACH or freedom < FEW:
+        return -np.inf, np.inf
     lower, upper = here.bounds(2 * REACH / np.clip(np.max(np.abs(direction)), 0.05, 1.0))
 
     def point(z: Array) -> Array:

@@ -14,7 +14,7 @@ from scipy.special import ndtri, stdtrit
 from tribo.case import Case
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
-from tribo.study.calibration.fit import check_effect, differenced
+from tribo.study.calibration.fit import FEW, check_effect, differenced
 from tribo.study.calibration.measured import Measurements, read_measurements
 from tribo.study.calibration.posed import Posed
 from tribo.study.calibration.quantities import plain
@@ -136,9 +136,9 @@ class Search:
             slopes = np.diag(covariance @ scattered)
             np.divide(variances**2 * max(known, 0.0), slopes**2, out=freedom, where=slopes > 0)
         part = 0.5 + 0.5 * self.level
-        few = freedom < 0.5
+        few = freedom < FEW
         quantiles = np.where(
-            np.isinf(freedom), ndtri(part), stdtrit(np.clip(freedom, 0.5, 1e9), part)
+            np.isinf(freedom), ndtri(part), stdtrit(np.clip(freedom, FEW, 1e9), part)
         )
         return np.where(few, np.inf, quantiles * np.sqrt(variances)), freedom
 
