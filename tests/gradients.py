@@ -197,7 +197,7 @@ def unfelt(which):
 
 def forgotten(method):
     def mutant(*given):
-        found, states = method(*given)
-        return found, [0 * state for state in states]
+        found, states, followed = method(*given)
+        return found, [0 * state for state in states], followed
 
     return mutant

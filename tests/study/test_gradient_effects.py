@@ -322,7 +322,7 @@ def unseen(method):
 
 
 def as_it_is(method):
-    return lambda self, slid, *given: 0.0 if rests(slid) else method(self, slid, *given)
+    return lambda self, slid, *given: () if rests(slid) else method(self, slid, *given)
 
 
 def of_depths(method):

@@ -19,12 +19,9 @@ from tribo.stepping.memory import Memory
 from tribo.stepping.rates import Moment
 from tribo.stepping.relaxation import Limits
 from tribo.study.gradient.course import pressed, stacked
-from tribo.study.gradient.linear import Carrier
-from tribo.study.gradient.response import Arrays
+from tribo.study.gradient.linear import Carrier, carriers_between
+from tribo.study.gradient.response import ASIDE, Arrays
 from tribo.study.gradient.tape import Slid
-
-FINE = 1e-6
-"""Part of the largest value by which what is remembered is varied."""
 
 
 class Place(NamedTuple):
@@ -42,15 +39,12 @@ class Place(NamedTuple):
 class Asked:
     """Whoever is asked for the rates of an increment of the bodies of a model that wear.
 
-    `kept` are the carriers of what is remembered, in the order of `Memory.values`, and then of the
-    depths of bodies in layers, which go along with it. `along` tells whether rates are integrated
-    along the increment, as where any body remembers, and `advances` whether they are the means that
-    laws know.
+    `along` tells whether rates are integrated along the increment, as where any body remembers, and
+    `advances` whether they are the means that laws know.
     """
 
     model: Model
     carriers: Mapping[str, Carrier]
-    kept: Sequence[Carrier]
     contacts: Sequence[ContactSolution]
     slid: Slid
     along: bool
@@ -60,6 +54,16 @@ class Asked:
     def own(self) -> Sequence[Carrier]:
         """The carriers of the depths worn."""
         return [self.carriers[name] for name in self.model.laws]
+
+    @cached_property
+    def kept(self) -> Sequence[Carrier]:
+        """The carriers of what is remembered, and of the depths in layers, which go along with it.
+
+        In the order of `Memory.values`, the depths at the end.
+        """
+        of_laws = [self.carriers[name] for name, of in self.slid.before.laws.items() for _ in of]
+        between = carriers_between(self.model, self.carriers).values()
+        return [*of_laws, *between, *(self.carriers[name] for name in self.layered)]
 
     @cached_property
     def pressure(self) -> Array:
@@ -82,6 +86,11 @@ class Asked:
         """Whether rates are means over what follows, as `integrated` has it."""
         return self.advances or bool(self.layered)
 
+    @property
+    def follows_length(self) -> bool:
+        """Whether rates follow how long the increment is."""
+        return self.of_steps or self.told(Place(0.0, 0.0)) is not self.contacts
+
     @cached_property
     def limits(self) -> list[Limits]:
         """The limits of what is remembered."""
@@ -92,23 +101,27 @@ class Asked:
         pairs = zip(states, self.limits, strict=True)
         return [np.clip(state, limit.least, limit.most) for state, limit in pairs]
 
-    def nudges(self, states: Sequence[Array], found: Arrays) -> Arrays:
-        """Return by how much each state is varied to find what follows it."""
+    def nudges(self, states: Sequence[Array], found: Arrays, part: float = ASIDE) -> Arrays:
+        """Return by how much each state is varied, within its limits, to find what follows it.
+
+        By a part of the largest value that it has, or comes to.
+        """
         nudges = []
-        for state, rate in zip(states, found[len(self.own) :], strict=True):
+        of_states = zip(states, found[len(self.own) :], self.limits, strict=True)
+        for state, rate, limit in of_states:
             fastest = self.slid.increment * float(np.max(np.abs(rate)))
-            largest = max(float(np.max(np.abs(state))), fastest) or 1.0
-            nudges.append(np.full_like(state, FINE * largest))
+            nudge = part * (max(float(np.max(np.abs(state))), fastest) or 1.0)
+            nudges.append(np.where(state + nudge > limit.most, -nudge, nudge))
         return nudges
 
     def means(self, rates: Arrays) -> Arrays:
-        """Return the mean rates of what is remembered, where it lies."""
-        pairs = zip(self.kept, rates[len(self.own) :], strict=True)
-        return [kept.mean(rate, self.shares) for kept, rate in pairs]
+        """Return the mean rates of the depths and of what is remembered, where these lie."""
+        pairs = zip((*self.own, *self.kept), rates, strict=True)
+        return [carrier.mean(rate, self.shares) for carrier, rate in pairs]
 
     def of_states(self, place: Place, values: Sequence[Array], *_: float) -> Arrays:
         """Return the mean rates of what is remembered at other values of it."""
-        return self.means(self.rates(values, self.in_layers(values, place)))
+        return self.means(self.rates(values, self.in_layers(values, place)))[len(self.own) :]
 
     @cached_property
     def shares(self) -> Array:

@@ -16,10 +16,10 @@ from tribo.core.errors import CaseError
 from tribo.core.fields import LOAD_SHARE
 from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.model import Model
-from tribo.stepping.evolution import Course, course, layered_bodies
+from tribo.stepping.evolution import Course, course
 from tribo.stepping.memory import Memory, first_memory
 from tribo.study.gradient.course import Before, Plain, plain
-from tribo.study.gradient.linear import StepSystem, carrier_of, carriers_between
+from tribo.study.gradient.linear import StepSystem, carriers_between, carriers_of
 from tribo.study.gradient.local import WatchedLaw
 from tribo.study.gradient.objective import Seeds
 from tribo.study.gradient.parameters import Chain
@@ -106,7 +106,7 @@ class Backwards:
         self.chains = chains
         cells, positions = model.grid.cells, len(model.cycle)
         self.shares = np.array([position.share for position in model.cycle])
-        self.carriers = {name: carrier_of(model, name) for name in model.bodies}
+        self.carriers = carriers_of(model)
         own = {name: (carrier.rows, cells[1]) for name, carrier in self.carriers.items()}
         self.worn_before = {name: np.zeros(shape) for name, shape in own.items()}
         self.height = {name: np.zeros(shape) for name, shape in own.items()}
@@ -181,7 +181,7 @@ class Backwards:
             self.pressure = over(self.shares) * sum(each.pressure for each in behind)
             if pressed is not None:
                 self.pressure += pressed
-            self._wear(slid, contacts, known, seen, behind)
+            self._wear(slid, seen, behind)
             return
         fixed = np.zeros_like(pressure)
         weights = np.where(self.shares > 0, self.shares, 1.0)
@@ -208,21 +208,18 @@ class Backwards:
         for at, chain in enumerate(self.chains):
             self.sums[at] += chain.by_load(record, by_load)
         if slid is not None:
-            self._wear(slid, contacts, known, seen, behind)
+            self._wear(slid, seen, behind)
 
     def _wear(
         self,
         slid: Slid,
-        contacts: Sequence[ContactSolution],
-        known: Course,
         seen: Mapping[str, frozenset[str]],
         behind: Sequence[Before],
     ) -> None:
         """Go back through what a step wore under given contacts."""
         for at, chain in enumerate(self.chains):
-            self.sums[at] += chain.by_wear(
-                slid, contacts, known, seen, self.worn_before, self.states
-            )
+            for weight, other in chain.by_wear(slid, seen, self.carriers):
+                self.sums[at] += weight * sum(each.through(other) for each in behind)
         for each in behind:
             for name, factor in each.factor.items():
                 self.wear_rate[name] += factor
@@ -241,13 +238,10 @@ class Backwards:
         for names in [list(laws)] if self.together else [[name] for name in laws]:
             model = replace(self.model, laws={name: laws[name] for name in names})
             own = {name: slid.before.laws[name] for name in names}
-            kept = [self.carriers[name] for name in names for _ in own[name]]
-            kept += self.between.values()
-            kept += [self.carriers[name] for name in layered_bodies(model)]
             if remembers or self.together:
                 alone = replace(slid, before=replace(slid.before, laws=own))
                 advances = self.model.advances
-                asked = Sloping(model, self.carriers, kept, contacts, alone, remembers, advances)
+                asked = Sloping(model, self.carriers, contacts, alone, remembers, advances)
                 found.append(Remembering(asked))
             else:
                 found.append(plain(model, self.carriers[names[0]], contacts, slid, known))

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -11,9 +12,10 @@ from tribo.core.arrays import Array, readonly
 from tribo.core.box import whole
 from tribo.core.contact import ContactSolution
 from tribo.simulation.model import Model
-from tribo.stepping.evolution import Course
+from tribo.stepping.evolution import Course, course
 from tribo.stepping.memory import Memory
-from tribo.stepping.rates import Moment, rates_at_each
+from tribo.stepping.rates import CycleRates, Moment, rates_at_each
+from tribo.stepping.step import worn_depths
 from tribo.study.gradient.linear import Carrier
 from tribo.study.gradient.response import Arrays, local
 from tribo.study.gradient.tape import Slid
@@ -25,27 +27,51 @@ class Before:
 
     In the pressures, shape (positions, nx, ny), by the share of each position; in the depths worn
     and what was remembered before; and in a factor, 1 here, on the wear rate of each body.
+    `through` tells what an increment of another model adds to it.
     """
 
     pressure: Array
     wear: Mapping[str, Array]
     states: Memory
     factor: Mapping[str, Array]
+    through: Callable[[Other], float]
+
+
+@dataclass(frozen=True)
+class Other:
+    """An increment under the same contacts, of a model with another number.
+
+    `wears` are the bodies whose wear may differ, and `asks` those of them whose rates may.
+    """
+
+    model: Model
+    carriers: Mapping[str, Carrier]
+    slid: Slid
+    wears: Set[str]
+    asks: Set[str]
 
 
 @dataclass(frozen=True)
 class Plain:
-    """An increment of a body of which each cell follows its own pressure alone.
+    """An increment of the one body of a model, of which each cell follows its own pressure alone.
 
-    `slope`, `factor` and `worn` are the derivatives of a point's depth in the pressure of each of
-    its cells, in a factor on its rate, and in the depth before.
+    It came to `known`. `slope`, `factor` and `worn` are the derivatives of a point's depth in the
+    pressure of each of its cells, in a factor on its rate, and in the depth before.
     """
 
-    name: str
+    model: Model
+    contacts: Sequence[ContactSolution]
+    slid: Slid
+    known: Course
     carrier: Carrier
     slope: Array
     factor: Array
     worn: Array | float
+
+    @property
+    def name(self) -> str:
+        """The body's name."""
+        return next(iter(self.model.laws))
 
     @property
     def bodies(self) -> Sequence[tuple[Carrier, Array]]:
@@ -60,7 +86,28 @@ class Plain:
             {self.name: own * self.worn},
             Memory({}, {}),
             {self.name: own * self.factor},
+            partial(self._through, own),
         )
+
+    @cached_property
+    def _depth(self) -> Array:
+        return self._worn(self.model, self.known.rates, self.slid)
+
+    def _worn(self, model: Model, rates: CycleRates, slid: Slid) -> Array:
+        own = [{self.name: of[self.name]} for of in rates]
+        return worn_depths(model, own, slid.increment)[self.name]
+
+    def _through(self, seed: Array, other: Other) -> float:
+        if self.name not in other.wears:
+            return 0.0
+        rates, slid = self.known.rates, other.slid
+        if self.name in other.asks or self.known.memory.shares:
+            model = replace(other.model, laws={self.name: other.model.laws[self.name]})
+            before = replace(slid.before, laws={self.name: slid.before.laws[self.name]})
+            rates = course(
+                model, before, self.contacts, slid.increment, slid.moment, slid.plan
+            ).rates
+        return float(np.sum(seed * (self._worn(other.model, rates, slid) - self._depth)))
 
 
 def plain(
@@ -79,13 +126,13 @@ def plain(
     if np.any((steep == 0) & (depth > 0)):
         # What falls with the pressure is told to steps as 0.
         pressure = np.stack([contact.pressure for contact in contacts])
-        (response,) = local(
-            lambda p: stacked(model, pressed(contacts, p), memory, slid.moment), pressure
-        )
+        rates = partial(stacked, model, memory=memory, moment=slid.moment)
+        (response,) = local(lambda p: rates(pressed(contacts, p)), rates(contacts), pressure)
         steep = response.own
     shares = np.array([position.share for position in model.cycle])
     factor = slid.increment * carrier.mean(depth, shares)
-    return Plain(name, carrier, slid.increment * carrier.part * steep, factor, worn)
+    slope = slid.increment * carrier.part * steep
+    return Plain(model, contacts, slid, known, carrier, slope, factor, worn)
 
 
 def _layers(memory: Memory, name: str) -> tuple[Memory, Array | float]:

@@ -97,6 +97,11 @@ def carriers_between(model: Model, of_bodies: Mapping[str, Carrier]) -> dict[str
     return found
 
 
+def carriers_of(model: Model) -> dict[str, Carrier]:
+    """Return how the surfaces of bodies meet the window, by name."""
+    return {name: carrier_of(model, name) for name in model.bodies}
+
+
 def carrier_of(model: Model, name: str) -> Carrier:
     """Return how a body's own surface meets the window.
 

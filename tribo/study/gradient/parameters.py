@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
@@ -13,16 +13,16 @@ from pydantic import BaseModel, ValidationError
 from tribo.case import Case
 from tribo.config.overrides import leaves, path_keys
 from tribo.core.arrays import Array
-from tribo.core.contact import ContactSolution
 from tribo.core.errors import CaseError, TriboError
 from tribo.core.words import did_you_mean, suggestion
 from tribo.simulation.assembly import assemble
 from tribo.simulation.model import Model
-from tribo.stepping.evolution import Course, course
 from tribo.stepping.memory import Memory
 from tribo.stepping.rates import Moment
-from tribo.stepping.step import worn_depths
+from tribo.study.gradient.course import Other
+from tribo.study.gradient.linear import Carrier, carriers_of
 from tribo.study.gradient.local import SPEED, localised
+from tribo.study.gradient.response import ASIDE
 from tribo.study.gradient.tape import Pressed, Slid
 
 NUDGE = 3e-5
@@ -66,13 +66,15 @@ class Variant:
     """A model with a number changed, and its weight in the derivative.
 
     `wears` has the bodies whose wear under given contacts differs, and what of their laws it may be
-    that does: the `LAW` itself, or only properties of their material or the `SPEED`.
+    that does: the `LAW` itself, or only properties of their material or the `SPEED`. `carriers` is
+    None where they are those of the case.
     """
 
     model: Model
     weight: float
     stops: Stops
     wears: Mapping[str, frozenset[str]]
+    carriers: Mapping[str, Carrier] | None
 
 
 @dataclass(frozen=True)
@@ -99,30 +101,17 @@ class Chain:
         return total
 
     def by_wear(
-        self,
-        slid: Slid,
-        contacts: Sequence[ContactSolution],
-        known: Course,
-        seen: Mapping[str, Set[str]],
-        wear: Mapping[str, Array],
-        states: Memory,
-    ) -> float:
-        """Return what comes through a step under given contacts.
+        self, slid: Slid, seen: Mapping[str, Set[str]], carriers: Mapping[str, Carrier]
+    ) -> Iterator[tuple[float, Other]]:
+        """Yield what a step slides otherwise under given contacts, with its weight.
 
-        `known` is what it came to, and `seen` what each law read for it; `wear` and `states` are
-        the derivatives in the depth and in what is remembered after it.
+        `seen` is what each law read for it, and `carriers` are those of the case.
         """
-        total, memory = 0.0, known.memory
-        remembers = bool(memory.values or memory.shares)
         for each in self.variants:
             # A law that the number does not enter need not be asked about it again.
-            laws = {
-                name: each.model.laws[name]
-                for name, through in each.wears.items()
-                if through & {LAW, *seen[name]} or (remembers and SPEED in through)
-            }
-            wears = {name for name, through in each.wears.items() if SPEED in through} | set(laws)
-            if not wears:
+            asks = {name for name, through in each.wears.items() if through & {LAW, *seen[name]}}
+            wears = asks | {name for name, through in each.wears.items() if SPEED in through}
+            if each.model is self.base or not wears:
                 continue
             begun, ended = (self._then(each, time) for time in (slid.time, slid.moment.time))
             end = slid.moment.distance
@@ -133,26 +122,8 @@ class Chain:
             rests = slid.moment.speed == 0
             increment = ended - begun if rests else distance - began
             moment = Moment(ended, distance, 0.0 if rests else increment / (ended - begun))
-            after = known
-            if laws:
-                before = replace(slid.before, laws={name: slid.before.laws[name] for name in laws})
-                if remembers and not before.values:
-                    # Beside what remembers, a law is asked along the increment, under its loads.
-                    laws, before = dict(each.model.laws), slid.before
-                model = replace(each.model, laws=laws)
-                after = course(model, before, contacts, increment, moment, slid.plan)
-            rates = [
-                {name: (of if name in laws else was)[name] for name in wears}
-                for of, was in zip(after.rates, known.rates, strict=True)
-            ]
-            depths = worn_depths(each.model, rates, increment)
-            through = sum(float(np.sum(wear[name] * depth)) for name, depth in depths.items())
-            asked = replace(states, laws={name: states.laws[name] for name in laws})
-            if laws:
-                pairs = zip(asked.values, after.memory.values, strict=True)
-                through += sum(float(np.sum(seed * value)) for seed, value in pairs)
-            total += each.weight * through
-        return total
+            then = replace(slid, time=begun, increment=increment, moment=moment)
+            yield each.weight, Other(each.model, each.carriers or carriers, then, wears, asks)
 
     def by_rest(
         self,
@@ -260,7 +231,11 @@ def chain(
     error: Exception | None = None
     central, upper = [(1, 0.5), (-1, -0.5)], [(0, -1.5), (1, 2.0), (2, -0.5)]
     lower = [(-by, -weight) for by, weight in upper]
-    for scheme in (central, upper, lower):
+    schemes = [central, upper, lower]
+    if all("wear" in place[2:3] for place in places):
+        # Only what is worn under given contacts follows it, which is known of the case itself.
+        step, schemes = ASIDE * value, [[(0, -1.0), (1, 1.0)], [(0, 1.0), (-1, -1.0)]]
+    for scheme in schemes:
         try:
             models = [
                 _varied(base, places, value + by * step, factors) if by else base
@@ -277,7 +252,7 @@ def chain(
             for name, through in _wears(base, model).items():
                 wears[name] = wears.get(name, frozenset()) | through
         variants = [
-            Variant(model, weight / step, of_model, wears)
+            Variant(model, weight / step, of_model, wears, _other_carriers(base, model))
             for model, (_, weight), of_model in zip(models, scheme, stops, strict=True)
         ]
         return Chain(path, value, variants, base, Stops.of(base))
@@ -322,8 +297,8 @@ def _wears(base: Model, model: Model) -> dict[str, frozenset[str]]:
     one, other = base.case, model.case
     everything = dict.fromkeys(model.laws, frozenset({LAW}))
     keeps = model.between or any(law.initial_state for law in model.laws.values())
-    if one.load != other.load and keeps:
-        # What is remembered follows the load along a step.
+    if one.load != other.load and keeps and not isinstance(one.load.normal, float):
+        # What is remembered follows a load that changes along a step.
         return everything
     if one.friction != other.friction or one.effects != other.effects:
         return everything
@@ -350,6 +325,15 @@ def _wears(base: Model, model: Model) -> dict[str, frozenset[str]]:
                 key for key, value in was.material if value != getattr(now.material, key)
             )
     return found
+
+
+def _other_carriers(base: Model, model: Model) -> Mapping[str, Carrier] | None:
+    if model.case.kinematics == base.case.kinematics:
+        return None
+    one, other = carriers_of(base), carriers_of(model)
+    same = all(np.array_equal(of.part, other[name].part) for name, of in one.items())
+    shares = [[position.share for position in each.cycle] for each in (base, model)]
+    return None if same and shares[0] == shares[1] else other
 
 
 def changed(value: Any, place: Sequence[Any], number: float) -> Any:

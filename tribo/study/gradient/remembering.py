@@ -14,13 +14,16 @@ from tribo.stepping.extrapolation import PLAIN, RELAXING
 from tribo.stepping.memory import Memory
 from tribo.stepping.relaxation import relaxed, relaxing
 from tribo.study.gradient.asked import Place
-from tribo.study.gradient.course import Before
+from tribo.study.gradient.course import Before, Other
 from tribo.study.gradient.linear import Carrier
 from tribo.study.gradient.response import Arrays
 from tribo.study.gradient.slopes import Slopes, Sloping
 
 SMALL = 1e-4
 """Rise below which the derivative of its mean is that of its series."""
+
+ANOTHER = 1e-5
+"""Part of a state by which it is moved to find how its derivatives follow it."""
 
 
 @dataclass(frozen=True)
@@ -37,6 +40,17 @@ class _Part:
 
 
 @dataclass(frozen=True)
+class _Followed:
+    """The derivatives of an objective in what rates an increment asked for, and in ln(its length).
+
+    `seeds` are those in the `means` of each of them; with `by_length` these stay as they are.
+    """
+
+    seeds: Sequence[tuple[Slopes, Arrays]]
+    by_length: float
+
+
+@dataclass(frozen=True)
 class Remembering:
     """An increment of the bodies of a model that wear, of which these rates are asked."""
 
@@ -48,7 +62,7 @@ class Remembering:
         states = replace(states, laws={name: states.laws[name] for name in laws})
         # What the depths in layers come to within the increment counts as their wear.
         within = [np.zeros_like(wear[name]) for name in self.asked.layered]
-        (own, load, square, *factor), before = self._back(
+        (own, load, square, *factor), before, followed = self._back(
             [wear[name] for name in laws], [*states.values, *within]
         )
         factors = dict(zip(laws, factor, strict=True))
@@ -57,7 +71,34 @@ class Remembering:
         through = {
             name: wear[name] + seed for name, seed in zip(self.asked.layered, each, strict=True)
         }
-        return Before(pressure, {**wear, **through}, states, factors)
+        return Before(
+            pressure, {**wear, **through}, states, factors, partial(self._through, followed)
+        )
+
+    def _through(self, followed: _Followed, other: Other) -> float:
+        laws = self.asked.model.laws
+        if not other.wears & laws.keys():
+            return 0.0
+        asked = replace(
+            self.asked,
+            model=replace(other.model, laws={name: other.model.laws[name] for name in laws}),
+            carriers=other.carriers,
+            slid=replace(other.slid, before=self.asked.slid.before),
+        )
+        longer = asked.slid.increment / self.asked.slid.increment
+        # Rates follow the length where they are means over it, or loads change along it.
+        asks = other.asks & laws.keys() or self.asked.follows_length
+        total = (longer - 1) * followed.by_length
+        if not asks and other.carriers is self.asked.carriers:
+            return total
+        for slopes, seeds in followed.seeds:
+            found = slopes.found
+            if asks:
+                place = slopes.place._replace(over=longer * slopes.place.over)
+                found = asked.rates(slopes.states, asked.in_layers(slopes.states, place))
+            changed = zip(seeds, asked.means(found), slopes.means, strict=True)
+            total += sum(float(np.sum(seed * (mean - was))) for seed, mean, was in changed)
+        return total
 
     @cached_property
     def bodies(self) -> Sequence[tuple[Carrier, Array]]:
@@ -71,7 +112,8 @@ class Remembering:
         found = []
         for at, carrier in enumerate(own):
             ones = [np.full((each.rows, columns), float(at == i)) for i, each in enumerate(own)]
-            found.append((carrier, self._back(ones, states)[0][0]))
+            (pressure, *_), *_ = self._back(ones, states)
+            found.append((carrier, pressure))
         return found
 
     @cached_property
@@ -93,12 +135,10 @@ class Remembering:
             if relaxes:
                 at_start = partial(asked.of_states, begin)
                 of_states = relaxing(at_start, states, at_start(states), span, asked.limits)
-                for at, nudge in enumerate(asked.nudges(states, start.found)):
+                for at, nudge in enumerate(asked.nudges(states, start.found, ANOTHER)):
                     if np.any(np.asarray(of_states[at]) < 0):
-                        state = states[at]
-                        by = np.where(state + nudge > asked.limits[at].most, -nudge, nudge)
-                        other = [*states[:at], state + by, *states[at + 1 :]]
-                        moved.append((at, asked.sloped(other, begin), by))
+                        other = [*states[:at], states[at] + nudge, *states[at + 1 :]]
+                        moved.append((at, asked.sloped(other, begin), nudge))
             rows, ends = [], [np.zeros_like(state) for state in states]
             stages = RELAXING if relaxes else PLAIN
             for steps in stages:
@@ -126,7 +166,7 @@ class Remembering:
         """Return the rates along some Euler steps, and the states at their end."""
         asked, row, step = self.asked, [start], share * self.asked.slid.increment / steps
         for taken in range(1, steps + 1):
-            means = asked.means(row[-1].found)
+            means = row[-1].means[len(asked.own) :]
             states = [
                 state + step * mean * relaxed(step * slope)
                 for state, mean, slope in zip(states, means, of_states, strict=True)
@@ -136,16 +176,20 @@ class Remembering:
                 row.append(asked.sloped(states, place))
         return row, states
 
-    def _back(self, depth: Arrays, after: Arrays) -> tuple[Arrays, Arrays]:
-        """Return derivatives in what an increment depends on, and in the states before.
+    def _back(self, depth: Arrays, after: Arrays) -> tuple[Arrays, Arrays, _Followed]:
+        """Return derivatives in what an increment depends on, in the states before, and in rates.
 
         The first are in the pressure of each cell, the load and Σp²/2 of each position, and factors
         on the bodies' rates.
         """
         total: Arrays = []
+        followed, by_length = list[tuple[Slopes, Arrays]](), 0.0
 
-        def add(found: Arrays) -> None:
+        def behind(rates: Slopes, seeds: Arrays) -> Arrays:
+            found, states = self.asked.behind(rates, seeds)
             total[:] = [a + b for a, b in zip(total, found, strict=True)] if total else found
+            followed.append((rates, seeds))
+            return states
 
         for part in reversed(self._parts):
             before = [np.zeros_like(seed) for seed in after]
@@ -156,7 +200,7 @@ class Remembering:
                 seeds = [counts * seed for seed in after]
                 step = part.length / steps
                 for rates in reversed(row):
-                    means = self.asked.means(rates.found)
+                    means = rates.means[len(depth) :]
                     deep = [step * counts * seed for seed in depth]
                     for at, slope in enumerate(part.relaxing):
                         bends[at] += seeds[at] * means[at] * step**2 * _steeper(step * slope)
@@ -164,20 +208,22 @@ class Remembering:
                         seed * step * relaxed(step * slope)
                         for seed, slope in zip(seeds, part.relaxing, strict=True)
                     ]
-                    found, states = self.asked.behind(rates, [*deep, *each])
-                    add(found)
+                    states = behind(rates, [*deep, *each])
+                    for seed, mean in zip((*deep, *each), rates.means, strict=True):
+                        by_length += float(np.sum(seed * mean))
                     seeds = [seed + state for seed, state in zip(seeds, states, strict=True)]
                 before = [old + seed for old, seed in zip(before, seeds, strict=True)]
+            for bend, slope in zip(bends, part.relaxing, strict=True):
+                by_length += float(np.sum(bend * slope))
             for at, rates, by in part.moved:
                 for where, sign in ((rates, 1.0), (part.rows[0][0], -1.0)):
                     seeds = [np.zeros_like(seed) for seed in (*depth, *after)]
                     falls = np.asarray(part.relaxing[at]) < 0
                     seeds[len(depth) + at] = sign * falls * bends[at] / by
-                    found, states = self.asked.behind(where, seeds)
-                    add(found)
+                    states = behind(where, seeds)
                     before = [old + state for old, state in zip(before, states, strict=True)]
             after = before
-        return total, after
+        return total, after, _Followed(followed, by_length)
 
 
 def _steeper(rise: Array | float) -> Array:

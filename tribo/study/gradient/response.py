@@ -15,6 +15,8 @@ from tribo.study.gradient.linear import Carrier
 
 NUDGE = 3e-5
 """Part of the pressure by which it is varied to find the derivative of a rate, up and down."""
+ASIDE = 1e-7
+"""The same where it is varied up only, as are states and the numbers of laws."""
 LEAST = 0.1
 """Part of a cell's pressure that must be varied to find what follows it."""
 AGREES = 1e-4
@@ -67,48 +69,46 @@ def back(seeds: Arrays, responses: Sequence[Response]) -> Array:
     return found
 
 
-def local(rates: Rates, pressure: Array, reach: Offset = ALONE) -> list[Response]:
+def local(rates: Rates, found: Arrays, pressure: Array, reach: Offset = ALONE) -> list[Response]:
     """Return the responses of rates that follow the pressures of their own cell, and near it."""
-
-    def moved(cells: Array) -> tuple[Array, Array]:
-        by = NUDGE * pressure * cells
-        return pressure + by, pressure - by
-
-    return near(rates, moved, None, pressure.shape, reach)
+    return near(rates, found, pressure, ASIDE * pressure, reach)
 
 
 def near(
     rates: Rates,
-    moved: Callable[[Array], tuple[Array, Array]],
-    carrier: Carrier | None,
-    shape: Sequence[int],
+    found: Arrays,
+    values: Array,
+    nudge: Array,
     reach: Offset,
+    carrier: Carrier | None = None,
 ) -> list[Response]:
-    """Return the responses of rates in values that lie on cells, of a `shape`.
+    """Return the responses of rates in values that lie on cells.
 
-    Cells so far apart that nothing follows two of them are varied at once: `moved` up and down
-    where a map is 1. They lie on a carrier, or in the window, by position.
+    `found` are the rates at the values, each of which is varied by its `nudge`. Cells so far apart
+    that nothing follows two of them are varied at once. They lie on a carrier, or in the window, by
+    position.
     """
-    colours, span, ends = _colours(shape, reach), np.zeros(shape), []
+    colours, ends = _colours(values.shape, reach), []
+    # What is added is not quite the nudge: its last digits are lost.
+    span = (values + nudge) - values
     for colour in range(int(np.max(colours)) + 1):
-        up, down = moved((colours == colour).astype(float))
-        span += up - down
-        ends.append([one - other for one, other in zip(rates(up), rates(down), strict=True)])
+        moved = rates(np.where(colours == colour, values + nudge, values))
+        ends.append([after - before for after, before in zip(moved, found, strict=True)])
     if carrier is not None:
         box = whole(ends[0][0].shape[1:])
         span, colours = carrier.seen(span, box), carrier.seen(colours, box)
     changes = [np.stack(each) for each in zip(*ends, strict=True)]
-    found: dict[Offset, Arrays] = {}
+    slopes: dict[Offset, Arrays] = {}
     for offset in product(*(range(-far, far + 1) for far in reach)):
         here = -offset[0], -offset[1]
         by, source = np.roll(span, here, CELLS), np.roll(colours, here, CELLS).astype(int)
         by[by == 0] = np.inf
-        found[offset[0], offset[1]] = [
+        slopes[offset[0], offset[1]] = [
             np.take_along_axis(change, source[None], 0)[0] / by for change in changes
         ]
-    own = found.pop(ALONE)
+    own = slopes.pop(ALONE)
     return [
-        Response(each, beside={o: of[at] for o, of in found.items() if np.any(of[at])})
+        Response(each, beside={o: of[at] for o, of in slopes.items() if np.any(of[at])})
         for at, each in enumerate(own)
     ]
 

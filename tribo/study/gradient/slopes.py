@@ -20,6 +20,7 @@ from tribo.study.gradient.local import localised
 from tribo.study.gradient.passing import Layered, Passing
 from tribo.study.gradient.response import (
     ALONE,
+    ASIDE,
     NUDGE,
     PLACES,
     Arrays,
@@ -46,10 +47,14 @@ class Reach(NamedTuple):
 class Slopes:
     """Rates at one state, of depths and states, with their derivatives in each cell.
 
-    They are those at given shares of the layers; `passing` has how these follow all else.
+    They are those at given shares of the layers; `passing` has how these follow all else. `means`
+    are those of the rates over each point of what they change.
     """
 
+    states: Arrays
+    place: Place
     found: Arrays
+    means: Arrays
     by_pressure: Sequence[Response]
     by_state: Sequence[Sequence[Response]]
     by_factor: Sequence[Sequence[Response]]
@@ -141,16 +146,19 @@ class Sloping(Asked):
         held = self.held(states)
         found = self.rates(held, place)
         by_state = [
-            self._by_state(at, held, nudge, place, reach.states[at])
+            self._by_state(at, held, nudge, place, found, reach.states[at])
             for at, nudge in enumerate(self.nudges(held, found))
         ]
         inside = [s == h for s, h in zip(states, held, strict=True)]
-        by_pressure = self._by_pressure(held, place, reach.pressure)
+        by_pressure = self._by_pressure(held, place, found, reach.pressure)
         by_factor = self._by_factor(held, place, found, reach.pressure)
-        passing = self._passing(held, place, reach)
-        return Slopes(found, by_pressure, by_state, by_factor, inside, passing)
+        passing = self._passing(held, place, found, reach)
+        means = self.means(found)
+        return Slopes(held, place, found, means, by_pressure, by_state, by_factor, inside, passing)
 
-    def _passing(self, states: Sequence[Array], place: Place, reach: Reach) -> Passing | None:
+    def _passing(
+        self, states: Sequence[Array], place: Place, found: Arrays, reach: Reach
+    ) -> Passing | None:
         """Return how points pass from layer to layer; None where all stay in theirs."""
         shares = [share for of_body in place.shares.values() for share in of_body.values()]
         if not any(np.any((share > 0) & (share < 1)) for share in shares):
@@ -169,7 +177,7 @@ class Sloping(Asked):
             rates = means[: 1 + len(bottoms[name])]
             bodies[name] = Layered(bottoms[name], worn[name], rates, place.over)
             by_share[name] = [
-                self._by_share(name, carrier, layer, states, place, reach.pressure)
+                self._by_share(name, carrier, layer, states, place, found, reach.pressure)
                 for layer in range(len(rates))
             ]
         return Passing(bodies, by_share, of_layers)
@@ -181,6 +189,7 @@ class Sloping(Asked):
         layer: int,
         states: Sequence[Array],
         place: Place,
+        found: Arrays,
         reach: Offset,
     ) -> Sequence[Response]:
         of_body, key = place.shares[name], f"rate {layer}"
@@ -189,13 +198,11 @@ class Sloping(Asked):
             shares = {**place.shares, name: {**of_body, key: share}}
             return self.rates(states, place._replace(shares=shares))
 
-        def moved(cells: Array) -> tuple[Array, Array]:
-            return of_body[key] + NUDGE * cells, of_body[key] - NUDGE * cells
-
-        return near(rates, moved, carrier, of_body[key].shape, reach)
+        share = of_body[key]
+        return near(rates, found, share, np.full_like(share, ASIDE), reach, carrier)
 
     def _by_pressure(
-        self, states: Sequence[Array], place: Place, reach: Offset
+        self, states: Sequence[Array], place: Place, found: Arrays, reach: Offset
     ) -> Sequence[Response]:
         def rates(pressure: Array) -> Arrays:
             return self.rates(states, place, self.told(place, pressure))
@@ -203,34 +210,29 @@ class Sloping(Asked):
         if self.model.effects and reach == ALONE:
             return shared(rates, self.pressure)
         if self.model.effects:
-            return local(rates, self.pressure, reach)
+            return local(rates, found, self.pressure, reach)
         told = self.told(place)
         pressure = np.stack([contact.pressure for contact in told])
-        found = local(lambda p: self.rates(states, place, pressed(told, p)), pressure)
+        responses = local(lambda p: self.rates(states, place, pressed(told, p)), found, pressure)
         if told is self.contacts:
-            return found
+            return responses
         # Along the increment pressures are told in proportion to the load.
         total = over(np.sum(self.pressure, CELLS))
         longer = over(np.sum(pressure, CELLS)) / total
-        of_own = [longer * each.own for each in found]
+        of_own = [longer * each.own for each in responses]
         return [Response(own, -own * self.pressure / total) for own in of_own]
 
     def _by_state(
-        self, at: int, states: Arrays, nudge: Array, place: Place, reach: Offset
+        self, at: int, states: Arrays, nudge: Array, place: Place, found: Arrays, reach: Offset
     ) -> Sequence[Response]:
         if at >= len(self.slid.before.values):
             # The depth counts through the shares of the layers alone.
             return [Response(np.zeros(()))] * (len(self.own) + len(self.kept))
-        limit = self.limits[at]
 
         def rates(state: Array) -> Arrays:
             return self.rates([*states[:at], state, *states[at + 1 :]], place)
 
-        def moved(cells: Array) -> tuple[Array, Array]:
-            up, down = states[at] + nudge * cells, states[at] - nudge * cells
-            return np.clip(up, limit.least, limit.most), np.clip(down, limit.least, limit.most)
-
-        return near(rates, moved, self.kept[at], nudge.shape, reach)
+        return near(rates, found, states[at], nudge, reach, self.kept[at])
 
     def _by_factor(
         self, states: Sequence[Array], place: Place, found: Arrays, reach: Offset
@@ -246,11 +248,8 @@ class Sloping(Asked):
             def rates(factor: Array, name: str = name) -> Arrays:
                 return self.rates(states, place, model=localised(self.model, {name: factor}))
 
-            def moved(cells: Array) -> tuple[Array, Array]:
-                return 1 + NUDGE * cells, 1 - NUDGE * cells
-
-            shape = (carrier.rows, self.model.grid.cells[1])
-            of_bodies.append(near(rates, moved, carrier, shape, reach))
+            ones = np.ones((carrier.rows, self.model.grid.cells[1]))
+            of_bodies.append(near(rates, found, ones, ASIDE * ones, reach, carrier))
         return of_bodies
 
     def _reached(self, found: Arrays, states: Sequence[Array], place: Place) -> Reach:
