@@ -11,7 +11,7 @@ from scipy.stats import norm, t
 
 from tribo.core.errors import CaseError
 from tribo.study.calibration.calibrate import calibrate
-from tribo.study.calibration.linearised import Linearised, Problem, root_covariance
+from tribo.study.calibration.linearised import Linearised, Problem, Weights, root_covariance
 from tribo.study.calibration.plan import Search, plan_tests
 
 CASE = cheap(300)
@@ -57,7 +57,7 @@ def test_the_expected_interval_is_that_of_a_calibration():
         lower=np.full(2, -np.inf),
         upper=np.full(2, np.inf),
     )
-    here = Linearised(problem, np.zeros(2), np.ones(n), effects[of], 1 / sigma[of])
+    here = Linearised(problem, np.zeros(2), np.ones(n), effects[of], Weights.of(sigma[of]))
     here = here.weighed(np.zeros(2), 0.2)
     whole = here.sensitivity()
     kinds = np.array([whole[:2].T @ whole[:2], whole[-2:].T @ whole[-2:]])

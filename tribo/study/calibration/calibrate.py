@@ -18,7 +18,7 @@ from tribo.config.write import to_toml
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, NumericalError
 from tribo.study.calibration.fit import ABOVE_ROUNDING, NO_EFFECT, fit, interval
-from tribo.study.calibration.linearised import Linearised, root_covariance, weigh
+from tribo.study.calibration.linearised import Linearised, Weights, root_covariance
 from tribo.study.calibration.measured import Measurements
 from tribo.study.calibration.notes import notes
 from tribo.study.calibration.parameters import Parameter
@@ -179,7 +179,7 @@ def calibrate(
 
     def responses(values: Array) -> Array:
         found = posed.run(values).responses
-        misfit = problem.residuals(found, 1 / problem.sigma)
+        misfit = problem.residuals(found, Weights.of(problem.sigma))
         on_run(posed.made, float(np.sum(misfit**2)))
         return found
 
@@ -253,7 +253,7 @@ def _outcome(fitted: Linearised, posed: Posed, level: float) -> Calibration:
         stated=data["sigma"],
         sigma=sigma,
         computed=computed,
-        residual=problem.residuals(computed, 1 / sigma),
+        residual=problem.residuals(computed, Weights.of(sigma)),
         alone=fitted.residuals(fitted.point),
     )
     told = np.max(np.abs(jacobian[~problem.below]), axis=0, initial=0.0) > NO_EFFECT
@@ -347,7 +347,7 @@ def _estimates(fitted: Linearised, jacobian: Array, posed: Posed, level: float) 
         low, high = values[i] * np.exp(interval(fitted, np.eye(len(values))[i], level))
         lower[i], upper[i] = max(0.0 if limited[i] else low, lower[i]), min(high, upper[i])
     standard = np.asarray(np.linalg.pinv(jacobian), dtype=np.float64)
-    effect = weigh(fitted.weights.T, standard.T).T
+    effect = fitted.weights.back(standard.T).T
     deviation, most = posed.data[["step_sigma", "step_most"]].to_numpy().T
     share = np.sum((effect * deviation) ** 2, axis=1) / np.sum(standard**2, axis=1)
     return table[["path", "unit"]].assign(

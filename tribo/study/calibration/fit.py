@@ -11,7 +11,7 @@ from scipy.special import chdtri, stdtrit
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, NumericalError
-from tribo.study.calibration.linearised import Linearised, Problem, root_covariance
+from tribo.study.calibration.linearised import Linearised, Problem, Weights, root_covariance
 
 STEP = 0.2
 """Relative change of a parameter for a difference; a scar must grow by more than rounding."""
@@ -22,8 +22,8 @@ REACH = np.log(1e4)
 FEW = 0.5
 """Degrees of freedom below which a scatter is as good as unknown."""
 SETTLED, HARDLY = 0.01, 0.1
-"""Change of the data, in standard deviations, that ends the fit; the second if χ² stays the same.
-The first is also the part of χ² that counts as a fall."""
+"""Change of all data together, in standard deviations, that ends the fit; the second if χ² stays
+the same. The first is also the part of χ² that counts as a fall."""
 NO_EFFECT = 1e-3
 """Change of a datum, in standard deviations, per change of a parameter by e: nothing to learn."""
 UNSEEN = 0.01
@@ -52,12 +52,15 @@ def fit(model: Callable[[Array], Array], problem: Problem, start: Array) -> Line
     for rounds in range(1, MOST_ROUNDS + 1):  # noqa: B007
         here, point = here.best()
         foretold = here.residuals(point)
-        shift = np.max(np.abs(foretold - here.residuals(here.point)))
+        shift = np.linalg.norm(foretold - here.residuals(here.point))
         if shift > SETTLED:
             responses = model(np.exp(point))
             residuals = problem.residuals(responses, here.weights)
+            # What of the error moves the next estimate.
+            directions = np.linalg.svd(here.jacobian(point), full_matrices=False)[0]
+            error = np.linalg.norm((residuals - foretold) @ directions)
             here = replace(here, point=point, responses=responses)
-            if np.max(np.abs(residuals - foretold)) > FORETOLD * shift:
+            if error > FORETOLD * shift:
                 known, here = point, differenced(model, problem, point, responses)
             misfit = float(np.sum(residuals**2))
             in_vain = 0 if misfit < (1 - SETTLED) * least else in_vain + 1
@@ -73,7 +76,7 @@ def fit(model: Callable[[Array], Array], problem: Problem, start: Array) -> Line
             return here
     raise NumericalError(
         f"the estimates have not settled after {rounds} rounds: χ² has come down to {least:.3g}, "
-        f"and a computed value still changes by {shift:.2g} of its uncertainty; refine "
+        f"and computed values still change by {shift:.2g} of their uncertainty; refine "
         "grid.cells, start nearer, or state the uncertainties larger"
     )
 
@@ -147,7 +150,7 @@ def differenced(
         change = problem.scaled(model(np.exp(moved))) - problem.scaled(responses)
         columns.append(change / step)
     slopes = np.stack(columns, axis=1)
-    return Linearised(problem, point, responses, slopes, weights=1 / problem.sigma)
+    return Linearised(problem, point, responses, slopes, weights=Weights.of(problem.sigma))
 
 
 def _as_good_as_none(here: Linearised) -> Array:

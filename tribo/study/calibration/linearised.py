@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.linalg import solve_triangular
 from scipy.optimize import least_squares, minimize_scalar
 from scipy.special import log_ndtr
 from scipy.stats import multivariate_normal
@@ -19,6 +18,51 @@ FAINT = 0.1
 _PASSES, _SAME, _RIDGE = 30, 1e-5, 1e-12
 _UNKNOWN = 10.0
 """Standard deviation of a logarithm from which a parameter is not determined."""
+
+
+@dataclass(frozen=True)
+class Weights:
+    """The symmetric root of the inverse covariance of data in their standard deviations.
+
+    The covariance is 1 + B Bᵀ with B what is off together, shape (n, k); the root of its inverse
+    is 1 − U c Uᵀ with the singular vectors U of B.
+    """
+
+    sigma: Array
+    """Standard deviations of the data alone, shape (n,)."""
+    along: Array
+    less: Array
+    """The vectors U, shape (n, k), and c, shape (k,)."""
+
+    @classmethod
+    def of(cls, sigma: Array, together: Array | None = None) -> Weights:
+        """Return the weights of data, of which so much, shape (n, k), is off together."""
+        if together is None:
+            return cls(sigma, np.zeros((len(sigma), 0)), np.zeros(0))
+        along, sizes, _ = np.linalg.svd(together / sigma[:, None], full_matrices=False)
+        return cls(sigma, along, 1 - (1 + sizes**2) ** -0.5)
+
+    def weigh(self, values: Array) -> Array:
+        """Return values in standard deviations, made independent; shape (n,) or (n, m)."""
+        return self._root((values.T / self.sigma).T)
+
+    def back(self, values: Array) -> Array:
+        """Return the product of the transposed weights with values, of the same shape."""
+        return (self._root(values).T / self.sigma).T
+
+    def _root(self, values: Array) -> Array:
+        common = self.less * (self.along.T @ values).T
+        return np.asarray(values - self.along @ common.T)
+
+    def alone(self, rows: Mask) -> Array:
+        """Return the weights of data that share nothing with others."""
+        return np.asarray((1 - self.along[rows] ** 2 @ self.less) / self.sigma[rows])
+
+    def log_determinant(self, rows: Mask) -> float:
+        """Return the logarithm of the determinant for data that share nothing with the others."""
+        inside = self.along[rows].T @ self.along[rows]
+        size = np.linalg.slogdet(np.eye(len(inside)) - self.less[:, None] * inside)[1]
+        return float(size - np.sum(np.log(self.sigma[rows])))
 
 
 @dataclass(frozen=True)
@@ -44,23 +88,23 @@ class Problem:
         """Return responses, of those that are `logged` the logarithms; a prediction may be 0."""
         return np.log(responses, out=responses.copy(), where=self.logged & (responses > 0))
 
-    def residuals(self, responses: Array, weights: Array) -> Array:
+    def residuals(self, responses: Array, weights: Weights) -> Array:
         """Return residuals, in standard deviations; their squares are −2 ln of the likelihood.
 
         That of a limit of detection is √(−2 ln Φ(z)), z being how far below it the value lies.
         """
-        found = weigh(weights, responses[: len(self.observed)] - self.observed)
+        found = weights.weigh(responses[: len(self.observed)] - self.observed)
         found[self.below] = np.sqrt(-2 * log_ndtr(-found[self.below]))
         return found
 
     def together(self, effects: Array) -> Array:
-        """Return the covariance of the data per squared repeatability, shape (n, n).
+        """Return the effects of the parameters of each test alone, shape (n, tests · p).
 
         All that was measured in a test is off together; a limit of detection is a test of its own.
         """
-        same = (self.specimen[:, None] == self.specimen) & ~(self.below[:, None] | self.below)
-        same |= np.eye(len(self.observed), dtype=bool)
-        return np.where(same, effects @ effects.T, 0.0)
+        test = np.where(self.below, -1 - np.arange(len(self.below)), self.specimen)
+        own = test[:, None] == np.unique(test)
+        return np.asarray((own[:, :, None] * effects[:, None, :]).reshape(len(effects), -1))
 
 
 @dataclass(frozen=True)
@@ -73,10 +117,9 @@ class Linearised:
     """Logarithms of the parameters of the run, shape (p,), and what it gave, shape (m,)."""
     slopes: Array
     """Derivatives by the logarithms of the parameters, shape (m, p): of logarithms where logged."""
-    weights: Array
-    """Root W of the inverse covariance of the data, V⁻¹ = Wᵀ W; its diagonal if that is all."""
+    weights: Weights
     repeatability: float = 0.0
-    """Part of V: relative standard deviation from test to test."""
+    """Part of the weights: relative standard deviation from test to test."""
 
     def at(self, point: Array) -> Array:
         """Return the responses at another point."""
@@ -96,11 +139,12 @@ class Linearised:
 
     def jacobian(self, point: Array) -> Array:
         """Return the derivatives of `residuals`, shape (n, p)."""
-        found = weigh(self.weights, self.effects(point))
+        found = self.weights.weigh(self.effects(point))
         below = self.problem.below
         # d/dz of √(−2 ln Φ(z)) is −φ/(Φ √(−2 ln Φ)).
         root = self.residuals(point)[below]
-        above = (self.at(point)[: len(below)] - self.problem.observed)[below] * self._inverse(below)
+        above = (self.at(point)[: len(below)] - self.problem.observed)[below]
+        above = above * self.weights.alone(below)
         inside = np.exp(-0.5 * above**2 + 0.5 * root**2) / np.sqrt(2 * np.pi)
         slope = np.divide(inside, root, out=np.zeros_like(root), where=root > 0)
         found[below] *= slope[:, None]
@@ -115,7 +159,7 @@ class Linearised:
         below = self.problem.below
         met = observed[below] / self.responses[: len(below)][below]
         effects[below] *= np.maximum(met, 1.0)[:, None]
-        return weigh(self.weights, effects)
+        return self.weights.weigh(effects)
 
     def limited(self) -> Mask:
         """Return of which parameters nothing but limits of detection tells, shape (p,)."""
@@ -157,17 +201,10 @@ class Linearised:
 
     def weighed(self, point: Array, repeatability: float) -> Linearised:
         """Return the model with data that repeat so well weighed as at a point."""
-        weights = 1 / self.problem.sigma
+        scatter = None
         if repeatability > 0:
-            scatter = repeatability**2 * self.problem.together(self.effects(point))
-            covariance = np.diag(self.problem.sigma**2) + scatter
-            weights = np.zeros_like(covariance)
-            # Tests are independent; together, a map's many depths would take long.
-            for test in np.unique(self.problem.specimen):
-                same = np.flatnonzero(self.problem.specimen == test)
-                own = np.ix_(same, same)
-                root = np.linalg.cholesky(covariance[own])
-                weights[own] = solve_triangular(root, np.eye(len(root)), lower=True)
+            scatter = repeatability * self.problem.together(self.effects(point))
+        weights = Weights.of(self.problem.sigma, scatter)
         return replace(self, weights=weights, repeatability=repeatability)
 
     def freedom(self, direction: Array) -> float:
@@ -179,21 +216,20 @@ class Linearised:
         if self.problem.repeatability is not None:
             return np.inf
         jacobian = self.sensitivity()
-        together = self.problem.together(self.effects(self.point))
-        scatter = weigh(self.weights, weigh(self.weights, together).T)
+        together = self.weights.weigh(self.problem.together(self.effects(self.point)))
         directions = np.linalg.svd(jacobian, full_matrices=False)[0]
-        left = scatter - directions @ (directions.T @ scatter)
+        left = together - directions @ (directions.T @ together)
         root = root_covariance(jacobian)
         effect = np.sum(jacobian * np.sum(root * (direction @ root), axis=1), axis=1)
-        slope = np.sum(effect * np.sum(scatter * effect, axis=1))
+        slope = np.sum((effect @ together) ** 2)
         variance = np.sum((direction @ root) ** 2)
-        known = np.sum(left * left.T)
+        known = np.sum((left.T @ left) ** 2)
         return float(variance**2 * known / slope**2) if slope > 0 else np.inf
 
     def deviance(self, point: Array) -> float:
         """Return twice the negative logarithm of the likelihood at a point."""
         values = ~self.problem.below
-        scale = np.sum(np.log(2 * np.pi / self._inverse(values) ** 2))
+        scale = np.sum(values) * np.log(2 * np.pi) - 2 * self.weights.log_determinant(values)
         return float(np.sum(self.residuals(point) ** 2) + scale)
 
     def left_out(self) -> Array:
@@ -209,23 +245,18 @@ class Linearised:
             rest = replace(self, point=point, responses=self.at(point))
             root = root_covariance(rest.sensitivity()[~own])
             # How far the estimate puts each value off, beside its own scatter.
-            apart = weigh(self.weights, rest.effects(point)) @ root
-            off = weigh(self.weights, rest.responses[:n] - self.problem.observed)
+            apart = self.weights.weigh(rest.effects(point)) @ root
+            off = self.weights.weigh(rest.responses[:n] - self.problem.observed)
             values, limits = own & ~below, own & below
             broader = np.sqrt(1 + np.sum(apart[limits] ** 2, axis=1))
             likelihood = np.sum(log_ndtr(-off[limits] / broader))
             if np.any(values):
                 covariance = np.eye(np.sum(values)) + apart[values] @ apart[values].T
                 likelihood += multivariate_normal.logpdf(off[values], cov=covariance)
-                likelihood += np.sum(np.log(self._inverse(values)))
+                likelihood += self.weights.log_determinant(values)
             known = np.max(np.sum(root**2, axis=1)) < _UNKNOWN**2
             found.append(likelihood if known else np.nan)
         return np.array(found)
-
-    def _inverse(self, rows: Mask) -> Array:
-        """Return the diagonal of the weights in some rows."""
-        diagonal = self.weights if self.weights.ndim == 1 else np.diag(self.weights)
-        return np.asarray(diagonal[rows])
 
     def _estimated(self, point: Array) -> float:
         """Return the repeatability by restricted maximum likelihood about a point."""
@@ -247,13 +278,6 @@ class Linearised:
             options={"xatol": 1e-4},
         )
         return float(np.exp(found.x)) if found.fun < criterion(0.0) else 0.0
-
-
-def weigh(weights: Array, values: Array) -> Array:
-    """Return W values, for values of shape (n,) or (n, k) and W as `Linearised` has it."""
-    if weights.ndim == 2:
-        return weights @ values if values.ndim == 2 else np.sum(weights * values, axis=1)
-    return weights[:, None] * values if values.ndim == 2 else weights * values
 
 
 def root_covariance(jacobian: Array) -> Array:

@@ -77,7 +77,7 @@ def _on_parameters(
 def _entangled(paths: Sequence[str], jacobian: Array) -> Iterator[str]:
     """Name parameters that change the data in the same way."""
     scaled = jacobian / np.sqrt(np.sum(jacobian**2, axis=0))
-    _, angles, directions = np.linalg.svd(scaled)
+    _, angles, directions = np.linalg.svd(scaled, full_matrices=False)
     for angle, direction in zip(angles, directions, strict=True):
         if angle > HARDLY:
             continue
