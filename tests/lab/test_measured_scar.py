@@ -95,6 +95,7 @@ def test_the_volume_of_a_hole_in_the_scar_is_interpolated_and_its_uncertainty_sa
     assert abs(found.volume - volume) < 2 * found.volume_uncertainty < 0.1 * volume
 
 
+@pytest.mark.slow
 def test_smooth_balls_tell_no_shift_but_a_volume():
     smooth = {"sq": 1e-12, "shift": (0, 0), "turn": 0, "on": RADIUS}
     before, after, lost = pair(**smooth)
@@ -123,6 +124,7 @@ def track(radius=50 * RADIUS, wide=WIDE):
     return before, Heights(after.heights - 1e3 * lost, after.pitch), 1e3 * lost
 
 
+@pytest.mark.slow
 def test_a_track_has_a_section_and_the_volume_of_its_length():
     before, after, lost = track()
     found = measured_scar(before, after, radius=50 * RADIUS / 1e3, track_length=2e-3)

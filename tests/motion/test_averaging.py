@@ -76,6 +76,7 @@ def along(*given):
     return model, state, np.max(np.mean(wear[middle], axis=0))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("length", "distance", "wears", "is_averaged"),
     [

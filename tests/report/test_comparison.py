@@ -34,6 +34,7 @@ def test_it_says_how_far_the_second_is_off_the_first(ran):
     assert f"is worn {1e6 * a['max_wear_depth_m']:.3g} µm (b: {off + 0.0:+.1f} %) deep" in answer
 
 
+@pytest.mark.slow
 def test_the_files_of_a_folder_go_by_what_varies(tmp_path):
     for load in ("50_N", "100_N"):
         written(tmp_path / f"load.normal={load}.h5", times=(0.0, 500.0))

@@ -163,6 +163,7 @@ def test_a_body_that_does_not_wear_has_no_map():
         assert [each["name"] for each in charts(result)["surfaces"]] == ["ball"]
 
 
+@pytest.mark.slow
 def test_what_effects_provide_and_models_keep_has_maps_and_curves():
     with made(film=1e-11) as result:
         data, page = charts(result), result_page(result)
@@ -226,6 +227,7 @@ def test_a_value_in_stages_is_told_with_their_times():
     )
 
 
+@pytest.mark.slow
 def test_a_duty_cycle_is_told_and_drawn_with_its_pause_and_its_friction(tmp_path):
     settings = ["grid.cells=32", "grid.size='0.7 mm'", "output.save_times=[]"]
     settings += ["kinematics.duration=1800", "kinematics.positions='average'"]

@@ -183,6 +183,7 @@ def test_a_law_keeps_what_it_remembers_and_another_starts_afresh(tmp_path):
         assert third.field("slip", -1, "disk").max() > slipped["disk"].max() > 0
 
 
+@pytest.mark.slow
 def test_a_law_keeps_what_it_remembers_along_a_resolved_track(tmp_path):
     bodies = pair(archard(), Slips())
     kinematics = motion(stroke=12 * GRID.spacing[0], duration=0.2, positions=9)

@@ -69,6 +69,7 @@ def test_the_positions_taken_are_enough_for_one_percent():
     assert groove("average") > 1.1 * groove(99)
 
 
+@pytest.mark.slow
 def test_a_coarse_run_that_fails_is_not_run_again_on_the_cells_of_the_case(monkeypatch):
     # Without its unit a coefficient wears bodies away, which takes minutes to see on fine cells.
     cells = []
@@ -93,6 +94,7 @@ def test_a_pin_whose_edge_is_too_sharp_for_coarse_cells_is_foreseen_on_its_own()
         assert len(composed(given).cycle) == count
 
 
+@pytest.mark.slow
 def test_a_flat_pin_has_positions_close_enough_for_its_edge():
     # Of its even pressure a position less is a step in the groove, which wear does not widen.
     pin = named("ball", Pin(radius="0.4 mm", edge="0.15 mm"), steel(), archard())

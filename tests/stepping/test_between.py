@@ -128,6 +128,7 @@ def test_on_a_body_that_passes_it_moves_with_it():
 LYING = [Filling(length="0.5 m"), Debris(length="0.5 m", on="disk")]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("debris", LYING)
 def test_a_resumed_run_has_the_same_bits(tmp_path, debris):
     short = motion(duration=1.5)
@@ -181,6 +182,7 @@ class Runaway(Effect):
         return {"left": np.full((1, 1), -1.0)}
 
 
+@pytest.mark.slow
 def test_a_state_that_leaves_its_limits_ends_the_run_by_name():
     words = r"'left' of effect 'test\.runaway' goes on beyond its limits of 0 to 1"
     with pytest.raises(PluginError, match=words):

@@ -103,6 +103,7 @@ def volume(result):
     return result.saves()[-1]["bodies"]["ball"]["wear_volume_m3"]
 
 
+@pytest.mark.slow
 def test_a_film_that_carries_nothing_is_the_dry_case_to_the_bit():
     with run() as dry, run(effects=[Film(share=0.0)]) as wet:
         for name, values in dry.dataset.data_vars.items():
@@ -297,6 +298,7 @@ class Square(Effect):
         return {"friction_coefficient": dict.fromkeys(contact.materials, friction)}
 
 
+@pytest.mark.slow
 def test_friction_that_jumps_often_shortens_steps():
     with run(effects=[Square()], **pin(archard())) as result:
         work = result.saves()[-1]["friction_energy_J"]

@@ -49,6 +49,7 @@ def test_short_and_long_steps_wear_the_closed_form(time_step):
     assert found == pytest.approx(needed, rel=1e-5, abs=0)
 
 
+@pytest.mark.slow
 def test_an_effect_is_asked_at_the_same_speeds():
     found = worn(motion(duration=2, **SINE), Warm(), effects=[Warmth()])
     assert found == pytest.approx(worn(motion(duration=2, **SINE)), rel=1e-9, abs=0)

@@ -294,6 +294,7 @@ def test_a_bound_that_cannot_be_run_leaves_what_follows_from_it_open():
     assert list(scars["upper"]) == [np.inf]
 
 
+@pytest.mark.slow
 def test_a_scar_of_another_shape_than_the_model_gives_is_noticed():
     """A half-space wears a ball as springs do, whatever the coefficient, but for some 10 nm."""
     at = np.linspace(-0.35e-3, 0.35e-3, 41)
@@ -306,6 +307,7 @@ def test_a_scar_of_another_shape_than_the_model_gives_is_noticed():
     assert any("follow a pattern" in note for note in found.notes)
 
 
+@pytest.mark.slow
 def test_a_groove_that_ends_with_its_stroke_is_noticed():
     """The paper's hour, resolved: losses and groove known to 2 %, the average 18 % too deep."""
     file = Path(__file__).parents[2] / "docs" / "_data" / "resolved_hour.json"

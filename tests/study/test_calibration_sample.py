@@ -174,6 +174,7 @@ def test_what_the_data_leave_open_is_sampled_up_to_its_bounds(products):
     assert (found.parameters["sampled_upper"] < 1e-14).all()
 
 
+@pytest.mark.slow
 def test_an_estimate_held_by_its_bound_is_sampled_beside_it(losses):
     """By a loss of 2 ± 0.1 mg, normal but for what is cut off above 0.75 of it."""
     entry = {"body": "ball", "quantity": "mass", "value": "2 mg", "uncertainty": "0.1 mg"}

@@ -368,6 +368,7 @@ MUTANTS = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "owner", "method", "change"), MUTANTS)
 def test_each_term_counts(monkeypatch, kind, owner, method, change):
     monkeypatch.setattr(owner, method, change(getattr(owner, method)))
