@@ -66,7 +66,7 @@ def lab(loads, tests, scatter, limit, random, stated=False):
         below=below,
         specimen=np.tile(np.arange(len(force)), 2),
         repeatability=scatter if stated or tests == 1 else None,
-        logged=np.full(len(observed), True),
+        small=np.zeros(len(observed)),
         lower=np.full(2, -np.inf),
         upper=np.full(2, np.inf),
     )

@@ -56,7 +56,7 @@ def test_a_test_left_out_is_foretold_by_the_others():
         below=np.zeros(3, dtype=bool),
         specimen=np.arange(3),
         repeatability=0.0,
-        logged=np.ones(4, dtype=bool),
+        small=np.zeros(4),
         lower=np.full(1, -np.inf),
         upper=np.full(1, np.inf),
     )

@@ -235,6 +235,22 @@ def test_intervals_cover_the_coefficient_as_often_as_they_say(tmp_path):
     assert np.mean(squares) == pytest.approx(1, abs=0.05)
 
 
+@pytest.mark.slow
+def test_estimate_and_interval_do_not_depend_on_the_start(noisy):
+    """Depths grow with the coefficient, and their slopes, which are differences, with them."""
+    entry = noisy(ARCHARD) | {"uncertainty": "50 nm"}
+    found = [
+        calibrate(ARCHARD, {"measured": [entry], "fit": [{"path": K, "start": factor * 3e-16}]})
+        for factor in (0.7, 1.0, 1.4)
+    ]
+    values, lower, upper = np.array(
+        [fit.parameters[["value", "lower", "upper"]].iloc[0] for fit in found], dtype=float
+    ).T
+    half = 0.5 * (upper - lower)
+    assert np.ptp(values) < 0.1 * half[1]
+    assert half == pytest.approx(half[1], rel=0.1, abs=0)
+
+
 def test_blocks_leave_out_what_was_not_measured():
     depth = np.arange(50.0 * 50).reshape(50, 50)
     depth[:3, :2] = np.nan

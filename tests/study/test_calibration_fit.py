@@ -35,13 +35,13 @@ def worn(k):
 
 
 def problem(
-    observed, sigma, *, predictions=0, logged=True, names=NAMES, reach=np.inf, start=TRUE, **data
+    observed, sigma, *, predictions=0, small=0.0, names=NAMES, reach=np.inf, start=TRUE, **data
 ):
     """A problem of which the first values are data; the other responses are predictions."""
     n = len(observed)
     each = {"below": np.zeros(n, bool), "specimen": np.arange(n), "repeatability": 0.0} | data
     ends = np.log(start) - reach, np.log(start) + reach
-    return Problem(names, observed, sigma, *each.values(), np.full(n + predictions, logged), *ends)
+    return Problem(names, observed, sigma, *each.values(), np.full(n + predictions, small), *ends)
 
 
 class Counted:
@@ -205,7 +205,7 @@ def test_what_only_a_product_tells_is_left_open():
 
 def test_linear_responses_may_be_zero():
     """As the depth of a profile beside the scar."""
-    made = problem(np.array([0.0, 3.0]), np.full(2, 0.1), logged=False, start=np.ones(2))
+    made = problem(np.array([0.0, 3.0]), np.full(2, 0.1), small=10.0, start=np.ones(2))
     found = fit(lambda k: np.array([0.0, k[0]]) + k[1] - 1, made, np.ones(2))
     assert np.exp(found.point) == pytest.approx([3.0, 1.0], rel=1e-2)
 
@@ -238,7 +238,7 @@ def test_no_run_is_made_beyond_the_bounds(start):
 def test_a_fit_that_comes_no_nearer_is_given_up():
     """Data are out of reach, and the model too rough to say so."""
     rough = Counted(lambda k: 30 + 0.01 * np.log(k) + (-1) ** rough.runs)
-    made = problem(np.array([1e-9]), np.ones(1), names=("k",), start=np.ones(1), logged=False)
+    made = problem(np.array([1e-9]), np.ones(1), names=("k",), start=np.ones(1), small=10.0)
     with pytest.raises(NumericalError, match=r"have not settled .*: χ² has come down to"):
         fit(rough, made, np.ones(1))
     assert rough.runs <= 12

@@ -53,7 +53,7 @@ def test_the_expected_interval_is_that_of_a_calibration():
         below=np.zeros(n, dtype=bool),
         specimen=np.arange(n) // 2,
         repeatability=None,
-        logged=np.ones(n, dtype=bool),
+        small=np.zeros(n),
         lower=np.full(2, -np.inf),
         upper=np.full(2, np.inf),
     )

@@ -37,7 +37,7 @@ def sampled_of(observed, below, repeatability, count, fails=lambda k: None):
         below=np.array(below),
         specimen=np.arange(len(observed)),
         repeatability=repeatability,
-        logged=np.full(len(observed), True),
+        small=np.zeros(len(observed)),
         lower=-ends,
         upper=ends,
     )

@@ -78,15 +78,22 @@ class Problem:
     """Where the value is a limit of detection, and of which test it is, shape (n,)."""
     repeatability: float | None
     """Relative standard deviation of the parameters from test to test; None to estimate it."""
-    logged: Mask
-    """Which responses are positive and near to power laws of the parameters, shape (m,)."""
+    small: Array
+    """Of a depth that may be 0 how much is no more near to a power law of the parameters, shape
+    (m,); 0 for what is positive."""
     lower: Array
     upper: Array
     """Bounds of the logarithms of the parameters, shape (p,); infinite for none."""
 
     def scaled(self, responses: Array) -> Array:
-        """Return responses, of those that are `logged` the logarithms; a prediction may be 0."""
-        return np.log(responses, out=responses.copy(), where=self.logged & (responses > 0))
+        """Return responses in whose terms slopes change little: logarithms, linear near 0.
+
+        A prediction may be 0, and remains so.
+        """
+        found = np.log(responses, out=responses.copy(), where=responses > 0)
+        depth = self.small > 0
+        found[depth] = np.arcsinh(responses[depth] / self.small[depth])
+        return found
 
     def residuals(self, responses: Array, weights: Weights) -> Array:
         """Return residuals, in standard deviations; their squares are −2 ln of the likelihood.
@@ -109,28 +116,35 @@ class Problem:
 
 @dataclass(frozen=True)
 class Linearised:
-    """The model near a run: power laws where `Problem.logged`, else linear in the logarithms."""
+    """The model near a run: power laws, of depths that may be 0 linear in the logarithms."""
 
     problem: Problem
     point: Array
     responses: Array
     """Logarithms of the parameters of the run, shape (p,), and what it gave, shape (m,)."""
     slopes: Array
-    """Derivatives by the logarithms of the parameters, shape (m, p): of logarithms where logged."""
+    """Derivatives of `Problem.scaled` by the logarithms of the parameters, shape (m, p)."""
     weights: Weights
     repeatability: float = 0.0
     """Part of the weights: relative standard deviation from test to test."""
 
     def at(self, point: Array) -> Array:
         """Return the responses at another point."""
-        moved = self.problem.scaled(self.responses)
-        moved += np.sum(self.slopes * (point - self.point), axis=1)
-        return np.exp(moved, out=moved, where=self.problem.logged)
+        change = np.sum(self.slopes * (point - self.point), axis=1)
+        moved, power = self.responses + self._steepness * change, self.problem.small == 0
+        moved[power] = np.exp((self.problem.scaled(self.responses) + change)[power])
+        return np.asarray(moved)
+
+    @property
+    def _steepness(self) -> Array:
+        """Derivatives of the responses by `Problem.scaled`, shape (m,)."""
+        return np.asarray(np.hypot(self.responses, self.problem.small))
 
     def effects(self, point: Array) -> Array:
         """Return the derivatives of the data by the logarithms of the parameters, shape (n, p)."""
         n = len(self.problem.observed)
-        factor = np.where(self.problem.logged, self.at(point), 1.0)[:n]
+        # A depth's are the same everywhere, as those by which tests are taken to scatter.
+        factor = np.where(self.problem.small > 0, self._steepness, self.at(point))[:n]
         return np.asarray(factor[:, None] * self.slopes[:n])
 
     def residuals(self, point: Array) -> Array:

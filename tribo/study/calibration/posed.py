@@ -43,6 +43,8 @@ from tribo.study.calibration.quantities import (
 )
 from tribo.study.variation import unknown_body, valid_case
 
+SMALL = 0.1
+"""Part of the largest depth of a profile or a map below which depths are no power laws."""
 READ = list(Reading._fields)
 """Columns of the data that say what is read off a run."""
 
@@ -157,17 +159,22 @@ class Posed:
 
     def problem(self, values: Array) -> Problem:
         """Return what is to be fitted; how well the grid gives the data a run of `values` says."""
-        data, read_off = self.data, self.run(values).read_off
+        data, run = self.data, self.run(values)
+        sigma = np.hypot(data["sigma"], run.read_off[: len(data)]).to_numpy()
+        computed = pd.Series(run.responses[: len(data)]).abs()
+        largest = computed.groupby(data["place"]).transform("max").to_numpy()
+        is_field = data["quantity"].isin(FIELDS)
+        small = np.where(is_field, np.maximum(SMALL * largest, sigma), 0.0)
         with np.errstate(divide="ignore"):
             lower, upper = np.log([(p.lower, p.upper) for p in self.parameters]).T
         return Problem(
             names=tuple(p.path for p in self.parameters),
             observed=data["measured"].to_numpy(),
-            sigma=np.hypot(data["sigma"], read_off[: len(data)]).to_numpy(),
+            sigma=sigma,
             below=data["below"].to_numpy(),
             specimen=data["specimen"].to_numpy(),
             repeatability=self.repeatability,
-            logged=np.append(~data["quantity"].isin(FIELDS), np.full(len(self.predicted), True)),
+            small=np.append(small, np.zeros(len(self.predicted))),
             lower=lower,
             upper=upper,
         )
