@@ -9,8 +9,10 @@ import pytest
 from paper_models import case, motion
 
 from tribo import Grid, Simulation
+from tribo.cli.main import tribo
 from tribo.observers.observer import Observer
 from tribo.observers.progress import Progress
+from tribo.templates import template
 
 
 class Terminal(io.StringIO):
@@ -57,6 +59,17 @@ def test_the_bar_and_the_time_left_go_on_evenly_past_many_saves(monkeypatch):
 
 
 @pytest.mark.slow
+def test_check_says_how_long_its_sensitivities_may_take(monkeypatch, tmp_path):
+    """Only where that may be long, and somebody waits."""
+    (tmp_path / "case.toml").write_text(template("fretting"))
+    for factor, stream, told in ((1e3, Terminal(), True), (0.0, Terminal(), False)):
+        monkeypatch.setattr(sys, "stderr", stream)
+        monkeypatch.setattr("tribo.cli.check.BACK", factor)
+        tribo(["check", str(tmp_path / "case.toml")], standalone_mode=False)
+        shown = stream.getvalue().startswith("which numbers rule the depth: at most some ")
+        assert shown == told
+
+
 def test_no_bar_is_drawn_into_what_is_no_terminal(monkeypatch):
     for forced in ("FORCE_COLOR", "TTY_COMPATIBLE"):
         monkeypatch.setenv(forced, "1")

@@ -112,6 +112,7 @@ def test_a_trial_that_fails_on_coarse_cells_is_told_and_does_not_stop_the_run(mo
         "too coarse",
     )
     assert found.exit_code == 0
+    assert found.stops is None
 
 
 def test_a_trial_whose_steps_lead_nowhere_is_given_up(monkeypatch):
@@ -148,6 +149,7 @@ def test_a_case_refused_on_its_way_ends_check_as_it_ends_the_run():
     found = predict(model)
     assert found.exit_code == stopped.value.exit_code == 2
     assert found.problems == (f"a trial run on a coarse grid failed: {stopped.value}",)
+    assert found.stops == found.problems[0]
 
 
 def test_a_rough_body_on_a_resolved_track_is_estimated_without_its_relief():

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import sys
+import time
 from collections.abc import Iterable, Iterator
 from dataclasses import asdict
 from pathlib import Path
@@ -17,6 +19,7 @@ from tribo.cli.options import CASE, JSON, SET, echo_json
 from tribo.core.errors import CaseError, NumericalError
 from tribo.core.words import readable
 from tribo.lab.first_contact import HertzContact, computed_pressure, in_mpa, yield_words
+from tribo.observers.progress import QUIET
 from tribo.simulation.model import Model
 from tribo.simulation.predict import Prediction
 
@@ -25,6 +28,8 @@ if TYPE_CHECKING:
 
 SPREAD = 3.0
 """Factor to which the time of a run is known."""
+BACK = 5.0
+"""Most time that sensitivities were seen to take, over that of the trial before them."""
 SHOWN = 6
 """Most numbers of the case that are shown with what they change."""
 
@@ -46,15 +51,18 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
     numerical failure; where it must stop, the code that it would end with.
     """
     from tribo.config.load import load_case
-    from tribo.simulation.doubt import unusual
     from tribo.simulation.predict import predict
     from tribo.simulation.run import Simulation
     from tribo.study.gradient.sensitivity import sensitivity
 
     model = Simulation(load_case(case, overrides=overrides)).model
+    began = time.monotonic()
     prediction = predict(model)
+    longest = BACK * (time.monotonic() - began)
     ruled: Sensitivity | str = "the trial on a coarse grid did not reach the end"
     if prediction.last:
+        if longest > QUIET and sys.stderr.isatty():
+            click.echo(f"which numbers rule the depth: at most some {longest:.0f} s", err=True)
         try:
             ruled = sensitivity(model, prediction.first.half_width_x)
         except (CaseError, NumericalError) as error:
@@ -67,9 +75,7 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
         _print(case, model, prediction, ruled)
     for kind in (CaseError, NumericalError):
         if prediction.exit_code == kind.exit_code:
-            # What is doubted comes before what stops the run, as in the message of that run.
-            why = prediction.problems[: len(unusual(model.case)) + 1]
-            raise kind(f"a run of {case} would stop on its way: {' '.join(why)}")
+            raise kind(f"a run of {case} would stop on its way: {prediction.stops}")
 
 
 def _print(case: Path, model: Model, prediction: Prediction, ruled: Sensitivity | str) -> None:
@@ -119,7 +125,7 @@ def _facts(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
         soonest, latest = prediction.run_time / SPREAD, prediction.run_time * SPREAD
         yield "run time here, about", f"{readable(soonest, '.2g')} to {readable(latest, '.2g')} s"
     yield "memory, at most", f"{readable(prediction.memory / 2**20, '.0f')} MiB"
-    yield "result file, at most", f"{prediction.file_size / 2**20:.1f} MiB"
+    yield "result file, at most", f"{readable(prediction.file_size / 2**20, '.1f')} MiB"
 
 
 def _first_contact(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:

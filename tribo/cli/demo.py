@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tribo.cli.options import PATH
+from tribo.core.words import readable
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -112,7 +113,7 @@ def _table(average: Result, resolved: Result) -> Table:
         ("pressure at the centre, MPa", 1e-6, ".0f", [end["centre_pressure_Pa"] for end in ends]),
         ("volume of the disk, mm³", 1e9, ".3g", [b["disk"]["wear_volume_m3"] for b in bodies]),
     ):
-        table.add_row(name, *(f"{factor * value:{form}}" for value in values))
+        table.add_row(name, *(readable(factor * value, form) for value in values))
     return table
 
 

@@ -80,6 +80,8 @@ class Prediction:
     """What components state of themselves, by their place in the case."""
     problems: tuple[str, ...]
     exit_code: int
+    stops: str | None
+    """What is doubted, and then what the run stops on, as in its message."""
 
 
 @dataclass(frozen=True)
@@ -112,8 +114,9 @@ def predict(model: Model) -> Prediction:
     holds = None if last is None else _inside(model, last) or model.may_reach_edge
     across = None if hertz is None else (2 * hertz.half_width_x / dx, 2 * hertz.half_width_y / dy)
     stopping, warned = _stopping(model, state, coarse, window_holds=holds)
+    doubts, ends = unusual(model.case), [(code, text) for code, text in stopping if code]
     problems = (
-        *unusual(model.case),
+        *doubts,
         *(text for _, text in stopping),
         few_cells(model, state.contact),
         broken_period(model),
@@ -140,7 +143,8 @@ def predict(model: Model) -> Prediction:
         run_time=coarse.run_time,
         facts={place: stated for place, stated in facts.items() if stated},
         problems=tuple(problem for problem in problems if problem is not None),
-        exit_code=next((code for code, _ in stopping if code), 0),
+        exit_code=ends[0][0] if ends else 0,
+        stops=" ".join([*doubts, ends[0][1]]) if ends else None,
     )
 
 
