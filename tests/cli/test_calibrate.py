@@ -110,3 +110,17 @@ def test_bad_input_is_one_message(tmp_path):
     assert ran.returncode == 2
     assert ran.stderr.startswith("error: measured.0.value: '2 mm' is a length [m]")
     assert len(ran.stderr.splitlines()) == 1
+
+
+@pytest.mark.parametrize("more", [["--plan", "0.1"], ["twin.toml"]])
+def test_local_coefficients_are_one_case_and_no_plan(tmp_path, monkeypatch, more):
+    monkeypatch.chdir(tmp_path)
+    entry = {"body": '"disk"', "depth": '"d.npy"', "uncertainty": "1e-9", "length": "1e-4"}
+    table = "\n".join(f"{key} = {value}" for key, value in entry.items())
+    Path("mapped.toml").write_text(f"[[map]]\n{table}\n")
+    for name in ("case.toml", "twin.toml"):
+        Path(name).write_text((EXAMPLES / "weighed_split.toml").read_text())
+    ended = CliRunner().invoke(main, ["calibrate", "case.toml", "--measured", "mapped.toml", *more])
+    assert str(ended.exception) == (
+        "local coefficients, [[map]], are fitted in one case, without --plan"
+    )

@@ -114,6 +114,8 @@ def test_another_law_is_noticed_and_not_chosen(two_loads, found):
     assert any("data and model disagree" in note for note in wrong.notes)
     assert any("the depth_map of 'ball' in heavy follow a pattern" in note for note in wrong.notes)
     assert not any("follow a pattern" in note for note in found.notes)
+    coarse = [note.split(":")[:2] for note in found.notes if "cells wide" in note]
+    assert coarse == [["heavy", " resolution"], ["light", " resolution"]]
 
 
 @pytest.mark.slow

@@ -104,6 +104,8 @@ def test_a_wrong_value_is_told(changes, place, words):
         ({"path": "bodies.bal.wear.k"}, ".0.path", f"did you mean '{K}'?"),
         ({"path": "load.normal.x"}, ".0.path", "not given in this case"),
         ({"path": "grid.cells.0"}, ".0.path", "is 16 in this case"),
+        ({"path": "grid.cells"}, ".0.path", "grid.cells is no physical number in this case"),
+        ({"path": "load"}, ".0.path", "load is no physical number in this case"),
         ({"path": "a..b"}, ".0.path", "'a..b' is not a path"),
         ({"path": K, "start": "1 Pa"}, ".0.start", "an inverse pressure [1/Pa] is needed"),
         ({"path": K, "start": -1}, ".0.start", "must be greater than 0"),
@@ -142,6 +144,15 @@ def test_a_case_in_the_place_of_measured_values_is_told():
         calibrate(CASE, CASE)
 
 
+def test_measured_values_in_the_place_of_a_case_are_told():
+    with pytest.raises(CaseError) as caught:
+        calibrate({"measured": [GOOD], "fit": [{"path": K}]}, {"measured": [GOOD]})
+    assert str(caught.value) == (
+        "these are measured values, not a case; fit one to them with: "
+        "tribo calibrate CASE --measured FILE"
+    )
+
+
 @pytest.mark.parametrize(
     ("changes", "remedy"),
     [
@@ -178,6 +189,7 @@ def test_a_level_is_a_probability():
         ({"measured": [changed(value="< 2 mm")]}, "test.0.measured.0.value: '2 mm' is a length"),
         ({"measured": [changed(value=[])]}, "test.0.measured.0: the list of values is empty"),
         ({"sett": {}}, "test.0.sett: unknown"),
+        ({"map": []}, "test.0: local coefficients are fitted to maps of one test: give [[map]]"),
     ],
 )
 def test_a_wrong_test_is_told(test, words):

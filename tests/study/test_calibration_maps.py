@@ -188,7 +188,7 @@ def test_a_cell_of_which_less_than_half_was_measured_is_left_out():
         (
             {"map": [{"body": "disk", "depth": "a", "uncertainty": 1e-9, "length": 1e-4}]}
             | {"fit": [{"path": "load.normal"}]},
-            "local coefficients are fitted to maps alone",
+            "local coefficients are fitted to maps of one test",
         ),
     ],
 )

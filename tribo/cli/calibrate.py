@@ -94,6 +94,8 @@ def calibrate(
     several = len(cases) > 1
     if sample and (several or asked.map or plan is not None):
         raise CaseError("--sample is for one case fitted to [[measured]], without --plan")
+    if asked.map and (several or plan is not None):
+        raise CaseError("local coefficients, [[map]], are fitted in one case, without --plan")
     if several and (output or plan is not None or len(alternatives) < len(cases)):
         raise CaseError(
             "several cases are compared: give files of different names, and --plan or -o with "

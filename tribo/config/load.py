@@ -55,6 +55,11 @@ def validate_case(data: Mapping[str, Any], *, registry: Registry | None = None) 
     Components are looked up in `registry`, the installed plugins if left out. `CaseError`, with a
     line for each error, if anything is wrong.
     """
+    if "bodies" not in data and {"measured", "test", "map"} & data.keys():
+        raise CaseError(
+            "these are measured values, not a case; fit one to them with: "
+            "tribo calibrate CASE --measured FILE"
+        )
     known = registry or default_registry()
     requires = data.get("requires")
     if isinstance(requires, list | tuple):

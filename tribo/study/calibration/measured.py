@@ -26,6 +26,7 @@ class Below(float):
     """A limit that a value is below, as ``"< 0.1 mg"``."""
 
 
+LOCAL = "local coefficients are fitted to maps of one test: give [[map]] in a file of its own"
 FINEST, _BEYOND_NOISE = 1e-6, 3.0
 """Smallest relative uncertainty; standard deviations below 0 at which no noise explains a mean."""
 
@@ -230,6 +231,13 @@ class Tested(Table):
     measured: tuple[Measured, ...]
     """What was measured in it. The nth values of all lists are of one test, the nth."""
 
+    @model_validator(mode="before")
+    @classmethod
+    def _has_numbers(cls, data: Any) -> Any:
+        if isinstance(data, Mapping) and "map" in data:
+            raise ValueError(LOCAL)
+        return data
+
     @field_validator("set", mode="before")
     @classmethod
     def _flat(cls, value: Any) -> Any:
@@ -283,9 +291,7 @@ class Measurements(Table):
     @model_validator(mode="after")
     def _some(self) -> Self:
         if self.map and (self.tests or self.fit or self.repeatability is not None):
-            raise ValueError(
-                "local coefficients are fitted to maps alone: give [[map]] in a file of its own"
-            )
+            raise ValueError(LOCAL)
         if self.map:
             return self
         if not self.tests or not all(test.measured for test in self.tests.values()):

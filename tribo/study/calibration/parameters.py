@@ -87,6 +87,8 @@ def _number(case: Case, keys: tuple[str, ...]) -> tuple[float, Quantity]:
     if not isinstance(value, float):
         numbers = [".".join(place) for place, (each, _) in known.items() if isinstance(each, float)]
         path, given = ".".join(keys), "not given" if value is None else shown(value)
+        if any(place[: len(keys)] == keys for place in known.keys() - {keys}):
+            given = "no physical number"
         raise CaseError(
             f"{path} is {given} in this case{suggestion(did_you_mean(path, numbers))} Only a "
             "number with decimals can be fitted"

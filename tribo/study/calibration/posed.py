@@ -140,12 +140,13 @@ class Posed:
         if key in self.runs:
             return self.runs[key]
         responses, read_off = np.empty((2, len(self.data) + len(self.predicted)))
-        notices: dict[str, None] = {}
+        notices: dict[str, list[str]] = {}
         for i, (rows, wanted) in enumerate(self.asked):
             tables, name = self.tested[i].tables, f"run {self.made + i + 1}"
             made = make_run(tables, self.parameters, values, wanted, name)
             responses[rows], read_off[rows] = made.responses, made.read_off
-            notices |= dict.fromkeys(made.notices)
+            for notice in made.notices:
+                notices.setdefault(notice, []).append(self.tested[i].name or "the case as it is")
         positive = ~self.data["quantity"].isin(FIELDS).to_numpy()
         nothing = positive & (responses <= 0)[: len(self.data)]
         for each in self.data[nothing].itertuples() if np.any(nothing) else ():
@@ -154,7 +155,11 @@ class Posed:
                 "wear: give start in fit",
                 each.place,
             )
-        self.runs[key] = Run(responses, read_off, tuple(notices))
+        told = (
+            notice if len(of) == len(self.tested) else f"{', '.join(of)}: {notice}"
+            for notice, of in notices.items()
+        )
+        self.runs[key] = Run(responses, read_off, tuple(told))
         return self.runs[key]
 
     def problem(self, values: Array) -> Problem:
