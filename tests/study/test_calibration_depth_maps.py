@@ -2,6 +2,7 @@
 
 import copy
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from scipy.stats import binom
 from tribo.cli.fitted import data_table
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
-from tribo.core.errors import CaseError, TriboWarning
+from tribo.core.errors import CaseError, NumericalError, TriboWarning
 from tribo.plotting.curves import fit_picture
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.calibrate import calibrate
@@ -253,6 +254,14 @@ def test_estimate_and_interval_do_not_depend_on_the_start(noisy):
     assert half == pytest.approx(half[1], rel=0.1, abs=0)
 
 
+def test_a_map_on_which_nothing_is_worn_is_doubted(tmp_path):
+    np.save(tmp_path / "new.npy", np.zeros((16, 16)))
+    entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "new.npy")}
+    entry |= {"pitch": 1e-3 / 16, "uncertainty": NOISE}
+    with pytest.raises(NumericalError, match=r"or is a measured value off\? .* was read as 0 m"):
+        calibrate(ARCHARD, {"measured": [entry], "fit": [{"path": K}]})
+
+
 def test_blocks_leave_out_what_was_not_measured():
     depth = np.arange(50.0 * 50).reshape(50, 50)
     depth[:3, :2] = np.nan
@@ -287,6 +296,7 @@ def test_a_map_can_be_planned_with_before_it_is_measured(two_loads):
         ({"depth": "no.npy"}, ".0.depth", "no.npy"),
         ({"depth": None}, ".0", "give depth, the file of a height map"),
         ({"pitch": None}, ".0.depth", "give the distance between pixels"),
+        ({"depth": "text.npy"}, ".0.depth", "of numbers: it is no NumPy array of numbers"),
         ({"pitch": "0.1 mm"}, ".0.depth", "larger than cells"),
         ({"depth": "beside.npy"}, ".0.depth", "does not lie on the window"),
         ({"depth": "upwards.npy"}, ".0.depth", "turn the sign round"),
@@ -309,6 +319,7 @@ def test_a_wrong_map_is_told(changes, place, words, tmp_path, monkeypatch):
     files = {"good": worn, "beside": beside, "upwards": -worn, "missing": np.nan * worn}
     for name, depth in files.items():
         np.save(f"{name}.npy", depth)
+    Path("text.npy").write_text("1.0, 2.0")
     entry = {"body": "ball", "quantity": "depth_map", "depth": "good.npy", "pitch": "50 um"}
     entry = {**entry, "uncertainty": "10 nm", **changes}
     entry = {key: value for key, value in entry.items() if value is not None}

@@ -109,7 +109,9 @@ def table_of_numbers(file: Path) -> Array:
             if np.all(np.isnan(numbers[:1])):
                 numbers = numbers[1:]
     except (ValueError, OSError) as error:
-        raise ValueError(f"{file} cannot be read as a table of numbers: {error}") from None
+        # NumPy would have one load what may be any code.
+        reason = "it is no NumPy array of numbers" if "pickle" in str(error) else error
+        raise ValueError(f"{file} cannot be read as a table of numbers: {reason}") from None
     if numbers.dtype.kind not in "fiu":
         raise ValueError(f"{file} has values that are not numbers, or are not finite")
     return np.asarray(numbers, dtype=np.float64)
