@@ -22,13 +22,9 @@ from tribo.stepping.rates import Moment
 from tribo.study.gradient.course import Other
 from tribo.study.gradient.linear import Carrier, carriers_of
 from tribo.study.gradient.local import SPEED, localised
-from tribo.study.gradient.response import ASIDE
+from tribo.study.gradient.response import ASIDE, NUDGE
 from tribo.study.gradient.tape import Pressed, Slid
 
-NUDGE = 3e-5
-"""Part of a number by which it is varied: what is compared is a height, a rate, never a solve."""
-FINE = 1e-7
-"""The same for numbers of the motion, which may be at any phase of many cycles."""
 LAW = "law"
 """What a number changes of a law that it enters."""
 ANY = "*"
@@ -65,15 +61,12 @@ class Stops:
 class Variant:
     """A model with a number changed, and its weight in the derivative.
 
-    `wears` has the bodies whose wear under given contacts differs, and what of their laws it may be
-    that does: the `LAW` itself, or only properties of their material or the `SPEED`. `carriers` is
-    None where they are those of the case.
+    `carriers` is None where the motion is that of the case.
     """
 
     model: Model
     weight: float
     stops: Stops
-    wears: Mapping[str, frozenset[str]]
     carriers: Mapping[str, Carrier] | None
 
 
@@ -82,7 +75,9 @@ class Chain:
     """What the number at a path of a case changes, by differences of models that differ in it.
 
     The weighted sum over `variants` is the derivative; `base` is the model of the case itself, and
-    `stops` are its own.
+    `stops` are its own. `wears` has the bodies whose wear under given contacts differs, and what of
+    their laws it may be that does: the `LAW` itself, or only properties of their material or the
+    `SPEED`.
     """
 
     path: str
@@ -90,6 +85,7 @@ class Chain:
     variants: Sequence[Variant]
     base: Model
     stops: Stops
+    wears: Mapping[str, Set[str]]
 
     def by_load(self, record: Pressed, by_load: Array) -> float:
         """Return what comes through the loads of a contact, given the derivative in each."""
@@ -107,11 +103,11 @@ class Chain:
 
         `seen` is what each law read for it, and `carriers` are those of the case.
         """
-        for each in self.variants:
-            # A law that the number does not enter need not be asked about it again.
-            asks = {name for name, through in each.wears.items() if through & {LAW, *seen[name]}}
-            wears = asks | {name for name, through in each.wears.items() if SPEED in through}
-            if each.model is self.base or not wears:
+        # A law that the number does not enter need not be asked about it again.
+        asks = {name for name, through in self.wears.items() if through & {LAW, *seen[name]}}
+        wears = asks | {name for name, through in self.wears.items() if SPEED in through}
+        for each in self.variants if wears else ():
+            if each.model is self.base:
                 continue
             begun, ended = (self._then(each, time) for time in (slid.time, slid.moment.time))
             end = slid.moment.distance
@@ -142,12 +138,11 @@ class Chain:
             through -= stiffness * np.log(softness(model) / softness(self.base))
             if model.system.cap is not None:
                 through += cap * model.system.cap
-            for name in each.wears:
-                for key, first in model.laws[name].initial_state.items():
+            for name, law in model.laws.items():
+                for key, first in law.initial_state.items():
                     through += first * float(np.sum(states.laws[name][key]))
-            if each.wears:
-                for key, (effect, _) in model.between.items():
-                    through += effect.initial_state[key] * float(np.sum(states.between[key]))
+            for key, (effect, _) in model.between.items():
+                through += effect.initial_state[key] * float(np.sum(states.between[key]))
             total += each.weight * through
         return total
 
@@ -227,15 +222,16 @@ def chain(
     """
     if value == 0:
         raise CaseError("is 0, of which no part can be taken as a difference", path)
-    step = value * (FINE if places[0][0] == "kinematics" else NUDGE)
+    moves = places[0][0] == "kinematics"
+    # Numbers of the motion may be at any phase of many cycles.
+    step = value * (ASIDE if moves else NUDGE)
     error: Exception | None = None
     central, upper = [(1, 0.5), (-1, -0.5)], [(0, -1.5), (1, 2.0), (2, -0.5)]
-    lower = [(-by, -weight) for by, weight in upper]
-    schemes = [central, upper, lower]
-    if all("wear" in place[2:3] for place in places):
+    if all("wear" in place[2:] for place in places):
         # Only what is worn under given contacts follows it, which is known of the case itself.
-        step, schemes = ASIDE * value, [[(0, -1.0), (1, 1.0)], [(0, 1.0), (-1, -1.0)]]
-    for scheme in schemes:
+        step, central, upper = ASIDE * value, [], [(0, -1.0), (1, 1.0)]
+    lower = [(-by, -weight) for by, weight in upper]
+    for scheme in filter(None, (central, upper, lower)):
         try:
             models = [
                 _varied(base, places, value + by * step, factors) if by else base
@@ -246,16 +242,11 @@ def chain(
             continue
         if scheme is central:
             _check_smooth(models[0], base, models[1], path)
-        stops = [Stops.of(model) for model in models]
-        wears: dict[str, frozenset[str]] = {}
-        for model in models:
-            for name, through in _wears(base, model).items():
-                wears[name] = wears.get(name, frozenset()) | through
         variants = [
-            Variant(model, weight / step, of_model, wears, _other_carriers(base, model))
-            for model, (_, weight), of_model in zip(models, scheme, stops, strict=True)
+            Variant(model, weight / step, Stops.of(model), carriers_of(model) if moves else None)
+            for model, (_, weight) in zip(models, scheme, strict=True)
         ]
-        return Chain(path, value, variants, base, Stops.of(base))
+        return Chain(path, value, variants, base, Stops.of(base), _wears(base, models[-1]))
     why = error.errors()[0]["msg"] if isinstance(error, ValidationError) else str(error)
     for place in (path, *(".".join(map(str, place)) for place in places)):
         why = why.removeprefix(f"{place}: ")
@@ -325,15 +316,6 @@ def _wears(base: Model, model: Model) -> dict[str, frozenset[str]]:
                 key for key, value in was.material if value != getattr(now.material, key)
             )
     return found
-
-
-def _other_carriers(base: Model, model: Model) -> Mapping[str, Carrier] | None:
-    if model.case.kinematics == base.case.kinematics:
-        return None
-    one, other = carriers_of(base), carriers_of(model)
-    same = all(np.array_equal(of.part, other[name].part) for name, of in one.items())
-    shares = [[position.share for position in each.cycle] for each in (base, model)]
-    return None if same and shares[0] == shares[1] else other
 
 
 def changed(value: Any, place: Sequence[Any], number: float) -> Any:

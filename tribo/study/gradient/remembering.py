@@ -16,14 +16,11 @@ from tribo.stepping.relaxation import relaxed, relaxing
 from tribo.study.gradient.asked import Place
 from tribo.study.gradient.course import Before, Other
 from tribo.study.gradient.linear import Carrier
-from tribo.study.gradient.response import Arrays
+from tribo.study.gradient.response import NUDGE, Arrays
 from tribo.study.gradient.slopes import Slopes, Sloping
 
 SMALL = 1e-4
 """Rise below which the derivative of its mean is that of its series."""
-
-ANOTHER = 1e-5
-"""Part of a state by which it is moved to find how its derivatives follow it."""
 
 
 @dataclass(frozen=True)
@@ -135,7 +132,7 @@ class Remembering:
             if relaxes:
                 at_start = partial(asked.of_states, begin)
                 of_states = relaxing(at_start, states, at_start(states), span, asked.limits)
-                for at, nudge in enumerate(asked.nudges(states, start.found, ANOTHER)):
+                for at, nudge in enumerate(asked.nudges(states, start.found, NUDGE)):
                     if np.any(np.asarray(of_states[at]) < 0):
                         other = [*states[:at], states[at] + nudge, *states[at + 1 :]]
                         moved.append((at, asked.sloped(other, begin), nudge))

@@ -14,9 +14,9 @@ from tribo.core.box import whole
 from tribo.study.gradient.linear import Carrier
 
 NUDGE = 3e-5
-"""Part of the pressure by which it is varied to find the derivative of a rate, up and down."""
+"""Part of a value by which it is varied up and down to find a derivative, or once for a second."""
 ASIDE = 1e-7
-"""The same where it is varied up only, as are states and the numbers of laws."""
+"""The same where it is varied to one side only, or a derivative may soon change."""
 LEAST = 0.1
 """Part of a cell's pressure that must be varied to find what follows it."""
 AGREES = 1e-4
