@@ -38,7 +38,6 @@ from tribo.motion.rotating import Rotating
 from tribo.motion.unidirectional import Unidirectional
 from tribo.stepping.explicit import Explicit
 from tribo.study.gradient import (
-    asked,
     backwards,
     course,
     linear,
@@ -270,7 +269,6 @@ MUTANTS = [
     ("remembers", remembering.Remembering, "_back", followed("by_length", 0.0)),
     ("remembers", remembering.Remembering, "_back", followed("seeds", ())),
     ("remembers", parameters, "carriers_of", nothing),
-    ("remembers", asked.Asked, "follows_length", lambda _: False),
     ("load over time", slopes.Sloping, "_by_pressure", unfelt("load")),
     ("layers", course, "_layers", lambda of: lambda *given: (of(*given)[0], 1.0)),
     ("layers, remembers", passing.Layered, "back", unworn),
