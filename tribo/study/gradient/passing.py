@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.stepping.layers import over_increment
-from tribo.study.gradient.response import Arrays, Response
-
-if TYPE_CHECKING:
-    from tribo.study.gradient.slopes import Slopes
+from tribo.study.gradient.response import Arrays
 
 FINE = 1e-6
 """Part of the largest depth or rate by which it is varied."""
@@ -48,16 +44,3 @@ class Layered:
         worn, *rates = given
         shares = over_increment(self.bottoms, worn, rates, self.increment)
         return [shares[f"rate {layer}"] for layer in range(len(rates))]
-
-
-@dataclass(frozen=True)
-class Passing:
-    """Bodies of which points pass from layer to layer, by name.
-
-    `by_share` has what the rates follow of the share of each layer, and `of_layers` the slopes
-    where points are in that layer alone.
-    """
-
-    bodies: Mapping[str, Layered]
-    by_share: Mapping[str, Sequence[Sequence[Response]]]
-    of_layers: Sequence[Slopes]

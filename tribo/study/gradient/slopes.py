@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -17,7 +17,7 @@ from tribo.study.gradient.asked import Asked, Place
 from tribo.study.gradient.course import pressed
 from tribo.study.gradient.linear import Carrier
 from tribo.study.gradient.local import localised
-from tribo.study.gradient.passing import Layered, Passing
+from tribo.study.gradient.passing import Layered
 from tribo.study.gradient.response import (
     ALONE,
     ASIDE,
@@ -60,6 +60,19 @@ class Slopes:
     by_factor: Sequence[Sequence[Response]]
     inside: Sequence[Array]
     passing: Passing | None = None
+
+
+@dataclass(frozen=True)
+class Passing:
+    """Bodies of which points pass from layer to layer, by name.
+
+    `by_share` has what the rates follow of the share of each layer, and `of_layers` the slopes
+    where points are in that layer alone.
+    """
+
+    bodies: Mapping[str, Layered]
+    by_share: Mapping[str, Sequence[Sequence[Response]]]
+    of_layers: Sequence[Slopes]
 
 
 @dataclass(frozen=True)
