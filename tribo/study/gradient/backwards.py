@@ -16,7 +16,7 @@ from tribo.core.errors import CaseError
 from tribo.core.fields import LOAD_SHARE
 from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.model import Model
-from tribo.stepping.evolution import Course, course
+from tribo.stepping.evolution import course
 from tribo.stepping.memory import Memory, first_memory
 from tribo.study.gradient.course import Before, Plain, plain
 from tribo.study.gradient.linear import StepSystem, carriers_between, carriers_of
@@ -154,11 +154,34 @@ class Backwards:
         """Go back through a contact, and what was worn under it."""
         pressed, yielded = self.pressure, self.gave
         self.pressure, self.gave = None, ()
-        slid, model = record.slid, self.model
+        slid = record.slid
         if slid is None and pressed is None and not yielded:
             return
         window = np.zeros_like(self.gap)
         window[(slice(None), *record.region)] = record.pressure
+        looked = np.zeros_like(window) if pressed is None else pressed
+        increments, seen = self._increments(window, slid) if slid else ([], {})
+        if slid is not None and slid.ahead:
+            behind = [each.back(self.worn_before, self.states) for each in increments]
+            self.pressure = looked + over(self.shares) * sum(each.pressure for each in behind)
+        else:
+            behind = self._solve(record, window, looked, yielded, increments)
+        if slid is not None:
+            self._wear(slid, seen, behind)
+
+    def _solve(
+        self,
+        record: Pressed,
+        window: Array,
+        looked: Array,
+        yielded: Sequence[int],
+        increments: Sequence[Increment],
+    ) -> list[Before]:
+        """Go back through a contact that was solved with what it wore; return what is before that.
+
+        `window` are its pressures, and `looked` the derivatives of the objective in them.
+        """
+        model = self.model
         found = model.contact.operator(model.system, np.any(window > 0, axis=0))
         assert found is not None
         box, operator = found
@@ -167,48 +190,33 @@ class Backwards:
         full = np.zeros_like(pressure, dtype=bool)
         if model.system.cap is not None:
             full = pressure >= model.system.cap * (1 - JUST)
-
-        contacts = [_contact(each) for each in window]
-        increments: list[Increment] = []
-        if slid is not None:
-            for law in self.laws.values():
-                law.seen.clear()
-            known = course(model, slid.before, contacts, slid.increment, slid.moment, slid.plan)
-            seen = {name: frozenset(law.seen) for name, law in self.laws.items()}
-            increments = self._increments(contacts, slid, known)
-        behind = [each.back(self.worn_before, self.states) for each in increments]
-        if slid is not None and slid.ahead:
-            self.pressure = over(self.shares) * sum(each.pressure for each in behind)
-            if pressed is not None:
-                self.pressure += pressed
-            self._wear(slid, seen, behind)
-            return
+        weights = over(np.where(self.shares > 0, self.shares, 1.0))
         fixed = np.zeros_like(pressure)
-        weights = np.where(self.shares > 0, self.shares, 1.0)
-        looked = np.zeros_like(window) if pressed is None else pressed / over(weights)
         if yielded and record.overlap is not None:
-            fixed = self._gave(record, yielded)[here] * full / over(weights)
+            fixed = self._gave(record, yielded)[here] * full / weights
         free = (pressure > JUST * np.max(pressure)) & ~full
         bodies = [(own, steep[here]) for each in increments for own, steep in each.bodies]
-        wear = partial(self._of_wear, increments[0], box) if slid and self.together else None
+        wear = partial(self._of_wear, increments[0], box) if increments and self.together else None
         system = StepSystem(operator, box, self.shares, bodies, free, wear)
-        given = looked + sum(each.pressure for each in behind)
-        z = system.solve(given[here], fixed, self.start[here])
+
+        def given() -> tuple[list[Before], Array]:
+            behind = [each.back(self.worn_before, self.states) for each in increments]
+            return behind, (looked / weights + sum(each.pressure for each in behind))[here]
+
+        z = system.solve(given()[1], fixed, self.start[here])
         self.start = np.zeros_like(self.start)
         self.start[here] = z
-        y, stiff = over(self.shares) * z, operator.apply(z)
-
-        self._shift(y, box)
+        stiff = operator.apply(z)
+        self._shift(over(self.shares) * z, box)
         self.stiffness += float(np.sum(over(self.shares) * stiff * pressure))
-        behind = [each.back(self.worn_before, self.states) for each in increments]
-        left = (looked + sum(each.pressure for each in behind))[here] - stiff
+        behind, after = given()
+        left = after - stiff
         mean = np.sum(left * free, CELLS) / np.maximum(free.sum(CELLS), 1)
         self.cap += float(np.sum(over(self.shares) * (left - over(mean)) * full))
         by_load = self.shares * mean / model.grid.cell_area
         for at, chain in enumerate(self.chains):
             self.sums[at] += chain.by_load(record, by_load)
-        if slid is not None:
-            self._wear(slid, seen, behind)
+        return behind
 
     def _wear(
         self,
@@ -230,9 +238,14 @@ class Backwards:
                 self.states = each.states
 
     def _increments(
-        self, contacts: Sequence[ContactSolution], slid: Slid, known: Course
-    ) -> list[Increment]:
-        """Return an increment in the parts that have nothing to do with each other."""
+        self, window: Array, slid: Slid
+    ) -> tuple[list[Increment], dict[str, frozenset[str]]]:
+        """Return an increment in parts that do not touch each other, and what each law read."""
+        contacts = [_contact(each) for each in window]
+        for law in self.laws.values():
+            law.seen.clear()
+        known = course(self.model, slid.before, contacts, slid.increment, slid.moment, slid.plan)
+        seen = {name: frozenset(law.seen) for name, law in self.laws.items()}
         laws, found = self.model.laws, list[Increment]()
         remembers = bool(known.memory.values)
         for names in [list(laws)] if self.together else [[name] for name in laws]:
@@ -245,7 +258,7 @@ class Backwards:
                 found.append(Remembering(asked))
             else:
                 found.append(plain(model, self.carriers[names[0]], contacts, slid, known))
-        return found
+        return found, seen
 
     def _of_wear(self, increment: Increment, box: Box, z: Array) -> Array:
         """Return what the wear and the filling that pressures make add to the adjoint of K."""

@@ -170,30 +170,32 @@ def find(case: Case, asked: Sequence[str] | None) -> list[tuple[str, list[tuple[
             if not (place[0] in NOT_PHYSICS or _is_tolerance(place) or value == 0)
             if not any(isinstance(i, int) and isinstance(j, int) for i, j in pairwise(place))
         ]
-    found = []
-    for path in asked:
-        keys = path_keys(path.replace(ANY, "any-body"))
-        keys = [ANY if key == "any-body" else key for key in keys]
-        places = [place for place in known if _fits(place, keys)]
-        if places == [] and keys == ["load", "normal"]:
-            raise CaseError("has several stages; name one, as load.normal.0.normal", path)
-        if not places:
-            paths = [".".join(map(str, place)) for place in known]
-            raise CaseError(
-                f"is no number with decimals in this case{suggestion(did_you_mean(path, paths))}",
-                path,
-            )
-        if any(place[0] in HOW or _is_tolerance(place) for place in places):
-            raise CaseError(
-                "says how the run is computed, in which there is no derivative; name numbers of "
-                "bodies, load, motion, friction or contact",
-                path,
-            )
-        values = {known[place] for place in places}
-        if len(values) > 1:
-            raise CaseError(f"stands for different numbers: {sorted(values)}", path)
-        found.append((path, places, values.pop()))
-    return found
+    return [_named(known, path) for path in asked]
+
+
+def _named(
+    known: Mapping[tuple[Any, ...], float], path: str
+) -> tuple[str, list[tuple[Any, ...]], float]:
+    keys = path_keys(path.replace(ANY, "any-body"))
+    keys = [ANY if key == "any-body" else key for key in keys]
+    places = [place for place in known if _fits(place, keys)]
+    if places == [] and keys == ["load", "normal"]:
+        raise CaseError("has several stages; name one, as load.normal.0.normal", path)
+    if not places:
+        paths = [".".join(map(str, place)) for place in known]
+        raise CaseError(
+            f"is no number with decimals in this case{suggestion(did_you_mean(path, paths))}", path
+        )
+    if any(place[0] in HOW or _is_tolerance(place) for place in places):
+        raise CaseError(
+            "says how the run is computed, in which there is no derivative; name numbers of "
+            "bodies, load, motion, friction or contact",
+            path,
+        )
+    values = {known[place] for place in places}
+    if len(values) > 1:
+        raise CaseError(f"stands for different numbers: {sorted(values)}", path)
+    return path, places, values.pop()
 
 
 def _is_tolerance(place: Sequence[Any]) -> bool:
