@@ -109,6 +109,17 @@ def test_a_refusal_names_its_place_once():
     assert str(refused.value) == "bodies.*.wear.k: has no derivative here: only one is known"
 
 
+def test_what_is_no_objective_is_refused():
+    with pytest.raises(CaseError, match="'volume' is no objective; give a Volume, Depth"):
+        gradient(run(), "volume")
+
+
+def test_of_what_does_not_wear_nothing_is_told_in_per_cent():
+    found = gradient(run(bodies=pair(archard(), None)), Volume("disk"), ["load.normal"])
+    assert found["load.normal"] == 0
+    assert str(found).startswith("The objective is 0")
+
+
 def test_without_paths_all_numbers_count_and_the_rest_says_why():
     found = gradient(run(kinematics=resolved()), Depth("disk"))
     assert found["bodies.disk.wear.k"] > 0

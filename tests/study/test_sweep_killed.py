@@ -107,11 +107,11 @@ def assert_ends_as(whole, folder, command):
     pandas.testing.assert_frame_equal(table(folder), whole)
 
 
-def assert_stopped(folder, process):
+def assert_stopped(folder, process, left=("interrupted",)):
     code, _, err = finished(process)
     assert code == 130
     assert err.endswith("error: stopped; the same command goes on\n")
-    assert "interrupted" in set(table(folder)["status"])
+    assert set(left) & set(table(folder)["status"])
     # A killed worker leaves its own; those that have stopped leave none.
     assert len(list(results(folder).glob("*.lock"))) <= 1
 
@@ -197,7 +197,8 @@ def test_a_sweep_survives_a_killed_worker_ctrl_c_and_the_end_of_dask(tmp_path, w
     until(lambda: done(tmp_path), "run of the other worker")
     in_progress(tmp_path)
     process.send_signal(signal.SIGINT)
-    assert_stopped(tmp_path, process)
+    # The one worker left may end its run before the signal arrives, and have begun no other.
+    assert_stopped(tmp_path, process, ("interrupted", "waiting"))
     process = sweeps.tribo(*command, cwd=tmp_path)
     count = len(done(tmp_path))
     until(lambda: len(done(tmp_path)) > count, "run that is done")

@@ -44,7 +44,8 @@ class Heights:
         shape = np.shape(self.heights)
         if len(shape) != 2 or min(shape) < FEWEST:
             raise CaseError(
-                f"heights of shape {shape} are no map: {FEWEST} × {FEWEST} at least are needed"
+                f"heights of shape {shape} are no map: {FEWEST} × {FEWEST} at least are needed, "
+                "in a CSV file with commas between them"
             )
         if not np.any(np.isfinite(self.heights)):
             raise CaseError("every height of the map is missing; measure again, or mask less")
@@ -81,8 +82,8 @@ def read_heights(path: str | Path, pitch: tuple[float, float] | None = None) -> 
             heights = table_of_numbers(path)
             if pitch is None:
                 raise CaseError(
-                    f"{path} has heights and no scale; give the distance between pixels (--pitch, "
-                    "as '1 um')"
+                    f"{path} has heights and no scale; give the distance between pixels, its "
+                    "pitch, as '1 um'"
                 )
             return Heights(np.where(np.isfinite(heights), heights, np.nan), pitch)
         found = _by_plugin(path)

@@ -198,7 +198,7 @@ def told_wrong(entry: Measured, values: Array) -> str:
         return (
             f"known to {in_words(entry.quantity, entry.sigma)}, less than a millionth of "
             f"{in_words(entry.quantity, largest)}: no run is that exact; check the "
-            "uncertainty and its unit"
+            "uncertainty, and the units of both"
         )
     if not mean < -_BEYOND_NOISE * entry.sigma / np.sqrt(len(values)):
         return ""

@@ -58,6 +58,8 @@ class Gradient:
         ranked = sorted(self.relative.items(), key=lambda item: -abs(item[1]))
         width = max((len(path) for path in self.relative), default=0)
         lines = [f"{path:{width}}  {percent:+.3f} % for 1 %" for path, percent in ranked]
+        if self.value == 0:
+            lines = ["The objective is 0, as of a body that does not wear: there are no per cent."]
         lines += [f"{path}: {reason}" for path, reason in self.refused.items()]
         return "\n".join(lines)
 
@@ -120,6 +122,12 @@ def gradient(
             refused[path] = str(error).removeprefix(f"{path}: ")
     looks: Mapping[float, Objective]
     looks = objective if isinstance(objective, Mapping) else {model.end_time: objective}
+    for look in looks.values():
+        if not callable(look):
+            raise CaseError(
+                f"{look!r} is no objective; give a Volume, Depth, Deepest, Pressure, Width or "
+                "Misfit, or a function of a View"
+            )
     with closing(Tape()) as tape:
         states = recorded(model, list(looks), tape)
         seen = {time: look(View(model, states[time])) for time, look in looks.items()}
