@@ -94,12 +94,7 @@ def too_deep(excess: float) -> str:
 
 
 def good_stroke(
-    stroke: float,
-    half_width: float,
-    depth: float,
-    approach: float,
-    volume_ratio: float = 1.0,
-    line: bool = False,
+    stroke: float, half_width: float, depth: float, approach: float, volume_ratio: float, line: bool
 ) -> float:
     """Return the longer stroke (m) with an excess of 3 % over the same sliding distance.
 
