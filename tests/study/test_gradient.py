@@ -30,6 +30,7 @@ from gradients import (
 )
 from paper_models import Faster, K, archard, flat, motion, named, pair, power, steel
 
+from tribo.case import Layer
 from tribo.contact.periodic import Periodic
 from tribo.contact.winkler import Winkler
 from tribo.core.errors import NumericalError
@@ -78,6 +79,19 @@ FAST = RunningIn(law=archard(2 * K), factor=4.0, over="0.5 GPa m")
 OF_LAYER = ["bodies.disk.layers.0.thickness", "bodies.disk.layers.0.wear.over"]
 YIELDING = pair(archard(), archard(), ("1.2 GPa", "1.1 GPa"))
 SOFT = pair(archard(), archard(), ("1.1 GPa", "1 GPa"))
+
+
+def coated(hardness=(None, None)):
+    """The disk in a stiffer layer."""
+    ball, (name, disk) = pair(archard(), archard(), hardness)
+    layer = Layer(
+        thickness="30 um", wear=archard(2 * K), young="400 GPa", poisson=0.25, hardness=hardness[1]
+    )
+    return [ball, (name, disk.model_copy(update={"layers": (layer,)}))]
+
+
+OF_COATING = [f"bodies.disk.layers.0.{key}" for key in ("thickness", "young", "poisson")]
+OF_COATING += ["bodies.disk.material.young", "bodies.ball.material.poisson"]
 
 
 def unworn(method):
@@ -171,6 +185,18 @@ KINDS = {
         1e-6,
     ),
     "yields": Kind(run(grid=ODD, bodies=YIELDING), Depth("disk"), [*BASE, *SHAPE, HARD], 1e-6),
+    "elastic layer": Kind(run(bodies=coated()), Depth("disk"), ["load.normal", *OF_COATING], 1e-5),
+    "positions, yields, elastic layer": Kind(
+        run(
+            grid=ODD,
+            kinematics=resolved(),
+            bodies=coated(("1.1 GPa", "1 GPa")),
+            stepping=few(cycle_tolerance=1e-12),
+        ),
+        Depth("disk", 5e-5),
+        ["load.normal", *OF_COATING],
+        1e-6,
+    ),
     "load over time": Kind(
         run(load=RAMP, bodies=pair(FRESH, power(1.5)), stepping=LONG),
         {20.0: Depth("disk")},
@@ -261,6 +287,7 @@ MUTANTS = [
     ("yields", linear.StepSystem, "solve", without("fixed")),
     ("yields", backwards.Backwards, "spread_out", nothing),
     ("yields", backwards.Backwards, "_gave", zero),
+    ("elastic layer", parameters.Chain, "by_spread", zero),
     ("positions", linear.Carrier, "gathered", zero),
     ("explicit", backwards.Backwards, "_wear", nothing),
     ("explicit", backwards.Backwards, "_wear", unpressed),

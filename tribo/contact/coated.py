@@ -88,7 +88,7 @@ class _PointLoad:
         return value
 
 
-_point_load = lru_cache(maxsize=8)(_PointLoad)
+_point_load = lru_cache(maxsize=32)(_PointLoad)
 
 
 def _panels(reach: float, points: int = 16) -> tuple[Array, Array]:

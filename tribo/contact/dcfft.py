@@ -117,7 +117,7 @@ def _half_space(shape: tuple[int, int], system: ContactSystem) -> HalfSpace:
     return _cached(shape, system.grid.spacing, system.surface_modulus, coatings)
 
 
-_cached = lru_cache(maxsize=16)(HalfSpace)
+_cached = lru_cache(maxsize=32)(HalfSpace)
 
 
 def _anywhere(cells: Mask) -> Mask:

@@ -139,4 +139,4 @@ def _half_space(system: ContactSystem) -> PeriodicHalfSpace:
     return _cached(grid.cells, grid.spacing, system.surface_modulus, coatings)
 
 
-_cached = lru_cache(maxsize=8)(PeriodicHalfSpace)
+_cached = lru_cache(maxsize=32)(PeriodicHalfSpace)

@@ -182,7 +182,8 @@ class Backwards:
         `window` are its pressures, and `looked` the derivatives of the objective in them.
         """
         model = self.model
-        found = model.contact.operator(model.system, np.any(window > 0, axis=0))
+        touching = np.any(window > 0, axis=0)
+        found = model.contact.operator(model.system, touching)
         assert found is not None
         box, operator = found
         here = (slice(None), *box.slices)
@@ -207,7 +208,8 @@ class Backwards:
         self.start = np.zeros_like(self.start)
         self.start[here] = z
         stiff = operator.apply(z)
-        self._shift(over(self.shares) * z, box)
+        y = over(self.shares) * z
+        self._shift(y, box)
         self.stiffness += float(np.sum(over(self.shares) * stiff * pressure))
         behind, after = given()
         left = after - stiff
@@ -216,6 +218,7 @@ class Backwards:
         by_load = self.shares * mean / model.grid.cell_area
         for at, chain in enumerate(self.chains):
             self.sums[at] += chain.by_load(record, by_load)
+            self.sums[at] -= chain.by_spread(touching, y, pressure)
         return behind
 
     def _wear(

@@ -12,7 +12,8 @@ from pydantic import BaseModel, ValidationError
 
 from tribo.case import Case
 from tribo.config.overrides import leaves, path_keys
-from tribo.core.arrays import Array
+from tribo.contact.operator import Operator
+from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError, TriboError
 from tribo.core.words import did_you_mean, suggestion
 from tribo.simulation.assembly import assemble
@@ -77,7 +78,7 @@ class Chain:
     The weighted sum over `variants` is the derivative; `base` is the model of the case itself, and
     `stops` are its own. `wears` has the bodies whose wear under given contacts differs, and what of
     their laws it may be that does: the `LAW` itself, or only properties of their material or the
-    `SPEED`.
+    `SPEED`. `spreads` tells whether K changes its shape too, and not only its size.
     """
 
     path: str
@@ -86,6 +87,7 @@ class Chain:
     base: Model
     stops: Stops
     wears: Mapping[str, Set[str]]
+    spreads: bool
 
     def by_load(self, record: Pressed, by_load: Array) -> float:
         """Return what comes through the loads of a contact, given the derivative in each."""
@@ -95,6 +97,18 @@ class Chain:
             times = [self._then(each, time) for time in record.times]
             total += each.weight * float(np.sum(by_load * np.array(loads(*times))))
         return total
+
+    def by_spread(self, touching: Mask, seeds: Array, pressure: Array) -> float:
+        """Return what comes through the displacements K p, given the derivatives in them.
+
+        Both lie on the box of K around what touches, shape (positions, nx, ny). It is 0 of a number
+        that K only grows with, which `by_rest` has.
+        """
+        return sum(
+            each.weight * float(np.sum(seeds * _operator(each.model, touching).apply(pressure)))
+            for each in self.variants
+            if self.spreads
+        )
 
     def by_wear(
         self, slid: Slid, seen: Mapping[str, Set[str]], carriers: Mapping[str, Carrier]
@@ -135,7 +149,8 @@ class Chain:
             through = sum(
                 float(np.sum(g * shape)) for g, shape in zip(gap, model.gaps, strict=True)
             )
-            through -= stiffness * np.log(softness(model) / softness(self.base))
+            if not self.spreads:
+                through -= stiffness * np.log(softness(model) / softness(self.base))
             if model.system.cap is not None:
                 through += cap * model.system.cap
             for name, law in model.laws.items():
@@ -248,7 +263,8 @@ def chain(
             Variant(model, weight / step, Stops.of(model), carriers_of(model) if moves else None)
             for model, (_, weight) in zip(models, scheme, strict=True)
         ]
-        return Chain(path, value, variants, base, Stops.of(base), _wears(base, models[-1]))
+        wears, spreads = _wears(base, models[-1]), _spreads(base, models[-1])
+        return Chain(path, value, variants, base, Stops.of(base), wears, spreads)
     why = error.errors()[0]["msg"] if isinstance(error, ValidationError) else str(error)
     for place in (path, *(".".join(map(str, place)) for place in places)):
         why = why.removeprefix(f"{place}: ")
@@ -273,12 +289,6 @@ def _varied(
         raise CaseError(
             "both bodies have the same hardness, and either may be the softer; name both, as "
             f"bodies.{ANY}.material.hardness"
-        )
-    ratio = _symbol(model) / _symbol(base)
-    if np.ptp(ratio) > 1e-9 * float(np.max(ratio)):
-        raise CaseError(
-            "it changes how far around a pressure the surface gives way, as the elasticity of a "
-            "layer does"
         )
     if len(Stops.of(model).times) != len(Stops.of(base).times):
         raise CaseError("it changes how many stops the run makes")
@@ -342,6 +352,12 @@ def _check_smooth(higher: Model, base: Model, lower: Model, path: str) -> None:
         raise CaseError(MOVES, path)
 
 
+def _spreads(base: Model, model: Model) -> bool:
+    """Whether K of a model has another shape, as with another elasticity of a layer."""
+    ratio = _symbol(model) / _symbol(base)
+    return bool(np.ptp(ratio) > 1e-9 * np.max(ratio))
+
+
 def softness(model: Model) -> float:
     """Return a number to which K is proportional, in m/Pa."""
     return float(np.max(_symbol(model)))
@@ -350,6 +366,10 @@ def softness(model: Model) -> float:
 def _symbol(model: Model) -> Array:
     cell = np.zeros(model.grid.cells, dtype=bool)
     cell[model.grid.cells[0] // 2, model.grid.cells[1] // 2] = True
-    found = model.contact.operator(model.system, cell)
+    return _operator(model, cell).symbol()
+
+
+def _operator(model: Model, touching: Mask) -> Operator:
+    found = model.contact.operator(model.system, touching)
     assert found is not None
-    return found[1].symbol()
+    return found[1]
