@@ -297,8 +297,19 @@ def test_a_map_can_be_planned_with_before_it_is_measured(two_loads):
         ({"depth": None}, ".0", "give depth, the file of a height map"),
         ({"pitch": None}, ".0.depth", "give the distance between pixels"),
         ({"depth": "text.npy"}, ".0.depth", "of numbers: it is no NumPy array of numbers"),
-        ({"pitch": "0.1 mm"}, ".0.depth", "larger than cells"),
-        ({"depth": "beside.npy"}, ".0.depth", "does not lie on the window"),
+        (
+            {"pitch": "0.1 mm"},
+            ".0.depth",
+            "larger than cells, 62.5 × 62.5 µm; check pitch, or lower",
+        ),
+        ({"pitch": "1 um"}, ".0.depth", "does not lie on the window: its middle is taken as the "),
+        ({"depth": "beside.npy"}, ".0.depth", "contact's; check pitch, 50 × 50 µm"),
+        (
+            {"depth": "filled.npy"},
+            ".0.depth",
+            "1 of its 256 depths are larger than the map is wide",
+        ),
+        ({"depth": "in_um.npy"}, ".0.depth", "0.8 mm; the first is 1 m. Depths are in m, and NaN"),
         ({"depth": "upwards.npy"}, ".0.depth", "turn the sign round"),
         ({"depth": "missing.npy"}, ".0.depth", "every height of the map is missing"),
         ({"value": "1 um"}, ".0", "has its numbers in the file"),
@@ -316,7 +327,10 @@ def test_a_wrong_map_is_told(changes, place, words, tmp_path, monkeypatch):
     worn = np.full((16, 16), 1e-6)
     beside = np.full((80, 80), np.nan)
     beside[0, 0] = 1e-6
+    filled = worn.copy()
+    filled[3, 4] = -9999
     files = {"good": worn, "beside": beside, "upwards": -worn, "missing": np.nan * worn}
+    files |= {"filled": filled, "in_um": 1e6 * worn}
     for name, depth in files.items():
         np.save(f"{name}.npy", depth)
     Path("text.npy").write_text("1.0, 2.0")

@@ -7,7 +7,7 @@ from tribo.core.errors import CaseError
 from tribo.study.calibration.calibrate import far_off
 from tribo.study.calibration.measured import read_measurements
 from tribo.study.calibration.parameters import Parameter
-from tribo.study.calibration.quantities import percent
+from tribo.study.calibration.quantities import digits_of, percent
 
 
 def off(value, uncertainty, own):
@@ -32,7 +32,15 @@ def test_what_is_far_off_may_be_meant(factor):
 
 
 @pytest.mark.parametrize(
-    ("part", "text"), [(2e-14, "0.0"), (0.0526, "5.3"), (0.0996, "10"), (1, "100"), (2.5, "250")]
+    ("part", "text"),
+    [(2e-14, "0.0"), (4.2e-5, "0.0042"), (0.0526, "5.3"), (0.0996, "10"), (1, "100"), (2.5, "250")],
 )
 def test_percent_are_written_out(part, text):
     assert percent(part) == text
+
+
+@pytest.mark.parametrize(
+    ("ends", "digits"), [((1.1e-16, 1.4e-14), 3), ((2.4995e-15, 2.5005e-15), 6), ((0, np.inf), 3)]
+)
+def test_ends_of_a_narrow_interval_differ(ends, digits):
+    assert digits_of(*ends) == digits

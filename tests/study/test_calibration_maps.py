@@ -199,7 +199,9 @@ def test_wrong_maps_are_told(data, words):
 
 
 def test_maps_coarser_than_the_grid_are_refused():
-    with pytest.raises(CaseError, match=r"larger than cells, 1 × 1 µm; lower grid\.cells"):
+    with pytest.raises(
+        CaseError, match=r"larger than cells, 1 × 1 µm; check pitch, or lower grid\.cells"
+    ):
         on_cells(Heights(np.zeros((16, 16)), (3e-6, 3e-6)), (16, 16), (1e-6, 1e-6))
 
 

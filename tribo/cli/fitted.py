@@ -15,7 +15,7 @@ from tribo.core.words import signed
 from tribo.study.calibration.calibrate import Calibration
 from tribo.study.calibration.choice import Choice
 from tribo.study.calibration.plan import Plan
-from tribo.study.calibration.quantities import in_si, in_words, percent
+from tribo.study.calibration.quantities import digits_of, in_si, in_words, percent
 
 FAR = 10.0
 """Factor of an interval's end from the value above which its part in percent tells nothing."""
@@ -103,16 +103,19 @@ def estimates_table(found: Calibration) -> Table:
         columns.append("sampled interval")
     table = _table(f"Fitted in {found.runs} runs", names, *columns)
     for each in found.parameters.itertuples():
-        ends, relative = _interval(each, f"{each.lower:.3g}", f"{each.upper:.3g}")
+        digits = digits_of(each.lower, each.upper)
+        ends, relative = _interval(each, f"{each.lower:.{digits}g}", f"{each.upper:.{digits}g}")
         resolution = f"±{percent(each.resolution_limit)} %" if each.resolution_limit else ""
         if each.held:
             ends = "held by its bound"
-        value = in_si(each.value, each.unit)
+        value = in_si(each.value, each.unit, digits)
         if each.limited:
             value, ends = f"below {in_si(each.upper, each.unit)}", "upper bound"
         if each.held or each.limited or math.isinf(each.upper):
             relative = resolution = ""
-        more = [f"{each.sampled_lower:.3g} to {each.sampled_upper:.3g}"] if is_sampled else []
+        more = []
+        if is_sampled:
+            more = [f"{each.sampled_lower:.{digits}g} to {each.sampled_upper:.{digits}g}"]
         table.add_row(each.path, value, ends, relative, resolution, *more)
     return table
 
@@ -140,7 +143,8 @@ def predictions_table(found: Calibration) -> Table:
     table = _table("Not measured, at the end", names, "computed", level, "")
     for name, each in zip(names, found.predictions.itertuples(), strict=True):
         value, low, high = (
-            in_words(each.quantity, value) for value in (each.value, each.lower, each.upper)
+            in_words(each.quantity, value, digits_of(each.lower, each.upper))
+            for value in (each.value, each.lower, each.upper)
         )
         table.add_row(name, value, *_interval(each, low.split()[0], high))
     return table

@@ -78,7 +78,20 @@ def read_depth(model: Model, body: str, file: str | None, pitch: float | None, p
         return np.zeros(shape)
     with located(f"{place}.depth"):
         heights = read_heights(file, None if pitch is None else (pitch, pitch))
+        _check_depths(heights)
         return on_cells(heights, shape, model.grid.spacing)
+
+
+def _check_depths(heights: Heights) -> None:
+    """Raise CaseError if depths are larger than the map is wide, as no worn surface's are."""
+    depths, width = heights.heights, max(heights.grid.size)
+    absurd = depths[np.abs(depths) > width]
+    if len(absurd):
+        raise CaseError(
+            f"{len(absurd)} of its {depths.size} depths are larger than the map is wide, "
+            f"{1e3 * width:.3g} mm; the first is {absurd[0]:g} m. Depths are in m, and NaN where "
+            "nothing was measured: put NaN for fill values, 1e-6 times the depth for one in µm"
+        )
 
 
 def in_blocks(depth: Array, spacing: tuple[float, float]) -> pd.DataFrame:
@@ -116,7 +129,8 @@ def on_cells(heights: Heights, shape: tuple[int, int], spacing: tuple[float, flo
     if any(pitch > (1 + FINER) * size for pitch, size in zip(heights.pitch, cell, strict=True)):
         raise CaseError(
             f"its pixels, {1e6 * heights.pitch[0]:g} × {1e6 * heights.pitch[1]:g} µm, are larger "
-            f"than cells, {1e6 * cell[0]:g} × {1e6 * cell[1]:g} µm; lower grid.cells"
+            f"than cells, {1e6 * cell[0]:g} × {1e6 * cell[1]:g} µm; check pitch, or lower "
+            "grid.cells"
         )
     known = np.isfinite(heights.heights)
     pixels = np.where(known, heights.heights, 0.0)
@@ -134,7 +148,10 @@ def on_cells(heights: Heights, shape: tuple[int, int], spacing: tuple[float, flo
     enough = measured >= LEAST * cell[0] * cell[1]
     found = np.divide(total, measured, out=np.full(shape, np.nan), where=enough)
     if not np.any(enough):
-        raise CaseError("it does not lie on the window: its middle is taken as the contact's")
+        raise CaseError(
+            "it does not lie on the window: its middle is taken as the contact's; check pitch, "
+            f"{1e6 * heights.pitch[0]:g} × {1e6 * heights.pitch[1]:g} µm"
+        )
     return np.asarray(found)
 
 

@@ -23,6 +23,8 @@ from tribo.simulation.model import Model
 
 EDGES, DEPTHS = 0.2, 2e-3
 """Standard deviations of a computed diameter, in cells, and of a depth, in parts of the largest."""
+ROUNDING = 1e-9
+"""Part of a number that is none."""
 
 
 class WornQuantity(NamedTuple):
@@ -81,18 +83,27 @@ def plain(found: Any) -> dict[str, Any]:
     return data
 
 
-def in_words(name: str, value: float) -> str:
+def in_words(name: str, value: float, digits: int = 3) -> str:
     """Return a value of a quantity in the unit it is shown in, as ``"2.05 mg"``."""
-    return f"{QUANTITIES[name].per_unit * value:.3g} {QUANTITIES[name].shown}"
+    return f"{QUANTITIES[name].per_unit * value:.{digits}g} {QUANTITIES[name].shown}"
 
 
-def in_si(value: float, unit: str) -> str:
+def in_si(value: float, unit: str, digits: int = 3) -> str:
     """Return a value in SI with its unit, if that is not 1, as ``"7.08e-15 1/Pa"``."""
-    return f"{value:.3g}" if unit == "1" else f"{value:.3g} {unit}"
+    return f"{value:.{digits}g}" if unit == "1" else f"{value:.{digits}g} {unit}"
+
+
+def digits_of(lower: float, upper: float) -> int:
+    """Return how many digits show half of an interval to two of its own, 3 or more."""
+    if not 0 < upper - lower < math.inf:
+        return 3
+    return max(3, 2 + math.floor(math.log10(upper)) - math.floor(math.log10((upper - lower) / 2)))
 
 
 def percent(part: float) -> str:
     """Return a part in percent, rounded, for a table or a sentence; without the sign."""
+    if ROUNDING < part < 0.00095:
+        return f"{100 * part:.2g}"
     return f"{100 * part:.0f}" if part >= 0.095 else f"{100 * part:.1f}"
 
 
