@@ -6,6 +6,7 @@ from inspect import signature
 
 import numpy as np
 from paper_models import archard, case, half_space, motion, pair
+from scipy.optimize import newton
 
 from tribo.case import Case, Layer
 from tribo.core.grid import Grid
@@ -21,19 +22,21 @@ from tribo.study.gradient.parameters import Stops, changed, find
 from tribo.wear.running_in import RunningIn, Smoothing
 
 
-def taken(model):
-    """Times and distances at the ends of the steps that a run takes."""
-    return [(a.state.time, a.state.distance) for a in march(model, begin(model))]
+def repeated(model, base, steps, worn, until=None):
+    """The states after the same steps, at the same parts of each stretch, in a model.
 
-
-def repeated(model, base, steps, objective, worn=None):
-    """The objective after the same steps, at the same parts of each stretch, in a model."""
-    looks = objective if isinstance(objective, dict) else {base.end_time: objective}
+    Of a run that a depth ends the last stretch goes on `until` a time (s).
+    """
     stops, own = Stops.of(base), Stops.of(model)
-    state, total = begin(model), 0.0
+    if until:
+        before = stops.times < steps[-1][0]
+        stops = Stops.at(base, [*stops.times[before], steps[-1][0]])
+        own = Stops.at(model, [*own.times[before], until])
+    state = begin(model)
     if worn:
         bodies = {name: replace(state.bodies[name], wear=depth) for name, depth in worn.items()}
         state = first_contact(model, {**state.bodies, **bodies})
+    found = []
     for time, distance in steps:
         then = float(np.interp(time, stops.times, own.times))
         if distance_until(model, state, then) is None:
@@ -42,12 +45,33 @@ def repeated(model, base, steps, objective, worn=None):
             state = start_sliding(model, state)
             increment = float(np.interp(distance, stops.distances, own.distances)) - state.distance
             state = model.stepping.step(model, state, increment, then)
-        if time in looks:
-            total += looks[time](View(model, state))[0]
-    return total
+        found.append(state)
+    return found
 
 
-def difference(base, steps, objective, numbers, maps, part):
+def deepest(model, state):
+    """The depth that may end a run."""
+    name = model.case.stop.body
+    bodies = [state.bodies[name]] if name else state.bodies.values()
+    return max(np.max(body.wear) for body in bodies)
+
+
+def sought(model, base, steps, objective, worn, depth):
+    """The objective after the same steps; of a run that a depth ends, up to this depth."""
+    until = None
+    if depth:
+
+        def missed(until):
+            return deepest(model, repeated(model, base, steps, worn, until)[-1]) / depth - 1
+
+        until = newton(missed, steps[-1][0], rtol=1e-13, tol=1e-15)
+    looks = objective if isinstance(objective, dict) else {base.end_time: objective}
+    times = [*(time for time, _ in steps[:-1]), base.end_time]
+    states = zip(times, repeated(model, base, steps, worn, until), strict=True)
+    return sum(looks[time](View(model, state))[0] for time, state in states if time in looks)
+
+
+def difference(base, steps, objective, numbers, maps, part, depth=None):
     """The central difference along relative changes of numbers, by path, and of maps, by kind."""
     found = []
     for by in (part, -part):
@@ -63,7 +87,9 @@ def difference(base, steps, objective, numbers, maps, part):
             for position in range(len(gaps)):
                 gaps[position] = gaps[position] - by * model.under(name, change, position)
         worn = {name: by * change for name, change in maps.get("worn_before", {}).items()}
-        found.append(repeated(replace(model, gaps=tuple(gaps)), base, steps, objective, worn))
+        made = replace(model, gaps=tuple(gaps))
+        ends = depth and depth + made.case.stop.depth - base.case.stop.depth
+        found.append(sought(made, base, steps, objective, worn, ends))
     return (found[0] - found[1]) / (2 * part)
 
 
@@ -94,8 +120,12 @@ class Kind:
             }
             for which, size in sizes.items()
         }
-        steps = taken(model)
-        return numbers, maps, difference(model, steps, self.objective, numbers, maps, self.part)
+        states = [accepted.state for accepted in march(model, begin(model))]
+        steps = [(state.time, state.distance) for state in states]
+        ended = steps[-1][0] < model.end_time
+        depth = deepest(model, states[-1]) if ended else None
+        found = difference(model, steps, self.objective, numbers, maps, self.part, depth)
+        return numbers, maps, found
 
     def off(self):
         """By how much the gradient misses the difference, relative to it."""
@@ -113,6 +143,8 @@ CLOSE = 1e-6
 WINDOW = Grid(("0.5 mm", "0.5 mm"), (16, 16))
 ODD = Grid(("0.46875 mm", "0.5 mm"), (15, 16))
 """With one deepest cell in each row, where two would have a derivative to each side."""
+MIDDLE = Grid(("0.46875 mm", "0.46875 mm"), (15, 15))
+"""With one deepest cell."""
 TIGHT = half_space(tolerance=1e-12)
 BASE = ["load.normal", "bodies.ball.wear.k", "bodies.disk.wear.k", "kinematics.frequency"]
 SHAPE = ["bodies.ball.surface.radius", "bodies.ball.material.young", "bodies.disk.material.poisson"]

@@ -93,6 +93,8 @@ from tribo.study.gradient.gradient import ValueAndGradient as ValueAndGradient
 from tribo.study.gradient.gradient import gradient as gradient
 from tribo.study.gradient.objective import Deepest as Deepest
 from tribo.study.gradient.objective import Depth as Depth
+from tribo.study.gradient.objective import EndDistance as EndDistance
+from tribo.study.gradient.objective import EndTime as EndTime
 from tribo.study.gradient.objective import Misfit as Misfit
 from tribo.study.gradient.objective import Pressure as Pressure
 from tribo.study.gradient.objective import Seeds as Seeds

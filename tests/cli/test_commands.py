@@ -162,7 +162,7 @@ def test_check_begins_with_its_verdict(case):
     assert problem in " ".join(told)
     assert data["sensitivity"] is None
     why = data["sensitivity_refused"]
-    assert why.startswith("stop.depth: a run that a depth ends has another length")
+    assert why.startswith("stop.depth: a depth ends the run; tribo.gradient tells")
     assert f"sensitivity not known, since {why}" in " ".join(told)
 
 

@@ -10,6 +10,7 @@ from gradients import (
     FRESH,
     HARD,
     LONG,
+    MIDDLE,
     ODD,
     OF_FRESH,
     OF_SMOOTH,
@@ -30,7 +31,7 @@ from gradients import (
 )
 from paper_models import Faster, K, archard, flat, motion, named, pair, power, steel
 
-from tribo.case import Layer
+from tribo.case import Layer, Stop
 from tribo.contact.periodic import Periodic
 from tribo.contact.winkler import Winkler
 from tribo.core.errors import NumericalError
@@ -49,7 +50,7 @@ from tribo.study.gradient import (
     slopes,
 )
 from tribo.study.gradient.gradient import gradient
-from tribo.study.gradient.objective import Deepest, Depth, Pressure, Volume
+from tribo.study.gradient.objective import Deepest, Depth, EndDistance, EndTime, Pressure, Volume
 from tribo.surfaces.cylinder import Cylinder
 from tribo.surfaces.surface import Surface
 from tribo.surfaces.waves import Waves
@@ -273,7 +274,75 @@ def followed(which, nothing):
     return change
 
 
+KINDS["ends at a depth"] = Kind(
+    run(grid=MIDDLE, stop=Stop(depth="0.2 um")), Volume("ball"), [*BASE, *SHAPE], 1e-5
+)
+KINDS["ends at a depth, load over time"] = Kind(
+    run(
+        grid=MIDDLE,
+        stop=Stop(depth="0.6 um"),
+        load=RAMP,
+        bodies=pair(FRESH, power(1.5)),
+        stepping=LONG,
+    ),
+    EndTime(),
+    [*STAGES[:2], *OF_FRESH, "load.normal.1.at", "kinematics.frequency", "stop.depth"],
+    1e-5,
+)
+KINDS["ends at a depth of one body"] = Kind(
+    run(
+        grid=MIDDLE,
+        stop=Stop(depth="0.03 um", body="disk"),
+        bodies=pair(FRESH, SMOOTH),
+        stepping=LONG,
+        save_times=(2.0,),
+    ),
+    {2.0: Deepest("disk"), 20.0: EndTime()},
+    ["load.normal", *OF_SMOOTH, "kinematics.stroke"],
+    1e-5,
+)
+KINDS["ends at a depth, positions, yields"] = Kind(
+    run(
+        grid=MIDDLE,
+        stop=Stop(depth="0.1 um"),
+        kinematics=resolved(),
+        bodies=SOFT,
+        stepping=few(cycle_tolerance=1e-12),
+    ),
+    EndDistance(),
+    [*BASE, HARD],
+    1e-6,
+)
+KINDS["ends at a depth, within a stroke"] = Kind(
+    run(
+        grid=MIDDLE,
+        stop=Stop(depth="0.2 um"),
+        kinematics=resolved(frequency=1, waveform="sinusoidal"),
+        bodies=pair(archard(300 * K), archard()),
+        stepping=few(cycle_tolerance=1e-12),
+    ),
+    EndDistance(),
+    ["load.normal", "kinematics.frequency"],
+    1e-5,
+)
+KINDS["ends at a depth, explicit"] = Kind(
+    run(
+        grid=MIDDLE,
+        stop=Stop(depth="0.2 um"),
+        bodies=pair(FRESH, power(1.5)),
+        stepping=Explicit(time_step=0.5, allow_unstable=True),
+    ),
+    Pressure(2e-5, 0),
+    ["load.normal", *SHAPE, *OF_FRESH],
+    1e-5,
+)
+
+
 MUTANTS = [
+    ("ends at a depth", backwards.Derivatives, "plus", lambda _: lambda of, *other: of),
+    ("ends at a depth, within a stroke", parameters.Chain, "until", lambda _: lambda of, end: of),
+    ("ends at a depth, load over time", parameters.Chain, "by_save", zero),
+    ("ends at a depth, load over time", parameters.Chain, "by_stop", zero),
     ("average", parameters.Chain, "by_load", zero),
     ("average", parameters.Chain, "by_wear", lambda _: lambda *given: ()),
     ("average", parameters.Chain, "by_rest", without("gap")),

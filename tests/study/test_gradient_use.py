@@ -17,6 +17,7 @@ from tribo.core.errors import CaseError
 from tribo.core.fields import Field
 from tribo.core.grid import Grid
 from tribo.effects.effect import Effect
+from tribo.simulation import march
 from tribo.simulation.positions import composed
 from tribo.study.gradient import tape
 from tribo.study.gradient.gradient import ValueAndGradient, gradient
@@ -72,8 +73,7 @@ def coated(hardness):
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"stop": Stop(depth="1 um")}, "stop.depth: a run that a depth ends has another length"),
-        ({"bodies": coated("1 GPa")}, "bodies: gradients go through one hardness"),
+        ({"bodies": coated("1 GPa")}, "worn into a layer of another hardness, and so does all"),
     ],
 )
 def test_what_is_not_covered_is_refused(changes, message):
@@ -167,7 +167,7 @@ def test_a_coarse_run_tells_what_rules_the_depth():
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"stop": Stop(depth="1 um")}, "stop.depth: a run that a depth ends"),
+        ({"stop": Stop(depth="1 um")}, "stop.depth: a depth ends the run; tribo.gradient"),
         ({"bodies": pair(archard(0), None)}, "bodies: no body wears"),
     ],
 )
@@ -179,6 +179,18 @@ def test_where_nothing_is_told_there_is_a_reason(changes, message):
 def test_a_save_that_is_not_there_is_refused():
     with pytest.raises(CaseError, match="nothing is saved at 3 s"):
         gradient(run(), {3.0: Volume("ball")}, [])
+
+
+def test_a_depth_that_ends_the_run_before_an_objective_looks_is_refused():
+    stops = run(stop=Stop(depth="0.2 um"), save_times=(15.0,))
+    with pytest.raises(CaseError, match=r"a depth ends the run at 5\.\d+ s, before 15 s"):
+        gradient(stops, {15.0: Volume("ball")}, [])
+
+
+def test_a_depth_that_jumps_past_its_limit_is_refused(monkeypatch):
+    monkeypatch.setattr(march, "MOST_CUTS", 0)
+    with pytest.raises(CaseError, match=r"stop\.depth: the depth jumps from below 0.2 µm to"):
+        gradient(run(stop=Stop(depth="0.2 um")), Volume("ball"), [])
 
 
 def test_a_tape_goes_to_disk_and_reads_the_same(monkeypatch):

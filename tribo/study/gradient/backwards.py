@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -39,12 +39,6 @@ def covered(model: Model) -> Model:
     CaseError
         If there is no gradient through a part of it.
     """
-    if model.case.stop.depth is not None:
-        raise CaseError(
-            "a run that a depth ends has another length for each input; give stop.distance or the "
-            "motion's own end",
-            "stop.depth",
-        )
     given = {
         field.name
         for effect in model.case.effects
@@ -54,7 +48,12 @@ def covered(model: Model) -> Model:
     followed = LOAD_SHARE.name in given or any(set(law.requires) & given for law in laws)
     followed = followed or any(field.fills for f in model.effects for field in f.state_fields)
     if model.hardness:
-        raise CaseError("gradients go through one hardness; leave that of layers out", "bodies")
+        raise CaseError(
+            "the largest pressure of a cell jumps in the step in which it is worn into a layer of "
+            "another hardness, and so does all that follows; a gradient needs one hardness, leave "
+            "that of layers out",
+            "bodies",
+        )
     if model.contact.operator(model.system, model.gap <= np.min(model.gap)) is None:
         raise CaseError(f"{model.contact.type!r} does not state its operator", "contact.type")
     if followed or not model.effects:
@@ -65,9 +64,36 @@ def covered(model: Model) -> Model:
 Increment = Plain | Remembering
 
 
+@dataclass(frozen=True)
+class Derivatives:
+    """The derivatives of an objective: in each parameter, and by body at each cell of its surface.
+
+    These are in a factor on its `wear_rate`, in its `height` outward and in the depth
+    `worn_before`.
+    """
+
+    parameters: Array
+    wear_rate: Mapping[str, Array]
+    height: Mapping[str, Array]
+    worn_before: Mapping[str, Array]
+
+    def plus(self, by: float, other: Derivatives) -> Derivatives:
+        """Return those of this objective plus `by` times another."""
+
+        def both(maps: Mapping[str, Array], others: Mapping[str, Array]) -> Mapping[str, Array]:
+            return {name: each + by * others[name] for name, each in maps.items()}
+
+        return Derivatives(
+            self.parameters + by * other.parameters,
+            both(self.wear_rate, other.wear_rate),
+            both(self.height, other.height),
+            both(self.worn_before, other.worn_before),
+        )
+
+
 def swept_back(
     model: Model, tape: Tape, seeds: Mapping[float, Seeds], chains: Sequence[Chain]
-) -> Backwards:
+) -> Derivatives:
     """Go through a run backwards; return the derivatives of the objective with these seeds.
 
     Each step gave w¹ = w⁰ + Δs Σₘ ωₘ Jₘ r(pₘ), with K pₘ + h + Tₘ w¹ = δₘ on its free cells. With
@@ -90,7 +116,7 @@ def swept_back(
             back.spread_out(record)
         else:
             back.press(record)
-    return back
+    return Derivatives(back.parameters, back.wear_rate, back.height, back.worn_before)
 
 
 class Backwards:
@@ -315,12 +341,12 @@ class Backwards:
         return found
 
     @property
-    def parameters(self) -> list[float]:
+    def parameters(self) -> Array:
         """The derivative in each parameter."""
-        return [
-            float(total) + chain.by_rest(self.gap, self.stiffness, self.cap, self.states)
-            for total, chain in zip(self.sums, self.chains, strict=True)
+        rest = [
+            chain.by_rest(self.gap, self.stiffness, self.cap, self.states) for chain in self.chains
         ]
+        return self.sums + rest
 
 
 def _contact(pressure: Array) -> ContactSolution:

@@ -16,6 +16,7 @@ from tribo.core.errors import CaseError
 from tribo.simulation.model import Model
 from tribo.simulation.run import Simulation
 from tribo.study.gradient.backwards import covered, swept_back
+from tribo.study.gradient.ending import at_depth
 from tribo.study.gradient.local import localised
 from tribo.study.gradient.objective import Objective, View
 from tribo.study.gradient.parameters import Chain, chain, changed, find
@@ -80,7 +81,8 @@ def gradient(
     """Run a case; return the derivatives of a number of its result in every input.
 
     They are exact for the steps that the run took (the discrete adjoint): their ends are held at
-    the same parts of the time between saves. One solve more a step gives all derivatives.
+    the same parts of the time between saves. One solve more a step gives all derivatives, and two
+    where a depth ends the run, which is then as long as it takes to wear to that depth.
 
     Parameters
     ----------
@@ -125,15 +127,20 @@ def gradient(
     for look in looks.values():
         if not callable(look):
             raise CaseError(
-                f"{look!r} is no objective; give a Volume, Depth, Deepest, Pressure, Width or "
-                "Misfit, or a function of a View"
+                f"{look!r} is no objective; give a Volume, Depth, Deepest, Pressure, Width, "
+                "Misfit, EndTime or EndDistance, or a function of a View"
             )
     with closing(Tape()) as tape:
         states = recorded(model, list(looks), tape)
         seen = {time: look(View(model, states[time])) for time, look in looks.items()}
         total = sum(value for value, _ in seen.values())
         seeds = {time: seed for time, (_, seed) in seen.items()}
-        found = swept_back(model, tape, seeds, chains)
+        end = states.get(model.end_time)
+        if end is not None and end.time < model.end_time:
+            chains = [each.until(end.time) for each in chains]
+            found, by_depth = at_depth(model, tape, seeds, chains, end)
+        else:
+            found, by_depth = swept_back(model, tape, seeds, chains), 0.0
     parameters = {}
     for each, through in zip(chains, found.parameters, strict=True):
         direct = sum(
@@ -141,6 +148,8 @@ def gradient(
             for variant in each.variants
             for time, state in states.items()
         )
+        direct += sum(each.by_save(state.time, seeds[time]) for time, state in states.items())
+        direct += each.by_stop(by_depth)
         parameters[each.path] = through + direct
     scaled = {each.path: parameters[each.path] * each.value for each in chains}
     relative = {path: each / total if total else float("nan") for path, each in scaled.items()}

@@ -80,10 +80,16 @@ class Seeds:
         By the depth worn off a body, by name, of its shape, in 1/m.
     pressure : ndarray, shape (nx, ny), optional
         By the pressure in the middle of the cycle, in 1/Pa.
+    time : float, optional
+        By the time of the state, in 1/s.
+    distance : float, optional
+        By the distance slid until then, in 1/m.
     """
 
     wear: Mapping[str, Array] = field(default_factory=dict)
     pressure: Array | None = None
+    time: float = 0.0
+    distance: float = 0.0
 
 
 Objective = Callable[[View], tuple[float, Seeds]]
@@ -227,3 +233,21 @@ class Pressure:
         cell, seed = view.cell(view.pressure, self.x, self.y), np.zeros_like(view.pressure)
         seed[cell] = 1.0
         return float(view.pressure[cell]), Seeds(pressure=seed)
+
+
+@dataclass(frozen=True)
+class EndTime:
+    """The time at which a run ends, in s: where a depth ends it, how long a body lasts."""
+
+    def __call__(self, view: View) -> tuple[float, Seeds]:
+        """Return the time, and 1."""
+        return view.state.time, Seeds(time=1.0)
+
+
+@dataclass(frozen=True)
+class EndDistance:
+    """The distance slid when a run ends, in m: where a depth ends it, how far a body lasts."""
+
+    def __call__(self, view: View) -> tuple[float, Seeds]:
+        """Return the distance, and 1."""
+        return view.state.distance, Seeds(distance=1.0)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence, Set
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
@@ -23,6 +23,7 @@ from tribo.stepping.rates import Moment
 from tribo.study.gradient.course import Other
 from tribo.study.gradient.linear import Carrier, carriers_of
 from tribo.study.gradient.local import SPEED, localised
+from tribo.study.gradient.objective import Seeds
 from tribo.study.gradient.response import ASIDE, NUDGE
 from tribo.study.gradient.tape import Pressed, Slid
 
@@ -52,10 +53,13 @@ class Stops:
         """Return those of a model, 0 among them."""
         edges = {*model.loads.edges, *model.motion.edges()}
         within = {time for time in edges if 0 < time < model.end_time}
-        times = sorted({0.0, *model.saves, *within})
-        return Stops(
-            np.array(times), np.array([model.motion.distance_at(float(time)) for time in times])
-        )
+        return Stops.at(model, sorted({0.0, *model.saves, *within}))
+
+    @staticmethod
+    def at(model: Model, times: Iterable[float]) -> Stops:
+        """Return those of a model at these times."""
+        found = np.array(list(times))
+        return Stops(found, np.array([model.motion.distance_at(float(time)) for time in found]))
 
 
 @dataclass(frozen=True)
@@ -89,6 +93,31 @@ class Chain:
     wears: Mapping[str, Set[str]]
     spreads: bool
 
+    def until(self, end: float) -> Chain:
+        """Return what it changes of a run that ends at a time (s) before that of the model."""
+        before = self.stops.times < end
+        own = Stops.at(self.base, [*self.stops.times[before], end])
+        variants = [
+            replace(each, stops=own)
+            if each.stops is self.stops
+            else replace(each, stops=Stops.at(each.model, [*each.stops.times[before], end]))
+            for each in self.variants
+        ]
+        return replace(self, stops=own, variants=variants)
+
+    def by_save(self, time: float, seeds: Seeds) -> float:
+        """Return what comes through when a save is, in the case at `time` (s), and how far on."""
+        return sum(
+            each.weight * (seeds.time * when + seeds.distance * each.model.motion.distance_at(when))
+            for each in self.variants
+            for when in [self._then(each, time)]
+        )
+
+    def by_stop(self, by_depth: float) -> float:
+        """Return what comes through the depth that ends the run, given the derivative in it."""
+        stops = ((each.weight, each.model.case.stop.depth) for each in self.variants)
+        return by_depth * sum(weight * depth for weight, depth in stops if depth is not None)
+
     def by_load(self, record: Pressed, by_load: Array) -> float:
         """Return what comes through the loads of a contact, given the derivative in each."""
         total = 0.0
@@ -121,7 +150,8 @@ class Chain:
         asks = {name for name, through in self.wears.items() if through & {LAW, *seen[name]}}
         wears = asks | {name for name, through in self.wears.items() if SPEED in through}
         for each in self.variants if wears else ():
-            if each.model is self.base:
+            if each.stops is self.stops:
+                # Of a difference to one side, the case itself.
                 continue
             begun, ended = (self._then(each, time) for time in (slid.time, slid.moment.time))
             end = slid.moment.distance
@@ -259,16 +289,36 @@ def chain(
             continue
         if scheme is central:
             _check_smooth(models[0], base, models[1], path)
+        own = Stops.of(base)
         variants = [
-            Variant(model, weight / step, Stops.of(model), carriers_of(model) if moves else None)
+            Variant(
+                model,
+                weight / step,
+                own if model is base else Stops.of(model),
+                carriers_of(model) if moves else None,
+            )
             for model, (_, weight) in zip(models, scheme, strict=True)
         ]
         wears, spreads = _wears(base, models[-1]), _spreads(base, models[-1])
-        return Chain(path, value, variants, base, Stops.of(base), wears, spreads)
+        return Chain(path, value, variants, base, own, wears, spreads)
     why = error.errors()[0]["msg"] if isinstance(error, ValidationError) else str(error)
     for place in (path, *(".".join(map(str, place)) for place in places)):
         why = why.removeprefix(f"{place}: ")
     raise CaseError(f"has no derivative here: {why}", path)
+
+
+def of_length(model: Model, end: float) -> Chain:
+    """Return what it changes when a run ends at a later time than `end`, in s."""
+    times = Stops.of(model).times
+    before = times[times < end]
+    step = ASIDE * (end - before[-1])
+    variants = [
+        Variant(model, 0.5 * by / step, Stops.at(model, [*before, end + by * step]), None)
+        for by in (1, -1)
+    ]
+    wears = dict.fromkeys(model.laws, frozenset({LAW}))
+    own = Stops.at(model, [*before, end])
+    return Chain("stop.depth", end, variants, model, own, wears, False)
 
 
 def _varied(

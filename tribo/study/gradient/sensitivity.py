@@ -57,6 +57,12 @@ def sensitivity(model: Model, half_width_x: float) -> Sensitivity:
             f"{model.contact.type!r} takes explicit steps only, and a coarse run implicit ones",
             "contact.type",
         )
+    if model.case.stop.depth is not None:
+        raise CaseError(
+            "a depth ends the run; tribo.gradient tells how the time until then, EndTime, follows "
+            "each number",
+            "stop.depth",
+        )
     if model.case.begin is not None:
         raise CaseError("the wear that a run begins with is left out on a coarse grid", "begin")
     resolved = np.inf if model.contact.periodic else half_width_x

@@ -108,7 +108,10 @@ class Tape:
 
 
 def recorded(model: Model, looked_at: Sequence[float], tape: Tape) -> dict[float, State]:
-    """Run a model, recorded on a tape; return the states at times (s) that are saved."""
+    """Run a model, recorded on a tape; return the states at times (s) that are saved.
+
+    That at the model's own end is the last one, also where a depth ends the run sooner.
+    """
     heard: list[Event] = []
     states: dict[float, State] = {}
     telling = replace(model, tell=heard.append)
@@ -120,10 +123,17 @@ def recorded(model: Model, looked_at: Sequence[float], tape: Tape) -> dict[float
     for accepted in march(telling, state):
         before, state = state, accepted.state
         _keep(tape, model, heard, "before", state.time, before.time)
-        if accepted.save and state.time in looked_at:
-            states[state.time] = state
-            tape.append(Saved(state.time))
+        time = model.end_time if accepted.last else state.time
+        if accepted.save and time in looked_at:
+            states[time] = state
+            tape.append(Saved(time))
     missing = [time for time in looked_at if time not in states]
+    if missing and state.time < missing[0] <= model.end_time:
+        raise CaseError(
+            f"a depth ends the run at {state.time:g} s, before {missing[0]:g} s, at which an "
+            "objective is to look",
+            "stop.depth",
+        )
     if missing:
         raise CaseError(
             f"nothing is saved at {missing[0]:g} s, which an objective is to look at; add it to "
