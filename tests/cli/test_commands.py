@@ -150,7 +150,12 @@ def test_check_begins_with_its_verdict(case):
     assert "94 % of the pressure at which the softer body first" in done.stdout
     assert max(map(len, done.stdout.splitlines())) <= 80
     assert "depth of ball, for 1 % more of:" in done.stdout
-    small = [*LARGE_STROKE, *setting("grid.size=0.9 mm", "grid.cells=64", "stop.depth=1 mm")]
+    ends = tribo("check", "my.toml", *LARGE_STROKE, *setting("stop.depth=0.5 um"))
+    assert "time until ball reaches stop.depth, for 1 % more of:" in ends.stdout
+    hard = (
+        'bodies.disk.layers=[{thickness="1 um", wear={type="archard", k=1e-16}, hardness="9 GPa"}]'
+    )
+    small = [*LARGE_STROKE, *setting("grid.size=0.9 mm", "grid.cells=64", hard)]
     done = tribo("check", "my.toml", *small)
     verdict, first, *_ = done.stdout.splitlines()
     assert done.returncode == 3
@@ -162,7 +167,7 @@ def test_check_begins_with_its_verdict(case):
     assert problem in " ".join(told)
     assert data["sensitivity"] is None
     why = data["sensitivity_refused"]
-    assert why.startswith("stop.depth: a depth ends the run; tribo.gradient tells")
+    assert why.startswith("bodies: the largest pressure of a cell jumps in the step in which it")
     assert f"sensitivity not known, since {why}" in " ".join(told)
 
 

@@ -66,7 +66,7 @@ def test_check_says_how_long_its_sensitivities_may_take(monkeypatch, tmp_path):
         monkeypatch.setattr(sys, "stderr", stream)
         monkeypatch.setattr("tribo.cli.check.BACK", factor)
         tribo(["check", str(tmp_path / "case.toml")], standalone_mode=False)
-        shown = stream.getvalue().startswith("which numbers rule the depth: at most some ")
+        shown = stream.getvalue().startswith("which numbers rule the answer: at most some ")
         assert shown == told
 
 

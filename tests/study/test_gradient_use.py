@@ -164,16 +164,23 @@ def test_a_coarse_run_tells_what_rules_the_depth():
     assert found.percent["load.normal"] == pytest.approx(fine["load.normal"], abs=0.1)
 
 
+def test_where_nothing_is_told_there_is_a_reason():
+    with pytest.raises(CaseError, match="bodies: no body wears"):
+        sensitivity(composed(run(bodies=pair(archard(0), None))), 1e-4)
+
+
 @pytest.mark.parametrize(
-    ("changes", "message"),
+    ("stop", "of", "frequency"),
     [
-        ({"stop": Stop(depth="1 um")}, "stop.depth: a depth ends the run; tribo.gradient"),
-        ({"bodies": pair(archard(0), None)}, "bodies: no body wears"),
+        (Stop(depth="0.05 um", body="disk"), "end_time", -1.0),
+        # Which it does not reach.
+        (Stop(depth="1 mm", body="disk"), "depth", 1.0),
     ],
 )
-def test_where_nothing_is_told_there_is_a_reason(changes, message):
-    with pytest.raises(CaseError, match=message):
-        sensitivity(composed(run(**changes)), 1e-4)
+def test_where_a_depth_ends_the_run_a_coarse_one_tells_what_rules_the_time(stop, of, frequency):
+    found = sensitivity(composed(run(stop=stop, bodies=pair(None, archard()))), 1e-4)
+    assert (found.body, found.of) == ("disk", of)
+    assert found.percent["kinematics.frequency"] == pytest.approx(frequency, abs=0.03)
 
 
 def test_a_save_that_is_not_there_is_refused():

@@ -62,7 +62,7 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
     ruled: Sensitivity | str = "the trial on a coarse grid did not reach the end"
     if prediction.last:
         if longest > QUIET and sys.stderr.isatty():
-            click.echo(f"which numbers rule the depth: at most some {longest:.0f} s", err=True)
+            click.echo(f"which numbers rule the answer: at most some {longest:.0f} s", err=True)
         try:
             ruled = sensitivity(model, prediction.first.half_width_x)
         except (CaseError, NumericalError) as error:
@@ -89,7 +89,9 @@ def _print(case: Path, model: Model, prediction: Prediction, ruled: Sensitivity 
     if isinstance(ruled, str):
         console.print(_rows([("  sensitivity", f"not known, since {ruled}")]))
     else:
-        console.print(f"  depth of {ruled.body}, for 1 % more of:", markup=False)
+        depth, time = f"depth of {ruled.body}", f"time until {ruled.body} reaches stop.depth"
+        what = depth if ruled.of == "depth" else time
+        console.print(f"  {what}, for 1 % more of:", markup=False)
         first = list(ruled.percent.items())[:SHOWN]
         console.print(_rows((f"    {path}", f"{percent:+.2f} %") for path, percent in first))
     for place, facts in prediction.facts.items():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -10,33 +11,38 @@ from tribo.core.errors import CaseError, NumericalError
 from tribo.simulation.coarse import MARGINS, coarsened
 from tribo.simulation.model import Model
 from tribo.study.gradient.gradient import gradient
-from tribo.study.gradient.objective import Deepest, Seeds, View
+from tribo.study.gradient.objective import Deepest, EndTime, Seeds, View
 
 CELLS = 24
 """Along the longer edge of the window: percentages, not depths, are asked for."""
 LEAST = 0.005
 """Per cent for one per cent, below which a number is left out."""
 
+Answer = Literal["depth", "end_time"]
+
 
 @dataclass(frozen=True)
 class Sensitivity:
-    """How the largest depth worn follows the numbers of a case.
+    """How the largest depth worn follows the numbers of a case, or the time until it is reached.
 
     Parameters
     ----------
     body : str
-        The body that is worn deepest.
+        The body that is worn deepest, or of which a depth ends the run.
+    of : str
+        ``"depth"`` of the body, or ``"end_time"`` where a depth ends the run.
     percent : dict of float
-        By path, the largest first: by how many per cent its depth changes for one per cent of the
+        By path, the largest first: by how many per cent that changes for one per cent of the
         number.
     """
 
     body: str
+    of: Answer
     percent: dict[str, float]
 
 
 def sensitivity(model: Model, half_width_x: float) -> Sensitivity:
-    """Return which numbers rule the largest depth of a run, from one on a coarse grid.
+    """Return which numbers rule the largest depth of a run, or its end, from a coarse grid.
 
     Parameters
     ----------
@@ -57,12 +63,6 @@ def sensitivity(model: Model, half_width_x: float) -> Sensitivity:
             f"{model.contact.type!r} takes explicit steps only, and a coarse run implicit ones",
             "contact.type",
         )
-    if model.case.stop.depth is not None:
-        raise CaseError(
-            "a depth ends the run; tribo.gradient tells how the time until then, EndTime, follows "
-            "each number",
-            "stop.depth",
-        )
     if model.case.begin is not None:
         raise CaseError("the wear that a run begins with is left out on a coarse grid", "begin")
     resolved = np.inf if model.contact.periodic else half_width_x
@@ -82,16 +82,25 @@ def sensitivity(model: Model, half_width_x: float) -> Sensitivity:
 
 
 def _of_coarse(model: Model) -> Sensitivity:
-    deepest: list[str] = []
+    asked: list[tuple[str, Answer]] = []
 
-    def largest(view: View) -> tuple[float, Seeds]:
-        if not deepest:
-            deepest.append(max(model.laws, key=lambda name: float(np.max(view.wear(name)))))
-        return Deepest(deepest[0])(view)
+    def answer(view: View) -> tuple[float, Seeds]:
+        if not asked:
+            asked.append(_asked(view))
+        body, of = asked[0]
+        return EndTime()(view) if of == "end_time" else Deepest(body)(view)
 
-    found = gradient(model, largest)
+    found = gradient(model, answer)
     if not found.value > 0:
         raise CaseError("no body wears", "bodies")
     ranked = sorted(found.relative.items(), key=lambda item: -abs(item[1]))
     percent = {path: float(value) for path, value in ranked if abs(value) >= LEAST}
-    return Sensitivity(deepest[0], percent)
+    return Sensitivity(*asked[0], percent)
+
+
+def _asked(view: View) -> tuple[str, Answer]:
+    model, state = view.model, view.state
+    deepest = max(model.laws, key=lambda name: float(np.max(view.wear(name))))
+    if state.time < model.end_time:
+        return model.case.stop.body or deepest, "end_time"
+    return deepest, "depth"
