@@ -59,6 +59,7 @@ def test_a_test_left_out_is_foretold_by_the_others():
         small=np.zeros(4),
         lower=np.full(1, -np.inf),
         upper=np.full(1, np.inf),
+        common=np.zeros((3, 0)),
     )
     found = fit(lambda k: np.repeat(k, 4), problem, np.ones(1))
     own = []

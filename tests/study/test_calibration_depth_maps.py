@@ -17,9 +17,9 @@ from tribo.core.errors import CaseError, NumericalError, TriboWarning
 from tribo.plotting.curves import fit_picture
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.calibrate import calibrate
+from tribo.study.calibration.cells import in_blocks
 from tribo.study.calibration.choice import choose_case
 from tribo.study.calibration.fit import differenced, fit, interval
-from tribo.study.calibration.mapped import in_blocks
 from tribo.study.calibration.plan import plan_tests
 from tribo.study.calibration.posed import Posed
 

@@ -41,7 +41,8 @@ def problem(
     n = len(observed)
     each = {"below": np.zeros(n, bool), "specimen": np.arange(n), "repeatability": 0.0} | data
     ends = np.log(start) - reach, np.log(start) + reach
-    return Problem(names, observed, sigma, *each.values(), np.full(n + predictions, small), *ends)
+    whole = np.full(n + predictions, small), *ends, np.zeros((n, 0))
+    return Problem(names, observed, sigma, *each.values(), *whole)
 
 
 class Counted:

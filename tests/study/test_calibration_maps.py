@@ -18,7 +18,7 @@ from tribo.core.errors import CaseError
 from tribo.lab.heights import Heights
 from tribo.simulation.march import begin, march
 from tribo.simulation.run import Simulation
-from tribo.study.calibration.mapped import on_cells
+from tribo.study.calibration.cells import on_cells
 from tribo.study.calibration.maps import Prior, _Waves, fit_maps
 from tribo.study.calibration.measured import read_measurements
 from tribo.study.gradient.local import localised

@@ -56,6 +56,7 @@ def test_the_expected_interval_is_that_of_a_calibration():
         small=np.zeros(n),
         lower=np.full(2, -np.inf),
         upper=np.full(2, np.inf),
+        common=np.zeros((n, 0)),
     )
     here = Linearised(problem, np.zeros(2), np.ones(n), effects[of], Weights.of(sigma[of]))
     here = here.weighed(np.zeros(2), 0.2)

@@ -40,6 +40,7 @@ def sampled_of(observed, below, repeatability, count, fails=lambda k: None):
         small=np.zeros(len(observed)),
         lower=-ends,
         upper=ends,
+        common=np.zeros((len(observed), 0)),
     )
     found = fit(lambda k: k[which], problem, np.ones(len(ends)))
     axes = np.eye(len(ends))
@@ -99,6 +100,7 @@ def losses(monkeypatch):
         return Run(
             np.array([2e-6 / 7.08e-15 * k.get(w.body, 0.0) for w in wanted]),
             np.zeros(len(wanted)),
+            {},
             (),
         )
 
@@ -153,7 +155,9 @@ def products(monkeypatch):
     """Make each quantity proportional to the product of the coefficients alone."""
 
     def made(tables, parameters, values, wanted, *rest):
-        return Run(np.full(len(wanted), 1e-6 * np.prod(values / 3e-16)), np.zeros(len(wanted)), ())
+        return Run(
+            np.full(len(wanted), 1e-6 * np.prod(values / 3e-16)), np.zeros(len(wanted)), {}, ()
+        )
 
     monkeypatch.setattr("tribo.study.calibration.posed.make_run", made)
 

@@ -192,6 +192,9 @@ def _name(row: Any) -> str:
         text += f" at {1e3 * row.position_m:g} mm"
     if getattr(row, "depths", 1) > 1:
         text += ", mean"
+        if row.shift_x_m or row.shift_y_m:
+            far = (signed(1e6 * each, 1) for each in (row.shift_x_m, row.shift_y_m))
+            text += f", off centre by {' and '.join(far)} µm"
     return text
 
 

@@ -29,6 +29,7 @@ def maps_json(found: FittedMaps, level: float) -> dict[str, Any]:
         "chi_square": found.chi_square,
         "degrees_of_freedom": found.degrees_of_freedom,
         "p_value": found.p_value,
+        "remarks": found.remarks,
         "notes": found.notes,
         "maps": {
             name: {key: value.tolist() for key, value in _arrays(each, level).items()}
@@ -63,7 +64,8 @@ def read_maps(found: Mapping[str, Any]) -> tuple[FittedMaps, float]:
         maps[name] = LocalMap(np.log(factor), own, prior, (dx, dy), measured, computed, sigma)
     numbers = {key: found[key] for key in ("gradients", "products")}
     fit = {key: found[key] for key in ("chi_square", "degrees_of_freedom")}
-    return FittedMaps(maps=maps, **numbers, **fit), found["level"]
+    remarks = tuple(found.get("remarks", ()))
+    return FittedMaps(maps=maps, **numbers, **fit, remarks=remarks), found["level"]
 
 
 def maps_table(found: FittedMaps, level: float) -> Table:

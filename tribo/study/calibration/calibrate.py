@@ -19,6 +19,7 @@ from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, NumericalError
 from tribo.study.calibration.fit import ABOVE_ROUNDING, NO_EFFECT, fit, interval
 from tribo.study.calibration.linearised import Linearised, Weights, root_covariance
+from tribo.study.calibration.map_notes import map_notes
 from tribo.study.calibration.measured import Measurements
 from tribo.study.calibration.notes import notes
 from tribo.study.calibration.parameters import Parameter
@@ -29,7 +30,7 @@ from tribo.study.calibration.sample import check_sampling, sampled
 DATA = ["test", "body", "quantity", "time_s", "position_m", "unit"]
 DATA += ["measured", "below", "sigma", "computed", "residual"]
 """Columns of a calibration's data."""
-PLACE = ["place", "x_m", "y_m"]
+PLACE = ["place", "x_m", "y_m", "shift_x_m", "shift_y_m"]
 """More of them, where a depth map is among the data."""
 AT_BOUND = 1e-6
 """Relative distance below which an estimate counts as on its bound."""
@@ -60,7 +61,8 @@ class Calibration:
     `time_s`, `position_m` of a profile's point, `unit`, `measured`, `below` for a limit, `sigma`,
     of the measurement, the grid, and from test to test, `computed`, and `residual`, computed less
     measured in units of `sigma`; of a limit z of them above the computed value √(−2 ln Φ(z)). With
-    maps also `place`, their entry in the file, and of each part its middle, `x_m` and `y_m`."""
+    maps also `place`, their entry in the file, and of each part its middle, `x_m` and `y_m`;
+    `shift_x_m` and `shift_y_m`, how far the scar was found from the middle of the map."""
     predictions: pd.DataFrame
     """What else the fitted case gives at the end of each test, in the mean, where tests scatter:
     `test`, `body`, `quantity`, `unit`, `value`, `lower`, `upper`; 0 and infinite where it depends
@@ -174,20 +176,23 @@ def calibrate(
         )
     if sample:
         check_sampling(sample, len(posed.parameters))
+    posed = posed.centred(posed.start)
     far = far_off(posed.data, posed.run(posed.start).responses, posed.parameters)
-    problem = posed.problem(posed.start)
+    # What is common to all of a map is known near the estimate only.
+    problem = posed.problem(posed.start).without_common()
 
     def responses(values: Array) -> Array:
         found = posed.run(values).responses
-        misfit = problem.residuals(found, Weights.of(problem.sigma))
+        misfit = problem.residuals(found, problem.weights())
         on_run(posed.made, float(np.sum(misfit**2)))
         return found
 
     try:
         fitted = fit(responses, problem, posed.start)
         estimate, before = np.exp(fitted.point), problem.sigma
+        posed = posed.centred(estimate)
         problem = posed.problem(estimate)
-        if np.any(np.abs(problem.sigma - before) > ALIKE * before):
+        if problem.common.size or np.any(np.abs(problem.sigma - before) > ALIKE * before):
             estimate = np.where(fitted.limited(), posed.start, estimate)
             fitted = fit(responses, problem, estimate)
     except (CaseError, NumericalError) as error:
@@ -276,6 +281,7 @@ def _outcome(fitted: Linearised, posed: Posed, level: float) -> Calibration:
         + (len(held) + (problem.repeatability is None)) * math.log(len(data)),
         left_out=fitted.left_out(),
         notes=(
+            *map_notes(fitted, posed),
             *notes(estimates, data, jacobian, None if problem.repeatability is None else spare),
             *last.notices,
         ),
@@ -297,7 +303,7 @@ def _predictions(
         for one in np.flatnonzero(limited).tolist()
     ]
     by_grid = math.sqrt(chdtri(1, 1 - level)) * posed.run(np.exp(fitted.point)).read_off
-    positive = np.all([made.responses > 0 for made in posed.runs.values()], axis=0)
+    positive = np.all([posed.of_data(made).responses > 0 for made in posed.runs.values()], axis=0)
     rows = []
     for i, each in enumerate(posed.predicted.itertuples(), len(posed.data)):
         if not positive[i]:

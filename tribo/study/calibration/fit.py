@@ -11,7 +11,7 @@ from scipy.special import chdtri, stdtrit
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, NumericalError
-from tribo.study.calibration.linearised import Linearised, Problem, Weights, root_covariance
+from tribo.study.calibration.linearised import Linearised, Problem, root_covariance
 
 STEP = 0.2
 """Relative change of a parameter for a difference; a scar must grow by more than rounding."""
@@ -150,7 +150,7 @@ def differenced(
         change = problem.scaled(model(np.exp(moved))) - problem.scaled(responses)
         columns.append(change / step)
     slopes = np.stack(columns, axis=1)
-    return Linearised(problem, point, responses, slopes, weights=Weights.of(problem.sigma))
+    return Linearised(problem, point, responses, slopes, weights=problem.weights())
 
 
 def _as_good_as_none(here: Linearised) -> Array:

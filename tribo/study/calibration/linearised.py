@@ -84,6 +84,17 @@ class Problem:
     lower: Array
     upper: Array
     """Bounds of the logarithms of the parameters, shape (p,); infinite for none."""
+    common: Array
+    """What errors of one standard deviation, of one source each, add to all data, shape (n, k)."""
+
+    def weights(self, scatter: Array | None = None) -> Weights:
+        """Return the weights of the data, of which so much more, shape (n, j), is off together."""
+        parts = [self.common] if scatter is None else [self.common, scatter]
+        return Weights.of(self.sigma, np.concatenate(parts, axis=1))
+
+    def without_common(self) -> Problem:
+        """Return the problem with errors that each datum has alone."""
+        return replace(self, common=self.common[:, :0])
 
     def scaled(self, responses: Array) -> Array:
         """Return responses in whose terms slopes change little: logarithms, linear near 0.
@@ -218,7 +229,7 @@ class Linearised:
         scatter = None
         if repeatability > 0:
             scatter = repeatability * self.problem.together(self.effects(point))
-        weights = Weights.of(self.problem.sigma, scatter)
+        weights = self.problem.weights(scatter)
         return replace(self, weights=weights, repeatability=repeatability)
 
     def freedom(self, direction: Array) -> float:

@@ -108,6 +108,8 @@ class FittedMaps:
     chi_square: float
     degrees_of_freedom: float
     """Cells that were measured, less Σ λ/(1 + λ) over the eigenvalues of the information."""
+    remarks: tuple[str, ...] = ()
+    """On the maps as they were measured."""
 
     @property
     def p_value(self) -> float:
@@ -117,7 +119,8 @@ class FittedMaps:
     @property
     def notes(self) -> list[str]:
         """Remarks on what the data can tell."""
-        notes = [
+        notes = list(self.remarks)
+        notes += [
             f"{name}: the data say nothing of {np.sum(~each.told)} cells, mostly where nothing was "
             "worn or measured: there the coefficient is the case's, as uncertain as before"
             for name, each in self.maps.items()

@@ -169,7 +169,6 @@ class Measured(Table):
             quantity=self.quantity,
             time_s=math.nan if self.time is None else self.time,
             position_m=self.position or math.nan,
-            cells=[()] * len(values),
             entry=[self] * len(values),
             unit=QUANTITIES[self.quantity].unit,
             sigma=self.sigma,

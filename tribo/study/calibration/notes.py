@@ -69,7 +69,7 @@ def _on_parameters(
             entry = data.iloc[int(np.argmax(np.abs(effect) * parts))]
             yield (
                 f"{each.path}: the {_instrument(entry)}'s resolution dominates the uncertainty; "
-                f"the {_named(entry)} read to {in_words(entry.quantity, entry.step)} "
+                f"the {named(entry)} read to {in_words(entry.quantity, entry.step)} "
                 f"leaves ±{percent(each.resolution_limit)} % open"
             )
 
@@ -109,7 +109,7 @@ def _on_misfit(data: pd.DataFrame, spare: int | None) -> Iterator[str]:
         worst = read.loc[read["alone"].abs().idxmax()]
         yield (
             f"data and model disagree: χ² is {chi_square:.3g} where about {spare} is expected; the "
-            f"{_named(worst)} is off by {abs(worst.alone):.3g} times its "
+            f"{named(worst)} is off by {abs(worst.alone):.3g} times its "
             "uncertainty. The model leaves something out, or uncertainties are larger than stated; "
             "the intervals are then too narrow"
         )
@@ -123,7 +123,7 @@ def _on_patterns(data: pd.DataFrame) -> Iterator[str]:
         alike = np.sum(residuals[1:] * residuals[:-1]) / np.sum(residuals**2)
         if alike * len(rows) ** 0.5 > _ALIKE and np.max(np.abs(residuals)) > 1:
             yield (
-                f"the residuals of the {_named(next(rows.itertuples()))} follow a pattern: those "
+                f"the residuals of the {named(next(rows.itertuples()))} follow a pattern: those "
                 f"of neighbours are alike, with a correlation of {alike:.2f}, so that the scar has "
                 "another shape than the model gives it"
             )
@@ -137,12 +137,12 @@ def _on_instruments(data: pd.DataFrame) -> Iterator[str]:
         if entry.step_most >= entry.largest and not entry.below:
             yield (
                 f"the {_instrument(entry)} is too coarse: read to {in_words(name, entry.step)}, "
-                f"the {_named(entry)} may be off by {in_words(name, entry.step_most)}, and "
+                f"the {named(entry)} may be off by {in_words(name, entry.step_most)}, and "
                 f"{in_words(name, entry.largest)} is given"
             )
         if entry.stated < entry.edge:
             yield (
-                f"the {_named(entry)} is measured to {in_words(name, entry.stated)}, the grid "
+                f"the {named(entry)} is measured to {in_words(name, entry.stated)}, the grid "
                 f"is good to about {in_words(name, entry.edge)}: raise grid.cells"
             )
 
@@ -151,7 +151,8 @@ def _instrument(entry: Any) -> str:
     return "balance" if entry.quantity == "mass" else "instrument"
 
 
-def _named(entry: Any) -> str:
+def named(entry: Any) -> str:
+    """Return the name of what was measured, as ``"mass of 'ball' in heavy"``."""
     where = f" in {entry.test}" if entry.test else ""
     when = "" if math.isnan(entry.time_s) else f" at {entry.time_s:g} s"
     return f"{entry.quantity} of {entry.body!r}{where}{when}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -17,12 +17,13 @@ from tribo.case import Case
 from tribo.config.load import case_tables, validate_case
 from tribo.config.overrides import apply_settings
 from tribo.core.arrays import Array
-from tribo.core.errors import CaseError, NumericalError, TriboWarning
+from tribo.core.errors import CaseError, NumericalError, TriboWarning, located
+from tribo.lab.heights import Heights
 from tribo.simulation.model import Model
 from tribo.simulation.positions import chosen
 from tribo.simulation.run import Simulation
+from tribo.study.calibration.cells import in_blocks, means, on_cells, read_map, surface_shape
 from tribo.study.calibration.linearised import Problem
-from tribo.study.calibration.mapped import in_blocks, read_depth
 from tribo.study.calibration.measured import (
     Measured,
     Measurements,
@@ -31,9 +32,11 @@ from tribo.study.calibration.measured import (
     told_wrong,
 )
 from tribo.study.calibration.parameters import Parameter, check_set, find_parameters
+from tribo.study.calibration.placing import Placed, find_scar, slopes
 from tribo.study.calibration.quantities import (
     AXES,
     DEPTH_MAP,
+    DEPTHS,
     EDGES,
     FIELDS,
     QUANTITIES,
@@ -43,8 +46,11 @@ from tribo.study.calibration.quantities import (
 )
 from tribo.study.variation import unknown_body, valid_case
 
-SMALL = 0.1
-"""Part of the largest depth of a profile or a map below which depths are no power laws."""
+SMALL, ANYWHERE = 0.1, 0.25
+"""Part of the largest depth of a profile or a map below which depths are no power laws.
+
+The second: standard deviation, in parts of the surface, of how far a map is off before it is seen.
+"""
 READ = list(Reading._fields)
 """Columns of the data that say what is read off a run."""
 
@@ -65,6 +71,8 @@ class Run(NamedTuple):
 
     responses: Array
     read_off: Array
+    maps: Mapping[int, Array]
+    """Depths all over a surface, shape (rows, ny), by the reading that asks for them."""
     notices: tuple[str, ...]
 
 
@@ -74,17 +82,22 @@ class Posed:
 
     tested: list[Bench]
     parameters: list[Parameter]
+    table: pd.DataFrame
+    """As `Measurements.table` has it, with `bench`, and `edge`: the σ of a computed diameter."""
+    heights: Mapping[int, Heights]
+    """What was measured of a depth map, by its row of the table."""
     data: pd.DataFrame
-    """As `Measurements.table` has it, with `bench`, and `edge`: the σ of a computed diameter.
-
-    A depth map has a row for each block of cells that it is averaged over, and these `x_m`, `y_m`.
-    """
+    """The same, with the row of the table, `reading`; a depth map has a row for each block of
+    cells that it is averaged over, with `x_m`, `y_m`, and how far its scar lies from the middle of
+    the map, `shift_x_m`, `shift_y_m`."""
     predicted: pd.DataFrame
     """What is read off at the end but was not measured: `bench`, `test` and `READ`."""
     repeatability: float | None
     """From test to test; None if it is to be estimated."""
+    placed: Mapping[int, Placed] = field(default_factory=dict)
+    """Where the scar of a map was found, by its row of the table."""
     runs: dict[bytes, Run] = field(default_factory=dict)
-    """What has been run, by the bytes of the parameters."""
+    """What has been run, by the bytes of the parameters: readings of the table and predicted."""
 
     @classmethod
     def of(
@@ -99,7 +112,6 @@ class Posed:
         base = validate_case(tables)
         data = asked.table()
         tested = _benches(tables, asked.tests, data)
-        data = _with_maps(data, tested)
         parameters = find_parameters(base, asked.fit, data["body"].unique())
         for place, test in asked.tests.items():
             check_set(parameters, test.set, f"{place}set")
@@ -107,13 +119,19 @@ class Posed:
         axis = data["quantity"].map(AXES).fillna(0).astype(int)
         spacing = np.array([bench.model.grid.spacing for bench in tested])
         data["edge"] = np.where(diameter, EDGES * spacing[data["bench"], axis], 0.0)
-        # Of two maps hardly a block has the same cells, where some are missing.
-        keys = ["bench", *(name for name in READ if name != "cells")]
-        seen = data[~data["below"]].groupby(keys, dropna=False)["specimen"]
+        seen = data[~data["below"]].groupby(["bench", *READ], dropna=False)["specimen"]
         repeatability = asked.repeatability
         if repeatability is None and not np.any(seen.nunique() > 1):
             repeatability = 0.0
-        return cls(tested, parameters, data, _predicted(tested, data), repeatability)
+        heights = {
+            each.Index: read_map(each.entry.depth, each.entry.pitch, each.place)
+            for each in data.itertuples()
+            if each.quantity == DEPTH_MAP and each.entry.depth is not None
+        }
+        found = cls(
+            tested, parameters, data, heights, data, _predicted(tested, data), repeatability
+        )
+        return found.moved({})
 
     @property
     def start(self) -> Array:
@@ -127,29 +145,94 @@ class Posed:
 
     @cached_property
     def asked(self) -> list[tuple[Array, list[Reading]]]:
-        """Of each case which responses it gives, the data first, and what they are read off."""
-        both = pd.concat([self.data, self.predicted], ignore_index=True)
+        """Of each case which readings it gives, the table's first, and what they are."""
+        both = pd.concat([self.table, self.predicted], ignore_index=True)
         return [
             (own.index.to_numpy(), [Reading(*row) for row in own[READ].itertuples(index=False)])
             for _, own in both.groupby("bench")
         ]
 
+    def moved(self, placed: Mapping[int, Placed]) -> Posed:
+        """Return it with the middles of scars, where they were found, on that of the contact."""
+        parts = []
+        for reading, row in self.table.groupby(level=0):
+            rows = row.assign(reading=reading)
+            if row["quantity"].iloc[0] == DEPTH_MAP:
+                rows = self._of_map(rows, placed.get(reading, Placed()).shift)
+            parts.append(rows)
+        return replace(self, data=pd.concat(parts, ignore_index=True), placed=placed)
+
+    def on_cells(self, reading: int, shift: tuple[float, float]) -> Array:
+        """Return a map on the cells of its surface, in m; 0 of one that is not measured yet."""
+        row = self.table.loc[reading]
+        model = self.tested[row["bench"]].model
+        shape = surface_shape(model, row["body"])
+        if reading not in self.heights:
+            return np.zeros(shape)
+        with located(f"{row['place']}.depth"):
+            return on_cells(self.heights[reading], shape, model.grid.spacing, shift)
+
+    def _of_map(self, row: pd.DataFrame, shift: tuple[float, float]) -> pd.DataFrame:
+        """Return a row of the table for each block of cells that a map is averaged over."""
+        (each,) = row.itertuples()
+        depth = self.on_cells(each.Index, shift)
+        if told := told_wrong(each.entry, depth[np.isfinite(depth)]):
+            raise CaseError(told, f"{each.place}.depth")
+        blocks = in_blocks(depth, self.tested[each.bench].model.grid.spacing)
+        if each.entry.depth is None:
+            blocks["measured"] = math.nan
+        blocks[["shift_x_m", "shift_y_m"]] = shift
+        rows = row.loc[row.index.repeat(len(blocks))].reset_index(drop=True).assign(**blocks)
+        for error in ("sigma", "step_sigma"):
+            rows[error] /= rows["cells"].map(len) ** 0.5
+        return rows
+
+    def centred(self, values: Array) -> Posed:
+        """Return it with the scar of each map, if that tells where it is, where a run has it."""
+        found = {}
+        for reading, depth in self._made(values).maps.items():
+            if reading in self.heights:
+                row = self.table.loc[reading]
+                spacing = self.tested[row["bench"]].model.grid.spacing
+                sigma = math.hypot(row["sigma"], DEPTHS * float(np.max(depth)))
+                now = find_scar(self.heights[reading], depth, spacing, sigma)
+                found[reading] = now.unless_near(self.placed.get(reading, Placed()), spacing)
+        return self.moved(found) if found else self
+
     def run(self, values: Array) -> Run:
-        """Return the responses to parameters, of the data and then the predictions, made once."""
+        """Return the responses to parameters, of the data and then the predictions."""
+        return self.of_data(self._made(values))
+
+    def of_data(self, made: Run) -> Run:
+        """Return a run with a response for each row of the data and the predictions."""
+        predicted = len(self.table) + np.arange(len(self.predicted))
+        reading = np.append(self.data["reading"], predicted).astype(int)
+        responses = made.responses[reading]
+        for i, depth in made.maps.items():
+            rows = np.flatnonzero(reading == i)
+            responses[rows] = means(depth, self.data["cells"].iloc[rows])
+        return made._replace(responses=responses, read_off=made.read_off[reading])
+
+    def _made(self, values: Array) -> Run:
+        """Return the readings of a run, made once."""
         key = values.tobytes()
         if key in self.runs:
             return self.runs[key]
-        responses, read_off = np.empty((2, len(self.data) + len(self.predicted)))
+        responses, read_off = np.empty((2, len(self.table) + len(self.predicted)))
         notices: dict[str, list[str]] = {}
+        maps: dict[int, Array] = {}
         for i, (rows, wanted) in enumerate(self.asked):
             tables, name = self.tested[i].tables, f"run {self.made + i + 1}"
             made = make_run(tables, self.parameters, values, wanted, name)
             responses[rows], read_off[rows] = made.responses, made.read_off
+            for j, depth in made.maps.items():
+                shape = surface_shape(self.tested[i].model, wanted[j].body)
+                maps[int(rows[j])] = depth[: shape[0]]
             for notice in made.notices:
                 notices.setdefault(notice, []).append(self.tested[i].name or "the case as it is")
-        positive = ~self.data["quantity"].isin(FIELDS).to_numpy()
-        nothing = positive & (responses <= 0)[: len(self.data)]
-        for each in self.data[nothing].itertuples() if np.any(nothing) else ():
+        positive = ~self.table["quantity"].isin(FIELDS).to_numpy()
+        nothing = positive & (responses <= 0)[: len(self.table)]
+        for each in self.table[nothing].itertuples() if np.any(nothing) else ():
             raise CaseError(
                 f"the {each.quantity} of {each.body!r} comes out as 0 in the case; begin with more "
                 "wear: give start in fit",
@@ -159,7 +242,7 @@ class Posed:
             notice if len(of) == len(self.tested) else f"{', '.join(of)}: {notice}"
             for notice, of in notices.items()
         )
-        self.runs[key] = Run(responses, read_off, tuple(told))
+        self.runs[key] = Run(responses, read_off, maps, tuple(told))
         return self.runs[key]
 
     def problem(self, values: Array) -> Problem:
@@ -182,7 +265,23 @@ class Posed:
             small=np.append(small, np.zeros(len(self.predicted))),
             lower=lower,
             upper=upper,
+            common=self._common(run.maps),
         )
+
+    def _common(self, maps: Mapping[int, Array]) -> Array:
+        """Return what the grid, and a map's place, put off in all of a map: `Problem.common`."""
+        columns = []
+        for reading, depth in maps.items():
+            rows = np.flatnonzero(self.data["reading"] == reading)
+            spacing = self.tested[self.data["bench"].iloc[rows[0]]].model.grid.spacing
+            sources = [DEPTHS * depth]
+            for axis, slope in slopes(depth, spacing).items():
+                sources.append(ANYWHERE * spacing[axis] * depth.shape[axis] * slope)
+            for source in sources:
+                column = np.zeros(len(self.data))
+                column[rows] = means(source, self.data["cells"].iloc[rows])
+                columns.append(column)
+        return np.array(columns).reshape(-1, len(self.data)).T
 
 
 def _benches(
@@ -214,26 +313,6 @@ def _benches(
     return [_bench(tables, alike[key], *each) for key, each in cases.items()]
 
 
-def _with_maps(data: pd.DataFrame, tested: Sequence[Bench]) -> pd.DataFrame:
-    """Return the data with the depths of each map, averaged over blocks of cells, in its place."""
-    parts = []
-    for place, rows in data.groupby("place", sort=False):
-        entry = rows["entry"].iloc[0]
-        if entry.quantity == DEPTH_MAP:
-            model = tested[rows["bench"].iloc[0]].model
-            depth = read_depth(model, entry.body, entry.depth, entry.pitch, place)
-            if told := told_wrong(entry, depth[np.isfinite(depth)]):
-                raise CaseError(told, f"{place}.depth")
-            blocks = in_blocks(depth, model.grid.spacing)
-            if entry.depth is None:
-                blocks["measured"] = math.nan
-            rows = rows.loc[rows.index.repeat(len(blocks))].reset_index(drop=True).assign(**blocks)
-            for error in ("sigma", "step_sigma"):
-                rows[error] /= rows["cells"].map(len) ** 0.5
-        parts.append(rows)
-    return pd.concat(parts, ignore_index=True)
-
-
 def _bench(tables: Mapping[str, Any], tests: Sequence[Tested], case: Case, model: Model) -> Bench:
     """Return the case of tests that are alike."""
     changed = apply_settings(tables, tests[0].set)
@@ -254,7 +333,7 @@ def _predicted(tested: Sequence[Bench], data: pd.DataFrame) -> pd.DataFrame:
     at_end = data[~(data["time_s"] < ends[data["bench"]] * (1 - 1e-12))]
     known = {*at_end[["bench", "body", "quantity"]].itertuples(index=False, name=None)}
     rows = [
-        (i, bench.name, body, quantity, math.nan, math.nan, ())
+        (i, bench.name, body, quantity, math.nan, math.nan)
         for i, bench in enumerate(tested)
         for body in bench.model.bodies
         for quantity in QUANTITIES

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from functools import cache, partial
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -63,14 +62,13 @@ FIELDS = (*PROFILES, DEPTH_MAP)
 class Reading(NamedTuple):
     """One number to read off a run: a body and a quantity; when, if not at the end, and where.
 
-    Of a depth map it is the mean over `cells` of the body's own surface, counted row by row.
+    Of a depth map it is the largest.
     """
 
     body: str
     quantity: str
     time_s: float = math.nan
     position_m: float = math.nan
-    cells: tuple[int, ...] = ()
 
 
 def plain(found: Any) -> dict[str, Any]:
@@ -107,27 +105,27 @@ def percent(part: float) -> str:
     return f"{100 * part:.0f}" if part >= 0.095 else f"{100 * part:.1f}"
 
 
-def read_all(result: Result, asked: Sequence[Reading]) -> tuple[Array, Array]:
-    """Return the computed values, and their standard deviations due to the grid."""
-    # A map is read once for all of its blocks.
-    whole = cache(partial(_whole, result))
-    found = [
-        _of_block(*whole(each.body, _save(result, each)), each.cells)
+def read_all(result: Result, asked: Sequence[Reading]) -> tuple[Array, Array, dict[int, Array]]:
+    """Return computed values, their standard deviations due to the grid, and maps by the index."""
+    maps = {
+        i: _whole(result, each.body, _save(result, each))
+        for i, each in enumerate(asked)
         if each.quantity == DEPTH_MAP
-        else read(result, each)
-        for each in asked
-    ]
-    values, errors = np.array(found).T
-    return values, errors
+    }
+    values, errors = np.array([read(result, each) for each in asked]).T
+    return values, errors, maps
 
 
 def read(result: Result, asked: Reading) -> tuple[float, float]:
-    """Return the computed value, and its standard deviation due to the grid; no depth map's."""
+    """Return the computed value, and its standard deviation due to the grid."""
     save, body = _save(result, asked), result.body(asked.body)
     depth, spacing, name = body.wear_depth[save], result.grid.spacing, asked.quantity
     if name in ("scar_along", "scar_across"):
         axis = AXES[name]
         return diameter(depth, axis, spacing[axis]), EDGES * spacing[axis]
+    if name == DEPTH_MAP:
+        value = float(np.max(_whole(result, asked.body, save)))
+        return value, DEPTHS * value
     if name == "depth":
         value = float(np.max(depth)) + between_cells(depth)
         return value, DEPTHS * value
@@ -144,16 +142,12 @@ def read(result: Result, asked: Reading) -> tuple[float, float]:
     return mass_from_volume(volume, body.density or 0.0) if name == "mass" else volume, 0.0
 
 
-def _of_block(depth: Array, largest: float, cells: tuple[int, ...]) -> tuple[float, float]:
-    return float(np.mean(depth[list(cells)])), DEPTHS * largest
-
-
 def _save(result: Result, asked: Reading) -> int:
     return -1 if math.isnan(asked.time_s) else result.save_at(asked.time_s)
 
 
-def _whole(result: Result, body: str, save: int) -> tuple[Array, float]:
-    """Return the depth on a body's own surface, row by row, and the largest.
+def _whole(result: Result, body: str, save: int) -> Array:
+    """Return the depth on a body's own surface, shape (rows, ny).
 
     The surface is longer than the window under a resolved stroke. Of a track that is the same all
     along the result repeats the one row that it has.
@@ -163,7 +157,7 @@ def _whole(result: Result, body: str, save: int) -> tuple[Array, float]:
         track = result.field(TRACK, save, body)
         if np.any(known := np.isfinite(track[:, 0])):
             depth = track[known]
-    return depth.ravel(), float(np.max(depth))
+    return np.asarray(depth)
 
 
 def _crown(result: Result, body: BodyResult, save: int) -> tuple[float, float]:

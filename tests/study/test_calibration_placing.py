@@ -1,0 +1,124 @@
+"""A map off its middle is met all the same; one not levelled or of another pitch is told."""
+
+import numpy as np
+import pytest
+from calibrations import cheap, kept_runs
+from rich.console import Console
+from scipy.ndimage import shift as moved
+from scipy.stats import binom
+
+from tribo.cli.fitted import data_table
+from tribo.config.load import validate_case
+from tribo.config.overrides import apply_settings
+from tribo.lab.heights import Heights
+from tribo.simulation.run import Simulation
+from tribo.study.calibration import mapped
+from tribo.study.calibration.calibrate import calibrate
+from tribo.study.calibration.mapped import Mapped, calibrate_maps
+from tribo.study.calibration.maps import FittedMaps
+from tribo.study.calibration.placing import Placed, find_scar
+
+K, TRUE = "bodies.ball.wear.k", 3e-16
+CASE = apply_settings(cheap(60), {"grid.cells": 32, K: TRUE, "bodies.disk.wear.k": TRUE})
+PIXELS, PITCH, NOISE = 128, 1e-3 / 128, 20e-9
+
+
+@pytest.fixture(scope="module", autouse=True)
+def runs_made_once():
+    with kept_runs():
+        yield
+
+
+@pytest.fixture(scope="module")
+def worn():
+    """The ball's depth on four pixels a cell's edge, in m."""
+    fine = apply_settings(CASE, {"grid.cells": PIXELS, "stepping.depth_tolerance": 1e-2})
+    with Simulation(validate_case(fine)).run() as result:
+        return result.body("ball").wear_depth[-1].copy()
+
+
+@pytest.fixture
+def fitted(worn, tmp_path):
+    """What is found from the ball's map with noise: shifted, lifted, of another pitch."""
+
+    def found(shift=(0.0, 0.0), level=0.0, pitch=1.0, noise=NOISE, seed=0):
+        depth = moved(worn, np.array(shift) / PITCH, order=1) + level
+        depth += 4 * noise * np.random.default_rng(seed).standard_normal(depth.shape)
+        np.save(tmp_path / "map.npy", depth)
+        entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "map.npy")}
+        entry |= {"pitch": pitch * PITCH, "uncertainty": noise}
+        return calibrate(CASE, {"measured": [entry], "fit": [{"path": K}]})
+
+    return found
+
+
+def covers(found):
+    (each,) = found.parameters.itertuples()
+    return each.lower < TRUE < each.upper
+
+
+def test_a_map_off_its_middle_is_met_and_told(fitted, capsys):
+    found = fitted((52e-6, -31e-6))
+    assert covers(found)
+    assert found.p_value > 0.01
+    (note,) = found.notes
+    assert note.startswith("the scar in the depth_map of 'ball' lies +5")
+    assert note.endswith("across the sliding direction from the middle of the map")
+    assert found.data["shift_x_m"].unique() == pytest.approx([52e-6], abs=1e-6)
+    assert found.data["shift_y_m"].unique() == pytest.approx([-31e-6], abs=1e-6)
+    Console(width=120).print(data_table(found))
+    assert "mean, off centre by +5" in capsys.readouterr().out
+
+
+def test_a_map_in_its_middle_is_left_there(fitted):
+    found = fitted()
+    assert covers(found)
+    assert found.notes == ()
+    assert not found.data[["shift_x_m", "shift_y_m"]].any(axis=None)
+
+
+@pytest.mark.slow
+def test_intervals_cover_the_coefficient_wherever_the_map_has_its_scar(fitted):
+    """The noise puts the coefficient off by as much as the grid does."""
+    random, draws = np.random.default_rng(1), 20
+    covered = sum(
+        covers(fitted(random.uniform(-60e-6, 60e-6, 2), noise=200e-9, seed=i)) for i in range(draws)
+    )
+    assert covered >= binom.ppf(0.002, draws, 0.95)
+
+
+@pytest.mark.parametrize(("level", "way"), [(1e-6, "above"), (-1e-7, "below")])
+def test_a_map_that_is_not_levelled_is_named(fitted, level, way):
+    (note,) = (note for note in fitted(level=level).notes if "level it first" in note)
+    told = note.removeprefix("outside the scar the depth_map of 'ball' lies ")
+    assert float(told.split()[0]) == pytest.approx(1e6 * abs(level), rel=0.03)
+    assert f"µm {way} 0: level it first, as tribo scar does" in told
+
+
+@pytest.mark.parametrize("pitch", [1.05, 0.95])
+def test_a_wrong_pitch_is_named(fitted, pitch):
+    (note,) = (note for note in fitted(pitch=pitch).notes if "check pitch" in note)
+    assert float(note.split(" times")[0].split()[-1]) == pytest.approx(pitch, abs=0.015)
+
+
+def test_uniform_wear_tells_no_place():
+    depth = np.full((32, 32), 1e-6)
+    pixels = depth + NOISE * np.random.default_rng(0).standard_normal(depth.shape)
+    assert find_scar(Heights(pixels, (1e-6, 1e-6)), depth, (1e-6, 1e-6), NOISE) == Placed()
+
+
+def test_the_map_of_a_local_coefficient_is_told_as_well(worn, tmp_path, monkeypatch):
+    given = []
+
+    def unfitted(model, depths, priors, on_run):
+        given.append(depths)
+        return FittedMaps({}, 0, 0, 1.0, 1.0)
+
+    monkeypatch.setattr(mapped, "fit_maps", unfitted)
+    np.save(tmp_path / "map.npy", moved(worn, (52e-6 / PITCH, 0), order=1) + 3e-7)
+    entry = {"body": "ball", "depth": str(tmp_path / "map.npy"), "pitch": PITCH}
+    entry = Mapped(**entry, uncertainty=NOISE, length=1e-4)
+    place, level = calibrate_maps(CASE, {"map.0": entry}).notes
+    assert "lies +52.0 ± " in place
+    assert place.endswith("centre it, unless the coefficient is higher on that side")
+    assert "the map of 'ball' lies 0.3 µm above 0" in level

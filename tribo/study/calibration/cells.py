@@ -1,0 +1,138 @@
+"""A measured depth map on the cells of a body's surface."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+import pandas as pd
+
+from tribo.core.arrays import Array
+from tribo.core.errors import CaseError, located
+from tribo.lab.heights import Heights, read_heights
+from tribo.simulation.model import Model
+
+FINER, LEAST = 1e-6, 0.5 - 1e-6
+"""Part by which a pixel may be larger than a cell, and of a cell that must be measured."""
+MOST = 600
+"""Numbers that a map is averaged to where a few parameters are fitted to it."""
+
+
+def read_map(file: str, pitch: float | None, place: str) -> Heights:
+    """Read measured depths; CaseError, at their place, if they cannot be."""
+    with located(f"{place}.depth"):
+        heights = read_heights(file, None if pitch is None else (pitch, pitch))
+        _check_depths(heights)
+        return heights
+
+
+def surface_shape(model: Model, body: str) -> tuple[int, int]:
+    """Return how many cells a body's own surface has along and across."""
+    return model.exposures[body].rows, model.grid.cells[1]
+
+
+def _check_depths(heights: Heights) -> None:
+    """Raise CaseError if depths are larger than the map is wide, as no worn surface's are."""
+    depths, width = heights.heights, max(heights.grid.size)
+    absurd = depths[np.abs(depths) > width]
+    if len(absurd):
+        raise CaseError(
+            f"{len(absurd)} of its {depths.size} depths are larger than the map is wide, "
+            f"{1e3 * width:.3g} mm; the first is {absurd[0]:g} m. Depths are in m, and NaN where "
+            "nothing was measured: put NaN for fill values, 1e-6 times the depth for one in µm"
+        )
+
+
+def in_blocks(depth: Array, spacing: tuple[float, float]) -> pd.DataFrame:
+    """Return the mean of a map over equal blocks of cells, 600 at most, a row each.
+
+    `measured` is the mean, `x_m` and `y_m` its place, and `cells` those that were measured, counted
+    row by row.
+    """
+    side = 1
+    while np.prod(-(-np.array(depth.shape) // side)) > MOST:
+        side += 1
+    (rows, ny), cells = depth.shape, np.arange(depth.size)
+    i, j = cells // ny, cells % ny
+    known = pd.DataFrame(
+        {
+            "measured": depth.ravel(),
+            "x_m": spacing[0] * (i - 0.5 * (rows - 1)),
+            "y_m": spacing[1] * (j - 0.5 * (ny - 1)),
+            "cells": cells,
+            "block": i // side * ny + j // side,
+        }
+    ).dropna()
+    blocks = known.groupby("block")
+    means = blocks[["measured", "x_m", "y_m"]].mean()
+    return means.assign(cells=blocks["cells"].agg(tuple)).reset_index(drop=True)
+
+
+def means(depth: Array, cells: Iterable[tuple[int, ...]]) -> Array:
+    """Return the mean of a map over each of several blocks of cells, as of `in_blocks`."""
+    flat = depth.ravel()
+    return np.array([np.mean(flat[list(each)]) for each in cells])
+
+
+def on_cells(
+    heights: Heights,
+    shape: tuple[int, int],
+    spacing: tuple[float, float],
+    shift: tuple[float, float] = (0.0, 0.0),
+) -> Array:
+    """Return the mean of a map over each cell of a surface.
+
+    The point so far from the map's middle, in m, lies on the surface's. Of the pixels that a cell
+    cuts it has a part. NaN where less than half of it was measured.
+    """
+    averaged = shape[0] == 1
+    cell = heights.heights.shape[0] * heights.pitch[0] if averaged else spacing[0], spacing[1]
+    if any(pitch > (1 + FINER) * size for pitch, size in zip(heights.pitch, cell, strict=True)):
+        raise CaseError(
+            f"its pixels, {1e6 * heights.pitch[0]:g} × {1e6 * heights.pitch[1]:g} µm, are larger "
+            f"than cells, {1e6 * cell[0]:g} × {1e6 * cell[1]:g} µm; check pitch, or lower "
+            "grid.cells"
+        )
+    known = np.isfinite(heights.heights)
+    pixels = np.where(known, heights.heights, 0.0)
+    # Heights within a pixel follow those beside it, or parts of one would be off.
+    slopes = [
+        np.where(known, np.nan_to_num(np.gradient(heights.heights, axis=axis)), 0.0)
+        for axis in (0, 1)
+    ]
+    (in_x, off_x), (in_y, off_y) = (
+        _overlaps(n, width, m, pitch, off)
+        for n, width, m, pitch, off in zip(
+            shape,
+            cell,
+            known.shape,
+            heights.pitch,
+            (0.0 if averaged else shift[0], shift[1]),
+            strict=True,
+        )
+    )
+    total = in_x @ pixels @ in_y.T + off_x @ slopes[0] @ in_y.T + in_x @ slopes[1] @ off_y.T
+    measured = in_x @ known @ in_y.T
+    enough = measured >= LEAST * cell[0] * cell[1]
+    found = np.divide(total, measured, out=np.full(shape, np.nan), where=enough)
+    if not np.any(enough):
+        raise CaseError(
+            "it does not lie on the window: its middle is taken as the contact's; check pitch, "
+            f"{1e6 * heights.pitch[0]:g} × {1e6 * heights.pitch[1]:g} µm"
+        )
+    return np.asarray(found)
+
+
+def _overlaps(
+    cells: int, width: float, pixels: int, pitch: float, shift: float
+) -> tuple[Array, Array]:
+    """Return what cells and pixels share, one centre `shift` off: lengths, shape (cells, pixels).
+
+    And each times how far the middle of what is shared lies from that of the pixel, in pixels.
+    """
+    to_cell = width * (np.arange(cells + 1)[:, None] - 0.5 * cells)
+    to_pixel = pitch * (np.arange(pixels + 1) - 0.5 * pixels) - shift
+    begin = np.maximum(to_cell[:-1], to_pixel[:-1])
+    end = np.minimum(to_cell[1:], to_pixel[1:])
+    shared = np.maximum(end - begin, 0.0)
+    return shared, 0.5 * shared * (begin + end - to_pixel[:-1] - to_pixel[1:]) / pitch

@@ -1,0 +1,109 @@
+"""What is wrong with a measured depth map, in words: its place, its level, its pitch."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.ndimage import binary_dilation
+
+from tribo.core.arrays import Array
+from tribo.core.words import signed
+from tribo.study.calibration.cells import means
+from tribo.study.calibration.notes import named
+from tribo.study.calibration.placing import Placed, slopes
+from tribo.study.calibration.quantities import DEPTHS
+
+if TYPE_CHECKING:
+    from tribo.study.calibration.linearised import Linearised
+    from tribo.study.calibration.posed import Posed
+
+WORN, MARGIN = 1e-3, 2
+"""Part of the largest depth that is worn, and cells around it that may be."""
+CERTAIN, FEWEST, MEDIAN = 4.0, 4, 1.25
+"""Standard deviations that are no noise, fewest cells of a median, its standard deviation."""
+WIDER, MOST = 0.01, 0.5
+"""Least part by which a scar is too wide, and of the excess in χ² that this must explain."""
+
+
+def map_notes(fitted: Linearised, posed: Posed) -> Iterator[str]:
+    """Name maps that are off their middle, not levelled, or of another pitch."""
+    for reading, depth in posed.run(np.exp(fitted.point)).maps.items():
+        row, found = posed.table.loc[reading], posed.placed[reading]
+        name = f"the {named(row)}"
+        spacing = posed.tested[row["bench"]].model.grid.spacing
+        yield from off_middle(name, found)
+        measured = posed.on_cells(reading, found.shift)
+        yield from off_level(name, measured, depth, row["sigma"])
+        yield from _off_pitch(name, fitted, posed, reading, depth, spacing)
+
+
+def off_middle(name: str, found: Placed) -> Iterator[str]:
+    """Say how far the scar lies from the middle of the map."""
+    if any(found.shift):
+        words = [
+            f"{signed(1e6 * far, 1)} ± {1e6 * sigma:.1g} µm {way}"
+            for far, sigma, way in zip(found.shift, found.sigma, ("along", "across"), strict=True)
+            if far
+        ]
+        yield (
+            f"the scar in {name} lies {' and '.join(words)} the sliding direction from the middle "
+            "of the map"
+        )
+
+
+def off_level(name: str, measured: Array, depth: Array, sigma: float) -> Iterator[str]:
+    """Say how far a map, on the cells of a model's, is from 0 where that is not worn.
+
+    All over, or on one side where that is more.
+    """
+    largest = float(np.max(depth))
+    unworn = ~binary_dilation(depth > WORN * largest, iterations=MARGIN) & np.isfinite(measured)
+    sides = [
+        unworn & ((place < 0.5 * n) == first)
+        for place, n in zip(np.indices(depth.shape), depth.shape, strict=True)
+        for first in (True, False)
+    ]
+    worst, where = 0.0, ""
+    for part, words in ((unworn, ""), *((side, " on one side") for side in sides)):
+        if (count := int(np.sum(part))) >= FEWEST:
+            level = float(np.median(measured[part]))
+            noise = CERTAIN * MEDIAN * sigma / count**0.5
+            limit = max(noise, DEPTHS * largest, 2 * abs(worst))
+            if abs(level) > limit:
+                worst, where = level, words
+    if worst:
+        yield (
+            f"outside the scar {name} lies {1e6 * abs(worst):.2g} µm "
+            f"{'above' if worst > 0 else 'below'} 0{where}: level it first, as tribo scar does"
+        )
+
+
+def _off_pitch(
+    name: str,
+    fitted: Linearised,
+    posed: Posed,
+    reading: int,
+    depth: Array,
+    spacing: tuple[float, float],
+) -> Iterator[str]:
+    """Say by how much the scar is wider than the model's, where that explains the misfit."""
+    stretch = np.zeros(depth.shape)
+    for axis, slope in slopes(depth, spacing).items():
+        n = depth.shape[axis]
+        stretch += spacing[axis] * (np.indices(depth.shape)[axis] - 0.5 * (n - 1)) * slope
+    rows = np.flatnonzero(posed.data["reading"] == reading)
+    column = np.zeros(len(posed.data))
+    column[rows] = means(stretch, posed.data["cells"].iloc[rows])
+    column, residuals = fitted.weights.weigh(column), fitted.residuals(fitted.point)
+    taken = np.linalg.svd(fitted.jacobian(fitted.point), full_matrices=False)[0]
+    column -= taken @ (taken.T @ column)
+    wider = float(column @ residuals / (column @ column))
+    fall, misfit = wider**2 * float(column @ column), float(np.sum(residuals[rows] ** 2))
+    excess = misfit - len(rows)
+    if excess > CERTAIN**2 and fall > MOST * excess and abs(wider) > WIDER:
+        yield (
+            f"the scar in {name} is about {1 + wider:.2f} times as wide as the model's of that "
+            "depth: check pitch"
+        )
