@@ -66,7 +66,8 @@ def fit(model: Callable[[Array], Array], problem: Problem, start: Array) -> Line
             in_vain = 0 if misfit < (1 - SETTLED) * least else in_vain + 1
             least = min(least, misfit)
             if in_vain == MOST_IN_VAIN:
-                if shift > HARDLY:
+                # Where the model is wrong more is not to be had of it.
+                if shift > HARDLY * max(1.0, (least / len(problem.observed)) ** 0.5):
                     break
                 return here.best()[0]
         elif np.max(np.abs(here.point - known)) > FAR:
