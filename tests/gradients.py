@@ -229,7 +229,7 @@ def unfelt(which):
 
 def forgotten(method):
     def mutant(*given):
-        found, states, followed = method(*given)
-        return found, [0 * state for state in states], followed
+        found = method(*given)
+        return replace(found, states=[0 * state for state in found.states])
 
     return mutant

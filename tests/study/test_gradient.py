@@ -261,17 +261,14 @@ def test_it_is_that_of_the_same_steps(kind):
     assert KINDS[kind].off() < CLOSE
 
 
-def followed(which, nothing):
-    """What an increment follows of numbers, without one of its parts."""
+def unasked(method):
+    """What an increment follows of numbers, without the rates along it."""
 
-    def change(method):
-        def mutant(*given):
-            *found, of = method(*given)
-            return *found, replace(of, **{which: nothing})
+    def mutant(*given):
+        found = method(*given)
+        return replace(found, along=replace(found.along, rates=()))
 
-        return mutant
-
-    return change
+    return mutant
 
 
 KINDS["ends at a depth"] = Kind(
@@ -362,8 +359,8 @@ MUTANTS = [
     ("explicit", backwards.Backwards, "_wear", unpressed),
     ("remembers", slopes.Sloping, "_by_pressure", unfelt("own")),
     ("remembers", remembering.Remembering, "_back", forgotten),
-    ("remembers", remembering.Remembering, "_back", followed("by_length", 0.0)),
-    ("remembers", remembering.Remembering, "_back", followed("seeds", ())),
+    ("remembers", remembering.Remembering, "_back", unasked),
+    ("remembers", remembering._Along, "by_length", lambda _: 0.0),
     ("remembers", parameters, "carriers_of", nothing),
     ("load over time", slopes.Sloping, "_by_pressure", unfelt("load")),
     ("layers", course, "_layers", lambda of: lambda *given: (of(*given)[0], 1.0)),

@@ -128,7 +128,7 @@ class Asked:
         """The share of the path of each position."""
         return np.array([position.share for position in self.model.cycle])
 
-    @property
+    @cached_property
     def window(self) -> Box:
         """All of the window."""
         return whole(self.model.grid.cells)

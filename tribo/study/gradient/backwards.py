@@ -23,7 +23,7 @@ from tribo.study.gradient.linear import StepSystem, carriers_between, carriers_o
 from tribo.study.gradient.local import WatchedLaw
 from tribo.study.gradient.objective import Seeds
 from tribo.study.gradient.parameters import Chain
-from tribo.study.gradient.remembering import Remembering
+from tribo.study.gradient.remembering import Alone, Together
 from tribo.study.gradient.slopes import Sloping
 from tribo.study.gradient.tape import Enveloped, Gave, Pressed, Saved, Slid, Tape
 
@@ -61,7 +61,7 @@ def covered(model: Model) -> Model:
     return assemble(varied(model.case, effects=()))
 
 
-Increment = Plain | Remembering
+Increment = Plain | Alone | Together
 
 
 @dataclass(frozen=True)
@@ -186,14 +186,16 @@ class Backwards:
         window = np.zeros_like(self.gap)
         window[(slice(None), *record.region)] = record.pressure
         looked = np.zeros_like(window) if pressed is None else pressed
-        increments, seen = self._increments(window, slid) if slid else ([], {})
+        for law in self.laws.values():
+            law.seen.clear()
+        increments = self._increments(window, slid) if slid else []
         if slid is not None and slid.ahead:
-            behind = [each.back(self.worn_before, self.states) for each in increments]
+            behind = self._behind(increments)
             self.pressure = looked + over(self.shares) * sum(each.pressure for each in behind)
         else:
             behind = self._solve(record, window, looked, yielded, increments)
         if slid is not None:
-            self._wear(slid, seen, behind)
+            self._wear(slid, behind)
 
     def _solve(
         self,
@@ -223,11 +225,12 @@ class Backwards:
             fixed = self._gave(record, yielded)[here] * full / weights
         free = (pressure > JUST * np.max(pressure)) & ~full
         bodies = [(own, steep[here]) for each in increments for own, steep in each.bodies]
-        wear = partial(self._of_wear, increments[0], box) if increments and self.together else None
+        shared = [each for each in increments if isinstance(each, Together)]
+        wear = partial(self._of_wear, shared[0], box) if shared else None
         system = StepSystem(operator, box, self.shares, bodies, free, wear)
 
         def given() -> tuple[list[Before], Array]:
-            behind = [each.back(self.worn_before, self.states) for each in increments]
+            behind = self._behind(increments)
             return behind, (looked / weights + sum(each.pressure for each in behind))[here]
 
         z = system.solve(given()[1], fixed, self.start[here])
@@ -247,13 +250,18 @@ class Backwards:
             self.sums[at] -= chain.by_spread(touching, y, pressure)
         return behind
 
-    def _wear(
-        self,
-        slid: Slid,
-        seen: Mapping[str, frozenset[str]],
-        behind: Sequence[Before],
-    ) -> None:
+    def _behind(self, increments: Sequence[Increment]) -> list[Before]:
+        """Return derivatives before increments from what has been gathered after them."""
+        return [
+            each.back(self.worn_before, self.states)
+            if isinstance(each, Together)
+            else each.back(self.worn_before)
+            for each in increments
+        ]
+
+    def _wear(self, slid: Slid, behind: Sequence[Before]) -> None:
         """Go back through what a step wore under given contacts."""
+        seen = {name: law.seen for name, law in self.laws.items()}
         for at, chain in enumerate(self.chains):
             for weight, other in chain.by_wear(slid, seen, self.carriers):
                 self.sums[at] += weight * sum(each.through(other) for each in behind)
@@ -266,30 +274,30 @@ class Backwards:
             if self.together:
                 self.states = each.states
 
-    def _increments(
-        self, window: Array, slid: Slid
-    ) -> tuple[list[Increment], dict[str, frozenset[str]]]:
-        """Return an increment in parts that do not touch each other, and what each law read."""
-        contacts = [_contact(each) for each in window]
-        for law in self.laws.values():
-            law.seen.clear()
-        known = course(self.model, slid.before, contacts, slid.increment, slid.moment, slid.plan)
-        seen = {name: frozenset(law.seen) for name, law in self.laws.items()}
-        laws, found = self.model.laws, list[Increment]()
-        remembers = bool(known.memory.values)
-        for names in [list(laws)] if self.together else [[name] for name in laws]:
-            model = replace(self.model, laws={name: laws[name] for name in names})
-            own = {name: slid.before.laws[name] for name in names}
-            if remembers or self.together:
-                alone = replace(slid, before=replace(slid.before, laws=own))
-                advances = self.model.advances
-                asked = Sloping(model, self.carriers, contacts, alone, remembers, advances)
-                found.append(Remembering(asked))
-            else:
-                found.append(plain(model, self.carriers[names[0]], contacts, slid, known))
-        return found, seen
+    def _increments(self, window: Array, slid: Slid) -> list[Increment]:
+        """Return an increment in parts that do not touch each other."""
+        model, contacts = self.model, [_contact(each) for each in window]
+        remembers = bool(slid.before.values)
+        if not (remembers or self.together):
+            known = course(model, slid.before, contacts, slid.increment, slid.moment, slid.plan)
+            return [
+                plain(_of(model, name), self.carriers[name], contacts, slid, known)
+                for name in model.laws
+            ]
 
-    def _of_wear(self, increment: Increment, box: Box, z: Array) -> Array:
+        def asked(*names: str) -> Sloping:
+            own = {name: slid.before.laws[name] for name in names}
+            alone = replace(slid, before=replace(slid.before, laws=own))
+            return Sloping(
+                _of(model, *names), self.carriers, contacts, alone, remembers, model.advances
+            )
+
+        if self.together:
+            return [Together(asked(*model.laws))]
+        laws = self.states.laws
+        return [Alone(asked(name), Memory({name: laws[name]}, {})) for name in model.laws]
+
+    def _of_wear(self, increment: Together, box: Box, z: Array) -> Array:
         """Return what the wear and the filling that pressures make add to the adjoint of K."""
         y = over(self.shares) * z
         wear = {name: self.carriers[name].gathered(y, box) for name in self.model.laws}
@@ -347,6 +355,11 @@ class Backwards:
             chain.by_rest(self.gap, self.stiffness, self.cap, self.states) for chain in self.chains
         ]
         return self.sums + rest
+
+
+def _of(model: Model, *names: str) -> Model:
+    """Return a model of which only some bodies wear."""
+    return replace(model, laws={name: model.laws[name] for name in names})
 
 
 def _contact(pressure: Array) -> ContactSolution:

@@ -78,7 +78,7 @@ class Plain:
         """Its carrier, and the derivative of a point's depth in the pressures of its cells."""
         return [(self.carrier, self.slope)]
 
-    def back(self, wear: Mapping[str, Array], states: Memory) -> Before:
+    def back(self, wear: Mapping[str, Array]) -> Before:
         """Return derivatives before it from those in the depths after."""
         own = wear[self.name]
         return Before(
@@ -128,7 +128,7 @@ def plain(
         pressure = np.stack([contact.pressure for contact in contacts])
         rates = partial(stacked, model, memory=memory, moment=slid.moment)
         (response,) = local(lambda p: rates(pressed(contacts, p)), rates(contacts), pressure)
-        steep = response.own
+        steep = np.asarray(response.own)
     shares = np.array([position.share for position in model.cycle])
     factor = slid.increment * carrier.mean(depth, shares)
     slope = slid.increment * carrier.part * steep

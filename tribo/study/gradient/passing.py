@@ -9,7 +9,7 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.stepping.layers import over_increment
-from tribo.study.gradient.response import Arrays
+from tribo.study.gradient.response import Arrays, Field
 
 FINE = 1e-6
 """Part of the largest depth or rate by which it is varied."""
@@ -24,7 +24,7 @@ class Layered:
     rates: Arrays
     increment: float
 
-    def back(self, seeds: Arrays) -> tuple[Array, Arrays]:
+    def back(self, seeds: Sequence[Field]) -> tuple[Array, Arrays]:
         """Return derivatives in the depth and the rates, from those in the shares of the layers."""
         found = []
         given = [self.worn, *self.rates]

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cache, cached_property, partial
 from math import prod
 
 import numpy as np
 
+from tribo.contact.projection import CELLS, over
 from tribo.core.arrays import Array
 from tribo.stepping.extrapolation import PLAIN, RELAXING
 from tribo.stepping.memory import Memory
@@ -16,8 +17,11 @@ from tribo.stepping.relaxation import relaxed, relaxing
 from tribo.study.gradient.asked import Place
 from tribo.study.gradient.course import Before, Other
 from tribo.study.gradient.linear import Carrier
-from tribo.study.gradient.response import NUDGE, Arrays
+from tribo.study.gradient.response import NUDGE, Arrays, Field
 from tribo.study.gradient.slopes import Slopes, Sloping
+
+_Seeded = tuple[Slopes, Sequence[Field]]
+"""Rates, and the derivatives in them."""
 
 SMALL = 1e-4
 """Rise below which the derivative of its mean is that of its series."""
@@ -31,20 +35,67 @@ class _Part:
     """
 
     length: float
-    relaxing: Sequence[Array | float]
+    relaxing: Sequence[Field]
     rows: Sequence[Sequence[Slopes]]
     moved: Sequence[tuple[int, Slopes, Array]]
 
 
 @dataclass(frozen=True)
-class _Followed:
-    """The derivatives of an objective in what rates an increment asked for, and in ln(its length).
+class _Along:
+    """Derivatives of an objective along an increment.
 
-    `seeds` are those in the `means` of each of them; with `by_length` these stay as they are.
+    `rates` has those in the `means` of rates along it, `moved` those in rates that only tell how
+    fast states relax, and `bent` those in ln(its length) where all these stay as they are.
     """
 
-    seeds: Sequence[tuple[Slopes, Arrays]]
-    by_length: float
+    rates: Sequence[_Seeded]
+    moved: Sequence[_Seeded]
+    bent: Sequence[Field]
+    asked: Sloping
+
+    def plus(self, other: _Along, by: Array) -> _Along:
+        """Return the sum with another's, times a number at each point."""
+        return _Along(
+            _plus(self.rates, other.rates, by),
+            _plus(self.moved, other.moved, by),
+            _added(self.bent, _times(by, other.bent)),
+            self.asked,
+        )
+
+    @cached_property
+    def by_cell(self) -> Sequence[_Seeded]:
+        """The derivatives in rates at each cell of each position."""
+        shares = over(self.asked.shares)
+        return [
+            (rates, [shares * each for each in self.asked.seen(seeds)])
+            for rates, seeds in (*self.rates, *self.moved)
+        ]
+
+    @cached_property
+    def by_length(self) -> float:
+        """The derivative in ln(its length) where the rates stay as they are."""
+        parts = [
+            seed * mean
+            for rates, seeds in self.rates
+            for seed, mean in zip(seeds, rates.means, strict=True)
+        ]
+        return sum(float(np.sum(each)) for each in (*self.bent, *parts))
+
+
+@dataclass(frozen=True)
+class _Back:
+    """Derivatives of an objective in what an increment depends on, and `along` it.
+
+    In the pressure of each cell; in the load and Σp²/2 of each position, still by cell; in factors
+    on the rates of bodies; and in the `states` before.
+    """
+
+    pressure: Field
+    load: Field
+    square: Field
+    factors: Sequence[Field]
+    states: Sequence[Field]
+    along: _Along
 
 
 @dataclass(frozen=True)
@@ -53,26 +104,26 @@ class Remembering:
 
     asked: Sloping
 
-    def back(self, wear: Mapping[str, Array], states: Memory) -> Before:
-        """Return derivatives before it from those in the depths and what is remembered after."""
-        laws = self.asked.model.laws
-        states = replace(states, laws={name: states.laws[name] for name in laws})
-        # What the depths in layers come to within the increment counts as their wear.
-        within = [np.zeros_like(wear[name]) for name in self.asked.layered]
-        (own, load, square, *factor), before, followed = self._back(
-            [wear[name] for name in laws], [*states.values, *within]
-        )
-        factors = dict(zip(laws, factor, strict=True))
-        pressure, each = own + load + square * self.asked.pressure, iter(before)
+    def _before(
+        self, wear: Mapping[str, Array], states: Memory, found: _Back, along: Callable[[], _Along]
+    ) -> Before:
+        each = iter(np.asarray(state) for state in found.states)
+        pressure = found.pressure + _summed(found.load)
+        pressure = pressure + _summed(found.square) * self.asked.pressure
         states = states.with_values(each)
         through = {
             name: wear[name] + seed for name, seed in zip(self.asked.layered, each, strict=True)
         }
+        factors = dict(zip(self.asked.model.laws, map(np.asarray, found.factors), strict=True))
         return Before(
-            pressure, {**wear, **through}, states, factors, partial(self._through, followed)
+            pressure,
+            {**wear, **through},
+            states,
+            factors,
+            lambda other: self._through(along(), other),
         )
 
-    def _through(self, followed: _Followed, other: Other) -> float:
+    def _through(self, along: _Along, other: Other) -> float:
         laws = self.asked.model.laws
         if not other.wears & laws.keys():
             return 0.0
@@ -85,33 +136,21 @@ class Remembering:
         longer = asked.slid.increment / self.asked.slid.increment
         # Rates follow the length where they are means over it, or loads change along it.
         asks = other.asks & laws.keys() or self.asked.follows_length
-        total = (longer - 1) * followed.by_length
-        if not asks and other.carriers is self.asked.carriers:
-            return total
-        for slopes, seeds in followed.seeds:
-            found = slopes.found
-            if asks:
-                place = slopes.place._replace(over=longer * slopes.place.over)
-                found = asked.rates(slopes.states, asked.in_layers(slopes.states, place))
-            changed = zip(seeds, asked.means(found), slopes.means, strict=True)
-            total += sum(float(np.sum(seed * (mean - was))) for seed, mean, was in changed)
+        total = (longer - 1) * along.by_length
+
+        def rates(slopes: Slopes) -> Arrays:
+            if not asks:
+                return slopes.found
+            place = slopes.place._replace(over=longer * slopes.place.over)
+            return asked.rates(slopes.states, asked.in_layers(slopes.states, place))
+
+        if other.carriers is not self.asked.carriers:
+            for slopes, seeds in (*along.rates, *along.moved):
+                total += _dot(seeds, asked.means(rates(slopes)), slopes.means)
+        elif asks:
+            for slopes, seeds in along.by_cell:
+                total += _dot(seeds, rates(slopes), slopes.found)
         return total
-
-    @cached_property
-    def bodies(self) -> Sequence[tuple[Carrier, Array]]:
-        """Of each body its carrier and what its depth follows pressures by.
-
-        Where one wears alone, a point's depth depends on the pressures of its own cells, and on
-        what it itself remembers: one way back, from 1 on each point, has all derivatives.
-        """
-        own, columns = self.asked.own, self.asked.model.grid.cells[1]
-        states = [np.zeros_like(value) for value in self.asked.begin]
-        found = []
-        for at, carrier in enumerate(own):
-            ones = [np.full((each.rows, columns), float(at == i)) for i, each in enumerate(own)]
-            (pressure, *_), *_ = self._back(ones, states)
-            found.append((carrier, pressure))
-        return found
 
     @cached_property
     def _parts(self) -> list[_Part]:
@@ -127,7 +166,7 @@ class Remembering:
             begin = Place(passed, span)
             if found:
                 start = asked.sloped(states, begin)
-            of_states: list[Array | float] = [0.0] * len(states)
+            of_states: list[Field] = [0.0] * len(states)
             moved = []
             if relaxes:
                 at_start = partial(asked.of_states, begin)
@@ -155,7 +194,7 @@ class Remembering:
         self,
         states: Arrays,
         start: Slopes,
-        of_states: Sequence[Array | float],
+        of_states: Sequence[Field],
         passed: float,
         share: float,
         steps: int,
@@ -165,7 +204,7 @@ class Remembering:
         for taken in range(1, steps + 1):
             means = row[-1].means[len(asked.own) :]
             states = [
-                state + step * mean * relaxed(step * slope)
+                state + mean * _lasting(step, slope)
                 for state, mean, slope in zip(states, means, of_states, strict=True)
             ]
             if taken < steps:
@@ -173,54 +212,174 @@ class Remembering:
                 row.append(asked.sloped(states, place))
         return row, states
 
-    def _back(self, depth: Arrays, after: Arrays) -> tuple[Arrays, Arrays, _Followed]:
-        """Return derivatives in what an increment depends on, in the states before, and in rates.
+    def _back(self, depth: Sequence[Field], after: Sequence[Field]) -> _Back:
+        """Go back from derivatives in the depths and the states after."""
+        total: list[Field] = [0.0] * (3 + len(depth))
+        along, moved, bent = list[_Seeded](), list[_Seeded](), list[Field]()
 
-        The first are in the pressure of each cell, the load and Σp²/2 of each position, and factors
-        on the bodies' rates.
-        """
-        total: Arrays = []
-        followed, by_length = list[tuple[Slopes, Arrays]](), 0.0
-
-        def behind(rates: Slopes, seeds: Arrays) -> Arrays:
-            found, states = self.asked.behind(rates, seeds)
-            total[:] = [a + b for a, b in zip(total, found, strict=True)] if total else found
-            followed.append((rates, seeds))
-            return states
+        def behind(seeded: _Seeded, before: Sequence[Field]) -> list[Field]:
+            """Go back through rates; return what they add to derivatives in the states before."""
+            found, states = self.asked.behind(*seeded)
+            total[:] = _added(total, found)
+            return _added(before, states)
 
         for part in reversed(self._parts):
-            before = [np.zeros_like(seed) for seed in after]
-            bends = [np.zeros_like(seed) for seed in after]
+            before: list[Field] = [0.0] * len(after)
+            bends: list[Field] = [0.0] * len(after)
+            starts: list[_Seeded] = []
             stages = [len(row) for row in part.rows]
             for steps, row in zip(stages, part.rows, strict=True):
                 counts = _counts(steps, stages)
                 seeds = [counts * seed for seed in after]
                 step = part.length / steps
+                deep = [step * counts * seed for seed in depth]
                 for rates in reversed(row):
-                    means = rates.means[len(depth) :]
-                    deep = [step * counts * seed for seed in depth]
                     for at, slope in enumerate(part.relaxing):
-                        bends[at] += seeds[at] * means[at] * step**2 * _steeper(step * slope)
-                    each = [
-                        seed * step * relaxed(step * slope)
-                        for seed, slope in zip(seeds, part.relaxing, strict=True)
-                    ]
-                    states = behind(rates, [*deep, *each])
-                    for seed, mean in zip((*deep, *each), rates.means, strict=True):
-                        by_length += float(np.sum(seed * mean))
-                    seeds = [seed + state for seed, state in zip(seeds, states, strict=True)]
-                before = [old + seed for old, seed in zip(before, seeds, strict=True)]
-            for bend, slope in zip(bends, part.relaxing, strict=True):
-                by_length += float(np.sum(bend * slope))
+                        if _relaxes(slope):
+                            mean = rates.means[len(depth) + at]
+                            bent_by = mean * step**2 * _steeper(step * slope)
+                            bends[at] = bends[at] + seeds[at] * bent_by
+                    pairs = zip(seeds, part.relaxing, strict=True)
+                    lasting = [seed * _lasting(step, slope) for seed, slope in pairs]
+                    each: _Seeded = (rates, [*deep, *lasting])
+                    if rates is row[0]:
+                        _join(starts, each)
+                    else:
+                        along.append(each)
+                        seeds = behind(each, seeds)
+                before = _added(before, seeds)
+            for each in starts:
+                along.append(each)
+                before = behind(each, before)
+            bent += [bend * slope for bend, slope in zip(bends, part.relaxing, strict=True)]
             for at, rates, by in part.moved:
                 for where, sign in ((rates, 1.0), (part.rows[0][0], -1.0)):
-                    seeds = [np.zeros_like(seed) for seed in (*depth, *after)]
+                    seeds = [0.0] * (len(depth) + len(after))
                     falls = np.asarray(part.relaxing[at]) < 0
                     seeds[len(depth) + at] = sign * falls * bends[at] / by
-                    states = behind(where, seeds)
-                    before = [old + state for old, state in zip(before, states, strict=True)]
+                    moved.append((where, seeds))
+                    before = behind(moved[-1], before)
             after = before
-        return total, after, _Followed(followed, by_length)
+        pressure, load, square, *factors = total
+        return _Back(pressure, load, square, factors, after, _Along(along, moved, bent, self.asked))
+
+
+@dataclass(frozen=True)
+class Together(Remembering):
+    """An increment of bodies that follow what lies between them."""
+
+    def back(self, wear: Mapping[str, Array], states: Memory) -> Before:
+        """Return derivatives before it from those in the depths and what is remembered after."""
+        laws = self.asked.model.laws
+        # What the depths in layers come to within the increment counts as their wear.
+        within = [0.0] * len(self.asked.layered)
+        found = self._back([wear[name] for name in laws], [*states.values, *within])
+        return self._before(wear, states, found, lambda: found.along)
+
+    @cached_property
+    def bodies(self) -> Sequence[tuple[Carrier, Array]]:
+        """Of each body its carrier and what its depth follows pressures by.
+
+        That of the pressures of its own cells, which is not all if effects follow more.
+        """
+        own, columns = self.asked.own, self.asked.model.grid.cells[1]
+        found = []
+        for at, carrier in enumerate(own):
+            ones = [np.full((each.rows, columns), float(at == i)) for i, each in enumerate(own)]
+            found.append(
+                (carrier, np.asarray(self._back(ones, [0.0] * len(self.asked.begin)).pressure))
+            )
+        return found
+
+
+@dataclass(frozen=True)
+class Alone(Remembering):
+    """An increment of one body, of which each point follows its own cells and memory alone.
+
+    Derivatives before it are proportional to that in the depth of the point, but for what comes of
+    those in what is remembered `after` it.
+    """
+
+    after: Memory
+
+    @property
+    def bodies(self) -> Sequence[tuple[Carrier, Array]]:
+        """Its carrier, and the derivative of a point's depth in the pressures of its cells."""
+        (carrier,) = self.asked.own
+        return [(carrier, np.asarray(self._of_depth.pressure))]
+
+    def back(self, wear: Mapping[str, Array]) -> Before:
+        """Return derivatives before it from those in the depths after."""
+        (name,), (carrier,) = self.asked.model.laws, self.asked.own
+        one, other, by = self._of_states, self._of_depth, wear[name]
+        cells = carrier.seen(by, self.asked.window)
+        found = _Back(
+            one.pressure + cells * other.pressure,
+            one.load + cells * other.load,
+            one.square + cells * other.square,
+            _added(one.factors, _times(by, other.factors)),
+            _added(one.states, _times(by, other.states)),
+            one.along,
+        )
+        along = cache(lambda: one.along.plus(other.along, by))
+        return self._before({name: by}, self.after, found, along)
+
+    @cached_property
+    def _of_depth(self) -> _Back:
+        return self._back([np.ones(self._shape)], [0.0] * len(self.asked.begin))
+
+    @cached_property
+    def _of_states(self) -> _Back:
+        # What the depth in layers comes to within the increment counts as its wear.
+        return self._back([0.0], [*self.after.values, *(0.0 for _ in self.asked.layered)])
+
+    @property
+    def _shape(self) -> tuple[int, int]:
+        return self.asked.own[0].rows, self.asked.model.grid.cells[1]
+
+
+def _plus(one: Sequence[_Seeded], other: Sequence[_Seeded], by: Array) -> Sequence[_Seeded]:
+    return [
+        (rates, _added(seeds, _times(by, more)))
+        for (rates, seeds), (_, more) in zip(one, other, strict=True)
+    ]
+
+
+def _join(seeded: list[_Seeded], new: _Seeded) -> None:
+    """Add derivatives in rates to those in the same ones, which rows may begin with."""
+    rates, seeds = new
+    if seeded and seeded[-1][0] is rates:
+        seeded[-1] = rates, _added(seeded[-1][1], seeds)
+    else:
+        seeded.append(new)
+
+
+def _times(by: Array, fields: Sequence[Field]) -> list[Field]:
+    return [by * field for field in fields]
+
+
+def _added(one: Sequence[Field], other: Sequence[Field]) -> list[Field]:
+    return [a + b for a, b in zip(one, other, strict=True)]
+
+
+def _dot(seeds: Sequence[Field], now: Arrays, before: Arrays) -> float:
+    """Return what changes make, from derivatives in what changes."""
+    changes = zip(seeds, now, before, strict=True)
+    return sum(float(np.sum(seed * (new - old))) for seed, new, old in changes)
+
+
+def _summed(field: Field) -> Field:
+    """Return the sum over each contact of what is known by cell."""
+    return over(np.sum(field, CELLS)) if np.ndim(field) else field
+
+
+def _relaxes(slope: Field) -> bool:
+    return bool(np.any(slope))
+
+
+def _lasting(step: float, slope: Field) -> Field:
+    """Return how much a step counts for, where the rate relaxes."""
+    return step * relaxed(step * slope) if _relaxes(slope) else step
 
 
 def _steeper(rise: Array | float) -> Array:

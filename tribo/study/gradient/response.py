@@ -30,6 +30,8 @@ SLIGHT = 1e-9
 """Of the largest change, what is below it is none."""
 
 Arrays = list[Array]
+Field = Array | float
+"""Values at each cell or point, or one that they all have."""
 Rates = Callable[[Array], Arrays]
 """Rates at pressures, shape (positions, nx, ny), or at other values."""
 Offset = tuple[int, int]
@@ -46,9 +48,9 @@ class Response:
     of the pressures of all at its position, and in half the sum of their squares.
     """
 
-    own: Array
-    load: Array | float = 0.0
-    square: Array | float = 0.0
+    own: Field
+    load: Field = 0.0
+    square: Field = 0.0
     beside: Mapping[Offset, Array] = field(default_factory=dict)
 
     def change(self, pressure: Array, by: Array) -> Array:
@@ -59,13 +61,16 @@ class Response:
         return found + self.square * over(np.sum(pressure * by, CELLS))
 
 
-def back(seeds: Arrays, responses: Sequence[Response]) -> Array:
+def back(seeds: Sequence[Field], responses: Sequence[Response]) -> Field:
     """Return derivatives in the values at each cell from those in rates."""
-    found = np.zeros_like(seeds[0])
+    found: Field = 0.0
     for seed, response in zip(seeds, responses, strict=True):
-        found += seed * response.own
+        if not np.ndim(seed):
+            continue
+        if np.ndim(response.own):
+            found = found + seed * response.own
         for offset, slope in response.beside.items():
-            found += np.roll(seed * slope, offset, CELLS)
+            found = found + np.roll(seed * slope, offset, CELLS)
     return found
 
 
@@ -88,9 +93,15 @@ def near(
     that nothing follows two of them are varied at once. They lie on a carrier, or in the window, by
     position.
     """
-    colours, ends = _colours(values.shape, reach), []
     # What is added is not quite the nudge: its last digits are lost.
     span = (values + nudge) - values
+    if reach == ALONE:
+        moved = rates(values + nudge)
+        by = span if carrier is None else carrier.seen(span, whole(moved[0].shape[1:]))
+        by = np.where(by == 0, np.inf, by)
+        pairs = zip(moved, found, strict=True)
+        return [Response((after - before) / by) for after, before in pairs]
+    colours, ends = _colours(values.shape, reach), []
     for colour in range(int(np.max(colours)) + 1):
         moved = rates(np.where(colours == colour, values + nudge, values))
         ends.append([after - before for after, before in zip(moved, found, strict=True)])

@@ -24,6 +24,7 @@ from tribo.study.gradient.response import (
     NUDGE,
     PLACES,
     Arrays,
+    Field,
     Offset,
     Response,
     agrees,
@@ -108,29 +109,35 @@ class Sloping(Asked):
         """Return rates with their derivatives, at a place along the increment."""
         return self._sloped(states, self.in_layers(states, place), self.first[1])
 
-    def behind(self, slopes: Slopes, seeds: Arrays) -> tuple[Arrays, Arrays]:
-        """Return derivatives in what rates follow, from those in the rates of depths and states.
-
-        The first are in the pressure of each cell, the load and Σp²/2 of each position, and factors
-        on the bodies' rates; the second in the states.
-        """
-        seen = [
-            carrier.part * carrier.seen(seed, self.window)
+    def seen(self, seeds: Sequence[Field]) -> list[Field]:
+        """Return derivatives in the rates of each cell from those in their means over points."""
+        return [
+            carrier.part * carrier.seen(seed, self.window) if isinstance(seed, np.ndarray) else seed
             for carrier, seed in zip((*self.own, *self.kept), seeds, strict=True)
         ]
 
-        def through(slopes: Sequence[Array | float]) -> Array:
+    def behind(self, slopes: Slopes, seeds: Sequence[Field]) -> tuple[list[Field], list[Field]]:
+        """Return derivatives in what rates follow, from those in the rates of depths and states.
+
+        The first are in the pressure of each cell, the load and Σp²/2 of each position, still by
+        cell, and factors on the bodies' rates; the second in the states.
+        """
+        seen = self.seen(seeds)
+
+        def through(slopes: Sequence[Field]) -> Field:
             pairs = zip(seen, slopes, strict=True)
-            return over(sum(np.sum(seed * slope, CELLS) for seed, slope in pairs))
+            return sum(seed * slope for seed, slope in pairs if np.ndim(slope))
+
+        def gathered(carrier: Carrier, responses: Sequence[Response]) -> Field:
+            found = back(seen, responses)
+            if not np.ndim(found):
+                return found
+            return carrier.gathered(over(self.shares) * found, self.window)
 
         load = through([each.load for each in slopes.by_pressure])
         square = through([each.square for each in slopes.by_pressure])
-
-        def gathered(carrier: Carrier, responses: Sequence[Response]) -> Array:
-            return carrier.gathered(over(self.shares) * back(seen, responses), self.window)
-
         factors = map(gathered, self.own, slopes.by_factor)
-        states = [
+        states: list[Field] = [
             inside * gathered(kept, responses)
             for kept, inside, responses in zip(
                 self.kept, slopes.inside, slopes.by_state, strict=True
@@ -140,7 +147,7 @@ class Sloping(Asked):
         passing = slopes.passing
         if passing is None:
             return total, states
-        of_layers = [[np.zeros_like(seed) for seed in seeds] for _ in passing.of_layers]
+        of_layers: list[list[Field]] = [[0.0] * len(seeds) for _ in passing.of_layers]
         for at, name in enumerate(self.model.laws):
             if name in passing.bodies:
                 shares = [gathered(self.own[at], each) for each in passing.by_share[name]]
@@ -240,7 +247,7 @@ class Sloping(Asked):
     ) -> Sequence[Response]:
         if at >= len(self.slid.before.values):
             # The depth counts through the shares of the layers alone.
-            return [Response(np.zeros(()))] * (len(self.own) + len(self.kept))
+            return [Response(0.0)] * (len(self.own) + len(self.kept))
 
         def rates(state: Array) -> Arrays:
             return self.rates([*states[:at], state, *states[at + 1 :]], place)
@@ -253,7 +260,8 @@ class Sloping(Asked):
         names = list(self.model.laws)
         if not self.slid.before.between:
             return [
-                [Response(rate * (rate is found[at])) for rate in found] for at in range(len(names))
+                [Response(rate if rate is found[at] else 0.0) for rate in found]
+                for at in range(len(names))
             ]
         of_bodies = []
         for name, carrier in zip(names, self.own, strict=True):
