@@ -201,11 +201,12 @@ class Remembering:
     ) -> tuple[list[Slopes], Arrays]:
         """Return the rates along some Euler steps, and the states at their end."""
         asked, row, step = self.asked, [start], share * self.asked.slid.increment / steps
+        lasting = [_lasting(step, slope) for slope in of_states]
         for taken in range(1, steps + 1):
             means = row[-1].means[len(asked.own) :]
             states = [
-                state + mean * _lasting(step, slope)
-                for state, mean, slope in zip(states, means, of_states, strict=True)
+                state + mean * counted
+                for state, mean, counted in zip(states, means, lasting, strict=True)
             ]
             if taken < steps:
                 place = Place(passed + share * taken / steps, step)
@@ -233,15 +234,14 @@ class Remembering:
                 seeds = [counts * seed for seed in after]
                 step = part.length / steps
                 deep = [step * counts * seed for seed in depth]
+                lasting = [_lasting(step, slope) for slope in part.relaxing]
+                bending = [_bending(step, slope) for slope in part.relaxing]
                 for rates in reversed(row):
-                    for at, slope in enumerate(part.relaxing):
-                        if _relaxes(slope):
-                            mean = rates.means[len(depth) + at]
-                            bent_by = mean * step**2 * _steeper(step * slope)
-                            bends[at] = bends[at] + seeds[at] * bent_by
-                    pairs = zip(seeds, part.relaxing, strict=True)
-                    lasting = [seed * _lasting(step, slope) for seed, slope in pairs]
-                    each: _Seeded = (rates, [*deep, *lasting])
+                    for at, bend in enumerate(bending):
+                        if np.ndim(bend):
+                            bends[at] = bends[at] + seeds[at] * rates.means[len(depth) + at] * bend
+                    kept = [seed * counted for seed, counted in zip(seeds, lasting, strict=True)]
+                    each: _Seeded = (rates, [*deep, *kept])
                     if rates is row[0]:
                         _join(starts, each)
                     else:
@@ -380,6 +380,11 @@ def _relaxes(slope: Field) -> bool:
 def _lasting(step: float, slope: Field) -> Field:
     """Return how much a step counts for, where the rate relaxes."""
     return step * relaxed(step * slope) if _relaxes(slope) else step
+
+
+def _bending(step: float, slope: Field) -> Field:
+    """Return how that follows the slope."""
+    return step**2 * _steeper(step * slope) if _relaxes(slope) else 0.0
 
 
 def _steeper(rise: Array | float) -> Array:
