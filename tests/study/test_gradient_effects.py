@@ -26,6 +26,7 @@ from paper_models import K, archard, motion, pair
 from tribo.core.errors import CaseError
 from tribo.core.fields import LOAD_SHARE, Field
 from tribo.effects.effect import Effect
+from tribo.stepping.explicit import Explicit
 from tribo.study.gradient import backwards, linear, parameters, remembering, response, slopes
 from tribo.study.gradient.gradient import gradient
 from tribo.study.gradient.objective import Depth, Pressure, Volume
@@ -203,6 +204,17 @@ KINDS = {
     ),
 }
 METAL = {"young": "207 GPa", "poisson": 0.3, "conductivity": 45.0}
+KINDS["explicit, beside heat that no law follows"] = Kind(
+    run(
+        kinematics=motion(duration=4),
+        load=[{"at": 0, "normal": 10.0}, {"at": 4, "normal": 20.0}],
+        effects=[Heat()],
+        stepping=Explicit(time_step=1, allow_unstable=True),
+    ),
+    Depth("ball"),
+    ["load.normal.0.normal", "load.normal.1.normal", "bodies.ball.wear.k"],
+    1e-5,
+)
 KINDS["heat through a body that does not wear"] = Kind(
     run(
         bodies={

@@ -17,6 +17,7 @@ from tribo.core.fields import LOAD_SHARE
 from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.model import Model
 from tribo.stepping.evolution import course
+from tribo.stepping.explicit import Explicit
 from tribo.stepping.memory import Memory, first_memory
 from tribo.study.gradient.course import Before, Plain, plain
 from tribo.study.gradient.linear import StepSystem, carriers_between, carriers_of
@@ -56,7 +57,8 @@ def covered(model: Model) -> Model:
         )
     if model.contact.operator(model.system, model.gap <= np.min(model.gap)) is None:
         raise CaseError(f"{model.contact.type!r} does not state its operator", "contact.type")
-    if followed or not model.effects:
+    # Explicit steps follow a load along themselves only where something is remembered.
+    if followed or not model.effects or isinstance(model.stepping, Explicit):
         return model
     return assemble(varied(model.case, effects=()))
 
