@@ -69,6 +69,7 @@ def lab(loads, tests, scatter, limit, random, stated=False):
         small=np.zeros(len(observed)),
         lower=np.full(2, -np.inf),
         upper=np.full(2, np.inf),
+        common=np.zeros((len(observed), 0)),
     )
     found = fit(lambda k: np.concatenate([per_k * k[0], per_k * k[1]]), problem, TRUE)
     return found, [interval(found, axis, LEVEL) for axis in np.eye(2)], below
