@@ -143,6 +143,12 @@ def test_a_template_is_predicted(tmp_path, name):
     assert ("averages over the stroke" in " ".join(done.stdout.split())) == (name != "pin_on_disk")
 
 
+def test_check_foretells_the_depth_of_rough_bodies_but_for_their_roughness(tmp_path):
+    assert tribo("new", "rough_flats", "case.toml", cwd=tmp_path).returncode == 0
+    done = tribo("check", "case.toml", *setting("grid.cells=32"), cwd=tmp_path)
+    assert done.stdout.count("µm, but for roughness, ") == 2
+
+
 def test_check_begins_with_its_verdict(case):
     done = tribo("check", "my.toml", *LARGE_STROKE)
     assert done.stdout.startswith("my.toml is valid.\n")

@@ -172,8 +172,9 @@ def _end(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
     yield "contact at the end, about", f"{size} mm"
     window = " × ".join(f"{1e3 * edge:.4g}" for edge in model.grid.size)
     yield f"window of {window} mm", "holds it" if prediction.window_holds else "TOO SMALL"
+    form = ", but for roughness" if model.rough else ""
     for name, body in last.bodies.items():
-        worn = f"{1e6 * body.max_wear_depth:.3g} µm, {1e9 * body.wear_volume:.3g} mm³"
+        worn = f"{1e6 * body.max_wear_depth:.3g} µm{form}, {1e9 * body.wear_volume:.3g} mm³"
         yield f"wear of {name}, about", worn
     for passed in prediction.worn_through:
         path, end = (readable(passed[key], ".3g") for key in ("distance_m", "time_s"))
