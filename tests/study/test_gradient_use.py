@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from gradients import BASE, CLOSE, HARD, Kind, resolved, run
-from paper_models import K, archard, pair, states
+from paper_models import K, archard, motion, pair, states
 from scipy.optimize import minimize
 
 from tribo.case import Layer, Stop
@@ -22,7 +22,15 @@ from tribo.simulation.positions import composed
 from tribo.study.gradient import tape
 from tribo.study.gradient.gradient import ValueAndGradient, gradient
 from tribo.study.gradient.linear import Carrier, StepSystem
-from tribo.study.gradient.objective import Deepest, Depth, Misfit, Volume, Width
+from tribo.study.gradient.objective import (
+    Deepest,
+    Depth,
+    EndDistance,
+    EndTime,
+    Misfit,
+    Volume,
+    Width,
+)
 from tribo.study.gradient.parameters import find
 from tribo.study.gradient.sensitivity import sensitivity
 from tribo.surfaces.height_map import HeightMap
@@ -192,6 +200,28 @@ def test_a_depth_that_ends_the_run_before_an_objective_looks_is_refused():
     stops = run(stop=Stop(depth="0.2 um"), save_times=(15.0,))
     with pytest.raises(CaseError, match=r"a depth ends the run at 5\.\d+ s, before 15 s"):
         gradient(stops, {15.0: Volume("ball")}, [])
+
+
+@pytest.mark.parametrize(
+    ("stop", "message"),
+    [
+        (Stop(), "stop.depth: is not given"),
+        (Stop(depth="1 um"), "after 20 s the largest depth is 0.587 µm of 1 µm"),
+        (Stop(depth="0.2 um", body="disk"), r"the largest depth is 0\.04\d+ µm of 0\.2 µm"),
+    ],
+)
+@pytest.mark.parametrize("lasts", [EndTime(), EndDistance()])
+def test_what_a_body_lasts_is_refused_where_no_depth_ends_the_run(stop, message, lasts):
+    with pytest.raises(CaseError, match=message):
+        gradient(run(stop=stop), lasts, [])
+
+
+def test_a_depth_that_is_worn_off_before_the_run_is_refused(tmp_path):
+    parts = {"grid": Grid(("0.5 mm", "0.5 mm"), (24, 24)), "kinematics": motion(duration=10)}
+    run(**parts).run(tmp_path / "first")
+    stops = run(**parts, begin=tmp_path / "first", stop=Stop(depth="0.2 um"))
+    with pytest.raises(CaseError, match=r"stop\.depth: is reached before the run begins"):
+        gradient(stops, EndTime(), [])
 
 
 def test_a_depth_that_jumps_past_its_limit_is_refused(monkeypatch):

@@ -34,7 +34,8 @@ class Gradient:
     parameters : Mapping[str, float]
         By path: the derivative in each number of the case, in its SI unit.
     relative : Mapping[str, float]
-        By path: by how many per cent the objective changes for one per cent of the number.
+        By path: by how many per cent the objective changes for one per cent of the number; NaN if
+        the objective is 0.
     wear_rate : Mapping[str, ndarray]
         By body: the derivative in a factor, 1 here, on its wear rate at each cell of its own
         surface.

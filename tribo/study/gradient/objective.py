@@ -237,17 +237,36 @@ class Pressure:
 
 @dataclass(frozen=True)
 class EndTime:
-    """The time at which a run ends, in s: where a depth ends it, how long a body lasts."""
+    """The time at which a depth ends a run, in s: how long a body lasts."""
 
     def __call__(self, view: View) -> tuple[float, Seeds]:
-        """Return the time, and 1."""
+        """Return the time, and 1; `CaseError` if no depth has ended the run."""
+        _check_ended(view)
         return view.state.time, Seeds(time=1.0)
 
 
 @dataclass(frozen=True)
 class EndDistance:
-    """The distance slid when a run ends, in m: where a depth ends it, how far a body lasts."""
+    """The distance slid when a depth ends a run, in m: how far a body lasts."""
 
     def __call__(self, view: View) -> tuple[float, Seeds]:
-        """Return the distance, and 1."""
+        """Return the distance, and 1; `CaseError` if no depth has ended the run."""
+        _check_ended(view)
         return view.state.distance, Seeds(distance=1.0)
+
+
+def _check_ended(view: View) -> None:
+    """Refuse a run that goes on to its own end, which says nothing of how long a body lasts."""
+    model, time = view.model, view.state.time
+    if time < model.end_time:
+        return
+    stop = model.case.stop
+    if stop.depth is None:
+        raise CaseError("is not given: without it no depth ends the run", "stop.depth")
+    names = [stop.body] if stop.body else list(model.bodies)
+    most = max(float(np.max(view.wear(name))) for name in names)
+    raise CaseError(
+        f"is not reached: after {time:g} s the largest depth is {1e6 * most:.3g} µm of "
+        f"{1e6 * stop.depth:.3g} µm; give the motion a longer duration, or a lower depth",
+        "stop.depth",
+    )

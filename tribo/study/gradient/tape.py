@@ -128,10 +128,12 @@ def recorded(model: Model, looked_at: Sequence[float], tape: Tape) -> dict[float
             states[time] = state
             tape.append(Saved(time))
     missing = [time for time in looked_at if time not in states]
+    if missing and state.time == 0:
+        raise CaseError("is reached before the run begins; give a larger depth", "stop.depth")
     if missing and state.time < missing[0] <= model.end_time:
         raise CaseError(
             f"a depth ends the run at {state.time:g} s, before {missing[0]:g} s, at which an "
-            "objective is to look",
+            "objective is to look; give a larger depth, or let it look at a save before that",
             "stop.depth",
         )
     if missing:
