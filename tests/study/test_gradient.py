@@ -131,6 +131,12 @@ class Brisk(Archard):
 
 
 KINDS = {
+    "comes to rest": Kind(
+        run(bodies=pair(SMOOTH.model_copy(update={"depth": 1e-8}), None), stepping=LONG),
+        Depth("ball"),
+        ["bodies.ball.wear.settled"],
+        1e-5,
+    ),
     "remembers": Kind(
         run(bodies=pair(FRESH, SMOOTH), stepping=LONG),
         Depth("disk"),

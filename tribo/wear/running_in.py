@@ -8,6 +8,7 @@ from typing import Annotated, Self
 import numpy as np
 from pydantic import ConfigDict, model_validator
 
+from tribo.core.arrays import Array
 from tribo.core.fields import Field, LocalConditions, WearRate
 from tribo.core.units import Quantity
 from tribo.wear.modified import ModifiedLaw, times
@@ -16,6 +17,8 @@ WORK = Field(
     "pressure_distance", "Pa m", "Pressure times distance that a point has slid under.", at_least=0
 )
 ROUGHNESS = Field("roughness", "m", "Sq that is left of the roughness finer than a cell.")
+BELOW = 1e-6
+"""Part of what roughness there was above Sq∞ that a step may seem to leave below it."""
 
 
 class RunningIn(ModifiedLaw):
@@ -131,9 +134,8 @@ class Smoothing(ModifiedLaw):
 
     def rate(self, local: LocalConditions) -> WearRate:
         """Return the other law's rate times the factor of now, and the rate of Sq."""
-        # A step that is only tried may have smoothed more than there was.
-        above = np.maximum(local.state[ROUGHNESS.name] - self.settled, 0.0)
-        left = above / (self.roughness - self.settled)
+        left = self._left(local)
+        above = left * (self.roughness - self.settled)
         rate = self.law.rate(local)
         faster = times(1 + (self.factor - 1) * left, rate)
         state = {**rate.state_rates, ROUGHNESS.name: -above / self.depth * faster.depth_rate}
@@ -143,11 +145,20 @@ class Smoothing(ModifiedLaw):
         """Return the mean over a distance by the closed form, if the other law has no state."""
         if self.law.state_fields:
             return None
-        above = np.maximum(local.state[ROUGHNESS.name] - self.settled, 0.0)
-        more = (self.factor - 1) * above / (self.roughness - self.settled)
+        left = self._left(local)
+        above, more = left * (self.roughness - self.settled), (self.factor - 1) * left
         steady = self.law.rate(local).depth_rate * (distance / self.depth)
         with np.errstate(divide="ignore"):
             # A factor of 0 lets nothing wear that has its first roughness.
             worn = np.maximum(steady + np.log1p(-more * np.expm1(-steady)), 0.0)
         smoother = above * np.expm1(-worn) / distance
         return WearRate(worn * (self.depth / distance), state_rates={ROUGHNESS.name: smoother})
+
+    def _left(self, local: LocalConditions) -> Array:
+        """Return the part of the roughness above Sq∞ that is left.
+
+        A step that is only tried may have smoothed more than there was. Rates stay smooth at Sq∞
+        itself, which surfaces come to but for rounding.
+        """
+        left = (local.state[ROUGHNESS.name] - self.settled) / (self.roughness - self.settled)
+        return np.maximum(left, -BELOW)
