@@ -51,7 +51,8 @@ def _deepest(model: Model, end: State) -> Seeds:
     if most > stop.depth * (1 + DEPTH_ACCURACY):
         raise CaseError(
             f"the depth jumps from below {1e6 * stop.depth:g} µm to {1e6 * most:g} µm however "
-            "short the last step, so that the end of the run has no derivative",
+            "short the last step, so that the end of the run has no derivative; take shorter "
+            "steps, or another depth",
             "stop.depth",
         )
     seed = np.zeros_like(depth)

@@ -134,7 +134,7 @@ def gradient(
     with closing(Tape()) as tape:
         states = recorded(model, list(looks), tape)
         seen = {time: look(View(model, states[time])) for time, look in looks.items()}
-        total = sum(value for value, _ in seen.values())
+        total = float(sum(value for value, _ in seen.values()))
         seeds = {time: seed for time, (_, seed) in seen.items()}
         end = states.get(model.end_time)
         if end is not None and end.time < model.end_time:
@@ -151,7 +151,7 @@ def gradient(
         )
         direct += sum(each.by_save(state.time, seeds[time]) for time, state in states.items())
         direct += each.by_stop(by_depth)
-        parameters[each.path] = through + direct
+        parameters[each.path] = float(through + direct)
     scaled = {each.path: parameters[each.path] * each.value for each in chains}
     relative = {path: each / total if total else float("nan") for path, each in scaled.items()}
     return Gradient(

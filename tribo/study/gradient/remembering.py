@@ -252,16 +252,23 @@ class Remembering:
                 along.append(each)
                 before = behind(each, before)
             bent += [bend * slope for bend, slope in zip(bends, part.relaxing, strict=True)]
-            for at, rates, by in part.moved:
-                for where, sign in ((rates, 1.0), (part.rows[0][0], -1.0)):
-                    seeds = [0.0] * (len(depth) + len(after))
-                    falls = np.asarray(part.relaxing[at]) < 0
-                    seeds[len(depth) + at] = sign * falls * bends[at] / by
-                    moved.append((where, seeds))
-                    before = behind(moved[-1], before)
+            for each in self._of_relaxing(part, bends):
+                moved.append(each)
+                before = behind(each, before)
             after = before
         pressure, load, square, *factors = total
         return _Back(pressure, load, square, factors, after, _Along(along, moved, bent, self.asked))
+
+    def _of_relaxing(self, part: _Part, seeds: Sequence[Field]) -> list[_Seeded]:
+        """Return derivatives in the rates that tell how fast states relax, from those in that."""
+        found, own = list[_Seeded](), len(self.asked.own)
+        for at, rates, by in part.moved:
+            falls = np.asarray(part.relaxing[at]) < 0
+            for where, sign in ((rates, 1.0), (part.rows[0][0], -1.0)):
+                of_rates: list[Field] = [0.0] * (own + len(seeds))
+                of_rates[own + at] = sign * falls * seeds[at] / by
+                found.append((where, of_rates))
+        return found
 
 
 @dataclass(frozen=True)
