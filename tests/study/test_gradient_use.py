@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from gradients import BASE, CLOSE, HARD, Kind, resolved, run
+from gradients import BASE, CLOSE, HARD, Kind, layered, resolved, run
 from paper_models import K, archard, motion, pair, states
 from scipy.optimize import minimize
 
@@ -214,6 +214,24 @@ def test_a_depth_that_ends_the_run_before_an_objective_looks_is_refused():
 def test_what_a_body_lasts_is_refused_where_no_depth_ends_the_run(stop, message, lasts):
     with pytest.raises(CaseError, match=message):
         gradient(run(stop=stop), lasts, [])
+
+
+@pytest.mark.parametrize("body", ["ball", None])
+def test_a_depth_at_the_bottom_of_a_layer_counts_as_just_above_it(body):
+    paths = ["stop.depth", "bodies.ball.layers.0.wear.k"]
+    thickness, below = "bodies.ball.layers.0.thickness", "bodies.ball.wear.k"
+    stop = Stop(depth="0.2 um", body=body)
+
+    def lasts(depth):
+        bodies = layered((depth, archard(K / 2)), of_ball=archard(9 * K))
+        return gradient(run(bodies=bodies, stop=stop), EndTime(), [*paths, thickness, below])
+
+    found, thicker, thinner = lasts("0.2 um"), lasts("1 um"), lasts("0.19 um")
+    assert found.value == pytest.approx(thicker.value, rel=1e-6)
+    for path in paths:
+        assert found[path] == pytest.approx(thicker[path], rel=1e-6)
+    assert [found[path] for path in (thickness, below)] == pytest.approx([0, 0], abs=1e-9)
+    assert thinner[thickness] > 0
 
 
 def test_a_depth_that_is_worn_off_before_the_run_is_refused(tmp_path):

@@ -17,7 +17,7 @@ from tribo.simulation.model import Model
 from tribo.simulation.run import Simulation
 from tribo.study.gradient.backwards import covered, swept_back
 from tribo.study.gradient.ending import at_depth
-from tribo.study.gradient.local import localised
+from tribo.study.gradient.local import localised, unreached
 from tribo.study.gradient.objective import Objective, View
 from tribo.study.gradient.parameters import Chain, chain, changed, find
 from tribo.study.gradient.tape import Tape, recorded
@@ -114,6 +114,7 @@ def gradient(
     """
     factors = factors or {}
     model = localised(covered(Simulation(case).model), factors)
+    model = unreached(model, model)
     chains: list[Chain] = []
     refused: dict[str, str] = {}
     for path, places, value in find(model.case, wrt):

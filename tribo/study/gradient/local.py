@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from copy import copy
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -13,6 +14,7 @@ from tribo.core.errors import CaseError
 from tribo.core.fields import PLACE_X, PLACE_Y, LocalConditions, WearRate
 from tribo.core.material import Material
 from tribo.simulation.guards import GuardedLaw
+from tribo.simulation.march import DEPTH_ACCURACY
 from tribo.simulation.model import Model
 from tribo.wear.modified import times
 
@@ -114,4 +116,25 @@ def localised(model: Model, factors: Mapping[str, Array]) -> Model:
         if not np.all(factor >= 0):
             raise CaseError(f"a factor on the wear rate of {name} is negative")
         laws[name] = LocalLaw(laws[name], factor, model.grid.spacing)
+    return replace(model, laws=laws)
+
+
+def unreached(model: Model, base: Model) -> Model:
+    """Return a model in which layers that the run of `base` does not wear through end deeper.
+
+    A depth that ends the run exactly at the bottom of a layer has the derivative of a run that ends
+    just above it. `base` is the case itself, and `model` may have another number.
+    """
+    stop, laws = base.case.stop, dict(model.laws)
+    if stop.depth is None:
+        return model
+    for name in [stop.body] if stop.body else list(laws):
+        bottoms = base.laws[name].bottoms if name in laws else ()
+        if not bottoms or bottoms[-1] < stop.depth * (1 - DEPTH_ACCURACY):
+            continue
+        laws[name] = copy(laws[name])
+        laws[name].bottoms = tuple(
+            own if bottom < stop.depth * (1 - DEPTH_ACCURACY) else own + stop.depth
+            for own, bottom in zip(laws[name].bottoms, bottoms, strict=True)
+        )
     return replace(model, laws=laws)

@@ -22,7 +22,7 @@ from tribo.stepping.memory import Memory
 from tribo.stepping.rates import Moment
 from tribo.study.gradient.course import Other
 from tribo.study.gradient.linear import Carrier, carriers_of
-from tribo.study.gradient.local import SPEED, localised
+from tribo.study.gradient.local import SPEED, localised, unreached
 from tribo.study.gradient.objective import Seeds
 from tribo.study.gradient.response import ASIDE, NUDGE
 from tribo.study.gradient.tape import Pressed, Slid
@@ -328,7 +328,7 @@ def _varied(
     case = base.case
     for place in places:
         case = changed(case, place, number)
-    model = localised(assemble(case), factors)
+    model = unreached(localised(assemble(case), factors), base)
     ways, others = (
         [(e.rows, None if e.starts is None else tuple(e.starts)) for e in each.exposures.values()]
         for each in (base, model)
