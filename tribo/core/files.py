@@ -99,9 +99,12 @@ def table_of_numbers(file: Path) -> Array:
     if not file.is_file():
         where = "" if file.is_absolute() else f" in {Path.cwd()}, where tribo was started"
         raise ValueError(f"there is no file {file}{where}; correct path")
+    if file.stat().st_size == 0:
+        raise ValueError(f"{file} is empty")
     try:
         if file.suffix == ".npy":
-            numbers = np.load(file, allow_pickle=False)
+            with file.open("rb") as opened:
+                numbers = np.lib.format.read_array(opened, allow_pickle=False)
         elif file.suffix in HDF5:
             numbers = _only_table(file)
         else:
@@ -109,8 +112,8 @@ def table_of_numbers(file: Path) -> Array:
             if np.all(np.isnan(numbers[:1])):
                 numbers = numbers[1:]
     except (ValueError, OSError) as error:
-        # NumPy would have one load what may be any code.
-        reason = "it is no NumPy array of numbers" if "pickle" in str(error) else error
+        other = any(words in str(error) for words in ("magic string", "Object arrays"))
+        reason = "it is no NumPy array of numbers" if other else error
         raise ValueError(f"{file} cannot be read as a table of numbers: {reason}") from None
     if numbers.dtype.kind not in "fiu":
         raise ValueError(f"{file} has values that are not numbers, or are not finite")
