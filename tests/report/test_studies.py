@@ -116,6 +116,8 @@ def test_another_json_file_is_refused(tmp_path):
     (tmp_path / "other.json").write_text("{}")
     with pytest.raises(tribo.CaseError, match="is not what 'tribo calibrate --json' prints"):
         tribo.write_report(tmp_path / "other.json", tmp_path / "report.html")
+    with pytest.raises(tribo.CaseError, match=r"there is no file .*none\.json; correct its name"):
+        tribo.write_report(tmp_path / "none.json", tmp_path / "report.html")
 
 
 def test_local_coefficients_are_told_with_their_fit(tmp_path):

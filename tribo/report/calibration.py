@@ -40,6 +40,8 @@ def calibration_file_page(path: Path) -> str:
     try:
         found = json.loads(path.read_text(encoding="utf-8"))
         read = read_maps(found) if "maps" in found else _read(found)
+    except FileNotFoundError as error:
+        raise CaseError(f"there is no file {path}; correct its name") from error
     except (OSError, ValueError, LookupError, TypeError, AttributeError) as error:
         raise CaseError(f"{path} is not what 'tribo calibrate --json' prints: {error}") from error
     if isinstance(read, Calibration):
