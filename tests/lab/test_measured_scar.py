@@ -208,6 +208,18 @@ def test_the_command_measures_and_draws(tmp_path):
         CliRunner().invoke(command, ideal, catch_exceptions=False)
 
 
+def test_heights_in_micrometres_and_fill_values_are_told_by_their_file(standard, tmp_path):
+    heights = standard[1].heights
+    filled = np.where(np.isnan(heights), -9999, heights)
+    for name, wrong in {"micro": 1e6 * heights, "filled": filled}.items():
+        np.save(tmp_path / f"{name}.npy", wrong)
+        words = rf"{name}\.npy: .* lie further .* wide, 0\.096 mm; .*put NaN for fill .* one in µm"
+        with pytest.raises(CaseError, match=words):
+            read_heights(tmp_path / f"{name}.npy", (PITCH, PITCH))
+    # An instrument may count heights from its own stage.
+    assert Heights(heights + 1.0, (PITCH, PITCH)).heights.shape == heights.shape
+
+
 def test_a_picture_leaves_what_is_missing_white(standard):
     (image,) = measured_scar_map(standard[3]).axes[0].images
     assert np.ma.getmaskarray(image.get_array()).any()

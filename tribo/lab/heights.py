@@ -34,7 +34,8 @@ class Heights:
     Raises
     ------
     CaseError
-        If it is no map of 16 × 16 pixels or more, or has no height at all.
+        If it is no map of 16 × 16 pixels or more, has no height at all, or heights that differ by
+        more than the map is wide, as fill values do and heights in µm taken for m.
     """
 
     heights: Array
@@ -51,6 +52,15 @@ class Heights:
             raise CaseError("every height of the map is missing; measure again, or mask less")
         if not min(self.pitch) > 0:
             raise CaseError(f"a pitch of {self.pitch} m is none; give one above 0")
+        known, width = self.heights[np.isfinite(self.heights)], max(self.grid.size)
+        absurd = known[np.abs(known - np.median(known)) > width]
+        if len(absurd):
+            raise CaseError(
+                f"{len(absurd)} of its {self.heights.size} heights lie further from their median "
+                f"than the map is wide, {1e3 * width:.3g} mm; the first is {absurd[0]:g} m. "
+                "Heights and depths are in m, and NaN where nothing was measured: put NaN for fill "
+                "values, 1e-6 times the height for one in µm"
+            )
 
     @property
     def grid(self) -> Grid:
@@ -85,11 +95,15 @@ def read_heights(path: str | Path, pitch: tuple[float, float] | None = None) -> 
                     f"{path} has heights and no scale; give the distance between pixels, its "
                     "pitch, as '1 um'"
                 )
-            return Heights(np.where(np.isfinite(heights), heights, np.nan), pitch)
-        found = _by_plugin(path)
-        return found if pitch is None else Heights(found.heights, pitch)
+        else:
+            found = _by_plugin(path)
+            heights, pitch = found.heights, pitch or found.pitch
     except ValueError as error:
         raise CaseError(str(error)) from None
+    try:
+        return Heights(np.where(np.isfinite(heights), heights, np.nan), pitch)
+    except CaseError as error:
+        raise CaseError(f"{path}: {error}") from None
 
 
 def _by_plugin(path: Path) -> Heights:

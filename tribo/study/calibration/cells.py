@@ -21,26 +21,12 @@ MOST = 600
 def read_map(file: str, pitch: float | None, place: str) -> Heights:
     """Read measured depths; CaseError, at their place, if they cannot be."""
     with located(f"{place}.depth"):
-        heights = read_heights(file, None if pitch is None else (pitch, pitch))
-        _check_depths(heights)
-        return heights
+        return read_heights(file, None if pitch is None else (pitch, pitch))
 
 
 def surface_shape(model: Model, body: str) -> tuple[int, int]:
     """Return how many cells a body's own surface has along and across."""
     return model.exposures[body].rows, model.grid.cells[1]
-
-
-def _check_depths(heights: Heights) -> None:
-    """Raise CaseError if depths are larger than the map is wide, as no worn surface's are."""
-    depths, width = heights.heights, max(heights.grid.size)
-    absurd = depths[np.abs(depths) > width]
-    if len(absurd):
-        raise CaseError(
-            f"{len(absurd)} of its {depths.size} depths are larger than the map is wide, "
-            f"{1e3 * width:.3g} mm; the first is {absurd[0]:g} m. Depths are in m, and NaN where "
-            "nothing was measured: put NaN for fill values, 1e-6 times the depth for one in µm"
-        )
 
 
 def in_blocks(depth: Array, spacing: tuple[float, float]) -> pd.DataFrame:
