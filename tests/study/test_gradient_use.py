@@ -28,6 +28,8 @@ from tribo.study.gradient.objective import (
     EndDistance,
     EndTime,
     Misfit,
+    Pressure,
+    Seeds,
     Volume,
     Width,
 )
@@ -117,9 +119,86 @@ def test_a_refusal_names_its_place_once():
     assert str(refused.value) == "bodies.*.wear.k: has no derivative here: only one is known"
 
 
-def test_what_is_no_objective_is_refused():
-    with pytest.raises(CaseError, match="'volume' is no objective; give a Volume, Depth"):
-        gradient(run(), "volume")
+@pytest.mark.parametrize("given", ["volume", Volume])
+def test_what_is_no_objective_is_refused(given):
+    with pytest.raises(CaseError, match=r"(?i)volume.* is no objective; give a Volume, Depth"):
+        gradient(run(), given)
+
+
+NAN, INF = np.nan, np.inf
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: Depth("ball", NAN), "the place x = nan, y = 0.0 is none"),
+        (lambda: Pressure(0.0, INF), "the place x = 0.0, y = inf is none"),
+        (lambda: Deepest("ball", 1), "an order of 1 of Deepest is not allowed"),
+        (lambda: Deepest("ball", NAN), "an order of nan of Deepest is not allowed"),
+        (lambda: Width("ball", 5), "an axis of 5 of Width is none; give 0, along, or 1"),
+        (lambda: Misfit("ball", np.zeros((3, 3)), 0.0), "an uncertainty of 0.0 m is none"),
+        (lambda: Misfit("ball", np.zeros((3, 3)), INF), "an uncertainty of inf m is none"),
+        (lambda: Misfit("ball", np.full((3, 3), NAN)), "or NaN everywhere"),
+        (lambda: Misfit("ball", np.diag([INF, 1, 1])), "is infinite somewhere"),
+    ],
+)
+def test_an_objective_that_means_nothing_is_refused(make, message):
+    with pytest.raises(CaseError, match=message):
+        make()
+
+
+@pytest.mark.parametrize(
+    ("answer", "message"),
+    [
+        (3.0, "mine gave 3.0; an objective gives its value and Seeds"),
+        ((1.0, Seeds(np.ones((3, 3)))), "its value and Seeds, whose wear is by body"),
+        ((NAN, Seeds()), "the value of mine is NaN, infinite or no number"),
+        (("much", Seeds()), "the value of mine is NaN, infinite or no number"),
+        ((np.ones(2), Seeds()), r"the value of mine has the shape \(2,\), not \(\)"),
+        ((1.0, Seeds(time=INF)), "the seed by time of mine is NaN, infinite"),
+        ((1.0, Seeds(distance=NAN)), "the seed by distance of mine is NaN, infinite"),
+        ((1.0, Seeds(pressure=np.ones((3, 3)))), r"pressure of mine has the shape \(3, 3\), not"),
+        ((1.0, Seeds({"ring": np.ones((3, 3))})), "there is no body 'ring'"),
+        ((1.0, Seeds({"ball": np.ones((3, 3))})), r"wear of ball of mine has the shape \(3, 3\)"),
+    ],
+)
+def test_an_objective_that_gives_no_value_and_seeds_is_refused(answer, message):
+    def mine(view):
+        return answer
+
+    with pytest.raises(CaseError, match=message):
+        gradient(run(), mine, [])
+
+
+def test_one_name_in_place_of_a_list_is_refused():
+    with pytest.raises(CaseError, match=r"a list of names is needed, 'load.normal' was given"):
+        gradient(run(), Volume("ball"), "load.normal")
+    with pytest.raises(CaseError, match=r"give \['ball'\]"):
+        ValueAndGradient(run(), Volume("ball"), wear_rate="ball")
+    with pytest.raises(CaseError, match="there is no body 'ring' that wears: ball, disk"):
+        ValueAndGradient(run(), Volume("ball"), wear_rate=["ring"])
+
+
+@pytest.mark.parametrize(
+    ("path", "unknowns", "message"),
+    [
+        ("load.normal", [NAN], "load.normal: may not be nan"),
+        ("load.normal", [800.0], "load.normal: may not be inf"),
+        ("bodies.ball.material.poisson", [1.0], "poisson: may not be 0.8"),
+        ("load.normal", [0.0, 0.0, 0.0], "3 unknowns were given; start has 1"),
+    ],
+)
+def test_unknowns_that_the_case_may_not_have_are_refused(path, unknowns, message):
+    fit = ValueAndGradient(run(), Volume("ball"), [path])
+    with pytest.raises(CaseError, match=message):
+        fit(np.array(unknowns))
+
+
+def test_factors_that_are_no_factors_are_refused():
+    fit = ValueAndGradient(run(), Volume("ball"), wear_rate=["ball"])
+    for log in (NAN, INF):
+        with pytest.raises(CaseError, match="wear rate of ball is negative, NaN or infinite"):
+            fit(fit.start + log)
 
 
 def test_of_what_does_not_wear_nothing_is_told_in_per_cent():

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from pydantic import ValidationError
 
 from tribo.case import Case
 from tribo.core.arrays import Array
@@ -17,9 +18,9 @@ from tribo.simulation.model import Model
 from tribo.simulation.run import Simulation
 from tribo.study.gradient.backwards import covered, swept_back
 from tribo.study.gradient.ending import at_depth
-from tribo.study.gradient.local import localised, unreached
-from tribo.study.gradient.objective import Objective, View
-from tribo.study.gradient.parameters import Chain, chain, changed, find
+from tribo.study.gradient.local import factor_shape, localised, unreached
+from tribo.study.gradient.objective import Objective, View, looked
+from tribo.study.gradient.parameters import Chain, chain, changed, find, listed
 from tribo.study.gradient.tape import Tape, recorded
 
 
@@ -127,14 +128,14 @@ def gradient(
     looks: Mapping[float, Objective]
     looks = objective if isinstance(objective, Mapping) else {model.end_time: objective}
     for look in looks.values():
-        if not callable(look):
+        if not callable(look) or isinstance(look, type):
             raise CaseError(
                 f"{look!r} is no objective; give a Volume, Depth, Deepest, Pressure, Width, "
                 "Misfit, EndTime or EndDistance, or a function of a View"
             )
     with closing(Tape()) as tape:
         states = recorded(model, list(looks), tape)
-        seen = {time: look(View(model, states[time])) for time, look in looks.items()}
+        seen = {time: looked(look, View(model, states[time])) for time, look in looks.items()}
         total = float(sum(value for value, _ in seen.values()))
         seeds = {time: seed for time, (_, seed) in seen.items()}
         end = states.get(model.end_time)
@@ -146,7 +147,7 @@ def gradient(
     parameters = {}
     for each, through in zip(chains, found.parameters, strict=True):
         direct = sum(
-            variant.weight * looks[time](View(variant.model, state))[0]
+            variant.weight * looked(looks[time], View(variant.model, state))[0]
             for variant in each.variants
             for time, state in states.items()
         )
@@ -194,22 +195,31 @@ class ValueAndGradient:
         self._model = Simulation(case).model
         self._objective = objective
         self._numbers = find(self._model.case, wrt)
-        self._shapes = {
-            name: (self._model.exposures[name].rows, self._model.grid.cells[1])
-            for name in wear_rate
-        }
+        self._shapes = {name: factor_shape(self._model, name) for name in listed(wear_rate)}
 
     @property
     def start(self) -> Array:
         """The unknowns of the case itself: 0."""
         return np.zeros(len(self._numbers) + sum(a * b for a, b in self._shapes.values()))
 
+    @np.errstate(over="ignore")
     def at(self, unknowns: Array) -> tuple[Case, dict[str, Array]]:
-        """Return the case and the factors on wear rates, by body, for a vector of unknowns."""
+        """Return the case and the factors on wear rates, by body, for a vector of unknowns.
+
+        `CaseError` if it has another length than `start`, or a number that the case may not have.
+        """
+        if np.shape(unknowns) != self.start.shape:
+            raise CaseError(f"{np.size(unknowns)} unknowns were given; start has {self.start.size}")
         case, at = self._model.case, len(self._numbers)
-        for (_, places, value), log in zip(self._numbers, unknowns[:at], strict=True):
-            for place in places:
-                case = changed(case, place, float(value * np.exp(log)))
+        for (path, places, value), log in zip(self._numbers, unknowns[:at], strict=True):
+            number = float(value * np.exp(log))
+            try:
+                for place in places:
+                    case = changed(case, place, number)
+            except ValidationError as error:
+                raise CaseError(
+                    f"may not be {number:g}: {error.errors()[0]['msg']}", path
+                ) from None
         factors = {}
         for name, shape in self._shapes.items():
             factors[name] = np.exp(unknowns[at : at + shape[0] * shape[1]]).reshape(shape)

@@ -104,19 +104,24 @@ def localised(model: Model, factors: Mapping[str, Array]) -> Model:
     Raises
     ------
     CaseError
-        If a body does not wear, or a map does not have that shape or is negative.
+        If a body does not wear, or a map does not have that shape, or is negative or not finite.
     """
     laws = dict(model.laws)
     for name, factor in factors.items():
-        if name not in laws:
-            raise CaseError(f"there is no body {name!r} that wears: {', '.join(laws)}")
-        shape = (model.exposures[name].rows, model.grid.cells[1])
-        if factor.shape != shape:
-            raise CaseError(f"the factors of {name} have the shape {factor.shape}, not {shape}")
-        if not np.all(factor >= 0):
-            raise CaseError(f"a factor on the wear rate of {name} is negative")
+        shape = factor_shape(model, name)
+        if np.shape(factor) != shape:
+            raise CaseError(f"the factors of {name} have the shape {np.shape(factor)}, not {shape}")
+        if not np.all(np.isfinite(factor) & (factor >= 0)):
+            raise CaseError(f"a factor on the wear rate of {name} is negative, NaN or infinite")
         laws[name] = LocalLaw(laws[name], factor, model.grid.spacing)
     return replace(model, laws=laws)
+
+
+def factor_shape(model: Model, name: str) -> tuple[int, int]:
+    """Return the shape of the factors on the wear rate of a body; `CaseError` if it has none."""
+    if name not in model.laws:
+        raise CaseError(f"there is no body {name!r} that wears: {', '.join(model.laws)}")
+    return model.exposures[name].rows, model.grid.cells[1]
 
 
 def unreached(model: Model, base: Model) -> Model:

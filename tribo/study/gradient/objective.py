@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -96,6 +97,46 @@ Objective = Callable[[View], tuple[float, Seeds]]
 """A function of a `View` that returns a number and its `Seeds`."""
 
 
+def looked(objective: Objective, view: View) -> tuple[float, Seeds]:
+    """Return what an objective says of a state.
+
+    Raises
+    ------
+    CaseError
+        If that is not a finite number and its finite `Seeds`, of the shapes of what they are by.
+    """
+    name = getattr(objective, "__name__", type(objective).__name__)
+    answer: Any = objective(view)
+    match answer:
+        case (value, Seeds(wear=Mapping()) as seeds):
+            pass
+        case _:
+            raise CaseError(
+                f"{name} gave {answer!r}; an objective gives its value and Seeds, whose wear is by "
+                "body"
+            )
+    parts: list[tuple[str, Any, tuple[int, ...]]] = [
+        ("value", value, ()),
+        ("seed by time", seeds.time, ()),
+        ("seed by distance", seeds.distance, ()),
+    ]
+    if seeds.pressure is not None:
+        parts.append(("seed by pressure", seeds.pressure, view.pressure.shape))
+    for body, seed in seeds.wear.items():
+        parts.append((f"seed by the wear of {body}", seed, view.wear(body).shape))
+    for what, given, shape in parts:
+        if np.shape(given) != shape:
+            raise CaseError(f"the {what} of {name} has the shape {np.shape(given)}, not {shape}")
+        if np.asarray(given).dtype.kind not in "fiu" or not np.all(np.isfinite(given)):
+            raise CaseError(f"the {what} of {name} is NaN, infinite or no number")
+    return float(value), seeds
+
+
+def _check_place(x: float, y: float) -> None:
+    if not np.isfinite([x, y]).all():
+        raise CaseError(f"the place x = {x}, y = {y} is none; give both in m, from the middle")
+
+
 @dataclass(frozen=True)
 class Volume:
     """The volume worn off a body, in m³."""
@@ -125,6 +166,9 @@ class Depth:
     x: float = 0.0
     y: float = 0.0
 
+    def __post_init__(self) -> None:
+        _check_place(self.x, self.y)
+
     def __call__(self, view: View) -> tuple[float, Seeds]:
         """Return the depth, and 1 at its cell."""
         wear = view.wear(self.body)
@@ -142,6 +186,10 @@ class Deepest:
 
     body: str
     order: float = 100.0
+
+    def __post_init__(self) -> None:
+        if not 2 <= self.order < np.inf:
+            raise CaseError(f"an order of {self.order} of Deepest is not allowed; give 2 or more")
 
     def __call__(self, view: View) -> tuple[float, Seeds]:
         """Return the mean, and its derivative."""
@@ -167,6 +215,12 @@ class Width:
 
     body: str
     axis: int = 1
+
+    def __post_init__(self) -> None:
+        if self.axis not in (0, 1):
+            raise CaseError(
+                f"an axis of {self.axis!r} of Width is none; give 0, along, or 1, across"
+            )
 
     def __call__(self, view: View) -> tuple[float, Seeds]:
         """Return the width, and its derivative."""
@@ -206,12 +260,23 @@ class Misfit:
     depth: Array
     uncertainty: float = 1.0
 
+    def __post_init__(self) -> None:
+        if not 0 < self.uncertainty < np.inf:
+            raise CaseError(
+                f"an uncertainty of {self.uncertainty} m is none; give Misfit one above 0"
+            )
+        if np.any(np.isinf(self.depth)) or np.all(np.isnan(self.depth)):
+            raise CaseError(
+                f"the measured depth of {self.body} is infinite somewhere or NaN everywhere; give "
+                "depths in m, and NaN where nothing was measured"
+            )
+
     def __call__(self, view: View) -> tuple[float, Seeds]:
         """Return the misfit, and its derivative."""
         wear = view.wear(self.body)
-        if self.depth.shape != wear.shape:
+        if np.shape(self.depth) != wear.shape:
             raise CaseError(
-                f"the measured depth of {self.body} has the shape {self.depth.shape}, its wear "
+                f"the measured depth of {self.body} has the shape {np.shape(self.depth)}, its wear "
                 f"{wear.shape}; give it on the same cells"
             )
         off = np.where(np.isnan(self.depth), 0.0, (wear - self.depth) / self.uncertainty)
@@ -227,6 +292,9 @@ class Pressure:
 
     x: float = 0.0
     y: float = 0.0
+
+    def __post_init__(self) -> None:
+        _check_place(self.x, self.y)
 
     def __call__(self, view: View) -> tuple[float, Seeds]:
         """Return the pressure, and 1 at its cell."""

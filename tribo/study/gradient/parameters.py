@@ -215,7 +215,14 @@ def find(case: Case, asked: Sequence[str] | None) -> list[tuple[str, list[tuple[
             if not (place[0] in NOT_PHYSICS or _is_tolerance(place) or value == 0)
             if not any(isinstance(i, int) and isinstance(j, int) for i, j in pairwise(place))
         ]
-    return [_named(known, path) for path in asked]
+    return [_named(known, path) for path in listed(asked)]
+
+
+def listed(names: Sequence[str]) -> Sequence[str]:
+    """Return names; `CaseError` if they are a single one, whose letters would be taken for them."""
+    if isinstance(names, str):
+        raise CaseError(f"a list of names is needed, {names!r} was given; give [{names!r}]")
+    return names
 
 
 def _named(
