@@ -27,6 +27,8 @@ SPOT = 0.1
 """Part of the largest scar's volume below which what is worn is left out as a spot."""
 LEVELS = 0.2, 0.4
 """Of the largest depth, at which the width is read."""
+BOTTOM = 0.8
+"""Part of the largest depth from which on what is worn is the bottom of a scar."""
 BESIDE = 4
 """Pixels by which what is shallower than the noise is taken in."""
 
@@ -48,7 +50,7 @@ class MeasuredScar:
     piled_up : float
         Volume above the surface before, within the map, in m³.
     depth, depth_uncertainty : float
-        The largest depth, of means over some pixels, in m.
+        The largest depth, of a paraboloid through the pixels of the scar's bottom, in m.
     along, across : float
         Widths along and across the sliding direction, in m; infinite where it goes on beyond both
         edges of the map, as a track does.
@@ -178,8 +180,7 @@ def measured_scar(
     volume = area * float(np.sum(depth[scar]))
     piled = _largest(-smooth, (-smooth > DEEP * noise) & ~scar) & ~scar
     seen = _widths(smooth, core, after.pitch)
-    top = np.unravel_index(int(np.argmax(np.where(core, smooth, -np.inf))), core.shape)
-    of_fit = found.uncertainty[top] ** 2 - found.noise**2 if known[top] else 0.0
+    deepest, deepest_uncertainty = _deepest(found, smooth, core & known, noise)
     if math.inf in seen:
         lengths = after.grid.size[0 if math.isinf(seen.along) else 1], track_length
         formulas = _of_track(volume, min(seen), lengths, radius)
@@ -196,13 +197,32 @@ def measured_scar(
         volume=volume,
         volume_uncertainty=area * _of_sum(found, scar),
         piled_up=-area * float(np.nansum(depth[piled])),
-        depth=float(smooth[top]),
-        depth_uncertainty=math.sqrt(noise**2 + max(float(of_fit), 0.0)),
+        depth=deepest,
+        depth_uncertainty=deepest_uncertainty,
         along=seen.along,
         across=seen.across,
         missing=float(np.mean(~known[scar])),
         inferred=tuple(formulas),
     )
+
+
+def _deepest(found: Registration, smooth: Array, core: Mask, noise: float) -> tuple[float, float]:
+    """Return the largest depth of a scar and its standard uncertainty, in m.
+
+    Means over some pixels would flatten a curved bottom: a paraboloid through its pixels does not.
+    Uncertain are its terms, the registration, and the larger of the noise of such means and of what
+    they are off the paraboloid.
+    """
+    deepest = np.where(core, smooth, -np.inf)
+    places, _ = ndimage.label(deepest >= BOTTOM * np.max(deepest))
+    bottom = places == places[np.unravel_index(int(np.argmax(deepest)), core.shape)]
+    left = without_form(np.where(bottom, found.depth, np.nan))
+    form = found.depth - left
+    top = np.unravel_index(int(np.nanargmax(form)), core.shape)
+    rough = float(np.std(smoothed(left)[bottom]))
+    of_laying = max(float(found.uncertainty[top] ** 2 - found.noise**2), 0.0)
+    of_terms = 6 * found.spread * found.noise**2 / np.count_nonzero(np.isfinite(left))
+    return float(form[top]), math.sqrt(of_terms + of_laying + max(noise, rough) ** 2)
 
 
 def _of_sum(found: Registration, scar: Mask) -> float:

@@ -191,7 +191,9 @@ class _Fit:
             weights = np.where(left > 0, START, 1 - START)
             weights /= np.maximum(np.abs(left), 1e-3 * scale + 1e-30)
         else:
-            weights = np.maximum(1 - (left / (TUKEY * scale + 1e-30)) ** 2, 0) ** 2
+            # Without noise all may be off alike, and yet far beyond their deviation.
+            most = TUKEY * max(scale, float(np.median(np.abs(left)))) + 1e-30
+            weights = np.maximum(1 - (left / most) ** 2, 0) ** 2
         weights /= np.max(weights)
         products = np.einsum("kn,ln->kl", columns * weights, columns)
         downhill = -np.einsum("kn,n->k", columns * weights, left)
