@@ -158,6 +158,9 @@ def test_check_begins_with_its_verdict(case):
     assert "depth of ball, for 1 % more of:" in done.stdout
     ends = tribo("check", "my.toml", *LARGE_STROKE, *setting("stop.depth=0.5 um"))
     assert "time until ball reaches stop.depth, for 1 % more of:" in ends.stdout
+    assert re.search(r"stop.depth of 0.5 µm, about +reached after [\d.]+ s\n", ends.stdout)
+    ends = tribo("check", "my.toml", *LARGE_STROKE, *setting("stop={depth='1 mm', body='disk'}"))
+    assert re.search(r"1000 µm, about +not reached, [\d.]+ µm at the end\n", ends.stdout)
     hard = (
         'bodies.disk.layers=[{thickness="1 um", wear={type="archard", k=1e-16}, hardness="9 GPa"}]'
     )

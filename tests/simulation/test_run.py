@@ -124,6 +124,13 @@ def test_a_run_may_end_at_a_depth(stepping, body):
     assert result.notices[-1].startswith("stop: ended at ")
 
 
+def test_a_run_says_that_it_has_not_worn_to_the_depth_at_which_it_is_to_end():
+    result = Simulation(case(stop=Stop(depth="300 um"), kinematics=motion(duration=20))).run()
+    depth = 1e6 * result.saves()[-1]["bodies"]["ball"]["max_wear_depth_m"]
+    said = f"with a wear depth of {depth:.4g} µm; stop.depth, 300 µm, is not reached"
+    assert result.notices[-1] == f"stop: ended at 20 s {said}"
+
+
 def test_a_contact_that_reaches_the_edge_stops_the_run_with_what_was_saved(tmp_path):
     path = tmp_path / "run.h5"
     model = small(grid=Grid((0.4e-3, 0.4e-3), (32, 32)), save_times=(5,))

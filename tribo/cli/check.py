@@ -176,6 +176,14 @@ def _end(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
     for name, body in last.bodies.items():
         worn = f"{1e6 * body.max_wear_depth:.3g} µm{form}, {1e9 * body.wear_volume:.3g} mm³"
         yield f"wear of {name}, about", worn
+    stop = model.case.stop
+    if stop.depth is not None:
+        names = [stop.body] if stop.body else list(last.bodies)
+        most = max(last.bodies[name].max_wear_depth for name in names)
+        ended = f"not reached, {1e6 * most:.3g} µm at the end"
+        if last.time < model.end_time:
+            ended = f"reached after {readable(last.time, '.3g')} s"
+        yield f"stop.depth of {1e6 * stop.depth:.4g} µm, about", ended
     for passed in prediction.worn_through:
         path, end = (readable(passed[key], ".3g") for key in ("distance_m", "time_s"))
         when = f"{path} m, {end} s"

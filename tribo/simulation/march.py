@@ -79,9 +79,7 @@ def march(model: Model, state: State) -> Iterator[Accepted]:
                 worn_out = _depth(model, state) >= limit
                 last = worn_out or state.time >= model.end_time
                 if last:
-                    state = _concluded(model, state)
-                if worn_out and state.time < model.end_time:
-                    state = _stopped(model, state)
+                    state = _stopped(model, _concluded(model, state))
                 save = last or (state.time >= until and until in model.saves)
                 if save:
                     state = replace(state, saves=state.saves + 1)
@@ -136,11 +134,16 @@ def _limit(model: Model) -> float:
 
 
 def _stopped(model: Model, state: State) -> State:
-    """Say that the wear depth has ended the run."""
-    return state.with_notice(
-        "stop",
-        f"ended at {state.time:.6g} s, where the wear depth reached {1e6 * _limit(model):.4g} µm",
-    )
+    """Say whether the depth at which a run is to end has ended it."""
+    limit, depth, words = _limit(model), _depth(model, state), f"ended at {state.time:.6g} s"
+    if depth >= limit and state.time < model.end_time:
+        words += f", where the wear depth reached {1e6 * limit:.4g} µm"
+    elif depth < limit < np.inf:
+        words += f" with a wear depth of {1e6 * depth:.4g} µm; stop.depth, {1e6 * limit:.4g} µm, "
+        words += "is not reached"
+    else:
+        return state
+    return state.with_notice("stop", words)
 
 
 def _depth(model: Model, state: State) -> float:
