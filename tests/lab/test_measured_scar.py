@@ -159,6 +159,19 @@ def test_a_track_has_a_section_and_the_volume_of_its_length():
     assert alone == mean
 
 
+@pytest.mark.parametrize("askew", [-0.1, 0.05])
+@pytest.mark.parametrize("along", [0, 1])
+def test_a_track_that_lies_askew_in_the_map_is_as_wide(askew, along):
+    before, after, _ = pair(depth=0, shift=(0, 0), turn=0)
+    places = before.grid.mesh
+    beside = np.cos(askew) * places[1 - along] - np.sin(askew) * places[along]
+    lost = 1e-6 * np.maximum(1 - beside**2 / WIDE**2, 0)
+    found = measured_scar(before, Heights(after.heights - lost, after.pitch))
+    widths = (found.along, found.across)
+    assert np.isinf(widths[along])
+    assert widths[1 - along] == pytest.approx(2 * WIDE, abs=PITCH)
+
+
 def test_what_is_piled_up_beside_a_scar_is_told_apart(standard):
     before, after, lost, _ = standard
     x, y = after.grid.mesh

@@ -256,22 +256,37 @@ def _largest(depth: Array, marked: Mask) -> Mask:
 def _widths(smooth: Array, core: Mask, pitch: tuple[float, float]) -> Scar:
     """Return the widths of a scar: where the parabola through two of its levels comes to 0.
 
-    The profile is the mean of a track, and the mean of some lines through the middle of another
-    scar. Of a ball worn flat, and of a groove, the depth is a parabola.
+    The profile is the mean of a track, along the line that its middles lie on, and the mean of some
+    lines through the middle of another scar. Of a ball worn flat, and of a groove, the depth is a
+    parabola.
     """
     lost = [np.any(core[[0, -1]], axis=1).all(), np.any(core[:, [0, -1]], axis=0).all()]
     low, high = LEVELS
     widths = []
     for axis in (0, 1):
         lines = np.moveaxis(np.where(core, smooth, np.minimum(smooth, 0.0)), axis, 0)
-        if not lost[1 - axis]:
+        step = pitch[axis]
+        if lost[1 - axis]:
+            lines, slope = _straightened(lines)
+            step *= math.cos(math.atan(slope * pitch[axis] / pitch[1 - axis]))
+        else:
             middle = round(float(np.average(np.arange(lines.shape[1]), weights=np.sum(lines, 0))))
             lines = lines[:, max(middle - 2, 0) : middle + 3]
         profile = np.mean(lines, axis=1)
         at_low, at_high = (_crossed(profile, level * float(np.max(profile))) for level in LEVELS)
         square = (high * at_low**2 - low * at_high**2) / (high - low)
-        widths.append(math.inf if lost[axis] else pitch[axis] * math.sqrt(max(square, 0.0)))
+        widths.append(math.inf if lost[axis] else step * math.sqrt(max(square, 0.0)))
     return Scar(*widths)
+
+
+def _straightened(lines: Array) -> tuple[Array, float]:
+    """Return a track's lines moved to one middle, and by how many pixels a line it was askew."""
+    deep = np.maximum(lines, 0.0)
+    middles = np.arange(len(lines)) @ deep / np.maximum(np.sum(deep, axis=0), 1e-300)
+    places = np.arange(lines.shape[1]) - 0.5 * (lines.shape[1] - 1)
+    slope = float(np.polyfit(places, middles, 1, w=np.sum(deep, axis=0))[0])
+    turn, offset = np.array([[1.0, slope], [0.0, 1.0]]), [slope * places[0], 0.0]
+    return ndimage.affine_transform(lines, turn, offset, order=1, mode="nearest"), slope
 
 
 def _crossed(profile: Array, level: float) -> float:
