@@ -30,6 +30,8 @@ TEXTURE = 3.0
 TUKEY = 4.685
 DEEP = 4.0
 """Standard deviations of noise from which on a difference is a scar."""
+ROUNDING = 1e-4
+"""Part of the largest depth that is no more than noise, at the least."""
 BLOCK = 8
 BLURS = 4.0, 2.0, 1.0
 """Pixels over which maps are blurred, one after the other, to lay them on each other."""
@@ -218,6 +220,8 @@ class _Fit:
         # The side without the scar tells the noise.
         raised = smooth[np.isfinite(depth) & (smooth <= 0)]
         noise = 1.4826 * float(np.median(-raised)) if raised.size else 0.0
+        # Maps without any noise differ by rounding.
+        noise = max(noise, ROUNDING * float(np.max(smooth)))
         # A relief that does not lie on its like yet has spots, and a scar is more than a spot.
         worn = ndimage.binary_opening(np.abs(smooth) > DEEP * noise, iterations=3)
         if np.mean(worn) < 0.8:
