@@ -105,6 +105,15 @@ def test_a_number_without_derivative_is_refused(path, message):
         gradient(case, Volume("ball"), [path])
 
 
+def test_a_stage_that_ends_at_a_save_has_no_derivative_in_its_time():
+    load = {"normal": [{"until": "5 s", "normal": 20}, {"until": "9 s", "normal": 10}]}
+    load["normal"].append({"until": "20 s", "normal": 20})
+    case, path = run(load=load, save_times=(9.0,)), "load.normal.1.until"
+    with pytest.raises(CaseError, match=f"{path}: has .*: it parts what falls together at 9 s"):
+        gradient(case, Volume("ball"), [path])
+    assert gradient(case, Volume("ball"), ["load.normal.0.until"])["load.normal.0.until"] > 0
+
+
 def test_a_refusal_names_its_place_once():
     class Exact(Archard):
         type = "exact"

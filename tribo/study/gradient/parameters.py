@@ -347,8 +347,16 @@ def _varied(
             "both bodies have the same hardness, and either may be the softer; name both, as "
             f"bodies.{ANY}.material.hardness"
         )
-    if len(Stops.of(model).times) != len(Stops.of(base).times):
-        raise CaseError("it changes how many stops the run makes")
+    times, other_times = Stops.of(base).times, Stops.of(model).times
+    if len(times) != len(other_times):
+        moved = np.setxor1d(times, other_times)[0]
+        of_load, of_motion = set(base.loads.edges), set(base.motion.edges())
+        both = (of_load & of_motion) | ((of_load | of_motion) & base.saves)
+        at = min(both, key=lambda time: abs(time - moved), default=moved)
+        raise CaseError(
+            f"it parts what falls together at {at:g} s: a save, the end of a stage of the load or "
+            "of the motion; move one of them a little"
+        )
     return model
 
 
