@@ -330,6 +330,13 @@ def test_a_depth_that_is_worn_off_before_the_run_is_refused(tmp_path):
         gradient(stops, EndTime(), [])
 
 
+def test_the_depth_that_ends_a_run_is_among_the_numbers_that_count():
+    found = gradient(run(stop=Stop(depth="0.2 um")), EndTime())
+    assert found.relative["stop.depth"] > 1
+    assert str(found).startswith("stop.depth")
+    assert gradient(run(stop=Stop(depth="1 mm")), Volume("ball"))["stop.depth"] == 0
+
+
 def test_a_depth_that_jumps_past_its_limit_is_refused(monkeypatch):
     monkeypatch.setattr(march, "MOST_CUTS", 0)
     with pytest.raises(CaseError, match=r"stop\.depth: the depth jumps from below 0.2 µm to"):

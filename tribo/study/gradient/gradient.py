@@ -95,7 +95,7 @@ def gradient(
         save that each looks at. See `tribo.study.gradient.objective`.
     wrt : sequence of str, optional
         Paths of numbers, as ``bodies.ball.wear.k``; ``*`` stands for each body. All numbers of
-        bodies, load, motion, friction and contact if left out.
+        bodies, load, motion, friction and contact, and ``stop.depth``, if left out.
     factors : Mapping[str, ndarray], optional
         By body: a factor on its wear rate at each cell of its own surface, of the shape of
         `View.wear`; 1 if left out.

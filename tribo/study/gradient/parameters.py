@@ -36,6 +36,8 @@ HOW = ("grid", "stepping")
 MOVES = "it moves the positions of the cycle by whole cells"
 NOT_PHYSICS = (*HOW, "output", "stop", "begin", "observers", "requires")
 """Parts of a case whose numbers are left out unless they are named."""
+END = ("stop", "depth")
+"""The number of them that is not, since it may be what rules how long a body lasts."""
 
 
 @dataclass(frozen=True)
@@ -212,7 +214,8 @@ def find(case: Case, asked: Sequence[str] | None) -> list[tuple[str, list[tuple[
         return [
             (".".join(map(str, place)), [place], value)
             for place, value in known.items()
-            if not (place[0] in NOT_PHYSICS or _is_tolerance(place) or value == 0)
+            if place == END or place[0] not in NOT_PHYSICS
+            if not (_is_tolerance(place) or value == 0)
             if not any(isinstance(i, int) and isinstance(j, int) for i, j in pairwise(place))
         ]
     return [_named(known, path) for path in listed(asked)]
