@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from tribo import CaseError, ContactProblem, Simulation, TriboWarning
+from tribo import CaseError, ContactProblem, Simulation, TriboWarning, read_heights
 from tribo.cli.main import tribo
 from tribo.simulation.predict import predict
 
@@ -117,6 +117,12 @@ def test_what_the_file_was_read_as_is_kept_in_the_result_and_what_is_worn_export
         np.testing.assert_allclose(height, result.body("ball").surface(-1), rtol=1e-8, atol=1e-18)
         np.testing.assert_allclose(x[:, 0], result.grid.x, rtol=1e-8)
         np.testing.assert_allclose(y[0], result.grid.y, rtol=1e-8)
+        again = read_heights(ball)
+        np.testing.assert_allclose(again.heights, height, rtol=1e-12, atol=1e-18)
+        assert again.pitch == pytest.approx(result.grid.spacing, rel=1e-6)
+    np.savetxt(tmp_path / "no_unit.xyz", np.loadtxt(ball))
+    with pytest.raises(CaseError, match=r"add unit.* here, export the map as .*, whose pitch is g"):
+        read_heights(tmp_path / "no_unit.xyz")
 
 
 def test_check_prints_it(case, tmp_path):

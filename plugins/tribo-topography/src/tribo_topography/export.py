@@ -7,11 +7,14 @@ from pathlib import Path
 import numpy as np
 from tribo import Result
 
+HEADER = "Lateral units: m\nValue units: m"
+
 
 def export_xyz(result: Result, folder: Path) -> list[Path]:
     """Write the surface of each body at the last save as lines of x, y and height, in m.
 
-    Heights are outward from the body, less what was worn and what yielded.
+    Heights are outward from the body, less what was worn and what yielded. The units are in a
+    header as Gwyddion writes it.
 
     Returns
     -------
@@ -24,6 +27,6 @@ def export_xyz(result: Result, folder: Path) -> list[Path]:
     for name in result.body_names:
         path = folder / f"{name}.xyz"
         points = np.stack([x, y, result.body(name).surface(-1)], axis=-1).reshape(-1, 3)
-        np.savetxt(path, points, fmt="%.9e")
+        np.savetxt(path, points, fmt="%.9e", header=HEADER)
         paths.append(path)
     return paths

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from tribo import Component, ExportFormat, HeightFormat, Heights, hookimpl
+from tribo import CaseError, Component, ExportFormat, HeightFormat, Heights, hookimpl
 
 from tribo_topography.config import MeasuredFile
 from tribo_topography.export import export_xyz
@@ -31,6 +31,14 @@ def tribo_height_formats() -> list[HeightFormat]:
 
 
 def _heights(path: Path) -> Heights:
-    found = read(MeasuredFile(path=path))
+    try:
+        found = read(MeasuredFile(path=path))
+    except CaseError as error:
+        if not path.is_file():
+            raise
+        raise CaseError(
+            f"{error}. Settings are for a case's surface: here, export the map as .x3p, or as a "
+            ".npy or .csv table of heights in m, whose pitch is given"
+        ) from None
     (sx, sy), (nx, ny) = found.size, found.heights.shape
     return Heights(found.heights, (sx / nx, sy / ny))
