@@ -5,7 +5,17 @@ import pytest
 import scipy.ndimage as ndimage
 from click.testing import CliRunner
 
-from tribo import CaseError, Grid, Heights, Registry, Rough, Sphere, measured_scar, read_heights
+from tribo import (
+    CaseError,
+    Grid,
+    Heights,
+    Registry,
+    Rough,
+    Sphere,
+    TriboWarning,
+    measured_scar,
+    read_heights,
+)
 from tribo.cli.scar import scar as command
 from tribo.lab import heights
 from tribo.lab.registration import register
@@ -256,6 +266,19 @@ def test_heights_in_micrometres_and_fill_values_are_told_by_their_file(standard,
             read_heights(tmp_path / f"{name}.npy", (PITCH, PITCH))
     # An instrument may count heights from its own stage.
     assert Heights(heights + 1.0, (PITCH, PITCH)).heights.shape == heights.shape
+
+
+def test_zeros_in_place_of_what_is_missing_are_told(standard):
+    before, after, *_ = standard
+    zeros = np.nan_to_num(before.heights)
+    count = np.count_nonzero(zeros == 0)
+    with pytest.warns(
+        TriboWarning, match=rf"{count} heights of the map before are exactly 0; put NaN"
+    ):
+        measured_scar(Heights(zeros, before.pitch), after)
+    # Steps of an instrument, of which 0 is one, are no such sign.
+    steps = [Heights(1e-9 * np.round(1e9 * m.heights), m.pitch) for m in (before, after)]
+    assert measured_scar(*steps).volume == pytest.approx(standard[3].volume, rel=0.01, abs=0)
 
 
 def test_a_picture_leaves_what_is_missing_white(standard):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,7 +11,7 @@ import numpy as np
 import scipy.ndimage as ndimage
 
 from tribo.core.arrays import Array, Mask
-from tribo.core.errors import CaseError
+from tribo.core.errors import CaseError, TriboWarning
 from tribo.lab.heights import Heights, interpolated, smoothed
 from tribo.lab.inferred import UNWORN, InferredVolume, ball_volumes, inferred
 from tribo.lab.registration import Registration, register
@@ -29,6 +30,8 @@ LEVELS = 0.2, 0.4
 """Of the largest depth, at which the width is read."""
 BOTTOM = 0.8
 """Part of the largest depth from which on what is worn is the bottom of a scar."""
+ZEROS = 10
+"""Times as many heights of 0 as of another value from which on they may stand for missing ones."""
 BESIDE = 4
 """Pixels by which what is shallower than the noise is taken in."""
 
@@ -153,6 +156,9 @@ def measured_scar(
         raise CaseError(f"form is 1 (a tilt) or 2 (a curvature as well), not {form}", "form")
     if isinstance(before, Surface):
         before = Heights(before.height(after.grid), after.pitch)
+    else:
+        _warn_of_zeros(before, "before")
+    _warn_of_zeros(after, "after")
     found = register(before, after, form)
     after = Heights(after.heights[found.part], after.pitch)
     covered = float(np.mean(found.worn))
@@ -204,6 +210,19 @@ def measured_scar(
         missing=float(np.mean(~known[scar])),
         inferred=tuple(formulas),
     )
+
+
+def _warn_of_zeros(heights: Heights, which: str) -> None:
+    """Warn where heights of exactly 0 are many more than of any other value, and yet the fewer."""
+    known = heights.heights[np.isfinite(heights.heights)]
+    values, counts = np.unique(known, return_counts=True)
+    zeros, others = (int(np.max(counts[each], initial=0)) for each in (values == 0, values != 0))
+    if zeros > ZEROS * others and 2 * zeros < known.size:
+        warnings.warn(
+            f"{zeros} heights of the map {which} are exactly 0; put NaN where nothing was measured",
+            TriboWarning,
+            stacklevel=3,
+        )
 
 
 def _deepest(found: Registration, smooth: Array, core: Mask, noise: float) -> tuple[float, float]:
