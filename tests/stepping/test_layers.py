@@ -360,6 +360,22 @@ def test_what_laws_of_layers_remember_goes_on_from_one_to_the_next(stepping):
     assert found == [pytest.approx(through, rel=1e-4)]
 
 
+@pytest.mark.parametrize("over", [1e6, 100e6])
+@pytest.mark.parametrize("part", [0.5, 0.7, 0.9])
+def test_what_is_under_a_layer_runs_in_however_late_in_a_step_that_is_passed(part, over):
+    # By up to 67 %, as the state of what was passed to last counted for nothing.
+    thick, factor = 0.35e-6, 4.0
+    pin = coated(thickness=thick)
+    pin |= {"wear": {"type": "running_in", "factor": factor, "over": over, "law": FAST}}
+    through = thick / (K * PRESSURE)
+    last, found = passed(flat(pin=pin, distance=through / part))
+    left = through / part - through
+    below = PRESSURE * left + (factor - 1) * over * (1 - np.exp(-PRESSURE * left / over))
+    exact = thick + 10 * K * below
+    assert last["bodies"]["pin"]["max_wear_depth_m"] == pytest.approx(exact, rel=1e-5, abs=0)
+    assert found == [pytest.approx(through, rel=1e-4)]
+
+
 def test_layers_are_written_in_python():
     body = Body(
         surface="flat",

@@ -164,6 +164,17 @@ KINDS = {
         ["load.normal", *SHAPE, *OF_LAYER, "bodies.disk.wear.over"],
         1e-6,
     ),
+    "layers, passed late in a step, remembers": Kind(
+        run(
+            bodies=layered(("0.05 um", archard()), of_ball=FRESH),
+            kinematics=motion(duration=1.75537),
+            stepping=LONG,
+            save_times=(0.63749,),
+        ),
+        Depth("ball"),
+        ["load.normal", "bodies.ball.layers.0.thickness", "bodies.ball.wear.over"],
+        1e-5,
+    ),
     "positions, layers, remembers": Kind(
         run(
             bodies=layered(("0.02 um", FAST), ("0.004 um", archard(2 * K)), FRESH, archard()),

@@ -218,7 +218,8 @@ class _Problem:
             span,
             RELAXING if relaxes else PLAIN,
             limits,
-            self.of_steps,
+            of_steps=self.of_steps,
+            knows_means=self.of_steps and not self.layered,
         )
         sizes = [
             np.maximum.reduce([np.abs(old), np.abs(new), FADED * peak])
@@ -243,6 +244,8 @@ class _Problem:
                     for share in (0, 1 / 2, 1 / 3, 2 / 3, 1)
                 ]
                 off = max(off, _jump(at[:4], at[4], span, here.sums, count))
+                late = self._late(along, values, held, at[4], span)
+                off = max(off, *map(_part_of, late, sizes[count - self.layered : count]))
             elif not self.of_steps:
                 off = max(off, _jump(samples, last, span, here.sums, count))
         sums = [old + new for old, new in zip(here.sums, best[count:], strict=True)]
@@ -261,6 +264,30 @@ class _Problem:
         remembered = len(start) - self.layered
         states = [s + share * (e - s) for s, e in zip(start, end, strict=True)]
         return along([*states[:remembered], *start[remembered:]], share, 0.0)
+
+    def _late(
+        self,
+        along: Rates,
+        start: Sequence[Array],
+        end: Sequence[Array],
+        stayed: Sequence[Array],
+        span: float,
+    ) -> list[float]:
+        """Return how far each depth may be off for what is remembered once points have passed.
+
+        What they have passed to in the last third of a part has none of it in any trial. `stayed`
+        are the rates at the end in the layers where the part begins.
+        """
+        remembered, count = len(start) - self.layered, len(start)
+        after = along(end, 1.0, 0.0)[remembered:count]
+        passed = [a != b for a, b in zip(after, stayed[remembered:count], strict=True)]
+        if not any(map(np.any, passed)):
+            return [0.0] * self.layered
+        entered = along([*start[:remembered], *end[remembered:]], 1.0, 0.0)[remembered:count]
+        return [
+            span / 3 * float(np.sum(np.abs(last - first), where=where))
+            for first, last, where in zip(entered, after, passed, strict=True)
+        ]
 
 
 def _cut(waiting: list[tuple[float, bool]], accurate: float) -> None:
@@ -292,7 +319,9 @@ def _extrapolated(
     length: float,
     stages: Sequence[int],
     limits: Sequence[Limits],
+    *,
     of_steps: bool,
+    knows_means: bool,
 ) -> tuple[Values, Values, list[Sequence[Array]], list[float]]:
     """Return the last two columns of Neville's table: ends of the states, integrals of the rest.
 
@@ -330,7 +359,8 @@ def _extrapolated(
             pairs = zip(column[-1], before, strict=True)
             column.append([fine + (fine - coarse) / ratio for fine, coarse in pairs])
         row = column
-        if of_steps and stage == 1:
+        # Points that pass to another layer late tell neither one step nor two of what follows.
+        if knows_means and stage == 1:
             pairs = zip(*column, strict=True)
             if all(_part_of(_apart(fine, once), np.abs(fine)) <= EXACT for once, fine in pairs):
                 break
