@@ -116,23 +116,8 @@ def gradient(
     factors = factors or {}
     model = localised(covered(Simulation(case).model), factors)
     model = unreached(model, model)
-    chains: list[Chain] = []
-    refused: dict[str, str] = {}
-    for path, places, value in find(model.case, wrt):
-        try:
-            chains.append(chain(model, path, places, value, factors))
-        except CaseError as error:
-            if wrt is not None:
-                raise
-            refused[path] = str(error).removeprefix(f"{path}: ")
-    looks: Mapping[float, Objective]
-    looks = objective if isinstance(objective, Mapping) else {model.end_time: objective}
-    for look in looks.values():
-        if not callable(look) or isinstance(look, type):
-            raise CaseError(
-                f"{look!r} is no objective; give a Volume, Depth, Deepest, Pressure, Width, "
-                "Misfit, EndTime or EndDistance, or a function of a View"
-            )
+    chains, refused = _chains(model, wrt, factors)
+    looks = _looks(objective, model.end_time)
     with closing(Tape()) as tape:
         states = recorded(model, list(looks), tape)
         seen = {time: looked(look, View(model, states[time])) for time, look in looks.items()}
@@ -159,6 +144,35 @@ def gradient(
     return Gradient(
         total, parameters, relative, found.wear_rate, found.height, found.worn_before, refused
     )
+
+
+def _chains(
+    model: Model, wrt: Sequence[str] | None, factors: Mapping[str, Array]
+) -> tuple[list[Chain], dict[str, str]]:
+    """Return what each number changes; and by path why one of all has no derivative."""
+    chains, refused = list[Chain](), dict[str, str]()
+    for path, places, value in find(model.case, wrt):
+        try:
+            chains.append(chain(model, path, places, value, factors))
+        except CaseError as error:
+            if wrt is not None:
+                raise
+            refused[path] = str(error).removeprefix(f"{path}: ")
+    return chains, refused
+
+
+def _looks(
+    objective: Objective | Mapping[float, Objective], end_time: float
+) -> Mapping[float, Objective]:
+    """Return objectives by the time (s) that they look at; refuse what is none."""
+    looks = objective if isinstance(objective, Mapping) else {end_time: objective}
+    for look in looks.values() or [None]:
+        if not callable(look) or isinstance(look, type):
+            raise CaseError(
+                f"{look!r} is no objective; give a Volume, Depth, Deepest, Pressure, Width, "
+                "Misfit, EndTime or EndDistance, or a function of a View"
+            )
+    return looks
 
 
 class ValueAndGradient:
