@@ -40,7 +40,13 @@ def test_percent_are_written_out(part, text):
 
 
 @pytest.mark.parametrize(
-    ("ends", "digits"), [((1.1e-16, 1.4e-14), 3), ((2.4995e-15, 2.5005e-15), 6), ((0, np.inf), 3)]
+    ("ends", "digits"),
+    [
+        ((1.1e-16, 1.4e-14), 3),
+        ((2.4995e-15, 2.5005e-15), 6),
+        ((0.1404, 0.1404 * (1 + 4e-16)), 4),
+        ((0, np.inf), 3),
+    ],
 )
 def test_ends_of_a_narrow_interval_differ(ends, digits):
     assert digits_of(*ends) == digits

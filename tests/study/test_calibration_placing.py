@@ -13,10 +13,11 @@ from tribo.config.overrides import apply_settings
 from tribo.lab.heights import Heights
 from tribo.simulation.run import Simulation
 from tribo.study.calibration import mapped
-from tribo.study.calibration.calibrate import calibrate
+from tribo.study.calibration.calibrate import calibrate, doubts
 from tribo.study.calibration.mapped import Mapped, calibrate_maps
 from tribo.study.calibration.maps import FittedMaps
 from tribo.study.calibration.placing import Placed, find_scar
+from tribo.study.calibration.posed import Posed
 
 K, TRUE = "bodies.ball.wear.k", 3e-16
 CASE = apply_settings(cheap(60), {"grid.cells": 32, K: TRUE, "bodies.disk.wear.k": TRUE})
@@ -99,6 +100,40 @@ def test_a_map_that_is_not_levelled_is_named(fitted, level, way):
 def test_a_wrong_pitch_is_named(fitted, pitch):
     (note,) = (note for note in fitted(pitch=pitch).notes if "check pitch" in note)
     assert float(note.split(" times")[0].split()[-1]) == pytest.approx(pitch, abs=0.015)
+
+
+@pytest.mark.parametrize("cells", [16, 20, 32])
+def test_a_profile_is_met_on_a_coarse_grid(worn, cells):
+    """To the noise, though its points and the cells lie apart."""
+    at = np.arange(-0.36e-3, 0.37e-3, 30e-6)
+    middle = 0.5 * (worn[PIXELS // 2 - 1] + worn[PIXELS // 2])
+    depths = np.interp(at, PITCH * (np.arange(PIXELS) - 0.5 * (PIXELS - 1)), middle)
+    entry = {"body": "ball", "quantity": "profile_across", "uncertainty": NOISE}
+    entry |= {"position": at.tolist(), "value": depths.tolist()}
+    coarse = apply_settings(CASE, {"grid.cells": cells})
+    found = calibrate(coarse, {"measured": [entry], "fit": [{"path": K}]})
+    assert covers(found)
+    assert found.p_value > 0.01
+    assert found.settings[K] == pytest.approx(TRUE, rel=0.005, abs=0)
+
+
+def test_a_map_that_a_grid_is_too_coarse_for_names_it(worn, tmp_path):
+    np.save(tmp_path / "map.npy", worn)
+    entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "map.npy")}
+    entry |= {"pitch": PITCH, "uncertainty": 1e-9}
+    exact = {"measured": [entry], "fit": [{"path": K}]}
+    assert calibrate(CASE, exact).settings[K] == pytest.approx(TRUE, rel=0.007, abs=0)
+    coarse = calibrate(apply_settings(CASE, {"grid.cells": 12}), exact)
+    assert any("the grid is too coarse: try grid.cells = 24" in note for note in coarse.notes)
+
+
+def test_where_the_scar_outgrows_the_window_the_pitch_is_doubted(worn, tmp_path):
+    np.save(tmp_path / "map.npy", worn)
+    entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "map.npy")}
+    posed = Posed.of(CASE, {"measured": [entry | {"pitch": PITCH, "uncertainty": NOISE}]})
+    edge = "the contact reached the edge of the window of 1 × 1 mm; make grid.size larger"
+    assert list(doubts(posed, edge)) == ["or check pitch"]
+    assert list(doubts(posed, "has not settled")) == []
 
 
 def test_uniform_wear_tells_no_place():

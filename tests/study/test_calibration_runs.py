@@ -336,6 +336,13 @@ def test_a_failing_run_says_with_what_and_what_may_be_off():
     assert "or is a measured value off? measured.0 was read as 3.66e-07 kg" in str(caught.value)
 
 
+def test_a_stop_by_depth_is_named_where_a_fit_fails():
+    """The ball's loss at that depth is the same whatever its coefficient."""
+    stopped = apply_settings(CASE, {"stop.depth": "0.1 um", "stop.body": "ball"})
+    with pytest.raises((CaseError, NumericalError), match=r"; or leave out stop\.depth: it ends"):
+        calibrate(stopped, {"measured": [measured("ball", "depth", 2e-7)], "fit": fitting(BALL_K)})
+
+
 @pytest.mark.parametrize(
     "entry",
     [

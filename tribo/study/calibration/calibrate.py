@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -24,9 +24,11 @@ from tribo.study.calibration.measured import Measurements
 from tribo.study.calibration.notes import notes
 from tribo.study.calibration.parameters import Parameter
 from tribo.study.calibration.posed import Posed
-from tribo.study.calibration.quantities import DEPTH_MAP, QUANTITIES, in_si, plain
+from tribo.study.calibration.quantities import DEPTH_MAP, PROFILES, QUANTITIES, in_si, plain
 from tribo.study.calibration.sample import check_sampling, sampled
 
+REACHED = "reached the edge of the window"
+"""Words of an error that a wrong pitch may be the reason of."""
 DATA = ["test", "body", "quantity", "time_s", "position_m", "unit"]
 DATA += ["measured", "below", "sigma", "computed", "residual"]
 """Columns of a calibration's data."""
@@ -196,15 +198,31 @@ def calibrate(
             estimate = np.where(fitted.limited(), posed.start, estimate)
             fitted = fit(responses, problem, estimate)
     except (CaseError, NumericalError) as error:
-        if not far:
+        words = [str(error), *doubts(posed, str(error))]
+        if far:
+            words.append(f"or is a measured value off? {'; '.join(far)}")
+        if len(words) == 1:
             raise
-        raise type(error)(f"{error}; or is a measured value off? {'; '.join(far)}") from error
+        raise type(error)("; ".join(words)) from error
     found = _outcome(fitted, posed, level)
     if not sample:
         return found
     on_fit(found)
     parameters, note = sampled(responses, fitted, found.parameters, sample, level)
     return replace(found, runs=posed.made, parameters=parameters, notes=(*found.notes, note))
+
+
+def doubts(posed: Posed, error: str) -> Iterator[str]:
+    """Say what else may be why a fit fails."""
+    if any(bench.model.case.stop.depth is not None for bench in posed.tested):
+        yield (
+            "or leave out stop.depth: it ends the run at different times for different coefficients"
+        )
+    given = set(posed.data["quantity"]) if REACHED in error else set()
+    if DEPTH_MAP in given:
+        yield "or check pitch"
+    if given & {*PROFILES}:
+        yield "or check position"
 
 
 def far_off(data: pd.DataFrame, computed: Array, parameters: Sequence[Parameter]) -> list[str]:
@@ -282,7 +300,13 @@ def _outcome(fitted: Linearised, posed: Posed, level: float) -> Calibration:
         left_out=fitted.left_out(),
         notes=(
             *map_notes(fitted, posed),
-            *notes(estimates, data, jacobian, None if problem.repeatability is None else spare),
+            *notes(
+                estimates,
+                data,
+                jacobian,
+                None if problem.repeatability is None else spare,
+                min(bench.model.grid.cells[1] for bench in posed.tested),
+            ),
             *last.notices,
         ),
     )

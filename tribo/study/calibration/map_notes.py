@@ -13,14 +13,14 @@ from tribo.core.words import signed
 from tribo.study.calibration.cells import means
 from tribo.study.calibration.notes import named
 from tribo.study.calibration.placing import Placed, slopes
-from tribo.study.calibration.quantities import DEPTHS
+from tribo.study.calibration.quantities import DEPTHS, WORN
 
 if TYPE_CHECKING:
     from tribo.study.calibration.linearised import Linearised
     from tribo.study.calibration.posed import Posed
 
-WORN, MARGIN = 1e-3, 2
-"""Part of the largest depth that is worn, and cells around it that may be."""
+MARGIN = 2
+"""Cells around what is worn that may be."""
 CERTAIN, FEWEST, MEDIAN = 4.0, 4, 1.25
 """Standard deviations that are no noise, fewest cells of a median, its standard deviation."""
 WIDER, MOST = 0.01, 0.5

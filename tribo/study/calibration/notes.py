@@ -22,17 +22,18 @@ _TAKES_PART, _MOST, _ALIKE = 0.3, 0.5, 3.0
 
 
 def notes(
-    estimates: pd.DataFrame, data: pd.DataFrame, jacobian: Array, spare: int | None
+    estimates: pd.DataFrame, data: pd.DataFrame, jacobian: Array, spare: int | None, cells: int
 ) -> list[str]:
     """Return notes, with the derivatives of the residuals by the logarithms of the parameters.
 
     The data have residuals also `alone`: made independent of each other where tests scatter.
-    `spare` are the degrees of freedom of χ², None where the data tell their own scatter.
+    `spare` are the degrees of freedom of χ², None where the data tell their own scatter; `cells`
+    are those of the coarsest grid.
     """
     return [
         *_on_parameters(estimates, data, jacobian, spare),
         *_entangled(list(estimates["path"]), jacobian),
-        *_on_misfit(data, spare),
+        *_on_misfit(data, spare, cells),
         *_on_patterns(data),
         *_on_instruments(data),
     ]
@@ -95,7 +96,7 @@ def _entangled(paths: Sequence[str], jacobian: Array) -> Iterator[str]:
         )
 
 
-def _on_misfit(data: pd.DataFrame, spare: int | None) -> Iterator[str]:
+def _on_misfit(data: pd.DataFrame, spare: int | None, cells: int) -> Iterator[str]:
     if spare is None:
         return
     if spare == 0:
@@ -107,11 +108,14 @@ def _on_misfit(data: pd.DataFrame, spare: int | None) -> Iterator[str]:
     chi_square = float(np.sum(read["alone"] ** 2))
     if chdtrc(spare, chi_square) < UNLIKELY:
         worst = read.loc[read["alone"].abs().idxmax()]
+        of_grid = ""
+        if worst.quantity in FIELDS:
+            of_grid = f", or the grid is too coarse: try grid.cells = {2 * cells}"
         yield (
             f"data and model disagree: χ² is {chi_square:.3g} where about {spare} is expected; the "
             f"{named(worst)} is off by {abs(worst.alone):.3g} times its "
-            "uncertainty. The model leaves something out, or uncertainties are larger than stated; "
-            "the intervals are then too narrow"
+            "uncertainty. The model leaves something out, or uncertainties are larger than stated"
+            f"{of_grid}; the intervals are then too narrow"
         )
 
 

@@ -39,8 +39,12 @@ from tribo.study.calibration.quantities import (
     DEPTHS,
     EDGES,
     FIELDS,
+    PROFILES,
     QUANTITIES,
     Reading,
+    depth_error,
+    grid_pattern,
+    kinked,
     read_all,
     unavailable,
 )
@@ -194,7 +198,8 @@ class Posed:
             if reading in self.heights:
                 row = self.table.loc[reading]
                 spacing = self.tested[row["bench"]].model.grid.spacing
-                sigma = math.hypot(row["sigma"], DEPTHS * float(np.max(depth)))
+                off = depth_error(depth, spacing) * float(np.max(depth))
+                sigma = math.hypot(row["sigma"], off)
                 now = find_scar(self.heights[reading], depth, spacing, sigma)
                 found[reading] = now.unless_near(self.placed.get(reading, Placed()), spacing)
         return self.moved(found) if found else self
@@ -265,22 +270,31 @@ class Posed:
             small=np.append(small, np.zeros(len(self.predicted))),
             lower=lower,
             upper=upper,
-            common=self._common(run.maps),
+            common=self._common(run),
         )
 
-    def _common(self, maps: Mapping[int, Array]) -> Array:
-        """Return what the grid, and a map's place, put off in all of a map: `Problem.common`."""
+    def _common(self, run: Run) -> Array:
+        """Return what the grid, and a map's place, put off in a whole field: `Problem.common`."""
         columns = []
-        for reading, depth in maps.items():
+
+        def add(rows: Array, source: Array) -> None:
+            columns.append(np.zeros(len(self.data)))
+            columns[-1][rows] = source
+
+        for _, own in self.data[self.data["quantity"].isin(PROFILES)].groupby("place"):
+            rows = own.index.to_numpy()
+            depth, error = run.responses[rows], np.min(run.read_off[rows])
+            if (largest := np.max(depth)) > 0:
+                add(rows, error * depth / largest)
+        for reading, depth in run.maps.items():
             rows = np.flatnonzero(self.data["reading"] == reading)
             spacing = self.tested[self.data["bench"].iloc[rows[0]]].model.grid.spacing
-            sources = [DEPTHS * depth]
+            within = depth_error(depth, spacing) * np.max(depth) * grid_pattern(depth)
+            sources = [DEPTHS * depth, within, kinked(depth)]
             for axis, slope in slopes(depth, spacing).items():
                 sources.append(ANYWHERE * spacing[axis] * depth.shape[axis] * slope)
             for source in sources:
-                column = np.zeros(len(self.data))
-                column[rows] = means(source, self.data["cells"].iloc[rows])
-                columns.append(column)
+                add(rows, means(source, self.data["cells"].iloc[rows]))
         return np.array(columns).reshape(-1, len(self.data)).T
 
 

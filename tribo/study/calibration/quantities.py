@@ -8,6 +8,8 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 import pandas as pd
+from scipy.interpolate import Akima1DInterpolator
+from scipy.ndimage import binary_dilation, binary_erosion
 
 from tribo.core.arrays import Array
 from tribo.core.measures import between_cells
@@ -22,8 +24,12 @@ from tribo.simulation.model import Model
 
 EDGES, DEPTHS = 0.2, 2e-3
 """Standard deviations of a computed diameter, in cells, and of a depth, in parts of the largest."""
-ROUNDING = 1e-9
-"""Part of a number that is none."""
+COARSE = 1.0
+"""The part of a depth times the square of the cells across the scar, where that is more."""
+WORN = 1e-3
+"""Part of the largest depth from which a cell counts as worn."""
+ROUNDING, EXACT = 1e-9, 1e-7
+"""Part of a number that is none, and an interval's below which its ends are not told apart."""
 
 
 class WornQuantity(NamedTuple):
@@ -92,9 +98,14 @@ def in_si(value: float, unit: str, digits: int = 3) -> str:
 
 
 def digits_of(lower: float, upper: float) -> int:
-    """Return how many digits show half of an interval to two of its own, 3 or more."""
+    """Return how many digits show half of an interval to two of its own, 3 or more.
+
+    One that is next to nothing has 4.
+    """
     if not 0 < upper - lower < math.inf:
         return 3
+    if upper - lower < EXACT * upper:
+        return 4
     return max(3, 2 + math.floor(math.log10(upper)) - math.floor(math.log10((upper - lower) / 2)))
 
 
@@ -134,12 +145,58 @@ def read(result: Result, asked: Reading) -> tuple[float, float]:
     if name == "section":
         return track_section(result, body, save) or 0.0, 0.0
     if name in PROFILES:
-        axis = AXES[name]
-        known = (result.grid.x, result.grid.y)[axis]
-        value = float(np.interp(asked.position_m, known, profile(depth, axis)))
-        return value, DEPTHS * float(np.max(depth))
+        return _on_line(depth, AXES[name], asked.position_m, result)
     volume = float(result.table("saves")[f"bodies.{body.name}.wear_volume_m3"][save])
     return mass_from_volume(volume, body.density or 0.0) if name == "mass" else volume, 0.0
+
+
+def cells_across(depth: Array, spacing: tuple[float, float]) -> float:
+    """Return how many cells a scar has across its shorter diameter, of the axes that have cells."""
+    axes = [axis for axis in (0, 1) if depth.shape[axis] > 1]
+    return min(diameter(depth, axis, spacing[axis]) / spacing[axis] for axis in axes)
+
+
+def depth_error(depth: Array, spacing: tuple[float, float]) -> float:
+    """Return the standard deviation of a depth due to the grid, in parts of the largest."""
+    return max(DEPTHS, COARSE / max(cells_across(depth, spacing), 1.0) ** 2)
+
+
+def grid_pattern(depth: Array) -> Array:
+    """Return how the grid puts off a map: 1 within the scar, the converse at its edge.
+
+    The volume stays the same, so that cells at the edge lose what those within have too much.
+    """
+    worn = depth > WORN * np.max(depth)
+    within = binary_erosion(worn, border_value=1)
+    edge = worn & ~within
+    return within - edge * (np.sum(within) / max(np.sum(edge), 1))
+
+
+def kinked(depth: Array) -> Array:
+    """Return the error of depths beside a scar's edge, where they have a kink; 0 elsewhere.
+
+    The edge is known to a part of a cell, as that of a diameter is.
+    """
+    worn = depth > WORN * np.max(depth)
+    edge = binary_dilation(worn) & ~binary_erosion(worn, border_value=1)
+    axes = [axis for axis, n in enumerate(depth.shape) if n > 1]
+    steps = [np.max(np.abs(np.diff(depth, axis=axis))) for axis in axes]
+    return edge * EDGES * max(steps)
+
+
+def _on_line(depth: Array, axis: int, position: float, result: Result) -> tuple[float, float]:
+    """Depth at a place on a middle line, by cubics, as scars are curved; and its error.
+
+    That is larger beside the scar's edge, where the line has a kink.
+    """
+    centres = result.grid.x, result.grid.y
+    known = centres[axis]
+    line = profile(depth, axis)
+    if depth.shape[1 - axis] > 1:
+        line = Akima1DInterpolator(centres[1 - axis], depth, axis=1 - axis)(0.0)
+    value = float(Akima1DInterpolator(known, line)(np.clip(position, known[0], known[-1])))
+    at_edge = float(np.interp(position, known, kinked(line)))
+    return value, math.hypot(DEPTHS * float(np.max(depth)), at_edge)
 
 
 def _save(result: Result, asked: Reading) -> int:
