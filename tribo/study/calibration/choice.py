@@ -23,6 +23,8 @@ from tribo.study.calibration.quantities import in_words
 STRONG = 6.0
 """Difference of the criterion from which evidence is called strong (Kass & Raftery)."""
 _ERRORS = 2.0
+SAME = 1e-6
+"""Part by which two ratios differ that is rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,9 +144,19 @@ def _telling(found: Mapping[str, Calibration], first: str, second: str) -> str:
     """Name the quantity in which two cases differ most, for the next test."""
     keys = ["test", "body", "quantity"]
     both = found[first].predictions.merge(found[second].predictions, on=keys)
+    both["ratio"] = both["value_x"] / both["value_y"]
+    data = found[first].data
+    ratios = data.assign(ratio=data["computed"] / found[second].data["computed"])
+
+    def is_new(row: Any) -> bool:
+        # What differs as a measured number of the body does is that number, as a volume is a mass.
+        own = ratios[(ratios["test"] == row.test) & (ratios["body"] == row.body)]
+        return not np.any(np.abs(own["ratio"] / row.ratio - 1) < SAME)
+
+    both = both[[is_new(row) for row in both.itertuples()]]
     if not len(both):
         return ""
-    each = both.loc[np.abs(np.log(both["value_x"] / both["value_y"])).idxmax()]
+    each = both.loc[np.abs(np.log(both["ratio"])).idxmax()]
     where = f" in {each.test}" if each.test else ""
     values = [in_words(each.quantity, value) for value in (each.value_x, each.value_y)]
     return (
