@@ -277,7 +277,7 @@ class Posed:
         """Return what the grid, and a map's place, put off in a whole field: `Problem.common`."""
         columns = []
 
-        def add(rows: Array, source: Array) -> None:
+        def add(rows: Any, source: Array) -> None:
             columns.append(np.zeros(len(self.data)))
             columns[-1][rows] = source
 

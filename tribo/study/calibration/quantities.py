@@ -169,7 +169,7 @@ def grid_pattern(depth: Array) -> Array:
     worn = depth > WORN * np.max(depth)
     within = binary_erosion(worn, border_value=1)
     edge = worn & ~within
-    return within - edge * (np.sum(within) / max(np.sum(edge), 1))
+    return np.asarray(within - edge * (np.sum(within) / max(np.sum(edge), 1)))
 
 
 def kinked(depth: Array) -> Array:
@@ -181,7 +181,7 @@ def kinked(depth: Array) -> Array:
     edge = binary_dilation(worn) & ~binary_erosion(worn, border_value=1)
     axes = [axis for axis, n in enumerate(depth.shape) if n > 1]
     steps = [np.max(np.abs(np.diff(depth, axis=axis))) for axis in axes]
-    return edge * EDGES * max(steps)
+    return np.asarray(edge * EDGES * max(steps))
 
 
 def _on_line(depth: Array, axis: int, position: float, result: Result) -> tuple[float, float]:
