@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Self
 
@@ -119,6 +119,10 @@ class Stop(Table):
         if self.body is not None and self.depth is None:
             raise ValueError("body says whose depth counts: give depth too")
         return self
+
+    def whose(self, bodies: Iterable[str]) -> list[str]:
+        """Return the names of the bodies whose depth counts, of all."""
+        return [self.body] if self.body else list(bodies)
 
 
 class Case(Table):

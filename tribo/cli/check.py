@@ -178,8 +178,7 @@ def _end(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
         yield f"wear of {name}, about", worn
     stop = model.case.stop
     if stop.depth is not None:
-        names = [stop.body] if stop.body else list(last.bodies)
-        most = max(last.bodies[name].max_wear_depth for name in names)
+        most = max(last.bodies[name].max_wear_depth for name in stop.whose(last.bodies))
         ended = f"not reached, {1e6 * most:.3g} µm at the end"
         if last.time < model.end_time:
             ended = f"reached after {readable(last.time, '.3g')} s"

@@ -147,9 +147,8 @@ def _stopped(model: Model, state: State) -> State:
 
 
 def _depth(model: Model, state: State) -> float:
-    name = model.case.stop.body
-    bodies = state.bodies.values() if name is None else [state.bodies[name]]
-    return max(float(np.max(body.wear)) for body in bodies)
+    names = model.case.stop.whose(state.bodies)
+    return max(float(np.max(state.bodies[name].wear)) for name in names)
 
 
 def _check_window(model: Model, state: State) -> None:

@@ -45,7 +45,7 @@ def _deepest(model: Model, end: State) -> Seeds:
     """Return 1 at the cell whose depth ended the run, the first of those that are as deep."""
     stop = model.case.stop
     assert stop.depth is not None
-    worn = {name: end.bodies[name].wear for name in ([stop.body] if stop.body else end.bodies)}
+    worn = {name: end.bodies[name].wear for name in stop.whose(end.bodies)}
     name = max(worn, key=lambda each: float(np.max(worn[each])))
     depth, most = worn[name], float(np.max(worn[name]))
     if most > stop.depth * (1 + DEPTH_ACCURACY):

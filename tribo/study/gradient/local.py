@@ -133,7 +133,7 @@ def unreached(model: Model, base: Model) -> Model:
     stop, laws = base.case.stop, dict(model.laws)
     if stop.depth is None:
         return model
-    for name in [stop.body] if stop.body else list(laws):
+    for name in stop.whose(model.laws):
         bottoms = base.laws[name].bottoms if name in laws else ()
         if not bottoms or bottoms[-1] < stop.depth * (1 - DEPTH_ACCURACY):
             continue

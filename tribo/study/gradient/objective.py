@@ -331,8 +331,7 @@ def _check_ended(view: View) -> None:
     stop = model.case.stop
     if stop.depth is None:
         raise CaseError("is not given: without it no depth ends the run", "stop.depth")
-    names = [stop.body] if stop.body else list(model.bodies)
-    most = max(float(np.max(view.wear(name))) for name in names)
+    most = max(float(np.max(view.wear(name))) for name in stop.whose(model.bodies))
     raise CaseError(
         f"is not reached: after {time:g} s the largest depth is {1e6 * most:.3g} µm of "
         f"{1e6 * stop.depth:.3g} µm; give the motion a longer duration, or a lower depth",
