@@ -22,8 +22,9 @@ from tribo.simulation.march import begin, march
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.fit import STEP
 from tribo.study.gradient.backwards import swept_back
+from tribo.study.gradient.numbers import changed, find
 from tribo.study.gradient.objective import View
-from tribo.study.gradient.parameters import chain, changed, find
+from tribo.study.gradient.parameters import chain
 from tribo.study.gradient.tape import Tape, recorded
 
 VALUES = {

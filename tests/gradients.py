@@ -17,8 +17,9 @@ from tribo.stepping.implicit import Implicit
 from tribo.stepping.step import distance_until, first_contact, rested, start_sliding
 from tribo.study.gradient.gradient import gradient
 from tribo.study.gradient.local import localised
+from tribo.study.gradient.numbers import changed, find
 from tribo.study.gradient.objective import View
-from tribo.study.gradient.parameters import Stops, changed, find
+from tribo.study.gradient.parameters import Stops
 from tribo.wear.running_in import RunningIn, Smoothing
 
 

@@ -22,6 +22,7 @@ from tribo.simulation.positions import composed
 from tribo.study.gradient import tape
 from tribo.study.gradient.gradient import ValueAndGradient, gradient
 from tribo.study.gradient.linear import Carrier, StepSystem
+from tribo.study.gradient.numbers import find
 from tribo.study.gradient.objective import (
     Deepest,
     Depth,
@@ -33,7 +34,6 @@ from tribo.study.gradient.objective import (
     Volume,
     Width,
 )
-from tribo.study.gradient.parameters import find
 from tribo.study.gradient.sensitivity import sensitivity
 from tribo.surfaces.height_map import HeightMap
 from tribo.wear.archard import Archard

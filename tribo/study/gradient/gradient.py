@@ -19,8 +19,9 @@ from tribo.simulation.run import Simulation
 from tribo.study.gradient.backwards import covered, swept_back
 from tribo.study.gradient.ending import at_depth
 from tribo.study.gradient.local import factor_shape, localised, unreached
+from tribo.study.gradient.numbers import changed, find, listed
 from tribo.study.gradient.objective import Objective, View, looked
-from tribo.study.gradient.parameters import Chain, chain, changed, find, listed
+from tribo.study.gradient.parameters import Chain, chain
 from tribo.study.gradient.tape import Tape, recorded
 
 
