@@ -2,6 +2,7 @@
 
 import tomllib
 from contextlib import contextmanager
+from copy import deepcopy
 
 import pytest
 
@@ -18,7 +19,7 @@ SPRINGS = {
 
 def on_springs(name, settings):
     """Return the case of a template on springs, with more settings."""
-    return apply_settings(tomllib.loads(template(name)), SPRINGS | settings)
+    return apply_settings(tomllib.loads(template(name)), deepcopy(SPRINGS) | settings)
 
 
 def cheap(duration):

@@ -320,8 +320,8 @@ def test_a_groove_that_ends_with_its_stroke_is_noticed():
     loss = BALL * LOAD * 360 * DENSITY
     data = [measured(body, "mass", loss, 0.02) for body in ("ball", "disk")]
     data.append(measured("disk", "depth", groove, 0.02))
-    hour = on_springs("ball_on_disk", {"grid": {"size": "1.4 mm", "cells": 24}})
-    hour["stepping"]["depth_tolerance"] = 0.1
+    coarse = {"grid": {"size": "1.4 mm", "cells": 24}, "stepping.depth_tolerance": 0.1}
+    hour = on_springs("ball_on_disk", coarse)
     found = calibrate(hour, {"measured": data})
     assert found.chi_square == pytest.approx(38, abs=8)
     assert found.p_value < 1e-6
