@@ -77,10 +77,13 @@ def main(cells: int) -> None:
     """Print times and slopes of each case."""
     warnings.simplefilter("ignore", TriboWarning)
     for name, case in cases(cells).items():
-        paths = ["bodies.ball.wear.k", "bodies.disk.wear.k"]
-        power = case.bodies["ball"].wear.type == "power"
-        paths += [f"bodies.{body}.wear.p_exponent" for body in ("ball", "disk") if power]
-        paths += [] if power else ["load.normal", "bodies.ball.material.young"]
+        wear = case.bodies["ball"].wear
+        law = "law." if hasattr(wear, "law") else ""
+        paths = [f"bodies.{body}.wear.{law}k" for body in ("ball", "disk")]
+        if wear.type == "power":
+            paths += [f"bodies.{body}.wear.p_exponent" for body in ("ball", "disk")]
+        else:
+            paths += ["load.normal", "bodies.ball.material.young"]
         case.run()
         started = process_time()
         case.run()
