@@ -127,6 +127,14 @@ def test_a_map_that_a_grid_is_too_coarse_for_names_it(worn, tmp_path):
     assert any("the grid is too coarse: try grid.cells = 24" in note for note in coarse.notes)
 
 
+def test_a_start_far_off_is_no_matter(worn, tmp_path):
+    np.save(tmp_path / "map.npy", worn)
+    entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "map.npy")}
+    entry |= {"pitch": PITCH, "uncertainty": NOISE}
+    far = {"measured": [entry], "fit": [{"path": K, "start": 0.1 * TRUE}]}
+    assert covers(calibrate(CASE, far))
+
+
 def test_where_the_scar_outgrows_the_window_the_pitch_is_doubted(worn, tmp_path):
     np.save(tmp_path / "map.npy", worn)
     entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "map.npy")}

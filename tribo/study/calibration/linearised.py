@@ -11,8 +11,10 @@ from scipy.stats import multivariate_normal
 
 from tribo.core.arrays import Array, Mask
 
-LEAP, REPEATABILITIES = np.log(100.0), (1e-3, 3.0)
-"""How far a parameter may move between two runs; least and largest that is estimated."""
+LEAP, STRIDE = np.log(100.0), np.log(4.0)
+"""How far a parameter may move between two runs; the second where depths are taken as linear."""
+REPEATABILITIES = (1e-3, 3.0)
+"""Least and largest that is estimated."""
 FAINT = 0.1
 """Change of the data, in standard deviations, per change by e, that tells as good as nothing."""
 _PASSES, _SAME, _RIDGE = 30, 1e-5, 1e-12
@@ -199,7 +201,8 @@ class Linearised:
 
     def least(self, start: Array, rows: Mask | slice = slice(None)) -> Array:
         """Return the least-squares point of rows of the data within the bounds and a leap."""
-        ends = self.bounds(LEAP)
+        fields = np.any(self.problem.small > 0)
+        ends = self.bounds(STRIDE if fields else LEAP)
         found = least_squares(
             lambda point: self.residuals(point)[rows],
             np.clip(start, *ends),
