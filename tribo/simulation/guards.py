@@ -77,12 +77,13 @@ class GuardedLaw(Guard[WearLaw]):
             unloaded = LocalConditions(np.zeros((1, 1)), 1.0, material, {}, state)
             self.advances = self.ask(law.advance, unloaded, 1.0) is not None
 
-    def rate(self, local: LocalConditions, over: float = 0.0) -> WearRate:
+    def rate(self, local: LocalConditions, over: Array | float = 0.0) -> WearRate:
         """Return the law's rate at the shape of the pressure, its slope not negative.
 
         Of a law that knows it that is the mean over a distance (m), without a slope.
         """
-        mean = self.ask(self.component.advance, local, over) if self.advances and over else None
+        knows = self.advances and np.any(over)
+        mean = self.ask(self.component.advance, local, over) if knows else None
         answer, depth = self._depth(local, mean)
         shape = local.pressure.shape
         slope = answer.depth_slope if mean is None else np.zeros(shape)

@@ -8,7 +8,8 @@ from itertools import accumulate
 
 import numpy as np
 
-from tribo.core.errors import CaseError
+from tribo.core.arrays import Array
+from tribo.core.errors import BadValues, CaseError, PluginError
 from tribo.core.fields import Field, LocalConditions, WearRate
 from tribo.simulation.guard import Guard
 from tribo.simulation.guards import GuardedLaw
@@ -20,6 +21,7 @@ class LayeredLaw(GuardedLaw):
     It is told in the state which share of an increment each point spends in each layer. What laws
     remember belongs to the point: it changes by the law of the layer that wears, and a field that
     two of them have goes on from one to the other. Thicknesses, in m, are of all but the last.
+    Where all laws know the means of their rates each gives that over the part spent in its layer.
     """
 
     def __init__(self, laws: Sequence[GuardedLaw], thicknesses: Sequence[float]) -> None:
@@ -30,23 +32,47 @@ class LayeredLaw(GuardedLaw):
         self.requires = tuple(dict.fromkeys(name for law in laws for name in law.requires))
         self.state_fields, self.initial_state = _state(laws)
         self.bottoms = tuple(accumulate(thicknesses))
+        self.advances = all(map(_knows_means, laws))
 
-    def rate(self, local: LocalConditions, over: float = 0.0) -> WearRate:
+    def rate(self, local: LocalConditions, over: Array | float = 0.0) -> WearRate:
         """Return the rates of the layers, weighted with their shares; see `GuardedLaw.rate`."""
         depth, slope = np.zeros_like(local.pressure), np.zeros_like(local.pressure)
         changes = {name: np.zeros_like(local.pressure) for name in self.initial_state}
+        now = {name: local.state[name] for name in self.initial_state}
         for layer, law in enumerate(self.laws):
             share = local.state.get(f"rate {layer}")
             if share is None or not share.any():
                 continue
             fields = {name: local.fields[name] for name in law.requires}
-            state = {name: local.state[name] for name in law.initial_state}
-            rate = law.rate(replace(local, material=law.material, fields=fields, state=state))
+            state = {name: now[name] for name in law.initial_state}
+            told = replace(local, material=law.material, fields=fields, state=state)
+            if self.advances and over:
+                # What counts for nothing is over some length all the same.
+                rate = law.rate(told, over * np.where(share > 0, share, 1.0))
+            else:
+                rate = law.rate(told)
             depth = depth + share * rate.depth_rate
             slope = slope + local.state[f"slope {layer}"] * rate.depth_slope
             for name, change in rate.state_rates.items():
                 changes[name] = changes[name] + share * change
+                if self.advances and over:
+                    # A point comes to the next layer with what it remembers of this one.
+                    now[name] = now[name] + over * share * change
         return WearRate(depth, slope, changes)
+
+
+def _knows_means(law: GuardedLaw) -> bool:
+    """Whether a law knows the mean of its rate over a part that each point has of its own."""
+    if not law.advances:
+        return not law.initial_state
+    state = {name: np.full((1, 2), value) for name, value in law.initial_state.items()}
+    local = LocalConditions(np.zeros((1, 2)), 1.0, law.material, {}, state)
+    try:
+        law.rate(local, np.array([[1.0, 2.0]]))
+    except (PluginError, BadValues):
+        # One that takes a single number is integrated.
+        return False
+    return True
 
 
 def _state(laws: Sequence[GuardedLaw]) -> tuple[tuple[Field, ...], dict[str, float]]:

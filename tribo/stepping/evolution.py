@@ -210,7 +210,7 @@ def _followed(
         increment,
         limits_of(model, before),
         plan,
-        of_steps=bool(layered) or model.advances,
+        knows_means=model.advances,
         layered=len(layered),
     )
 

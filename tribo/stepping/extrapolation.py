@@ -70,7 +70,7 @@ def integrated(
     limits: Sequence[Limits],
     plan: Plan | None = None,
     *,
-    of_steps: bool = False,
+    knows_means: bool = False,
     layered: int = 0,
 ) -> tuple[Values, Values, Plan]:
     """Return states after an increment, what other rates come to over it, and how it was divided.
@@ -94,11 +94,12 @@ def integrated(
     plan : Plan, optional
         Parts to begin with; they are divided, but never joined, so that the answer follows
         smoothly from the rates.
-    of_steps : bool, optional
-        Whether rates are the means over the part that they are told of, as where points pass from
-        layer to layer within it, or a model knows them: they are asked anew for each length.
+    knows_means : bool, optional
+        Whether rates are the exact means over the part that they are told of, as those of a model
+        that knows them: they are asked anew for each length.
     layered : int, optional
-        How many of the last states are depths worn in layers, at whose bottoms such rates may jump.
+        How many of the last states are depths worn in layers, at whose bottoms rates may jump. They
+        too are means over a part, within which points pass from layer to layer.
 
     Raises
     ------
@@ -114,7 +115,7 @@ def integrated(
     Exponential integrators, Acta Numerica 19, 209-286.
     """
     plan = plan or Plan()
-    problem = _Problem(rates, length, limits, of_steps, layered, math.isinf(plan.accuracy))
+    problem = _Problem(rates, length, limits, knows_means, layered, math.isinf(plan.accuracy))
     here = begin = problem.begin(start)
     waiting, done, missed = list(plan.parts), list[tuple[float, bool]](), 0.0
     worst = [0.0] * len(begin.rates)
@@ -190,9 +191,14 @@ class _Problem:
     rates: Rates
     length: float
     limits: Sequence[Limits]
-    of_steps: bool
+    knows_means: bool
     layered: int
     repeated: bool
+
+    @property
+    def of_steps(self) -> bool:
+        """Whether rates are means over the part that they are told of."""
+        return self.knows_means or self.layered > 0
 
     def begin(self, start: Sequence[Array]) -> _Place:
         """Return the place where the increment begins."""
@@ -219,7 +225,7 @@ class _Problem:
             RELAXING if relaxes else PLAIN,
             limits,
             of_steps=self.of_steps,
-            knows_means=self.of_steps and not self.layered,
+            knows_means=self.knows_means,
         )
         sizes = [
             np.maximum.reduce([np.abs(old), np.abs(new), FADED * peak])
@@ -237,7 +243,7 @@ class _Problem:
         if not self.repeated:
             # Trials held to a limit agree with each other, whatever the state goes to.
             off = max(off, *map(_part_of, moved, sizes), 0.0)
-        if off <= accuracy < math.inf:
+        if off <= accuracy < math.inf and not (self.knows_means and off <= EXACT):
             if self.layered:
                 at = [
                     self._between(along, values, held, share)
@@ -359,7 +365,6 @@ def _extrapolated(
             pairs = zip(column[-1], before, strict=True)
             column.append([fine + (fine - coarse) / ratio for fine, coarse in pairs])
         row = column
-        # Points that pass to another layer late tell neither one step nor two of what follows.
         if knows_means and stage == 1:
             pairs = zip(*column, strict=True)
             if all(_part_of(_apart(fine, once), np.abs(fine)) <= EXACT for once, fine in pairs):

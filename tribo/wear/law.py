@@ -6,6 +6,7 @@ from abc import abstractmethod
 from typing import ClassVar
 
 from tribo.component import Component
+from tribo.core.arrays import Array
 from tribo.core.fields import Field, LocalConditions, WearRate
 from tribo.core.material import Material
 
@@ -56,7 +57,7 @@ class WearLaw(Component):
             the state are 0.
         """
 
-    def advance(self, local: LocalConditions, distance: float) -> WearRate | None:
+    def advance(self, local: LocalConditions, distance: Array | float) -> WearRate | None:
         """Return the exact mean of `rate` over a distance, in which the law's own state goes on.
 
         Pressure and fields stay as they are. A law with a closed form of it spares the run the
@@ -66,8 +67,8 @@ class WearLaw(Component):
         ----------
         local : LocalConditions
             Conditions at each point, with the state before; not to be written to.
-        distance : float
-            In m.
+        distance : float or ndarray
+            In m; of a body in layers that of each point, at the shape of the pressure.
 
         Returns
         -------

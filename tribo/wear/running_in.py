@@ -65,7 +65,7 @@ class RunningIn(ModifiedLaw):
         faster = times(1 + (self.factor - 1) * fresh, rate)
         return WearRate(faster.depth_rate, faster.depth_slope, state)
 
-    def advance(self, local: LocalConditions, distance: float) -> WearRate | None:
+    def advance(self, local: LocalConditions, distance: Array | float) -> WearRate | None:
         """Return the mean over a distance by the closed form, if the other law has no state."""
         if self.law.state_fields:
             return None
@@ -141,7 +141,7 @@ class Smoothing(ModifiedLaw):
         state = {**rate.state_rates, ROUGHNESS.name: -above / self.depth * faster.depth_rate}
         return WearRate(faster.depth_rate, faster.depth_slope, state)
 
-    def advance(self, local: LocalConditions, distance: float) -> WearRate | None:
+    def advance(self, local: LocalConditions, distance: Array | float) -> WearRate | None:
         """Return the mean over a distance by the closed form, if the other law has no state."""
         if self.law.state_fields:
             return None

@@ -42,7 +42,7 @@ class LocalLaw(GuardedLaw):
         self._factor = factor
         self._spacing = spacing
 
-    def rate(self, local: LocalConditions, over: float = 0.0) -> WearRate:
+    def rate(self, local: LocalConditions, over: Array | float = 0.0) -> WearRate:
         """Return the law's rate and its derivative, times the factor of the place."""
         cells = tuple(
             np.rint(local.fields[place.name] / spacing + 0.5 * (count - 1)).astype(int)
@@ -64,7 +64,7 @@ class WatchedLaw(GuardedLaw):
         self._law = law
         self.seen: set[str] = set()
 
-    def rate(self, local: LocalConditions, over: float = 0.0) -> WearRate:
+    def rate(self, local: LocalConditions, over: Array | float = 0.0) -> WearRate:
         """Return the law's rate."""
         material: Any = _Watched(local.material, self.seen)
         told = _WatchedConditions(**{**vars(local), "material": material}, seen=self.seen)
