@@ -98,6 +98,9 @@ def test_it_quotes_the_uncertainty_that_a_study_found(tmp_path):
     study.write_text("[]")
     with pytest.raises(tribo.CaseError, match=r"--verified: .* is not what 'tribo verify CASE"):
         read_verified(study, result)
+    study.unlink()
+    with pytest.raises(tribo.CaseError, match=r"^--verified: .*: there is no such file$"):
+        read_verified(study, result)
 
 
 @pytest.mark.parametrize(

@@ -22,6 +22,7 @@ from tribo.core.errors import CaseError
 from tribo.plotting.curves import fit_picture
 from tribo.report.maps import maps_page
 from tribo.report.page import check_installed, render, stills
+from tribo.report.printed import printed_by
 from tribo.report.result import CITATION, facts
 from tribo.report.tables import for_page
 from tribo.result.provenance import environment
@@ -35,15 +36,11 @@ def calibration_file_page(path: Path) -> str:
     Raises
     ------
     CaseError
-        If the file is not one.
+        If there is no such file, or it is not one.
     """
-    try:
+    with printed_by("tribo calibrate --json", path):
         found = json.loads(path.read_text(encoding="utf-8"))
         read = read_maps(found) if "maps" in found else _read(found)
-    except FileNotFoundError as error:
-        raise CaseError(f"there is no file {path}; correct its name") from error
-    except (OSError, ValueError, LookupError, TypeError, AttributeError) as error:
-        raise CaseError(f"{path} is not what 'tribo calibrate --json' prints: {error}") from error
     if isinstance(read, Calibration):
         return calibration_page(read, path.stem)
     return maps_page(*read, path.stem)

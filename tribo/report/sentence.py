@@ -11,6 +11,7 @@ from typing import Any
 from tribo.core.errors import CaseError
 from tribo.lab.report import LabReport
 from tribo.report.amounts import amount
+from tribo.report.printed import printed_by
 from tribo.result.read import Result
 
 AGREES = 0.02
@@ -36,17 +37,14 @@ def read_verified(path: Path, result: Result) -> Sequence[Estimate]:
     Raises
     ------
     CaseError
-        If it is not such a study, or one of another case than that of `result`.
+        If there is no such file, it is not such a study, or one of another case than that
+        of `result`.
     """
-    try:
+    with printed_by("tribo verify CASE --json", path, "--verified"):
         estimates = json.loads(path.read_text(encoding="utf-8"))["estimates"]
         read = [
             {key: row[key] for key in ("name", "unit", "value", "uncertainty")} for row in estimates
         ]
-    except (OSError, ValueError, LookupError, TypeError) as error:
-        raise CaseError(
-            f"{path} is not what 'tribo verify CASE --json' prints: {error}", "--verified"
-        ) from error
     for name, body in result.saves()[-1]["bodies"].items():
         volume, found = body["wear_volume_m3"], _of(read, f"{name}: volume")
         if found is None and volume == 0:
