@@ -20,7 +20,7 @@ from tribo.study.gradient.backwards import covered, swept_back
 from tribo.study.gradient.ending import at_depth
 from tribo.study.gradient.local import factor_shape, localised, unreached
 from tribo.study.gradient.numbers import changed, find, listed
-from tribo.study.gradient.objective import Objective, View, looked
+from tribo.study.gradient.objective import Objective, View, is_finite, looked
 from tribo.study.gradient.parameters import Chain, chain
 from tribo.study.gradient.tape import Tape, recorded
 
@@ -167,6 +167,11 @@ def _looks(
 ) -> Mapping[float, Objective]:
     """Return objectives by the time (s) that they look at; refuse what is none."""
     looks = objective if isinstance(objective, Mapping) else {end_time: objective}
+    for time in looks:
+        if not is_finite(time):
+            raise CaseError(
+                f"an objective is to look at the time {time!r}; give a number, that of a save in s"
+            )
     for look in looks.values() or [None]:
         if not callable(look) or isinstance(look, type):
             raise CaseError(

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -47,8 +49,8 @@ class View:
         Its shape is that of the window; (1, ny) of a body that is averaged along its track, and
         (rows, ny) of one that passes through a resolved cycle.
         """
-        if body not in self.state.bodies:
-            meant = suggestion(did_you_mean(body, self.state.bodies))
+        if not isinstance(body, str) or body not in self.state.bodies:
+            meant = suggestion(did_you_mean(str(body), self.state.bodies))
             raise CaseError(
                 f"there is no body {body!r}{meant} The bodies are {', '.join(self.state.bodies)}"
             )
@@ -125,16 +127,31 @@ def looked(objective: Objective, view: View) -> tuple[float, Seeds]:
     for body, seed in seeds.wear.items():
         parts.append((f"seed by the wear of {body}", seed, view.wear(body).shape))
     for what, given, shape in parts:
-        if np.shape(given) != shape:
-            raise CaseError(f"the {what} of {name} has the shape {np.shape(given)}, not {shape}")
-        if np.asarray(given).dtype.kind not in "fiu" or not np.all(np.isfinite(given)):
+        array = as_numbers(given)
+        if array is not None and array.shape != shape:
+            raise CaseError(f"the {what} of {name} has the shape {array.shape}, not {shape}")
+        if array is None or not np.all(np.isfinite(array)):
             raise CaseError(f"the {what} of {name} is NaN, infinite or no number")
     return float(value), seeds
 
 
+def is_finite(value: object) -> bool:
+    """Whether something is a finite number."""
+    return isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def as_numbers(values: object) -> Array | None:
+    """Return an array of numbers; None of text, or of rows that are not alike."""
+    try:
+        array = np.asarray(values)
+    except (TypeError, ValueError):
+        return None
+    return array if array.dtype.kind in "fiu" else None
+
+
 def _check_place(x: float, y: float) -> None:
-    if not np.isfinite([x, y]).all():
-        raise CaseError(f"the place x = {x}, y = {y} is none; give both in m, from the middle")
+    if not (is_finite(x) and is_finite(y)):
+        raise CaseError(f"the place x = {x!r}, y = {y!r} is none; give both in m, from the middle")
 
 
 @dataclass(frozen=True)
@@ -188,8 +205,10 @@ class Deepest:
     order: float = 100.0
 
     def __post_init__(self) -> None:
-        if not 2 <= self.order < np.inf:
-            raise CaseError(f"an order of {self.order} of Deepest is not allowed; give 2 or more")
+        if not (is_finite(self.order) and self.order >= 2):
+            raise CaseError(
+                f"an order of {self.order!r} of Deepest is not allowed; give a number, 2 or more"
+            )
 
     def __call__(self, view: View) -> tuple[float, Seeds]:
         """Return the mean, and its derivative."""
@@ -261,14 +280,15 @@ class Misfit:
     uncertainty: float = 1.0
 
     def __post_init__(self) -> None:
-        if not 0 < self.uncertainty < np.inf:
+        if not (is_finite(self.uncertainty) and self.uncertainty > 0):
             raise CaseError(
-                f"an uncertainty of {self.uncertainty} m is none; give Misfit one above 0"
+                f"an uncertainty of {self.uncertainty!r} is none; give Misfit one above 0, in m"
             )
-        if np.any(np.isinf(self.depth)) or np.all(np.isnan(self.depth)):
+        depth = as_numbers(self.depth)
+        if depth is None or np.any(np.isinf(depth)) or np.all(np.isnan(depth)):
             raise CaseError(
-                f"the measured depth of {self.body} is infinite somewhere or NaN everywhere; give "
-                "depths in m, and NaN where nothing was measured"
+                f"the measured depth of {self.body} is no array of numbers, is infinite somewhere "
+                "or NaN everywhere; give depths in m, and NaN where nothing was measured"
             )
 
     def __call__(self, view: View) -> tuple[float, Seeds]:
