@@ -17,7 +17,7 @@ from tribo.core.errors import CaseError, NumericalError, TriboWarning
 from tribo.plotting.curves import fit_picture
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.calibrate import calibrate
-from tribo.study.calibration.cells import in_blocks
+from tribo.study.calibration.cells import in_blocks, over_cells
 from tribo.study.calibration.choice import choose_case
 from tribo.study.calibration.fit import differenced, fit, interval
 from tribo.study.calibration.plan import plan_tests
@@ -26,8 +26,9 @@ from tribo.study.calibration.posed import Posed
 K, N = "bodies.ball.wear.k", "bodies.ball.wear.p_exponent"
 DISK_K = "bodies.disk.wear.k"
 ARCHARD = apply_settings(cheap(60), {"grid.cells": 16, K: 3e-16, DISK_K: 3e-16})
+FINER = apply_settings(ARCHARD, {"grid.cells": 32})
 POWER = apply_settings(
-    ARCHARD,
+    FINER,
     {"bodies.ball.wear": {"type": "power", "k": 3e-16, "reference_pressure": "1 GPa"}, N: 1.3},
 )
 TRUE = {K: 3e-16, N: 1.3}
@@ -57,7 +58,7 @@ def noisy(tmp_path_factory):
             if field is not None:
                 depth = result.field(field, len(result.times) - 1, body)
             pitch = result.grid.spacing[0]
-        depth = depth + NOISE * random.standard_normal(depth.shape)
+        depth = over_cells(depth) + NOISE * random.standard_normal(depth.shape)
         depth[:3, :5] = np.nan
         file = folder / f"{len(list(folder.iterdir()))}.npy"
         np.save(file, depth)
@@ -88,7 +89,8 @@ def test_a_coefficient_and_an_exponent_are_found_from_maps_at_two_loads(found):
     for each in found.parameters.itertuples():
         assert each.lower < TRUE[each.path] < each.upper
         assert each.value == pytest.approx(TRUE[each.path], rel=0.02, abs=0)
-    assert len(found.data) == 2 * (16 * 16 - 15)
+    # Blocks of four cells, two of which were not measured.
+    assert len(found.data) == 2 * (16 * 16 - 2)
     assert found.p_value > 0.01
     assert list(found.brief["test"]) == ["heavy", "light"]
 
@@ -100,7 +102,8 @@ def test_a_map_is_one_row_of_the_table_and_of_the_picture(found, capsys):
     (row,) = (line.split() for line in text.splitlines() if "heavy" in line)
     assert " ".join(row).startswith("heavy: ball, depth_map, mean 0.")
     assert row[-2] == "rms"
-    assert float(row[-1]) == pytest.approx(1, abs=0.15)
+    # The noise of a block is no larger than what the grid may put it off by, of which is none here.
+    assert 0.4 < float(row[-1]) < 0.8
     (axes,) = fit_picture(found.brief).axes
     assert len(axes.get_yticks()) == 2
 
@@ -108,15 +111,13 @@ def test_a_map_is_one_row_of_the_table_and_of_the_picture(found, capsys):
 @pytest.mark.slow
 def test_another_law_is_noticed_and_not_chosen(two_loads, found):
     """Archard's coefficient would be 20 % less at half the load, where pressures are less."""
-    choice = choose_case({"power": POWER, "archard": ARCHARD}, two_loads)
+    choice = choose_case({"power": POWER, "archard": FINER}, two_loads)
     assert list(choice.cases["case"]) == ["power", "archard"]
     wrong = choice.calibrations["archard"]
-    assert wrong.p_value < 1e-6
+    assert wrong.p_value < 1e-3
     assert any("data and model disagree" in note for note in wrong.notes)
     assert any("the depth_map of 'ball' in heavy follow a pattern" in note for note in wrong.notes)
     assert not any("follow a pattern" in note for note in found.notes)
-    coarse = [note.split(":")[:2] for note in found.notes if "cells wide" in note]
-    assert coarse == [["heavy", " resolution"], ["light", " resolution"]]
 
 
 @pytest.mark.slow
@@ -211,7 +212,7 @@ def test_intervals_cover_the_coefficient_as_often_as_they_say(tmp_path):
     """Linear about the truth, with noise on each cell, of which numbers are means of four."""
     case = apply_settings(ARCHARD, {"grid.cells": 32, "stepping.depth_tolerance": 0.1})
     with run(case) as result:
-        clean, spacing = result.body("ball").wear_depth[-1].copy(), result.grid.spacing
+        clean, spacing = over_cells(result.body("ball").wear_depth[-1]), result.grid.spacing
     clean[:, 20:23] = np.nan
     noise = 100e-9
     np.save(tmp_path / "clean.npy", clean)
@@ -235,7 +236,9 @@ def test_intervals_cover_the_coefficient_as_often_as_they_say(tmp_path):
         squares.append(np.mean(found.residuals(found.point) ** 2))
     low, high = binom.ppf([0.002, 0.998], draws, 0.95)
     assert np.all((covered >= low) & (covered <= high)), covered
-    assert np.mean(squares) == pytest.approx(1, abs=0.05)
+    # Of what a datum may be off the grid's part was not drawn.
+    drawn_part = np.mean((posed.data["sigma"] / problem.sigma) ** 2)
+    assert np.mean(squares) == pytest.approx(drawn_part, abs=0.05)
 
 
 @pytest.mark.slow

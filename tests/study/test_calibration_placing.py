@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from calibrations import cheap, kept_runs
+from calibrations import cheap, kept_runs, on_springs
 from rich.console import Console
 from scipy.ndimage import shift as moved
 from scipy.stats import binom
@@ -19,6 +19,7 @@ from tribo.study.calibration.maps import FittedMaps
 from tribo.study.calibration.placing import Placed, find_scar
 from tribo.study.calibration.posed import Posed
 
+PIN_K = "bodies.pin.wear.k"
 K, TRUE = "bodies.ball.wear.k", 3e-16
 CASE = apply_settings(cheap(60), {"grid.cells": 32, K: TRUE, "bodies.disk.wear.k": TRUE})
 PIXELS, PITCH, NOISE = 128, 1e-3 / 128, 20e-9
@@ -117,14 +118,24 @@ def test_a_profile_is_met_on_a_coarse_grid(worn, cells):
     assert found.settings[K] == pytest.approx(TRUE, rel=0.005, abs=0)
 
 
-def test_a_map_that_a_grid_is_too_coarse_for_names_it(worn, tmp_path):
-    np.save(tmp_path / "map.npy", worn)
-    entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "map.npy")}
-    entry |= {"pitch": PITCH, "uncertainty": 1e-9}
-    exact = {"measured": [entry], "fit": [{"path": K}]}
-    assert calibrate(CASE, exact).settings[K] == pytest.approx(TRUE, rel=0.007, abs=0)
-    coarse = calibrate(apply_settings(CASE, {"grid.cells": 12}), exact)
-    assert any("the grid is too coarse: try grid.cells = 24" in note for note in coarse.notes)
+@pytest.mark.parametrize("cells", [16, 20, 24])
+def test_an_exact_map_is_met_on_coarse_grids(cells, tmp_path):
+    """Of another test, on a half-space, made on 160 cells across the window."""
+    case = on_springs("pin_on_disk", {"grid": {"size": "1.4 mm", "cells": cells}})
+    case = apply_settings(case, {"contact.type": "dcfft", "load.normal": 15, PIN_K: 1e-15})
+    case = apply_settings(case, {"kinematics.distance": 700, "bodies.disk.wear.k": 1e-14})
+    with Simulation(validate_case(apply_settings(case, {"grid.cells": 160}))).run() as result:
+        depths = {name: result.body(name).wear_depth[-1].copy() for name in ("pin", "disk")}
+    entries = []
+    for body, depth in depths.items():
+        np.save(tmp_path / f"{body}.npy", depth)
+        entry = {"body": body, "quantity": "depth_map", "depth": str(tmp_path / f"{body}.npy")}
+        entries.append(entry | {"pitch": 1.4e-3 / 160, "uncertainty": 2e-9})
+    found = calibrate(case, {"measured": entries})
+    for each, true in zip(found.parameters.itertuples(), (1e-15, 1e-14), strict=True):
+        assert each.lower < true < each.upper
+        assert each.value == pytest.approx(true, rel=0.003, abs=0)
+    assert found.p_value > 0.01
 
 
 def test_a_start_far_off_is_no_matter(worn, tmp_path):

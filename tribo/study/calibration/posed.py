@@ -22,7 +22,14 @@ from tribo.lab.heights import Heights
 from tribo.simulation.model import Model
 from tribo.simulation.positions import chosen
 from tribo.simulation.run import Simulation
-from tribo.study.calibration.cells import in_blocks, means, on_cells, read_map, surface_shape
+from tribo.study.calibration.cells import (
+    in_blocks,
+    means,
+    on_cells,
+    over_cells,
+    read_map,
+    surface_shape,
+)
 from tribo.study.calibration.linearised import Problem
 from tribo.study.calibration.measured import (
     Measured,
@@ -35,15 +42,14 @@ from tribo.study.calibration.parameters import Parameter, check_set, find_parame
 from tribo.study.calibration.placing import Placed, find_scar, slopes
 from tribo.study.calibration.quantities import (
     AXES,
+    CUT,
     DEPTH_MAP,
-    DEPTHS,
     EDGES,
     FIELDS,
     PROFILES,
     QUANTITIES,
     Reading,
     depth_error,
-    grid_pattern,
     kinked,
     read_all,
     unavailable,
@@ -212,11 +218,14 @@ class Posed:
         """Return a run with a response for each row of the data and the predictions."""
         predicted = len(self.table) + np.arange(len(self.predicted))
         reading = np.append(self.data["reading"], predicted).astype(int)
-        responses = made.responses[reading]
+        responses, read_off = made.responses[reading], made.read_off[reading]
         for i, depth in made.maps.items():
             rows = np.flatnonzero(reading == i)
-            responses[rows] = means(depth, self.data["cells"].iloc[rows])
-        return made._replace(responses=responses, read_off=made.read_off[reading])
+            cells = self.data["cells"].iloc[rows]
+            responses[rows] = means(over_cells(depth), cells)
+            at_edge = means(kinked(depth, CUT) ** 2, cells) / cells.map(len)
+            read_off[rows] = np.sqrt(read_off[rows] ** 2 + at_edge)
+        return made._replace(responses=responses, read_off=read_off)
 
     def _made(self, values: Array) -> Run:
         """Return the readings of a run, made once."""
@@ -289,8 +298,7 @@ class Posed:
         for reading, depth in run.maps.items():
             rows = np.flatnonzero(self.data["reading"] == reading)
             spacing = self.tested[self.data["bench"].iloc[rows[0]]].model.grid.spacing
-            within = depth_error(depth, spacing) * np.max(depth) * grid_pattern(depth)
-            sources = [DEPTHS * depth, within, kinked(depth)]
+            sources = [depth_error(depth, spacing) * depth]
             for axis, slope in slopes(depth, spacing).items():
                 sources.append(ANYWHERE * spacing[axis] * depth.shape[axis] * slope)
             for source in sources:

@@ -24,8 +24,9 @@ from tribo.simulation.model import Model
 
 EDGES, DEPTHS = 0.2, 2e-3
 """Standard deviations of a computed diameter, in cells, and of a depth, in parts of the largest."""
-COARSE = 1.0
-"""The part of a depth times the square of the cells across the scar, where that is more."""
+COARSE, CUT = 0.5, 0.1
+"""The former part times the square of the cells across the scar, where that is more; and the mean
+over a cell that the scar's edge cuts, in parts of the steepest step between cells."""
 WORN = 1e-3
 """Part of the largest depth from which a cell counts as worn."""
 ROUNDING, EXACT = 1e-9, 1e-7
@@ -161,27 +162,16 @@ def depth_error(depth: Array, spacing: tuple[float, float]) -> float:
     return max(DEPTHS, COARSE / max(cells_across(depth, spacing), 1.0) ** 2)
 
 
-def grid_pattern(depth: Array) -> Array:
-    """Return how the grid puts off a map: 1 within the scar, the converse at its edge.
-
-    The volume stays the same, so that cells at the edge lose what those within have too much.
-    """
-    worn = depth > WORN * np.max(depth)
-    within = binary_erosion(worn, border_value=1)
-    edge = worn & ~within
-    return np.asarray(within - edge * (np.sum(within) / max(np.sum(edge), 1)))
-
-
-def kinked(depth: Array) -> Array:
+def kinked(depth: Array, part: float) -> Array:
     """Return the error of depths beside a scar's edge, where they have a kink; 0 elsewhere.
 
-    The edge is known to a part of a cell, as that of a diameter is.
+    It is a part of the steepest step between cells.
     """
     worn = depth > WORN * np.max(depth)
     edge = binary_dilation(worn) & ~binary_erosion(worn, border_value=1)
     axes = [axis for axis, n in enumerate(depth.shape) if n > 1]
     steps = [np.max(np.abs(np.diff(depth, axis=axis))) for axis in axes]
-    return np.asarray(edge * EDGES * max(steps))
+    return np.asarray(edge * part * max(steps))
 
 
 def _on_line(depth: Array, axis: int, position: float, result: Result) -> tuple[float, float]:
@@ -195,7 +185,7 @@ def _on_line(depth: Array, axis: int, position: float, result: Result) -> tuple[
     if depth.shape[1 - axis] > 1:
         line = Akima1DInterpolator(centres[1 - axis], depth, axis=1 - axis)(0.0)
     value = float(Akima1DInterpolator(known, line)(np.clip(position, known[0], known[-1])))
-    at_edge = float(np.interp(position, known, kinked(line)))
+    at_edge = float(np.interp(position, known, kinked(line, EDGES)))
     return value, math.hypot(DEPTHS * float(np.max(depth)), at_edge)
 
 
