@@ -1,6 +1,7 @@
 """`tribo calibrate`, as a user meets it."""
 
 import json
+import re
 import tomllib
 from pathlib import Path
 from types import SimpleNamespace
@@ -12,10 +13,12 @@ from click.testing import CliRunner
 from command_line import tribo
 from rich.console import Console
 
+from tribo.cli.calibrate import _Told
 from tribo.cli.fitted import estimates_table
 from tribo.cli.main import tribo as main
 from tribo.config.load import load_case
 from tribo.core.errors import CaseError
+from tribo.study.calibration.measured import read_measurements
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 QUICK = ["--set", "grid.cells=24", "--set", "contact.type=winkler"]
@@ -124,3 +127,35 @@ def test_local_coefficients_are_one_case_and_no_plan(tmp_path, monkeypatch, more
     assert str(ended.exception) == (
         "local coefficients, [[map]], are fitted in one case, without --plan"
     )
+
+
+def left(told):
+    """Return the seconds that a line says are left, 0 where it says nothing."""
+    found = re.search(r", (\d+) s left at least", told)
+    return int(found[1]) if found else 0
+
+
+def told(capsys, runs, sample=0, fitted_at=None):
+    """Return what is told after rounds of runs: their number, and the time then in s."""
+    asked, unsampled, now = read_measurements(EXAMPLES / "weighed.toml"), [], [0.0]
+    tell, lines = _Told(asked, sample, unsampled, lambda: now[0]), []
+    for made, now[0] in runs:
+        if fitted_at is not None and now[0] > fitted_at and not unsampled:
+            unsampled.append(SimpleNamespace(runs=made - 1))
+        tell(made, 1.0)
+        lines += capsys.readouterr().err.splitlines()
+    return lines
+
+
+def test_the_time_left_is_that_of_runs_after_the_first(capsys):
+    # 60 s go before the first ends, as imports do; four are needed at least.
+    lines = told(capsys, [(1, 60.0), (2, 65.0), (3, 70.0), (4, 75.0), (5, 80.0)])
+    assert [left(line) for line in lines] == [0, 10, 5, 0, 0]
+
+
+def test_sampling_counts_once_it_has_begun_and_at_its_own_speed(capsys):
+    fit = [(1, 60.0), (2, 65.0), (4, 75.0)]
+    sampling = [(5, 100.0), (6, 101.0), (55, 150.0)]
+    lines = told(capsys, fit + sampling, sample=100, fitted_at=90.0)
+    assert [left(line) for line in lines] == [0, 10, 0, 0, 98, 49]
+    assert [line.split(",")[0] == "sampling" for line in lines] == 3 * [False] + 3 * [True]

@@ -230,20 +230,34 @@ def _tell(what: str, run: int, misfit: float = math.nan, left: float = 0.0) -> N
 
 
 class _Told:
-    """Tell of runs, and how long those that are needed at least will take."""
+    """Tell of runs, and how long those that are needed at least will take.
 
-    def __init__(self, asked: Measurements, sample: int, unsampled: Sequence[Calibration]) -> None:
+    That is told from the second round of runs on: what goes before the first, as imports and
+    kernels, is not done again. Sampling counts once it has begun, for it may be left out.
+    """
+
+    def __init__(
+        self,
+        asked: Measurements,
+        sample: int,
+        unsampled: Sequence[Calibration],
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
         tests = asked.tests.values()
         measured = {entry.body for test in tests for entry in test.measured}
-        self._fewest = len({repr(test.set) for test in tests}) * (
-            2 + (len(asked.fit) or len(measured)) + sample
-        )
-        self._began, self._pause, self._last = time.monotonic(), bool(sample), -math.inf
-        self._unsampled = unsampled
+        cases = len({repr(test.set) for test in tests})
+        self._fit, self._sample = cases * (2 + (len(asked.fit) or len(measured))), cases * sample
+        self._unsampled, self._clock = unsampled, clock
+        self._last, self._first, self._sampling = -math.inf, (0, 0.0), False
 
     def __call__(self, run: int, misfit: float) -> None:
-        if self._pause and time.monotonic() - self._last < PAUSE:
+        now, sampling = self._clock(), bool(self._unsampled)
+        if self._last == -math.inf or sampling != self._sampling:
+            self._first, self._sampling = (run, now), sampling
+        if self._sample and now - self._last < PAUSE:
             return
-        self._last = time.monotonic()
-        what = "sampling, run" if self._unsampled else "run"
-        _tell(what, run, misfit, (self._fewest - run) * (self._last - self._began) / run)
+        self._last = now
+        made, began = self._first
+        each = (now - began) / (run - made) if run > made else 0.0
+        fewest = self._unsampled[0].runs + self._sample if sampling else self._fit
+        _tell("sampling, run" if sampling else "run", run, misfit, (fewest - run) * each)
