@@ -94,6 +94,7 @@ def _print(case: Path, model: Model, prediction: Prediction, ruled: Sensitivity 
         console.print(f"  {what}, for 1 % more of:", markup=False)
         first = list(ruled.percent.items())[:SHOWN]
         console.print(_rows((f"    {path}", f"{percent:+.2f} %") for path, percent in first))
+        console.print(f"    (of {ruled.whence})", markup=False)
     for place, facts in prediction.facts.items():
         console.print(f"  {place}:", markup=False)
         console.print(_rows((f"    {name}", text) for name, text in facts.items()))

@@ -116,7 +116,7 @@ def _ruled(result: Result) -> dict[str, Any]:
         for path, percent in [*found.percent.items()][:MOST_NUMBERS]
         for size in [round(100 * abs(percent) / longest)]
     ]
-    return {"body": found.body, "of": found.of, "rows": rows}
+    return {"body": found.body, "of": found.of, "whence": found.whence, "rows": rows}
 
 
 def _uncertainty(row: Estimate) -> str:
