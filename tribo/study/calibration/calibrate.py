@@ -27,8 +27,8 @@ from tribo.study.calibration.posed import Posed
 from tribo.study.calibration.quantities import DEPTH_MAP, PROFILES, QUANTITIES, in_si, plain
 from tribo.study.calibration.sample import check_sampling, sampled
 
-REACHED = "reached the edge of the window"
-"""Words of an error that a wrong pitch may be the reason of."""
+REACHED, UNSETTLED = "reached the edge of the window", "have not settled"
+"""Words of errors that a wrong pitch may be the reason of."""
 DATA = ["test", "body", "quantity", "time_s", "position_m", "unit"]
 DATA += ["measured", "below", "sigma", "computed", "residual"]
 """Columns of a calibration's data."""
@@ -72,7 +72,8 @@ class Calibration:
     chi_square: float
     """Sum of the squared residuals, limits left out, made independent where tests scatter."""
     degrees_of_freedom: int
-    """Values, limits left out, less the parameters that they depend on and no bound holds."""
+    """Values, limits left out, less the parameters that they depend on and no bound holds, and
+    the shifts of maps that were moved."""
     repeatability: float
     """Relative standard deviation of the parameters from test to test."""
     repeatability_estimated: bool
@@ -218,7 +219,7 @@ def doubts(posed: Posed, error: str) -> Iterator[str]:
         yield (
             "or leave out stop.depth: it ends the run at different times for different coefficients"
         )
-    given = set(posed.data["quantity"]) if REACHED in error else set()
+    given = set(posed.data["quantity"]) if REACHED in error or UNSETTLED in error else set()
     if DEPTH_MAP in given:
         yield "or check pitch"
     if given & {*PROFILES}:
@@ -280,7 +281,8 @@ def _outcome(fitted: Linearised, posed: Posed, level: float) -> Calibration:
         alone=fitted.residuals(fitted.point),
     )
     told = np.max(np.abs(jacobian[~problem.below]), axis=0, initial=0.0) > NO_EFFECT
-    spare = max(int(np.sum(~problem.below)) - int(np.sum(told & ~held)), 0)
+    moved = sum(bool(far) for each in posed.placed.values() for far in each.shift)
+    spare = max(int(np.sum(~problem.below)) - int(np.sum(told & ~held)) - moved, 0)
     predictions = _predictions(fitted, posed, estimates, level)
     return Calibration(
         level=level,

@@ -23,8 +23,10 @@ MARGIN = 2
 """Cells around what is worn that may be."""
 CERTAIN, FEWEST, MEDIAN = 4.0, 4, 1.25
 """Standard deviations that are no noise, fewest cells of a median, its standard deviation."""
-WIDER, MOST = 0.01, 0.5
-"""Least part by which a scar is too wide, and of the excess in χ² that this must explain."""
+WIDER, MOST, FAR = 0.01, 0.5, 1.25
+"""Least part by which a scar is too wide, and of the excess in χ² that this must explain.
+
+The last: how many times as wide is too far off for a linear model."""
 
 
 def map_notes(fitted: Linearised, posed: Posed) -> Iterator[str]:
@@ -102,8 +104,32 @@ def _off_pitch(
     wider = float(column @ residuals / (column @ column))
     fall, misfit = wider**2 * float(column @ column), float(np.sum(residuals[rows] ** 2))
     excess = misfit - len(rows)
-    if excess > CERTAIN**2 and fall > MOST * excess and abs(wider) > WIDER:
+    if excess < CERTAIN**2:
+        return
+    times = _widths(fitted, posed, reading)
+    if 1 / FAR < times < FAR:
+        times = 1 + wider if fall > MOST * excess else 1.0
+    if abs(times - 1) > WIDER:
         yield (
-            f"the scar in {name} is about {1 + wider:.2f} times as wide as the model's of that "
+            f"the scar in {name} is about {times:.2f} times as wide as the model's of that "
             "depth: check pitch"
         )
+
+
+def _widths(fitted: Linearised, posed: Posed, reading: int) -> float:
+    """Return how many times as wide a scar is as the model's of its depth, by volumes over depths.
+
+    As a parameter grows the model's volume and depth do as powers; that which changes it most.
+    """
+    rows = np.flatnonzero(posed.data["reading"] == reading)
+    data = posed.data.iloc[rows]
+    cells = data["cells"].map(len).to_numpy()
+    measured, computed = data["measured"].to_numpy(), fitted.responses[rows]
+    effects = fitted.effects(fitted.point)[rows]
+    effect = effects[:, np.argmax(np.sum(np.abs(effects), axis=0))]
+    deepest = int(np.argmax(computed))
+    power = np.sum(cells * effect) / np.sum(cells * computed) * computed[deepest] / effect[deepest]
+    deeper = np.max(measured) / computed[deepest]
+    larger = np.sum(cells * measured) / np.sum(cells * computed) / deeper**power
+    axes = sum(n > 1 for n in posed.run(np.exp(fitted.point)).maps[reading].shape)
+    return float(max(larger, 0.0) ** (1 / axes))
