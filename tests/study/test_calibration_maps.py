@@ -83,6 +83,20 @@ def test_the_prior_is_the_field_that_it_says():
         assert along[1:] == pytest.approx(0.16 * far[1:] / 4 * kv(1, far[1:] / 4), abs=4e-3)
 
 
+@pytest.mark.parametrize("length", [0.1e-3, 0.4e-3])
+def test_the_prior_is_as_wide_at_the_ends_as_it_says(depth, length):
+    """A sum of waves with reflecting ends alone would be 1.4 times as wide there."""
+    waves = _Waves(
+        Simulation(validate_case(CASE)).model,
+        {"disk": (depth, NOISE)},
+        {"disk": Prior(0.5, length)},
+        print,
+    )
+    each = np.array([waves.logs(z) for z in np.eye(16)])
+    assert np.sqrt(np.sum(each**2, axis=0)) == pytest.approx(0.5)
+    assert each == pytest.approx(np.array([waves.back(slope) for slope in np.eye(16)]).T)
+
+
 def test_waves_on_half_the_cells_are_the_long_ones_of_the_whole():
     """And depths are means of four, known twice as well."""
     model = Simulation(validate_case(apply_settings(CASE, {"grid.cells": 32}))).model

@@ -45,7 +45,8 @@ class Prior:
     """What is known of ln(k/k₀) at each cell before anything is measured: a Gaussian field.
 
     Its covariance is that of Whittle (1954, Biometrika 41, 434-449), s² (r/ℓ) K₁(r/ℓ), with
-    reflecting ends, where it is larger. At the distance ℓ 0.60 of the correlation is left.
+    reflecting ends, and as wide there as elsewhere. At the distance ℓ 0.60 of the correlation is
+    left.
     """
 
     spread: float
@@ -62,6 +63,11 @@ class Prior:
         weight = [np.where((np.arange(n) == 0) & (n > 1), 0.5, 1.0) for n in shape]
         inside = np.sum(weight[0][:, None] * weight[1] * variance) / variance.size
         return np.asarray(self.spread * np.sqrt(variance / inside))
+
+    def level(self, amplitudes: Array) -> Array:
+        """Return the factors on a sum of waves that make it as wide at the ends as elsewhere."""
+        waves = [idctn(np.eye(n), axes=[0], norm="ortho") ** 2 for n in amplitudes.shape]
+        return np.asarray(self.spread / np.sqrt(waves[0] @ amplitudes**2 @ waves[1].T))
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,7 +180,7 @@ def fit_maps(
     )
     maps = {}
     for name, part in waves.parts.items():
-        shape, prior = waves.shapes[name], waves.prior(name)
+        shape, prior = waves.shapes[name], np.full(waves.shapes[name], priors[name].spread)
         left = prior**2 - taken[part].reshape(shape)
         maps[name] = LocalMap(
             logs[part].reshape(shape),
@@ -208,7 +214,7 @@ class _Waves:
     ) -> None:
         self.model, self.depths, self.priors, self.tell = model, depths, priors, tell
         self.shapes = {name: (model.exposures[name].rows, model.grid.cells[1]) for name in depths}
-        self.amplitudes, self.parts, self.size = {}, {}, 0
+        self.amplitudes, self.levels, self.parts, self.size = {}, {}, {}, 0
         for name, shape in self.shapes.items():
             if depths[name][0].shape != shape:
                 raise CaseError(
@@ -216,6 +222,7 @@ class _Waves:
                     f"{shape}"
                 )
             self.amplitudes[name] = priors[name].amplitudes(shape, model.grid.spacing)
+            self.levels[name] = priors[name].level(self.amplitudes[name])
             self.parts[name] = slice(self.size, self.size + shape[0] * shape[1])
             self.size = self.parts[name].stop
         self.gradient = ValueAndGradient(model, self.misfit, (), list(depths))
@@ -289,14 +296,15 @@ class _Waves:
         found = np.empty(self.size)
         for name, part in self.parts.items():
             waves = self.amplitudes[name] * z[part].reshape(self.shapes[name])
-            found[part] = idctn(waves, norm="ortho").ravel()
+            found[part] = (self.levels[name] * idctn(waves, norm="ortho")).ravel()
         return found
 
     def back(self, slope: Array) -> Array:
         """Return derivatives in the amplitudes from those in the logarithms."""
         found = np.empty(self.size)
         for name, part in self.parts.items():
-            waves = dctn(slope[part].reshape(self.shapes[name]), norm="ortho")
+            levelled = self.levels[name] * slope[part].reshape(self.shapes[name])
+            waves = dctn(levelled, norm="ortho")
             found[part] = (self.amplitudes[name] * waves).ravel()
         return found
 
@@ -309,11 +317,6 @@ class _Waves:
         off = {name: np.nan_to_num(each) for name, each in self.residuals(view).items()}
         value = 0.5 * sum(float(np.sum(each * each)) for each in off.values())
         return value, Seeds({name: each / self.depths[name][1] for name, each in off.items()})
-
-    def prior(self, name: str) -> Array:
-        """Return the standard deviation that the prior has at each cell of a body."""
-        waves = [idctn(np.eye(n), axes=[0], norm="ortho") ** 2 for n in self.shapes[name]]
-        return np.asarray(np.sqrt(waves[0] @ self.amplitudes[name] ** 2 @ waves[1].T))
 
     def local(self, logs: Array) -> Model:
         """Return the model with factors of these logarithms."""
