@@ -122,5 +122,5 @@ def test_a_rate_that_jumps_is_followed_beside_depths_in_layers():
         return [1 - values[0], ONE, (1.0 if values[0][0, 0] > 0.5 else 0.1) * ONE]
 
     limits = [BETWEEN, Limits(-np.inf, np.inf, "a depth", relaxes=False)]
-    _, (total,), _ = integrated(rates, [0 * ONE, 0 * ONE], 2.0, limits, layered=1)
+    _, (total,), _ = integrated(rates, [0 * ONE, 0 * ONE], 2.0, limits, layered=[False])
     assert total[0, 0] == pytest.approx(2 - 0.9 * np.log(2), rel=3e-3)

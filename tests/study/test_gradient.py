@@ -175,6 +175,16 @@ KINDS = {
         ["load.normal", "bodies.ball.layers.0.thickness", "bodies.ball.wear.over"],
         1e-5,
     ),
+    "layers on one body, both remember": Kind(
+        run(
+            bodies=layered(("0.05 um", archard()), None, FRESH, FRESH),
+            kinematics=motion(duration=1.75537),
+            stepping=LONG,
+        ),
+        Depth("ball"),
+        ["load.normal", "bodies.ball.layers.0.thickness", "bodies.ball.wear.over"],
+        1e-5,
+    ),
     "positions, layers, remembers": Kind(
         run(
             bodies=layered(("0.02 um", FAST), ("0.004 um", archard(2 * K)), FRESH, archard()),

@@ -60,6 +60,8 @@ class GuardedLaw(Guard[WearLaw]):
 
     bottoms: tuple[float, ...] = ()
     """Depths at which layers end, in m, where a body has any (`tribo.simulation.layers`)."""
+    steady_above = False
+    """Whether layers above the last remember nothing, so that points pass them at even rates."""
     advances = False
     """Whether it knows the exact mean of its rate."""
 

@@ -33,6 +33,7 @@ class LayeredLaw(GuardedLaw):
         self.state_fields, self.initial_state = _state(laws)
         self.bottoms = tuple(accumulate(thicknesses))
         self.advances = all(map(_knows_means, laws))
+        self.steady_above = not any(law.initial_state for law in laws[:-1])
 
     def rate(self, local: LocalConditions, over: Array | float = 0.0) -> WearRate:
         """Return the rates of the layers, weighted with their shares; see `GuardedLaw.rate`."""

@@ -95,22 +95,40 @@ class Model:
         one) and where nothing follows an effect, as a closed form does not see what that comes to
         within the increment.
         """
-        given = {f.name for each in self.effects for f in (*each.state_fields, *each.provides)}
-        followed = {LOAD_SHARE.name, FRICTION_COEFFICIENT.name}
-        followed.update(*(law.requires for law in self.laws.values()))
-        followed.update(*(effect.requires for effect in self.effects))
-        if len(self.cycle) > 1 or given & followed:
+        if not self._leaves_means:
             return False
-        known = [
-            law.advances and name not in self.swept
-            for name, law in self.laws.items()
-            if law.initial_state
-        ] + [
+        known = [self.knows_mean(name) for name, law in self.laws.items() if law.initial_state] + [
             effect.advances and effect.carrier not in self.swept
             for effect in self.effects
             if effect.initial_state
         ]
         return bool(known) and all(known) and not any(body is None for body, _ in self.filling)
+
+    @cached_property
+    def tells_length(self) -> bool:
+        """Whether laws that know the mean of their rate are asked for that over a part.
+
+        Where not all know it that spares parts only if points of one that does pass layers.
+        """
+        if self.advances or self.between or not self._leaves_means:
+            return self.advances
+        return any(
+            bool(law.bottoms and law.initial_state) and self.knows_mean(name)
+            for name, law in self.laws.items()
+        )
+
+    def knows_mean(self, name: str) -> bool:
+        """Whether the law of a body knows the mean of its rate at points that stay, as all do."""
+        return self.laws[name].advances and name not in self.swept
+
+    @cached_property
+    def _leaves_means(self) -> bool:
+        """Whether closed forms are right at points that stay, as far as effects go."""
+        given = {f.name for each in self.effects for f in (*each.state_fields, *each.provides)}
+        followed = {LOAD_SHARE.name, FRICTION_COEFFICIENT.name}
+        followed.update(*(law.requires for law in self.laws.values()))
+        followed.update(*(effect.requires for effect in self.effects))
+        return len(self.cycle) == 1 and not given & followed
 
     @cached_property
     def filling(self) -> tuple[tuple[str | None, str], ...]:

@@ -163,7 +163,7 @@ def _rates(
     and so are those of models that know them.
     """
     moment = end.back((1 - passed) * increment)
-    if model.advances:
+    if model.tells_length:
         moment = replace(moment, over=step * increment)
     contacts = loaded(model, contacts, end.back(0.5 * increment).time, end.time, passed)
     now = memory_with(before, layered, values)
@@ -211,7 +211,10 @@ def _followed(
         limits_of(model, before),
         plan,
         knows_means=model.advances,
-        layered=len(layered),
+        layered=[
+            model.tells_length and model.knows_mean(name) and model.laws[name].steady_above
+            for name in layered
+        ],
     )
 
 

@@ -71,7 +71,7 @@ def integrated(
     plan: Plan | None = None,
     *,
     knows_means: bool = False,
-    layered: int = 0,
+    layered: Sequence[bool] = (),
 ) -> tuple[Values, Values, Plan]:
     """Return states after an increment, what other rates come to over it, and how it was divided.
 
@@ -97,9 +97,10 @@ def integrated(
     knows_means : bool, optional
         Whether rates are the exact means over the part that they are told of, as those of a model
         that knows them: they are asked anew for each length.
-    layered : int, optional
-        How many of the last states are depths worn in layers, at whose bottoms rates may jump. They
-        too are means over a part, within which points pass from layer to layer.
+    layered : sequence of bool, optional
+        Of each of the last states that are depths worn in layers, at whose bottoms rates may jump,
+        whether its rates are such exact means. The others too are means over a part, as points pass
+        from layer to layer within it.
 
     Raises
     ------
@@ -192,13 +193,13 @@ class _Problem:
     length: float
     limits: Sequence[Limits]
     knows_means: bool
-    layered: int
+    layered: Sequence[bool]
     repeated: bool
 
     @property
     def of_steps(self) -> bool:
         """Whether rates are means over the part that they are told of."""
-        return self.knows_means or self.layered > 0
+        return self.knows_means or len(self.layered) > 0
 
     def begin(self, start: Sequence[Array]) -> _Place:
         """Return the place where the increment begins."""
@@ -251,7 +252,7 @@ class _Problem:
                 ]
                 off = max(off, _jump(at[:4], at[4], span, here.sums, count))
                 late = self._late(along, values, held, at[4], span)
-                off = max(off, *map(_part_of, late, sizes[count - self.layered : count]))
+                off = max(off, *map(_part_of, late, sizes[count - len(late) : count]))
             elif not self.of_steps:
                 off = max(off, _jump(samples, last, span, here.sums, count))
         sums = [old + new for old, new in zip(here.sums, best[count:], strict=True)]
@@ -267,7 +268,7 @@ class _Problem:
         self, along: Rates, start: Sequence[Array], end: Sequence[Array], share: float
     ) -> Values:
         """Return the rates where a share of a part has passed, in the layers where it begins."""
-        remembered = len(start) - self.layered
+        remembered = len(start) - len(self.layered)
         states = [s + share * (e - s) for s, e in zip(start, end, strict=True)]
         return along([*states[:remembered], *start[remembered:]], share, 0.0)
 
@@ -281,18 +282,22 @@ class _Problem:
     ) -> list[float]:
         """Return how far each depth may be off for what is remembered once points have passed.
 
-        What they have passed to in the last third of a part has none of it in any trial. `stayed`
+        What they have passed to in the last third of a part has none of it in any trial, but where
+        means are known. `stayed`
         are the rates at the end in the layers where the part begins.
         """
-        remembered, count = len(start) - self.layered, len(start)
+        remembered, count = len(start) - len(self.layered), len(start)
+        none = [0.0] * len(self.layered)
+        if all(self.layered):
+            return none
         after = along(end, 1.0, 0.0)[remembered:count]
         passed = [a != b for a, b in zip(after, stayed[remembered:count], strict=True)]
         if not any(map(np.any, passed)):
-            return [0.0] * self.layered
+            return none
         entered = along([*start[:remembered], *end[remembered:]], 1.0, 0.0)[remembered:count]
         return [
-            span / 3 * float(np.sum(np.abs(last - first), where=where))
-            for first, last, where in zip(entered, after, passed, strict=True)
+            0.0 if known else span / 3 * float(np.sum(np.abs(last - first), where=where))
+            for first, last, where, known in zip(entered, after, passed, self.layered, strict=True)
         ]
 
 

@@ -217,7 +217,7 @@ def _rates_of(
                     for field, values in state_of(model, memory, name).items()
                 },
             ),
-            moment.over,
+            0.0 if name in model.swept else moment.over,
         )
         if solid is not None:
             rate = replace(rate, depth_slope=solid * rate.depth_slope)

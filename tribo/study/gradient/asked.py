@@ -40,7 +40,7 @@ class Asked:
     """Whoever is asked for the rates of an increment of the bodies of a model that wear.
 
     `along` tells whether rates are integrated along the increment, as where any body remembers, and
-    `advances` whether they are the means that laws know.
+    `advances` whether laws that know them give means over a part.
     """
 
     model: Model

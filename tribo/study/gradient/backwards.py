@@ -291,7 +291,7 @@ class Backwards:
             own = {name: slid.before.laws[name] for name in names}
             alone = replace(slid, before=replace(slid.before, laws=own))
             return Sloping(
-                _of(model, *names), self.carriers, contacts, alone, remembers, model.advances
+                _of(model, *names), self.carriers, contacts, alone, remembers, model.tells_length
             )
 
         if self.together:
