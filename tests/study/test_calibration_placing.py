@@ -105,16 +105,38 @@ def test_a_wrong_pitch_is_named(fitted, pitch):
     assert float(note.split(" times")[0].split()[-1]) == pytest.approx(pitch, abs=off)
 
 
-@pytest.mark.parametrize("cells", [16, 20, 32])
-def test_a_profile_is_met_on_a_coarse_grid(worn, cells):
-    """To the noise, though its points and the cells lie apart."""
+def profile_fitted(worn, cells, shift=0.0, seed=None):
+    """What is found from a line across the ball's scar."""
     at = np.arange(-0.36e-3, 0.37e-3, 30e-6)
     middle = 0.5 * (worn[PIXELS // 2 - 1] + worn[PIXELS // 2])
-    depths = np.interp(at, PITCH * (np.arange(PIXELS) - 0.5 * (PIXELS - 1)), middle)
+    depths = np.interp(at - shift, PITCH * (np.arange(PIXELS) - 0.5 * (PIXELS - 1)), middle)
+    if seed is not None:
+        depths += NOISE * np.random.default_rng(seed).standard_normal(len(at))
     entry = {"body": "ball", "quantity": "profile_across", "uncertainty": NOISE}
     entry |= {"position": at.tolist(), "value": depths.tolist()}
     coarse = apply_settings(CASE, {"grid.cells": cells})
-    found = calibrate(coarse, {"measured": [entry], "fit": [{"path": K}]})
+    return calibrate(coarse, {"measured": [entry], "fit": [{"path": K}]})
+
+
+@pytest.mark.parametrize("shift", [40e-6, -40e-6, 10e-6])
+def test_a_shifted_profile_is_named(worn, shift):
+    (note,) = (n for n in profile_fitted(worn, 32, shift, 0).notes if "from its position 0" in n)
+    told = note.removeprefix("the scar in the profile_across of 'ball' lies ")
+    size = float(told.split()[0].replace("−", "-"))
+    assert size == pytest.approx(1e6 * shift, rel=0.15, abs=2)
+    assert "µm across the sliding direction" in told
+
+
+@pytest.mark.slow
+def test_a_profile_in_its_place_is_not_named(worn):
+    found = [profile_fitted(worn, 32, seed=seed) for seed in range(40)]
+    assert not any("position 0" in note for each in found for note in each.notes)
+
+
+@pytest.mark.parametrize("cells", [16, 20, 32])
+def test_a_profile_is_met_on_a_coarse_grid(worn, cells):
+    """To the noise, though its points and the cells lie apart."""
+    found = profile_fitted(worn, cells)
     assert covers(found)
     assert found.p_value > 0.01
     assert found.settings[K] == pytest.approx(TRUE, rel=0.005, abs=0)

@@ -1,4 +1,4 @@
-"""What is wrong with a measured depth map, in words: its place, its level, its pitch."""
+"""What is wrong with a measured depth map or profile, in words: its place, level, pitch."""
 
 from __future__ import annotations
 
@@ -13,12 +13,14 @@ from tribo.core.words import signed
 from tribo.study.calibration.cells import means
 from tribo.study.calibration.notes import named
 from tribo.study.calibration.placing import Placed, slopes
-from tribo.study.calibration.quantities import DEPTHS, WORN
+from tribo.study.calibration.quantities import AXES, DEPTHS, PROFILES, WORN
 
 if TYPE_CHECKING:
     from tribo.study.calibration.linearised import Linearised
     from tribo.study.calibration.posed import Posed
 
+WAYS = ("along", "across")
+"""The sliding direction."""
 MARGIN = 2
 """Cells around what is worn that may be."""
 CERTAIN, FEWEST, MEDIAN = 4.0, 4, 1.25
@@ -30,7 +32,7 @@ The last: how many times as wide is too far off for a linear model."""
 
 
 def map_notes(fitted: Linearised, posed: Posed) -> Iterator[str]:
-    """Name maps that are off their middle, not levelled, or of another pitch."""
+    """Name maps that are off their middle, not levelled, or of another pitch; shifted profiles."""
     for reading, depth in posed.run(np.exp(fitted.point)).maps.items():
         row, found = posed.table.loc[reading], posed.placed[reading]
         name = f"the {named(row)}"
@@ -39,6 +41,7 @@ def map_notes(fitted: Linearised, posed: Posed) -> Iterator[str]:
         measured = posed.on_cells(reading, found.shift)
         yield from off_level(name, measured, depth, row["sigma"])
         yield from _off_pitch(name, fitted, posed, reading, depth, spacing)
+    yield from _off_profiles(fitted, posed)
 
 
 def off_middle(name: str, found: Placed) -> Iterator[str]:
@@ -46,7 +49,7 @@ def off_middle(name: str, found: Placed) -> Iterator[str]:
     if any(found.shift):
         words = [
             f"{signed(1e6 * far, 1)} ± {1e6 * sigma:.1g} µm {way}"
-            for far, sigma, way in zip(found.shift, found.sigma, ("along", "across"), strict=True)
+            for far, sigma, way in zip(found.shift, found.sigma, WAYS, strict=True)
             if far
         ]
         yield (
@@ -82,6 +85,37 @@ def off_level(name: str, measured: Array, depth: Array, sigma: float) -> Iterato
         )
 
 
+def _off_profiles(fitted: Linearised, posed: Posed) -> Iterator[str]:
+    """Say how far profiles lie from the model's, by what their slopes explain of the residuals."""
+    profiles = posed.data[posed.data["quantity"].isin(PROFILES)]
+    for _, own in profiles.groupby("place", sort=False):
+        rows, positions = own.index.to_numpy(), own["position_m"].to_numpy()
+        x, first = np.unique(positions, return_index=True)
+        if len(x) < FEWEST:
+            continue
+        column = np.zeros(len(posed.data))
+        column[rows] = np.interp(positions, x, np.gradient(fitted.responses[rows][first], x))
+        shift, size = _explained(fitted, column)
+        if abs(shift) * size > CERTAIN:
+            row = next(own.itertuples())
+            yield (
+                f"the scar in the {named(row)} lies {signed(1e6 * shift, 1)} ± {1e6 / size:.1g} µm "
+                f"{WAYS[AXES[row.quantity]]} the sliding direction from its position 0, which is "
+                "the contact's centre"
+            )
+
+
+def _explained(fitted: Linearised, column: Array) -> tuple[float, float]:
+    """Return how much of an error there is in the data, besides parameters, and its size in σ."""
+    column, residuals = fitted.weights.weigh(column), fitted.residuals(fitted.point)
+    taken = np.linalg.svd(fitted.jacobian(fitted.point), full_matrices=False)[0]
+    column = column - taken @ (taken.T @ column)
+    squared = float(column @ column)
+    if squared == 0:
+        return 0.0, 0.0
+    return float(column @ residuals) / squared, squared**0.5
+
+
 def _off_pitch(
     name: str,
     fitted: Linearised,
@@ -98,12 +132,9 @@ def _off_pitch(
     rows = np.flatnonzero(posed.data["reading"] == reading)
     column = np.zeros(len(posed.data))
     column[rows] = means(stretch, posed.data["cells"].iloc[rows])
-    column, residuals = fitted.weights.weigh(column), fitted.residuals(fitted.point)
-    taken = np.linalg.svd(fitted.jacobian(fitted.point), full_matrices=False)[0]
-    column -= taken @ (taken.T @ column)
-    wider = float(column @ residuals / (column @ column))
-    fall, misfit = wider**2 * float(column @ column), float(np.sum(residuals[rows] ** 2))
-    excess = misfit - len(rows)
+    wider, size = _explained(fitted, column)
+    fall = (wider * size) ** 2
+    excess = float(np.sum(fitted.residuals(fitted.point)[rows] ** 2)) - len(rows)
     if excess < CERTAIN**2:
         return
     times = _widths(fitted, posed, reading)
