@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 
 from tribo import Archard, Body, Case, CaseError, Effect, Field, Layer, Result, Simulation
 from tribo.core.errors import Interrupted
-from tribo.core.fields import LOAD_SHARE
+from tribo.core.fields import LOAD_SHARE, WearRate
 from tribo.simulation.march import begin, march
 from tribo.simulation.predict import predict
 from tribo.stepping.contacts import solve_cycle
@@ -387,6 +387,27 @@ class Alone(RunningIn):
         return super().advance(local, float(distance))
 
 
+class Late(Alone):
+    """And that is seen where it is pressed alone."""
+
+    type = "test.running_in_late"
+
+    def advance(self, local, distance):
+        if not np.any(local.pressure):
+            nothing = np.zeros_like(local.pressure)
+            return WearRate(nothing, state_rates={"pressure_distance": nothing})
+        return super().advance(local, distance)
+
+
+class Unasked(RunningIn):
+    """Running-in that leaves several distances to be integrated."""
+
+    type = "test.running_in_unasked"
+
+    def advance(self, local, distance):
+        return None if np.ndim(distance) else super().advance(local, distance)
+
+
 @pytest.mark.filterwarnings("ignore:resolution:tribo.TriboWarning")
 def test_laws_that_know_their_means_are_asked_as_rarely_below_a_layer():
     asked = []
@@ -410,10 +431,11 @@ def test_laws_that_know_their_means_are_asked_as_rarely_below_a_layer():
     assert len(asked) < 30 * totals["contact_solves"]
 
 
-def test_a_mean_over_one_distance_alone_is_not_asked_for_below_a_layer():
+@pytest.mark.parametrize("kind", [Alone, Late, Unasked])
+def test_a_mean_over_one_distance_alone_is_not_asked_for_below_a_layer(kind):
     thick, over, distance = 0.35e-6, 100e6, 60.0
     case = Case.model_validate(flat(pin=coated(thickness=thick), distance=distance))
-    law = Alone(factor=4.0, over=over, law=Archard(k=10 * K))
+    law = kind(factor=4.0, over=over, law=Archard(k=10 * K))
     pin = case.bodies["pin"].model_copy(update={"wear": law})
     last, _ = passed(case.model_copy(update={"bodies": {**case.bodies, "pin": pin}}))
     left = distance - thick / (K * PRESSURE)

@@ -9,7 +9,7 @@ from itertools import accumulate
 import numpy as np
 
 from tribo.core.arrays import Array
-from tribo.core.errors import BadValues, CaseError, PluginError
+from tribo.core.errors import CaseError, PluginError
 from tribo.core.fields import Field, LocalConditions, WearRate
 from tribo.simulation.guard import Guard
 from tribo.simulation.guards import GuardedLaw
@@ -67,13 +67,15 @@ def _knows_means(law: GuardedLaw) -> bool:
     if not law.advances:
         return not law.initial_state
     state = {name: np.full((1, 2), value) for name, value in law.initial_state.items()}
-    local = LocalConditions(np.zeros((1, 2)), 1.0, law.material, {}, state)
+    pressed = LocalConditions(np.ones((1, 2)), 1.0, law.material, {}, state)
+    over = np.array([[1.0, 2.0]])
     try:
-        law.rate(local, np.array([[1.0, 2.0]]))
-    except (PluginError, BadValues):
+        known = law.ask(law.component.advance, pressed, over) is not None
+        law.rate(pressed, over)
+    except PluginError:
         # One that takes a single number is integrated.
         return False
-    return True
+    return known
 
 
 def _state(laws: Sequence[GuardedLaw]) -> tuple[tuple[Field, ...], dict[str, float]]:
