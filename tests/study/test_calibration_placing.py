@@ -14,8 +14,9 @@ from tribo.lab.heights import Heights
 from tribo.simulation.run import Simulation
 from tribo.study.calibration import mapped
 from tribo.study.calibration.calibrate import calibrate, doubts
-from tribo.study.calibration.mapped import Mapped, calibrate_maps
+from tribo.study.calibration.mapped import calibrate_maps
 from tribo.study.calibration.maps import FittedMaps
+from tribo.study.calibration.measured import Mapped
 from tribo.study.calibration.placing import Placed, find_scar
 from tribo.study.calibration.posed import Posed
 

@@ -1,11 +1,11 @@
-"""Depth maps, in the file of measured values, that local wear coefficients are fitted to."""
+"""Local wear coefficients from the depth maps of a file of measured values."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
 
@@ -13,34 +13,16 @@ from tribo.case import Case
 from tribo.config.load import case_tables, validate_case
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, located
-from tribo.core.table import Table
-from tribo.core.units import Quantity
 from tribo.lab.heights import Heights
 from tribo.simulation.march import begin, march
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.cells import on_cells, read_map, surface_shape
 from tribo.study.calibration.map_notes import off_level, off_middle
 from tribo.study.calibration.maps import FittedMaps, Prior, fit_maps
+from tribo.study.calibration.measured import Mapped
 from tribo.study.calibration.placing import find_scar
 from tribo.study.gradient.objective import View
 from tribo.study.variation import unknown_body
-
-
-class Mapped(Table):
-    """The depth worn off a body, measured all over it, and how its coefficient may vary."""
-
-    body: str
-    """Name of the body in the case."""
-    depth: str
-    """File of a height map: depths in m, positive where material is gone, NaN where missing."""
-    pitch: Annotated[float, Quantity("m", above=0)] | None = None
-    """Distance between its pixels; that of the file if left out."""
-    uncertainty: Annotated[float, Quantity("m", above=0)]
-    """Standard deviation of the depth of a cell of the grid."""
-    spread: Annotated[float, Quantity("1", above=0, below=3)] = 0.5
-    """Relative standard deviation of the coefficient from place to place: that of its logarithm."""
-    length: Annotated[float, Quantity("m", above=0)]
-    """Correlation length: the distance at which coefficients are still much alike."""
 
 
 def calibrate_maps(

@@ -17,7 +17,6 @@ from tribo.core.errors import CaseError
 from tribo.core.explain import case_error
 from tribo.core.table import Table
 from tribo.core.units import Quantity
-from tribo.study.calibration.mapped import Mapped
 from tribo.study.calibration.quantities import DEPTH_MAP, PROFILES, QUANTITIES, in_words
 from tribo.study.sweeping.study_file import by_path
 
@@ -244,6 +243,23 @@ class Tested(Table):
             return by_path(value, "set")
         except CaseError as error:
             raise ValueError(str(error)) from None
+
+
+class Mapped(Table):
+    """The depth worn off a body, measured all over it, and how its coefficient may vary."""
+
+    body: str
+    """Name of the body in the case."""
+    depth: str
+    """File of a height map: depths in m, positive where material is gone, NaN where missing."""
+    pitch: Annotated[float, Quantity("m", above=0)] | None = None
+    """Distance between its pixels; that of the file if left out."""
+    uncertainty: Annotated[float, Quantity("m", above=0)]
+    """Standard deviation of the depth of a cell of the grid."""
+    spread: Annotated[float, Quantity("1", above=0, below=3)] = 0.5
+    """Relative standard deviation of the coefficient from place to place: that of its logarithm."""
+    length: Annotated[float, Quantity("m", above=0)]
+    """Correlation length: the distance at which coefficients are still much alike."""
 
 
 class Measurements(Table):
