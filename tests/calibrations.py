@@ -7,7 +7,7 @@ from copy import deepcopy
 import pytest
 
 from tribo.config.overrides import apply_settings
-from tribo.study.calibration.posed import make_run
+from tribo.study.calibration.benches import make_run
 from tribo.templates import template
 
 SPRINGS = {

@@ -15,10 +15,10 @@ from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError, NumericalError, TriboWarning
 from tribo.result.export import profile
 from tribo.simulation.run import Simulation
+from tribo.study.calibration.benches import Run, make_run
 from tribo.study.calibration.calibrate import calibrate
 from tribo.study.calibration.measured import read_measurements
 from tribo.study.calibration.parameters import find_parameters
-from tribo.study.calibration.posed import Run, make_run
 from tribo.study.calibration.quantities import Reading, read
 
 TRUE = {"bodies.ball.wear.k": 3.11e-16, "bodies.disk.wear.k": 1.5e-16}

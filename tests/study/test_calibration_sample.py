@@ -16,10 +16,10 @@ import tribo.study.calibration.posed as posed
 from tribo.cli.main import tribo
 from tribo.config.load import read_toml
 from tribo.core.errors import CaseError, Interrupted, NumericalError
+from tribo.study.calibration.benches import Run
 from tribo.study.calibration.calibrate import calibrate
 from tribo.study.calibration.fit import fit, interval
 from tribo.study.calibration.linearised import Problem
-from tribo.study.calibration.posed import Run
 from tribo.study.calibration.sample import sampled
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

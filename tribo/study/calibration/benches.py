@@ -1,0 +1,163 @@
+"""The cases of the tests that are fitted to, and runs of them."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+import pandas as pd
+
+from tribo.case import Case
+from tribo.config.load import validate_case
+from tribo.config.overrides import apply_settings
+from tribo.core.arrays import Array
+from tribo.core.errors import CaseError, NumericalError, TriboWarning
+from tribo.simulation.model import Model
+from tribo.simulation.positions import chosen
+from tribo.simulation.run import Simulation
+from tribo.study.calibration.measured import Measured, Tested
+from tribo.study.calibration.parameters import Parameter
+from tribo.study.calibration.quantities import (
+    AXES,
+    FIELDS,
+    QUANTITIES,
+    Reading,
+    read_all,
+    unavailable,
+)
+from tribo.study.variation import unknown_body, valid_case
+
+READ = list(Reading._fields)
+"""Columns of the data that say what is read off a run."""
+
+
+@dataclass(frozen=True)
+class Bench:
+    """One case among the tests."""
+
+    name: str
+    case: Mapping[str, Any]
+    tables: Mapping[str, Any]
+    """The case, also with what the readings need; its name is that of the first test."""
+    model: Model
+
+
+class Run(NamedTuple):
+    """Responses of a run, their standard deviations due to the grid, and its notices."""
+
+    responses: Array
+    read_off: Array
+    maps: Mapping[int, Array]
+    """Depths all over a surface, shape (rows, ny), by the reading that asks for them."""
+    notices: tuple[str, ...]
+
+
+def benches(
+    tables: Mapping[str, Any],
+    tests: Mapping[str, Tested],
+    data: pd.DataFrame,
+) -> list[Bench]:
+    """Return the cases of the tests, those alike as one, and add the column `bench` to the data."""
+    cases: dict[str, tuple[Case, Model]] = {}
+    alike: dict[str, list[Tested]] = {}
+    of = []
+    for place, test in tests.items():
+        try:
+            # A test may end before times at which the case is saved.
+            case = valid_case(tables, {**test.set, "output.save_times": []})
+        except CaseError as error:
+            raise error if not place else CaseError(str(error), f"{place}set") from None
+        if (key := repr(case)) not in cases:
+            cases[key] = case, Simulation(case).model
+        alike.setdefault(key, []).append(test)
+        of.append([*cases].index(key))
+        for i, entry in enumerate(test.measured):
+            _check_entry(cases[key][1], entry, f"{place}measured.{i}")
+    names = [first.name for first, *_ in alike.values()]
+    for name in names:
+        if names.count(name) > 1:
+            raise CaseError(f"two tests that differ are called {name!r}; rename one", "test")
+    data["bench"] = np.array(of)[data["of"]]
+    return [_bench(tables, alike[key], *each) for key, each in cases.items()]
+
+
+def _bench(tables: Mapping[str, Any], tests: Sequence[Tested], case: Case, model: Model) -> Bench:
+    """Return the case of tests that are alike."""
+    changed = apply_settings(tables, tests[0].set)
+    given = validate_case(tables).output.save_times
+    reached = [time for time in given if time <= model.end_time]
+    if len(reached) < len(given):
+        changed = apply_settings(changed, {"output.save_times": reached})
+    entries = [entry for test in tests for entry in test.measured]
+    times = sorted({entry.time for entry in entries if entry.time is not None})
+    kept = {"output.save_times": times, "observers": []}
+    ready = apply_settings(changed, {**kept, **chosen(case, model)})
+    return Bench(tests[0].name, changed, ready, model)
+
+
+def foretold(tested: Sequence[Bench], data: pd.DataFrame) -> pd.DataFrame:
+    """Return `Posed.predicted`."""
+    ends = np.array([bench.model.end_time for bench in tested])
+    at_end = data[~(data["time_s"] < ends[data["bench"]] * (1 - 1e-12))]
+    known = {*at_end[["bench", "body", "quantity"]].itertuples(index=False, name=None)}
+    rows = [
+        (i, bench.name, body, quantity, math.nan, math.nan)
+        for i, bench in enumerate(tested)
+        for body in bench.model.bodies
+        for quantity in QUANTITIES
+        if quantity not in FIELDS
+        and (i, body, quantity) not in known
+        and not unavailable(bench.model, body, quantity)
+    ]
+    return pd.DataFrame(rows, columns=["bench", "test", *READ])
+
+
+def make_run(
+    tables: Mapping[str, Any],
+    parameters: Sequence[Parameter],
+    values: Array,
+    wanted: Sequence[Reading],
+    name: str = "run",
+) -> Run:
+    """Run a case with other values of its parameters, and read numbers off the result."""
+    # Taking logarithms may round to just beyond a bound.
+    settings = {
+        p.path: min(max(float(value), p.lower), p.upper)
+        for p, value in zip(parameters, values, strict=True)
+    }
+    with warnings.catch_warnings():
+        # The calibration has the notices of the last run.
+        warnings.simplefilter("ignore", TriboWarning)
+        try:
+            case = validate_case(apply_settings(tables, settings))
+            result = Simulation(case).run()
+        except (CaseError, NumericalError) as error:
+            named = ", ".join(f"{path} = {value:.4g}" for path, value in settings.items())
+            raise type(error)(f"{name}, with {named}: {error}") from error
+    with result:
+        return Run(*read_all(result, wanted), result.notices)
+
+
+def _check_entry(model: Model, entry: Measured, place: str) -> None:
+    if entry.body not in model.bodies:
+        raise unknown_body(entry.body, model.bodies, f"{place}.body")
+    reason = unavailable(model, entry.body, entry.quantity)
+    if reason:
+        raise CaseError(reason, f"{place}.quantity")
+    if entry.time is not None and entry.time > model.end_time * (1 + 1e-12):
+        raise CaseError(
+            f"{entry.time:g} s is not reached: the run ends at {model.end_time:g} s",
+            f"{place}.time",
+        )
+    for position in entry.position or ():
+        half = 0.5 * model.grid.size[AXES[entry.quantity]]
+        if abs(position) > half:
+            raise CaseError(
+                f"{1e3 * position:g} mm lies outside the window, which reaches "
+                f"{1e3 * half:g} mm from the centre",
+                f"{place}.position",
+            )
