@@ -20,7 +20,7 @@ from tribo.study.calibration.measured import Mapped
 from tribo.study.calibration.placing import Placed, find_scar
 from tribo.study.calibration.posed import Posed
 
-PIN_K = "bodies.pin.wear.k"
+PIN_K, DISK_K = "bodies.pin.wear.k", "bodies.disk.wear.k"
 K, TRUE = "bodies.ball.wear.k", 3e-16
 CASE = apply_settings(cheap(60), {"grid.cells": 32, K: TRUE, "bodies.disk.wear.k": TRUE})
 PIXELS, PITCH, NOISE = 128, 1e-3 / 128, 20e-9
@@ -132,6 +132,22 @@ def test_a_shifted_profile_is_named(worn, shift):
 def test_a_profile_in_its_place_is_not_named(worn):
     found = [profile_fitted(worn, 32, seed=seed) for seed in range(40)]
     assert not any("position 0" in note for each in found for note in each.notes)
+
+
+def test_what_no_pitch_explains_is_not_laid_to_it(worn, fitted, tmp_path):
+    notes = [*fitted(level=1e-6).notes]
+    spiked = worn.copy()
+    spiked[64:68, 56:60] += 3 * np.max(worn)
+    np.save(tmp_path / "map.npy", spiked)
+    entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "map.npy")}
+    entry |= {"pitch": PITCH, "uncertainty": NOISE}
+    notes += calibrate(CASE, {"measured": [entry], "fit": [{"path": K}]}).notes
+    # Nor is it told which of the ball's scars are as deep where its coefficient is not fitted.
+    np.save(tmp_path / "map.npy", worn)
+    little = apply_settings(CASE, {K: 0.1 * TRUE})
+    notes += calibrate(little, {"measured": [entry], "fit": [{"path": DISK_K}]}).notes
+    assert sum("data and model disagree" in note for note in notes) == 3
+    assert [note for note in notes if "check pitch" in note] == []
 
 
 @pytest.mark.parametrize("cells", [16, 20, 32])
