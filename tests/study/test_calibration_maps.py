@@ -139,6 +139,7 @@ def test_a_standard_deviation_is_that_of_the_profile_likelihood(depth):
     given = {"disk": (depth, NOISE)}, {"disk": Prior(0.4, 0.1e-3)}
     found = fit_maps(CASE, *given).maps["disk"]
     waves = _Waves(Simulation(validate_case(CASE)).model, *given, lambda misfit: None)
+    waves.sigma["disk"] = found.uncertainty
 
     def surprise(z):
         value, slope = waves.gradient(waves.logs(z))
@@ -160,6 +161,20 @@ def test_depths_that_no_smooth_map_explains_are_noticed(depth):
     found = fit_maps(CASE, {"disk": (stripes, NOISE)}, {"disk": Prior(0.1, 300e-6)})
     assert found.p_value < 1e-6
     assert any("no map that varies so smoothly" in note for note in found.notes)
+
+
+def test_an_even_coefficient_is_found_even_from_a_map_that_no_coarse_run_gives():
+    """Made on four times as many cells, whose means and whose edge are others."""
+    ball = apply_settings(cheap(60), {"grid.cells": 24})
+    with Simulation(apply_settings(ball, {"grid.cells": 96})).run() as result:
+        fine = result.body("ball").wear_depth[-1]
+    depth = fine.reshape(24, 4, 24, 4).mean(axis=(1, 3))
+    depth += NOISE * np.random.default_rng(6).standard_normal(depth.shape)
+    found = fit_maps(ball, {"ball": (depth, NOISE)}, {"ball": Prior(0.3, 0.2e-3)})
+    assert found.p_value > 0.01
+    logs, deviation = found.maps["ball"].logs, found.maps["ball"].deviation
+    assert np.all(np.abs(logs) < 3 * deviation)
+    assert np.mean(np.abs(logs) < 1.96 * deviation) > 0.95
 
 
 def test_pixels_are_averaged_over_cells_and_missing_ones_left_out():

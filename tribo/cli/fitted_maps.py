@@ -50,7 +50,7 @@ def _arrays(each: LocalMap, level: float) -> dict[str, Any]:
         "told": each.told,
         "measured_m": each.measured,
         "computed_m": each.computed,
-        "uncertainty_m": np.array(each.uncertainty),
+        "uncertainty_m": each.uncertainty,
     }
 
 
@@ -58,10 +58,10 @@ def read_maps(found: Mapping[str, Any]) -> tuple[FittedMaps, float]:
     """Return fitted maps, and the level of their intervals, from what `maps_json` made of them."""
     maps = {}
     for name, each in found["maps"].items():
-        keys = ("factor", "deviation", "prior_deviation", "measured_m", "computed_m")
-        factor, own, prior, measured, computed = (np.array(each[k], dtype=float) for k in keys)
-        (dx, dy), sigma = each["spacing_m"], each["uncertainty_m"]
-        maps[name] = LocalMap(np.log(factor), own, prior, (dx, dy), measured, computed, sigma)
+        keys = ("deviation", "prior_deviation", "measured_m", "computed_m", "uncertainty_m")
+        logs, (dx, dy) = np.log(np.array(each["factor"], dtype=float)), each["spacing_m"]
+        own, prior, measured, computed, sigma = (np.array(each[k], dtype=float) for k in keys)
+        maps[name] = LocalMap(logs, own, prior, (dx, dy), measured, computed, sigma)
     numbers = {key: found[key] for key in ("gradients", "products")}
     fit = {key: found[key] for key in ("chi_square", "degrees_of_freedom")}
     remarks = tuple(found.get("remarks", ()))

@@ -46,7 +46,7 @@ def coefficient_map(
 def depth_fit(
     measured: Array,
     computed: Array,
-    uncertainty: float,
+    uncertainty: Array,
     spacing: tuple[float, float],
     title: str = "",
 ) -> Figure:
@@ -59,8 +59,8 @@ def depth_fit(
     ----------
     measured, computed : ndarray, shape (rows, ny)
         Depth worn off, in m; NaN where it was not measured.
-    uncertainty : float
-        Standard deviation of a measured depth, in m.
+    uncertainty : ndarray, shape (rows, ny)
+        Standard deviation of what is between them, in m.
     spacing : tuple of float
         Edge lengths of a cell, in m.
     title : str, optional

@@ -21,7 +21,9 @@ from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.march import begin, march
 from tribo.simulation.model import Model
 from tribo.simulation.run import Simulation
+from tribo.study.calibration.cells import over_cells
 from tribo.study.calibration.notes import UNLIKELY
+from tribo.study.calibration.quantities import CUT, kinked
 from tribo.study.gradient.backwards import swept_back
 from tribo.study.gradient.gradient import ValueAndGradient
 from tribo.study.gradient.local import localised
@@ -82,9 +84,9 @@ class LocalMap:
     """Edge lengths of a cell, in m."""
     measured: Array
     computed: Array
-    uncertainty: float
-    """The depth measured, NaN where it was not, that of the fit, and the former's standard
-    deviation, in m."""
+    uncertainty: Array
+    """The depth measured, NaN where it was not, that of the fit, and the standard deviation of
+    what is between them, in m."""
 
     @property
     def factor(self) -> Array:
@@ -159,8 +161,9 @@ def fit_maps(
     directions that this makes about equally wide. Where cells are far smaller than the correlation
     lengths, all this is done on a coarser grid first, whose waves are the long ones of the finer.
 
-    `depths` are by the name of the body the depth worn off at the end, in m, of the shape of
-    `View.wear`, NaN where it was not measured, and its standard deviation. `on_run` is called after
+    `depths` are by the name of the body the mean depth of each cell worn off at the end, in m, of
+    the shape of `View.wear`, NaN where it was not measured, and its standard deviation; cells that
+    a scar's edge cuts are off by what `kinked` says besides. `on_run` is called after
     each gradient or product with their number and the misfit χ², NaN of a product.
     """
     misfits: list[float] = []
@@ -188,8 +191,8 @@ def fit_maps(
             prior,
             waves.model.grid.spacing,
             depths[name][0],
-            fit.wear(name),
-            depths[name][1],
+            over_cells(fit.wear(name)),
+            waves.sigma[name],
         )
     read = sum(int(np.sum(~np.isnan(each))) for each in residuals.values())
     made = int(np.sum(np.isnan(misfits)))
@@ -225,6 +228,8 @@ class _Waves:
             self.levels[name] = priors[name].level(self.amplitudes[name])
             self.parts[name] = slice(self.size, self.size + shape[0] * shape[1])
             self.size = self.parts[name].stop
+        self.sigma: dict[str, Array] = {}
+        """Of each cell by the body, with what the grid puts off at a scar's edge, in m."""
         self.gradient = ValueAndGradient(model, self.misfit, (), list(depths))
 
     def halved(self) -> _Waves | None:
@@ -258,12 +263,16 @@ class _Waves:
         """Return the most probable amplitudes, and eigenvectors and -values of the information."""
         coarse = self.halved()
         if coarse is None:
-            near = self.least(np.zeros(self.size), ROUGHLY)
+            near = np.zeros(self.size)
+            self.weigh(near)
+            near = self.least(near, ROUGHLY)
+            self.weigh(near)
             with closing(Tape()) as tape:
                 basis, values = _krylov(self.products(self.logs(near), tape), self.size, products)
         else:
             near, basis, values = coarse.fitted(products)
             near = self.raised(coarse, near)
+            self.weigh(near)
             basis = np.array([self.raised(coarse, each) for each in basis])
         return self.least(near, ITERATIONS, basis, (1 + values) ** -0.5 - 1), basis, values
 
@@ -308,15 +317,26 @@ class _Waves:
             found[part] = (self.amplitudes[name] * waves).ravel()
         return found
 
+    def weigh(self, z: Array) -> None:
+        """Set the standard deviations of cells: the edge is where amplitudes have it."""
+        view = self.run(self.logs(z))
+        for name, (_, sigma) in self.depths.items():
+            self.sigma[name] = np.hypot(sigma, kinked(view.wear(name), CUT))
+
     def residuals(self, view: View) -> dict[str, Array]:
         """Return the computed less the measured depths, in standard deviations."""
-        return {name: (view.wear(name) - d) / sigma for name, (d, sigma) in self.depths.items()}
+        return {
+            name: (over_cells(view.wear(name)) - depth) / self.sigma[name]
+            for name, (depth, _) in self.depths.items()
+        }
 
     def misfit(self, view: View) -> tuple[float, Seeds]:
         """Return half of the sum of the squared residuals, and its derivative."""
         off = {name: np.nan_to_num(each) for name, each in self.residuals(view).items()}
         value = 0.5 * sum(float(np.sum(each * each)) for each in off.values())
-        return value, Seeds({name: each / self.depths[name][1] for name, each in off.items()})
+        # Means over cells are their own adjoint.
+        seeds = {name: over_cells(each / self.sigma[name]) for name, each in off.items()}
+        return value, Seeds(seeds)
 
     def local(self, logs: Array) -> Model:
         """Return the model with factors of these logarithms."""
@@ -337,9 +357,10 @@ class _Waves:
             move = self.logs(z)
             step = STEP / np.max(np.abs(move))
             moved, seeds = self.run(logs + step * move), {}
-            for name, (depth, sigma) in self.depths.items():
-                change = (moved.wear(name) - end.wear(name)) / (step * sigma**2)
-                seeds[name] = np.where(np.isnan(depth), 0.0, change)
+            for name, (depth, _) in self.depths.items():
+                change = over_cells(moved.wear(name) - end.wear(name)) / step
+                known = np.where(np.isnan(depth), 0.0, change / self.sigma[name] ** 2)
+                seeds[name] = over_cells(known)
             found = swept_back(model, tape, {time: Seeds(seeds)}, [])
             self.tell(math.nan)
             return self.back(np.concatenate([found.wear_rate[name].ravel() for name in seeds]))

@@ -38,11 +38,11 @@ from tribo.study.calibration.quantities import (
     AXES,
     CUT,
     DEPTH_MAP,
+    DEPTHS,
     EDGES,
     FIELDS,
     PROFILES,
     Reading,
-    depth_error,
     kinked,
 )
 
@@ -169,8 +169,7 @@ class Posed:
             if reading in self.heights:
                 row = self.table.loc[reading]
                 spacing = self.tested[row["bench"]].model.grid.spacing
-                off = depth_error(depth, spacing) * float(np.max(depth))
-                sigma = math.hypot(row["sigma"], off)
+                sigma = math.hypot(row["sigma"], DEPTHS * float(np.max(depth)))
                 now = find_scar(self.heights[reading], depth, spacing, sigma)
                 found[reading] = now.unless_near(self.placed.get(reading, Placed()), spacing)
         return self.moved(found) if found else self
@@ -263,7 +262,7 @@ class Posed:
         for reading, depth in run.maps.items():
             rows = np.flatnonzero(self.data["reading"] == reading)
             spacing = self.tested[self.data["bench"].iloc[rows[0]]].model.grid.spacing
-            sources = [depth_error(depth, spacing) * depth]
+            sources = [DEPTHS * depth]
             for axis, slope in slopes(depth, spacing).items():
                 sources.append(ANYWHERE * spacing[axis] * depth.shape[axis] * slope)
             for source in sources:

@@ -24,9 +24,9 @@ from tribo.simulation.model import Model
 
 EDGES, DEPTHS = 0.2, 2e-3
 """Standard deviations of a computed diameter, in cells, and of a depth, in parts of the largest."""
-COARSE, CUT = 0.5, 0.1
-"""The former part times the square of the cells across the scar, where that is more; and the mean
-over a cell that the scar's edge cuts, in parts of the steepest step between cells."""
+CUT = 0.1
+"""That of the mean over a cell that the scar's edge cuts, in parts of the steepest step between
+cells."""
 WORN = 1e-3
 """Part of the largest depth from which a cell counts as worn."""
 ROUNDING, EXACT = 1e-9, 1e-7
@@ -149,17 +149,6 @@ def read(result: Result, asked: Reading) -> tuple[float, float]:
         return _on_line(depth, AXES[name], asked.position_m, result)
     volume = float(result.table("saves")[f"bodies.{body.name}.wear_volume_m3"][save])
     return mass_from_volume(volume, body.density or 0.0) if name == "mass" else volume, 0.0
-
-
-def cells_across(depth: Array, spacing: tuple[float, float]) -> float:
-    """Return how many cells a scar has across its shorter diameter, of the axes that have cells."""
-    axes = [axis for axis in (0, 1) if depth.shape[axis] > 1]
-    return min(diameter(depth, axis, spacing[axis]) / spacing[axis] for axis in axes)
-
-
-def depth_error(depth: Array, spacing: tuple[float, float]) -> float:
-    """Return the standard deviation of a depth due to the grid, in parts of the largest."""
-    return max(DEPTHS, COARSE / max(cells_across(depth, spacing), 1.0) ** 2)
 
 
 def kinked(depth: Array, part: float) -> Array:
