@@ -17,6 +17,7 @@ from tribo.stepping.memory import Memory
 from tribo.stepping.rates import CycleRates, Moment, rates_at_each
 from tribo.stepping.step import worn_depths
 from tribo.study.gradient.linear import Carrier
+from tribo.study.gradient.passing import by_bottoms, lowered, with_bottoms
 from tribo.study.gradient.response import Arrays, local
 from tribo.study.gradient.tape import Slid
 
@@ -100,14 +101,20 @@ class Plain:
     def _through(self, seed: Array, other: Other) -> float:
         if self.name not in other.wears:
             return 0.0
-        rates, slid = self.known.rates, other.slid
+        rates, slid, total = self.known.rates, other.slid, 0.0
         if self.name in other.asks or self.known.memory.shares:
-            model = replace(other.model, laws={self.name: other.model.laws[self.name]})
+            laws = with_bottoms(other.model, self.model, [self.name])
+            model = replace(other.model, laws=laws)
             before = replace(slid.before, laws={self.name: slid.before.laws[self.name]})
             rates = course(
                 model, before, self.contacts, slid.increment, slid.moment, slid.plan
             ).rates
-        return float(np.sum(seed * (self._worn(other.model, rates, slid) - self._depth)))
+            lower = lowered(other.model, self.model, self.name)
+            follows = by_bottoms(self.known.memory.shares.get(self.name, {}))
+            total = sum(
+                float(np.sum(seed * by)) * far for by, far in zip(follows, lower, strict=False)
+            )
+        return total + float(np.sum(seed * (self._worn(other.model, rates, slid) - self._depth)))
 
 
 def plain(

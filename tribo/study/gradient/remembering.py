@@ -17,6 +17,7 @@ from tribo.stepping.relaxation import relaxed, relaxing
 from tribo.study.gradient.asked import Place
 from tribo.study.gradient.course import Before, Other
 from tribo.study.gradient.linear import Carrier
+from tribo.study.gradient.passing import lowered, with_bottoms
 from tribo.study.gradient.response import NUDGE, Arrays, Field
 from tribo.study.gradient.slopes import Slopes, Sloping
 
@@ -70,6 +71,17 @@ class _Along:
             (rates, [shares * each for each in self.asked.seen(seeds)])
             for rates, seeds in (*self.rates, *self.moved)
         ]
+
+    @cached_property
+    def by_bottoms(self) -> dict[str, list[float]]:
+        """The derivatives in the depths at which layers end, by body."""
+        found = {
+            name: [0.0] * len(self.asked.model.laws[name].bottoms) for name in self.asked.layered
+        }
+        for rates, seeds in (*self.rates, *self.moved):
+            for name, more in self.asked.by_bottoms(rates, seeds).items():
+                found[name] = [a + b for a, b in zip(found[name], more, strict=True)]
+        return found
 
     @cached_property
     def by_length(self) -> float:
@@ -129,7 +141,7 @@ class Remembering:
             return 0.0
         asked = replace(
             self.asked,
-            model=replace(other.model, laws={name: other.model.laws[name] for name in laws}),
+            model=replace(other.model, laws=with_bottoms(other.model, self.asked.model, [*laws])),
             carriers=other.carriers,
             slid=replace(other.slid, before=self.asked.slid.before),
         )
@@ -137,6 +149,8 @@ class Remembering:
         # Rates follow the length where they are means over it, or loads change along it.
         asks = other.asks & laws.keys() or self.asked.follows_length
         total = (longer - 1) * along.by_length
+        for name, deeper in along.by_bottoms.items():
+            total += float(np.dot(deeper, lowered(other.model, self.asked.model, name)))
 
         def rates(slopes: Slopes) -> Arrays:
             if not asks:

@@ -128,17 +128,14 @@ class Sloping(Asked):
             pairs = zip(seen, slopes, strict=True)
             return sum(seed * slope for seed, slope in pairs if np.ndim(slope))
 
-        def gathered(carrier: Carrier, responses: Sequence[Response]) -> Field:
-            found = back(seen, responses)
-            if not np.ndim(found):
-                return found
-            return carrier.gathered(over(self.shares) * found, self.window)
-
         load = through([each.load for each in slopes.by_pressure])
         square = through([each.square for each in slopes.by_pressure])
-        factors = map(gathered, self.own, slopes.by_factor)
+        factors = (
+            self._gathered(carrier, seen, responses)
+            for carrier, responses in zip(self.own, slopes.by_factor, strict=True)
+        )
         states: list[Field] = [
-            inside * gathered(kept, responses)
+            inside * self._gathered(kept, seen, responses)
             for kept, inside, responses in zip(
                 self.kept, slopes.inside, slopes.by_state, strict=True
             )
@@ -150,8 +147,10 @@ class Sloping(Asked):
         of_layers: list[list[Field]] = [[0.0] * len(seeds) for _ in passing.of_layers]
         for at, name in enumerate(self.model.laws):
             if name in passing.bodies:
-                shares = [gathered(self.own[at], each) for each in passing.by_share[name]]
-                worn, rates = passing.bodies[name].back(shares)
+                shares = [
+                    self._gathered(self.own[at], seen, each) for each in passing.by_share[name]
+                ]
+                worn, rates, _ = passing.bodies[name].back(shares)
                 depth = self.layered.index(name) - len(self.layered)
                 states[depth] = states[depth] + worn
                 for each, rate in zip(of_layers, rates, strict=False):
@@ -161,6 +160,30 @@ class Sloping(Asked):
             total = [a + b for a, b in zip(total, more, strict=True)]
             states = [a + b for a, b in zip(states, others, strict=True)]
         return total, states
+
+    def by_bottoms(self, slopes: Slopes, seeds: Sequence[Field]) -> dict[str, list[float]]:
+        """Return derivatives in the bottoms of layers of each body, as `behind` those in states."""
+        passing = slopes.passing
+        if passing is None:
+            return {}
+        seen, found = self.seen(seeds), {}
+        for at, name in enumerate(self.model.laws):
+            if name in passing.bodies:
+                shares = [
+                    self._gathered(self.own[at], seen, each) for each in passing.by_share[name]
+                ]
+                *_, bottoms = passing.bodies[name].back(shares)
+                found[name] = [float(np.sum(each)) for each in bottoms]
+        return found
+
+    def _gathered(
+        self, carrier: Carrier, seen: Sequence[Field], responses: Sequence[Response]
+    ) -> Field:
+        """Return derivatives at the points of a carrier from those in the rates of each cell."""
+        found = back(seen, responses)
+        if not np.ndim(found):
+            return found
+        return carrier.gathered(over(self.shares) * found, self.window)
 
     def _sloped(self, states: Sequence[Array], place: Place, reach: Reach) -> Slopes:
         held = self.held(states)
