@@ -273,6 +273,8 @@ def test_a_coarse_run_tells_what_rules_the_depth():
     assert found.body == "ball"
     assert list(found.percent) == sorted(found.percent, key=lambda path: -abs(found.percent[path]))
     assert found.percent["load.normal"] == pytest.approx(fine["load.normal"], abs=0.1)
+    in_layers = sensitivity(composed(run(bodies=layered(("0.05 um", archard(2 * K))))), 1e-4)
+    assert in_layers.off > found.off
 
 
 def test_where_nothing_is_told_there_is_a_reason():

@@ -20,6 +20,8 @@ LEAST = 0.005
 
 OFF = {"depth": 0.03, "end_time": 0.2}
 """Per cent for one per cent by which finer grids were seen to differ."""
+OFF_IN_LAYERS = 0.25
+"""The same where a body wears in layers: rings of cells come to a bottom together."""
 
 Answer = Literal["depth", "end_time"]
 
@@ -39,18 +41,21 @@ class Sensitivity:
         number.
     cells : tuple of int
         Cells of the grid of the run that this is of, along x and y.
+    off : float
+        By how many per cent for one per cent finer grids were seen to differ.
     """
 
     body: str
     of: Answer
     percent: dict[str, float]
     cells: tuple[int, int]
+    off: float
 
     @property
     def whence(self) -> str:
         """Of which grid it is, and how far off it may be, in words."""
         cells = " × ".join(map(str, self.cells))
-        return f"a run on {cells} cells; finer grids differ by up to {OFF[self.of]:g} %"
+        return f"a run on {cells} cells; finer grids differ by up to {self.off:g} %"
 
 
 def sensitivity(model: Model, half_width_x: float) -> Sensitivity:
@@ -107,7 +112,10 @@ def _of_coarse(model: Model) -> Sensitivity:
         raise CaseError("no body wears", "bodies")
     ranked = sorted(found.relative.items(), key=lambda item: -abs(item[1]))
     percent = {path: float(value) for path, value in ranked if abs(value) >= LEAST}
-    return Sensitivity(*asked[0], percent, model.grid.cells)
+    body, of = asked[0]
+    layered = any(law.bottoms for law in model.laws.values())
+    off = max(OFF[of], OFF_IN_LAYERS) if layered else OFF[of]
+    return Sensitivity(body, of, percent, model.grid.cells, off)
 
 
 def _asked(view: View) -> tuple[str, Answer]:
