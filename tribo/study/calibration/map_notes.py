@@ -136,7 +136,9 @@ def _off_pitch(
     column[rows] = means(stretch, posed.data["cells"].iloc[rows])
     wider, size = _explained(fitted, column)
     fall = (wider * size) ** 2
-    excess = float(np.sum(fitted.residuals(fitted.point)[rows] ** 2)) - len(rows)
+    misfit = float(np.sum(fitted.residuals(fitted.point)[rows] ** 2))
+    # Where what the grid may put off is most of the uncertainty, noise is less than it says.
+    excess = misfit - min(len(rows), max(misfit - fall, 0.0))
     if excess < CERTAIN**2:
         return
     widths = _widths(fitted, posed, reading, depth)
