@@ -126,7 +126,9 @@ def test_local_coefficients_are_told_with_their_fit(tmp_path):
     prior, depth = np.full((2, 2), 0.5), np.array([[1e-6, 5e-7], [1.2e-6, np.nan]])
     found = FittedMaps(
         maps={
-            "ball": LocalMap(logs, deviation, prior, (1e-5, 1e-5), depth, 1e-6 + 0 * depth, 1e-8)
+            "ball": LocalMap(
+                logs, deviation, prior, (1e-5, 1e-5), depth, 1e-6 + 0 * depth, 1e-8 + 0 * depth
+            )
         },
         gradients=3,
         products=2,
