@@ -11,7 +11,8 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.errors import BadValues
-from tribo.stepping.relaxation import Limits, Rates, Values, relaxed, relaxing
+from tribo.stepping.neville import EXACT, PLAIN, RELAXING, apart, extrapolated, part_of, within
+from tribo.stepping.relaxation import Limits, Rates, Values, relaxing
 
 ACCURACY = 3e-5
 """Error of an increment, summed over the cells, relative to what it integrates."""
@@ -28,12 +29,8 @@ JUMP = 0.1
 SAFETY, LEAST = 0.9, 0.1
 """Of the length at which the next part would be as accurate as asked, what is taken; and the least
 that is cut off it."""
-EXACT = 1e-10
-"""Relative difference of one step from two by which means over a step are known to be exact."""
 FINEST = 2.0**-30
 """The smallest part, where a state goes on to leave its limits."""
-PLAIN, RELAXING = (1, 2, 3), (1, 2, 3, 4)
-"""Euler steps of the rows of the extrapolation, without and with the relaxation of the states."""
 FADED = 0.01
 """Part of the most that a state was, below which its error is relative to that part."""
 
@@ -147,7 +144,7 @@ def integrated(
             worst = [0.0] * len(worst)
     if math.isinf(plan.accuracy) and not problem.repeated:
         amounts = [*here.peaks, *map(np.abs, here.sums)]
-        missed = max(missed, *map(_part_of, worst, amounts))
+        missed = max(missed, *map(part_of, worst, amounts))
     if not missed <= ROUGHEST:
         names = ", ".join(limit.name for limit in limits)
         raise BadValues(
@@ -217,7 +214,7 @@ class _Problem:
         if self.of_steps and part < 1:
             first = along(values, 0.0, 1.0)
         slopes = relaxing(along, values, first, span, limits) if relaxes else [0.0] * count
-        best, rough, samples, moved = _extrapolated(
+        best, rough, samples, moved = extrapolated(
             along,
             values,
             first,
@@ -236,14 +233,14 @@ class _Problem:
             np.maximum(np.abs(new), part * np.abs(old))
             for old, new in zip(here.sums, best[count:], strict=True)
         ]
-        held = [_held(*each) for each in zip(best, limits, strict=False)]
+        held = [within(*each) for each in zip(best, limits, strict=False)]
         at_end = is_last and math.isinf(accuracy)
         last = first if at_end or self.of_steps else along(held, 1.0, part)
-        errors = [_apart(*each) for each in zip(best, rough, strict=True)]
-        off = max(map(_part_of, errors, sizes), default=0.0)
+        errors = [apart(*each) for each in zip(best, rough, strict=True)]
+        off = max(map(part_of, errors, sizes), default=0.0)
         if not self.repeated:
             # Trials held to a limit agree with each other, whatever the state goes to.
-            off = max(off, *map(_part_of, moved, sizes), 0.0)
+            off = max(off, *map(part_of, moved, sizes), 0.0)
         if off <= accuracy < math.inf and not (self.knows_means and off <= EXACT):
             if self.layered:
                 at = [
@@ -252,7 +249,7 @@ class _Problem:
                 ]
                 off = max(off, _jump(at[:4], at[4], span, here.sums, count))
                 late = self._late(along, values, held, at[4], span)
-                off = max(off, *map(_part_of, late, sizes[count - len(late) : count]))
+                off = max(off, *map(part_of, late, sizes[count - len(late) : count]))
             elif not self.of_steps:
                 off = max(off, _jump(samples, last, span, here.sums, count))
         sums = [old + new for old, new in zip(here.sums, best[count:], strict=True)]
@@ -283,8 +280,7 @@ class _Problem:
         """Return how far each depth may be off for what is remembered once points have passed.
 
         What they have passed to in the last third of a part has none of it in any trial, but where
-        means are known. `stayed`
-        are the rates at the end in the layers where the part begins.
+        means are known. `stayed` are the rates at the end in the layers where the part begins.
         """
         remembered, count = len(start) - len(self.layered), len(start)
         none = [0.0] * len(self.layered)
@@ -316,65 +312,10 @@ def _looser(plan: Plan) -> Plan:
 
 
 def _along(
-    rates: Rates, passed: float, part: float, values: Sequence[Array], within: float, step: float
+    rates: Rates, passed: float, part: float, values: Sequence[Array], share: float, step: float
 ) -> Values:
     """Return the rates at a place within a part of the increment, 0 to 1, over a step of it."""
-    return rates(values, passed + within * part, step * part)
-
-
-def _extrapolated(
-    rates: Rates,
-    start: Sequence[Array],
-    first: Sequence[Array],
-    relaxing: Sequence[Array | float],
-    length: float,
-    stages: Sequence[int],
-    limits: Sequence[Limits],
-    *,
-    of_steps: bool,
-    knows_means: bool,
-) -> tuple[Values, Values, list[Sequence[Array]], list[float]]:
-    """Return the last two columns of Neville's table: ends of the states, integrals of the rest.
-
-    With them come the rates at 0, 1/2, 1/3 and 2/3 of the part, and by how much trials of each
-    state were beyond its limits, summed over the cells.
-    """
-    row: list[Values] = []
-    moved = [0.0] * len(start)
-    samples: list[Sequence[Array]] = [first]
-    for stage, steps in enumerate(stages):
-        step = length / steps
-        slides = [step * relaxed(step * slope) for slope in relaxing]
-        states = list(start)
-        found = rates(start, 0.0, 1 / steps) if of_steps and steps > 1 else first
-        sums = [np.zeros_like(rate) for rate in first[len(start) :]]
-        for taken in range(steps):
-            if taken:
-                trial = [_held(*each) for each in zip(states, limits, strict=True)]
-                moved = [
-                    max(by, _apart(inside, state))
-                    for by, state, inside in zip(moved, states, trial, strict=True)
-                ]
-                found = rates(trial, taken / steps, 1 / steps)
-                samples.append(found)
-            sums = [
-                total + step * rate for total, rate in zip(sums, found[len(start) :], strict=True)
-            ]
-            states = [
-                state + slide * rate
-                for state, rate, slide in zip(states, found, slides, strict=False)
-            ]
-        column = [[*states, *sums]]
-        for back, before in enumerate(row, start=1):
-            ratio = steps / stages[stage - back] - 1
-            pairs = zip(column[-1], before, strict=True)
-            column.append([fine + (fine - coarse) / ratio for fine, coarse in pairs])
-        row = column
-        if knows_means and stage == 1:
-            pairs = zip(*column, strict=True)
-            if all(_part_of(_apart(fine, once), np.abs(fine)) <= EXACT for once, fine in pairs):
-                break
-    return row[-1], row[-2], samples[:4], moved
+    return rates(values, passed + share * part, step * part)
 
 
 def _jump(
@@ -398,26 +339,7 @@ def _jump(
     return worst
 
 
-def _apart(one: Array, other: Array) -> float:
-    """Return how far two arrays are apart, summed over the cells."""
-    return float(np.sum(np.abs(one - other)))
-
-
-def _part_of(amount: float, size: Array) -> float:
-    whole = float(np.sum(size))
-    if whole > 0:
-        return amount / whole
-    # Of what comes out as 0 nothing tells how large it is.
-    return 0.0 if amount == 0 else math.inf
-
-
 def _beyond(values: Array, size: Array, limit: Limits) -> float:
     """Return by how much values pass their limits, relative to the largest."""
     over = max(limit.least - float(np.min(values)), float(np.max(values)) - limit.most, 0.0)
     return over / float(np.max(size)) if over > 0 else 0.0
-
-
-def _held(values: Array, limit: Limits) -> Array:
-    if math.isinf(limit.least) and math.isinf(limit.most):
-        return values
-    return np.clip(values, limit.least, limit.most)

@@ -11,8 +11,8 @@ import numpy as np
 
 from tribo.contact.projection import CELLS, over
 from tribo.core.arrays import Array
-from tribo.stepping.extrapolation import PLAIN, RELAXING
 from tribo.stepping.memory import Memory
+from tribo.stepping.neville import PLAIN, RELAXING
 from tribo.stepping.relaxation import relaxed, relaxing
 from tribo.study.gradient.asked import Place
 from tribo.study.gradient.course import Before, Other
