@@ -186,6 +186,16 @@ KINDS = {
         ["load.normal", "bodies.ball.layers.0.thickness", "bodies.ball.wear.over"],
         1e-5,
     ),
+    "layers, parts cut off": Kind(
+        run(
+            contact=Winkler(plasticity=False),
+            bodies=layered(None, ("0.05 um", archard(2 * K)), SMOOTH, SMOOTH),
+            stepping=LONG,
+        ),
+        Depth("ball"),
+        ["load.normal", "bodies.disk.layers.0.thickness", "bodies.disk.wear.depth"],
+        1e-5,
+    ),
     "positions, layers, remembers": Kind(
         run(
             bodies=layered(("0.02 um", FAST), ("0.004 um", archard(2 * K)), FRESH, archard()),

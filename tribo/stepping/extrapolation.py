@@ -26,7 +26,7 @@ MOST_LEAVING = 64
 """Parts of an increment after which a state that leaves its limits is not followed further."""
 JUMP = 0.1
 """Relative difference from a smooth rate at which one is looked at as one that jumps."""
-SAFETY, LEAST = 0.9, 0.1
+SAFETY, LEAST = 0.9, 1 / 8
 """Of the length at which the next part would be as accurate as asked, what is taken; and the least
 that is cut off it."""
 FINEST = 2.0**-30
@@ -298,10 +298,13 @@ class _Problem:
 
 
 def _cut(waiting: list[tuple[float, bool]], accurate: float) -> None:
-    """Divide the next part where it is more than twice as long as would be accurate."""
+    """Divide the next part where it is more than twice as long as would be accurate.
+
+    A half, a quarter or an eighth is cut off, so that parts do not follow the rates' last digits.
+    """
     whole = waiting[0][0]
     if whole > 2 * accurate:
-        cut = max(accurate, LEAST * whole)
+        cut = max(2.0 ** math.floor(math.log2(accurate / whole)), LEAST) * whole
         waiting[:1] = [(cut, True), (whole - cut, True)]
 
 
