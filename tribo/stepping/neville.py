@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from tribo.core.arrays import Array
-from tribo.stepping.relaxation import Limits, Rates, Values, relaxed
+from tribo.stepping.relaxation import Limits, Rates, Values, lasting
 
 EXACT = 1e-10
 """Relative difference of one step from two by which means over a step are known to be exact."""
@@ -38,7 +38,7 @@ def extrapolated(
     samples: list[Sequence[Array]] = [first]
     for stage, steps in enumerate(stages):
         step = length / steps
-        slides = [step * relaxed(step * slope) for slope in relaxing]
+        slides = [lasting(step, slope) for slope in relaxing]
         states = list(start)
         found = rates(start, 0.0, 1 / steps) if of_steps and steps > 1 else first
         sums = [np.zeros_like(rate) for rate in first[len(start) :]]

@@ -11,6 +11,8 @@ from tribo.core.arrays import Array
 
 NUDGE = 1e-6
 """Part of a state by which it is moved to find how fast it relaxes."""
+SMALL = 1e-4
+"""Rise below which the derivative of its mean is that of its series."""
 
 Values = list[Array]
 Rates = Callable[[Sequence[Array], float, float], Values]
@@ -30,6 +32,21 @@ def relaxed(rise: Array | float) -> Array:
     """Return the mean of a rate that changes e-fold exp(rise) over a step: (exp(rise) − 1)/rise."""
     rise = np.asarray(rise)
     return np.divide(np.expm1(rise), rise, out=np.ones_like(rise), where=rise != 0)
+
+
+def lasting(step: float, slope: Array | float) -> Array | float:
+    """Return how much a step counts for where the rate follows its own state by this slope."""
+    return step * relaxed(step * slope) if np.any(slope) else step
+
+
+def bending(step: float, slope: Array | float) -> Array | float:
+    """Return the derivative of `lasting` in the slope."""
+    if not np.any(slope):
+        return 0.0
+    rise = np.asarray(step * slope)
+    small = np.abs(rise) < SMALL
+    safe = np.where(small, 1.0, rise)
+    return step**2 * np.where(small, 0.5 + rise / 3, (np.exp(safe) - relaxed(safe)) / safe)
 
 
 def relaxing(

@@ -13,7 +13,7 @@ from tribo.contact.projection import CELLS, over
 from tribo.core.arrays import Array
 from tribo.stepping.memory import Memory
 from tribo.stepping.neville import PLAIN, RELAXING
-from tribo.stepping.relaxation import relaxed, relaxing
+from tribo.stepping.relaxation import bending, lasting, relaxing
 from tribo.study.gradient.asked import Place
 from tribo.study.gradient.course import Before, Other
 from tribo.study.gradient.linear import Carrier
@@ -23,9 +23,6 @@ from tribo.study.gradient.slopes import Slopes, Sloping
 
 _Seeded = tuple[Slopes, Sequence[Field]]
 """Rates, and the derivatives in them."""
-
-SMALL = 1e-4
-"""Rise below which the derivative of its mean is that of its series."""
 
 
 @dataclass(frozen=True)
@@ -215,12 +212,11 @@ class Remembering:
     ) -> tuple[list[Slopes], Arrays]:
         """Return the rates along some Euler steps, and the states at their end."""
         asked, row, step = self.asked, [start], share * self.asked.slid.increment / steps
-        lasting = [_lasting(step, slope) for slope in of_states]
+        counted = [lasting(step, slope) for slope in of_states]
         for taken in range(1, steps + 1):
             means = row[-1].means[len(asked.own) :]
             states = [
-                state + mean * counted
-                for state, mean, counted in zip(states, means, lasting, strict=True)
+                state + mean * by for state, mean, by in zip(states, means, counted, strict=True)
             ]
             if taken < steps:
                 place = Place(passed + share * taken / steps, step)
@@ -248,13 +244,13 @@ class Remembering:
                 seeds = [counts * seed for seed in after]
                 step = part.length / steps
                 deep = [step * counts * seed for seed in depth]
-                lasting = [_lasting(step, slope) for slope in part.relaxing]
-                bending = [_bending(step, slope) for slope in part.relaxing]
+                counted = [lasting(step, slope) for slope in part.relaxing]
+                bent_by = [bending(step, slope) for slope in part.relaxing]
                 for rates in reversed(row):
-                    for at, bend in enumerate(bending):
+                    for at, bend in enumerate(bent_by):
                         if np.ndim(bend):
                             bends[at] = bends[at] + seeds[at] * rates.means[len(depth) + at] * bend
-                    kept = [seed * counted for seed, counted in zip(seeds, lasting, strict=True)]
+                    kept = [seed * by for seed, by in zip(seeds, counted, strict=True)]
                     each: _Seeded = (rates, [*deep, *kept])
                     if rates is row[0]:
                         _join(starts, each)
@@ -392,27 +388,6 @@ def _dot(seeds: Sequence[Field], now: Arrays, before: Arrays) -> float:
 def _summed(field: Field) -> Field:
     """Return the sum over each contact of what is known by cell."""
     return over(np.sum(field, CELLS)) if np.ndim(field) else field
-
-
-def _relaxes(slope: Field) -> bool:
-    return bool(np.any(slope))
-
-
-def _lasting(step: float, slope: Field) -> Field:
-    """Return how much a step counts for, where the rate relaxes."""
-    return step * relaxed(step * slope) if _relaxes(slope) else step
-
-
-def _bending(step: float, slope: Field) -> Field:
-    """Return how that follows the slope."""
-    return step**2 * _steeper(step * slope) if _relaxes(slope) else 0.0
-
-
-def _steeper(rise: Array | float) -> Array:
-    """Return the derivative of `relaxed`."""
-    small = np.abs(rise) < SMALL
-    safe = np.where(small, 1.0, rise)
-    return np.where(small, 0.5 + np.asarray(rise) / 3, (np.exp(safe) - relaxed(safe)) / safe)
 
 
 def _counts(steps: int, stages: Sequence[int]) -> float:
