@@ -56,18 +56,14 @@ class Prior:
     """The standard deviation s, and the length ℓ, in m."""
 
     def amplitudes(self, shape: tuple[int, int], spacing: tuple[float, float]) -> Array:
-        """Return the standard deviations of cosine waves, of the shape of the map."""
+        """Return the relative standard deviations of cosine waves, of the shape of the map."""
         waves = [np.pi * np.arange(n) / (n * h) for n, h in zip(shape, spacing, strict=True)]
         squared = waves[0][:, None] ** 2 + waves[1] ** 2
         planes = np.count_nonzero(np.array(shape) > 1)
-        variance = (1 + self.length**2 * squared) ** -(1 + 0.5 * planes)
-        # Away from the ends the mean counts half as much as a wave.
-        weight = [np.where((np.arange(n) == 0) & (n > 1), 0.5, 1.0) for n in shape]
-        inside = np.sum(weight[0][:, None] * weight[1] * variance) / variance.size
-        return np.asarray(self.spread * np.sqrt(variance / inside))
+        return np.asarray((1 + self.length**2 * squared) ** -(0.5 + 0.25 * planes))
 
     def level(self, amplitudes: Array) -> Array:
-        """Return the factors on a sum of waves that make it as wide at the ends as elsewhere."""
+        """Return the factors on a sum of waves that make it as wide as the spread everywhere."""
         waves = [idctn(np.eye(n), axes=[0], norm="ortho") ** 2 for n in amplitudes.shape]
         return np.asarray(self.spread / np.sqrt(waves[0] @ amplitudes**2 @ waves[1].T))
 
