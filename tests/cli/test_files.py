@@ -56,7 +56,8 @@ def test_what_is_no_such_file_is_named_in_one_line(monkeypatch, folder, command,
 @pytest.mark.parametrize("command", CASE.values())
 def test_a_result_given_for_a_case_is_told(monkeypatch, folder, command):
     text = told(monkeypatch, folder, command, "result.h5")
-    assert text == "result.h5 is a result, not a case; see it with: tribo show result.h5"
+    assert text.startswith("result.h5 is a result, not ")
+    assert text.endswith("; see it with: tribo show result.h5")
 
 
 @pytest.mark.parametrize("command", [c for n, c in RESULT.items() if n != "compare"])

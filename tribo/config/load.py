@@ -98,12 +98,14 @@ def case_tables(case: Case | Mapping[str, Any] | str | Path) -> Mapping[str, Any
     return case if isinstance(case, Mapping) else read_toml(case)
 
 
-def read_toml(path: str | Path) -> dict[str, Any]:
+def read_toml(
+    path: str | Path, what: str = "a case", hint: str = "'tribo new' writes a case to start from"
+) -> dict[str, Any]:
     """Read a TOML file; CaseError if there is none, or it is not TOML in UTF-8."""
     path = Path(path)
     try:
         if path.is_dir():
-            raise CaseError(f"{path} is a directory; give the case file in it")
+            raise CaseError(f"{path} is a directory; give the file of {what} in it")
         with path.open("rb") as file:
             content = file.read(_LARGEST + 1)
     except FileNotFoundError:
@@ -112,13 +114,13 @@ def read_toml(path: str | Path) -> dict[str, Any]:
         reason = getattr(error, "strerror", None) or str(error)
         raise CaseError(f"{path} cannot be read: {reason}") from None
     if len(content) > _LARGEST:
-        raise CaseError(f"{path} is larger than {_LARGEST // 10**6} MB: no case file")
+        raise CaseError(f"{path} is larger than {_LARGEST // 10**6} MB: no file of {what}")
     if content.startswith(_HDF5):
-        raise CaseError(f"{path} is a result, not a case; see it with: tribo show {path}")
+        raise CaseError(f"{path} is a result, not {what}; see it with: tribo show {path}")
     if not content.strip():
-        raise CaseError(f"{path} is empty; 'tribo new' writes a case to start from")
+        raise CaseError(f"{path} is empty; {hint}")
     if b"\0" in content:
-        raise CaseError(f"{path} is not text in UTF-8; 'tribo new' writes a case to start from")
+        raise CaseError(f"{path} is not text in UTF-8; {hint}")
     try:
         # Editors on Windows put a byte order mark at the start.
         data = tomllib.loads(content.decode("utf-8-sig"))

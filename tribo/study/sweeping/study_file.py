@@ -72,7 +72,7 @@ def load_study(path: str | Path) -> tuple[Study, dict[str, Any]]:
         If a file cannot be read, or what it says is wrong; one line an error.
     """
     path = Path(path)
-    tables = read_toml(path)
+    tables = read_toml(path, "a study", "a study names a case and says what varies in it")
     if "bodies" in tables and "case" not in tables:
         raise CaseError(
             f"{path} is a case, not a study; a study names a case, as case = {path.name!r}, and "
