@@ -313,6 +313,7 @@ def test_a_map_can_be_planned_with_before_it_is_measured(two_loads):
             "filled.npy: 1 of its 256 heights lie further from their median than the map",
         ),
         ({"depth": "in_um.npy"}, ".0.depth", "0.8 mm; the first is 1 m. Heights and depths"),
+        ({"depth": "infinite.npy"}, ".0.depth", "1 of its 256 heights"),
         ({"depth": "upwards.npy"}, ".0.depth", "turn the sign round"),
         ({"depth": "missing.npy"}, ".0.depth", "every height of the map is missing"),
         ({"value": "1 um"}, ".0", "has its numbers in the file"),
@@ -334,6 +335,7 @@ def test_a_wrong_map_is_told(changes, place, words, tmp_path, monkeypatch):
     filled[3, 4] = -9999
     files = {"good": worn, "beside": beside, "upwards": -worn, "missing": np.nan * worn}
     files |= {"filled": filled, "in_um": np.tril(1e6 * worn, -1)}
+    files["infinite"] = np.where(filled < 0, np.inf, worn)
     for name, depth in files.items():
         np.save(f"{name}.npy", depth)
     Path("text.npy").write_text("1.0, 2.0")

@@ -52,8 +52,9 @@ class Heights:
             raise CaseError("every height of the map is missing; measure again, or mask less")
         if not min(self.pitch) > 0:
             raise CaseError(f"a pitch of {self.pitch} m is none; give one above 0")
-        known, width = self.heights[np.isfinite(self.heights)], max(self.grid.size)
-        absurd = known[np.abs(known - np.median(known)) > width]
+        known, width = self.heights[~np.isnan(self.heights)], max(self.grid.size)
+        middle = np.median(known[np.isfinite(known)])
+        absurd = known[np.abs(known - middle) > width]
         if len(absurd):
             raise CaseError(
                 f"{len(absurd)} of its {self.heights.size} heights lie further from their median "
@@ -101,7 +102,7 @@ def read_heights(path: str | Path, pitch: tuple[float, float] | None = None) -> 
     except ValueError as error:
         raise CaseError(str(error)) from None
     try:
-        return Heights(np.where(np.isfinite(heights), heights, np.nan), pitch)
+        return Heights(heights, pitch)
     except CaseError as error:
         raise CaseError(f"{path}: {error}") from None
 
