@@ -202,6 +202,22 @@ def test_cells_have_their_part_of_the_pixels_that_they_cut(count):
     assert np.sqrt(np.mean((found - means(16)) ** 2)) < 0.005
 
 
+@pytest.mark.parametrize("pixels", [(16, 16), (200, 20), (20, 200)])
+@pytest.mark.parametrize("noise", [0.0, 0.3, 2.0])
+def test_a_track_that_lies_across_the_sliding_is_refused(pixels, noise):
+    """But none that is tilted, ends within the map, or is hardly seen."""
+    x, y = (np.linspace(-1, 1, n) for n in pixels)
+    groove = np.where(np.abs(x[:, None]) < 0.7, np.maximum(1 - (y / 0.3) ** 2, 0), 0.0)
+    shaken = noise * np.random.default_rng(0).standard_normal(pixels)
+    depth = 0.01 * (groove + 2 * x[:, None] + y + shaken)
+    sizes = 1 / pixels[0], 1 / pixels[1]
+    on_cells(Heights(depth, sizes), (1, 16), (1 / 16, 1 / 16))
+    whole = depth + 0.01 * (groove[pixels[0] // 2] - groove)
+    if noise < 1:
+        with pytest.raises(CaseError, match="its axes are swapped"):
+            on_cells(Heights(whole.T, sizes[::-1]), (1, 16), (1 / 16, 1 / 16))
+
+
 def test_a_cell_of_which_less_than_half_was_measured_is_left_out():
     pixels = np.ones((32, 32))
     pixels[4:6, 4], pixels[8:10, 8], pixels[9, 9] = np.nan, np.nan, np.nan

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from scipy.ndimage import correlate1d
 
-from tribo.core.arrays import Array
+from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError, located
 from tribo.lab.heights import Heights, read_heights
 from tribo.simulation.model import Model
@@ -17,6 +17,8 @@ FINER, LEAST = 1e-6, 0.5 - 1e-6
 """Part by which a pixel may be larger than a cell, and of a cell that must be measured."""
 MOST = 600
 """Numbers that a map is averaged to where a few parameters are fitted to it."""
+UNEVEN = 3.0
+"""How many times as uneven along a track as across it, in its noise, a map has swapped axes."""
 
 
 def read_map(file: str, pitch: float | None, place: str) -> Heights:
@@ -93,6 +95,12 @@ def on_cells(
         )
     known = np.isfinite(heights.heights)
     pixels = np.where(known, heights.heights, 0.0)
+    if averaged and _is_turned(pixels, known):
+        raise CaseError(
+            "it is uneven along x, the sliding direction, and alike across it, where a track is "
+            "alike all along: its axes are swapped; x goes from row to row of the map, y along "
+            "each"
+        )
     # Heights within a pixel follow those beside it, or parts of one would be off.
     slopes = [
         np.where(known, np.nan_to_num(np.gradient(heights.heights, axis=axis)), 0.0)
@@ -119,6 +127,24 @@ def on_cells(
             f"{1e6 * heights.pitch[0]:g} × {1e6 * heights.pitch[1]:g} µm"
         )
     return np.asarray(found)
+
+
+def _is_turned(depth: Array, known: Mask) -> bool:
+    """Whether a map, once it is level, is uneven along x and alike across it."""
+    plane = np.stack([*np.nonzero(known), np.ones(np.sum(known))], axis=1)
+    level = np.zeros(depth.shape)
+    level[known] = depth[known] - plane @ np.linalg.lstsq(plane, depth[known], rcond=None)[0]
+    uneven, noise = [], []
+    for axis in (0, 1):
+        count = np.sum(known, axis=1 - axis)
+        there = count >= 0.5 * depth.shape[1 - axis]
+        if not np.any(there):
+            return False
+        means = np.sum(level, axis=1 - axis) / np.maximum(count, 1)
+        uneven.append(np.std(means[there]))
+        within = (level - np.expand_dims(means, 1 - axis))[known]
+        noise.append(np.std(within) / np.mean(count[there]) ** 0.5)
+    return bool(uneven[0] * noise[1] > UNEVEN * uneven[1] * noise[0])
 
 
 def _overlaps(
