@@ -52,7 +52,11 @@ def test_every_quantity_can_be_asked_for():
         ),
         ({"uncertainty": "0.1 mm"}, ".0.uncertainty", "is a length [m]"),
         ({"uncertainty": "-0.1 mg"}, ".0.uncertainty", "must be greater than 0"),
-        ({"value": "-2 mg"}, ".0.value", "must be greater than 0"),
+        (
+            {"value": "-2 mg"},
+            ".0.value",
+            "must be greater than 0; what was too little to be seen is",
+        ),
         # Exacter than any run, as with a unit forgotten.
         ({"uncertainty": 1e-13}, ".0", "less than a millionth"),
         ({"quantity": "mas"}, ".0.quantity", "did you mean 'mass'?"),

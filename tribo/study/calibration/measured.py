@@ -26,6 +26,7 @@ class Below(float):
 
 
 LOCAL = "local coefficients are fitted to maps of one test: give [[map]] in a file of its own"
+UNSEEN = "what was too little to be seen is given as a limit, '< 0.1 mg' say"
 FINEST, _BEYOND_NOISE = 1e-6, 3.0
 """Smallest relative uncertainty; standard deviations below 0 at which no noise explains a mean."""
 
@@ -76,7 +77,8 @@ class Measured(Table):
             return None
         is_value, is_profile = info.field_name == "value", name in PROFILES
         # The depths of a profile may be 0, or below it by noise.
-        mark = Quantity(QUANTITIES[name].unit, above=None if is_value and is_profile else 0)
+        above = None if is_value and is_profile else 0
+        mark = Quantity(QUANTITIES[name].unit, above=above, remedy=UNSEEN if is_value else None)
 
         def read(part: object) -> float:
             is_limit = isinstance(part, str) and part.lstrip().startswith("<")
@@ -321,7 +323,11 @@ def read_measurements(source: Measurements | Mapping[str, Any] | str | Path) -> 
     """Read measured values from a TOML file, or from its tables; CaseError if they are wrong."""
     if isinstance(source, Measurements):
         return source
-    data = read_toml(source) if isinstance(source, str | Path) else source
+    data: Mapping[str, Any]
+    if isinstance(source, Mapping):
+        data = source
+    else:
+        data = read_toml(source, "measured values", "those are entries [[measured]]")
     if "bodies" in data and not {"measured", "test"} & data.keys():
         name = "this" if isinstance(source, Mapping) else f"{source}"
         raise CaseError(f"{name} is a case, not measured values; those are entries [[measured]]")

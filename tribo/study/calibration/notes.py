@@ -109,7 +109,8 @@ def _on_misfit(data: pd.DataFrame, spare: int | None, cells: int) -> Iterator[st
     if chdtrc(spare, chi_square) < UNLIKELY:
         worst = read.loc[read["alone"].abs().idxmax()]
         of_grid = ""
-        if worst.quantity in FIELDS:
+        # Where the instrument is less exact than the grid it is not that.
+        if worst.quantity in FIELDS and worst.sigma**2 > 2 * worst.stated**2:
             of_grid = f", or the grid is too coarse: try grid.cells = {2 * cells}"
         yield (
             f"data and model disagree: χ² is {chi_square:.3g} where about {spare} is expected; the "
