@@ -31,6 +31,7 @@ MEASURED = {
     "quantity": "mass",
     "time_s": None,
     "position_m": None,
+    "place": "measured.0",
     "unit": "kg",
     "measured": 2e-6,
     "below": False,

@@ -13,6 +13,7 @@ from tribo.closed_forms.ball_on_track import ball_on_track
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError, NumericalError, TriboWarning
+from tribo.plotting.curves import fit_picture
 from tribo.result.export import profile
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.benches import Run, make_run
@@ -209,6 +210,11 @@ def test_profiles_are_fitted_where_they_were_measured(true_run):
     found = calibrate(CASE, {"measured": [data], "fit": fitting(DISK_K, start=2.5e-16)})
     assert found.settings[DISK_K] == pytest.approx(DISK, rel=0.01, abs=0)
     assert list(found.data["position_m"]) == at.tolist()
+    (row,) = found.brief.itertuples()
+    assert (row.depths, row.measured) == (9, pytest.approx(np.mean(data["value"]), abs=0))
+    _, panel = fit_picture(found.brief, found.data).axes
+    np.testing.assert_allclose(panel.lines[-1].get_ydata(), 1e6 * found.data["computed"])
+    assert np.array(panel.get_xlim()) == pytest.approx([-0.44, 0.44])
 
 
 @pytest.mark.slow

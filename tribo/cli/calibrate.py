@@ -192,7 +192,9 @@ class _Files:
 
         for name, tables in found.fitted.items():
             write_whole(self.cases[name], to_toml(tables))
-        write_figures({self.picture.stem: lambda: fit_picture(found.brief)}, self.picture.parent)
+        write_figures(
+            {self.picture.stem: lambda: fit_picture(found.brief, found.data)}, self.picture.parent
+        )
 
 
 def _give(files: _Files | None, as_json: bool, again: str, found: Calibration) -> None:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
+import numpy as np
 import pandas as pd
 from rich.markup import escape
 from rich.table import Table
@@ -130,8 +131,8 @@ def data_table(found: Calibration) -> Table:
         shown = [in_words(each.quantity, value) for value in values]
         if each.below:
             shown[0] = f"< {shown[0]}"
-        is_map = each.depths > 1
-        residual = f"rms {each.residual:.1f}" if is_map else signed(each.residual, 1)
+        many = each.depths > 1
+        residual = f"rms {each.residual:.1f}" if many else signed(each.residual, 1)
         table.add_row(name, *shown, residual)
     return table
 
@@ -192,8 +193,9 @@ def _name(row: Any) -> str:
         text += f" at {1e3 * row.position_m:g} mm"
     if getattr(row, "depths", 1) > 1:
         text += ", mean"
-        if row.shift_x_m or row.shift_y_m:
-            far = (signed(1e6 * each, 1) for each in (row.shift_x_m, row.shift_y_m))
+        shift = [getattr(row, f"shift_{axis}_m", 0.0) for axis in "xy"]
+        if any(np.nan_to_num(shift)):
+            far = (signed(1e6 * each, 1) for each in shift)
             text += f", off centre by {' and '.join(far)} µm"
     return text
 

@@ -47,8 +47,8 @@ MARKS = "osD^vp"
 """Of its curves; the first is full, and seen inside another that coincides."""
 FIT = 4.0
 """Height of a measured value in the picture of a fit, in mm."""
-NAME = 1.25
-"""Width of a letter of its name, in mm."""
+NAME, PROFILE = 1.25, 42.0
+"""Width of a letter of its name, and height of a profile, in mm."""
 
 
 def history_curves(result: Result, columns: Sequence[str], against: str = "distance_m") -> Figure:
@@ -166,7 +166,7 @@ def sweep_curves(
     return figure
 
 
-def fit_picture(data: pd.DataFrame) -> Figure:
+def fit_picture(data: pd.DataFrame, points: pd.DataFrame | None = None) -> Figure:
     """Draw what a calibration computes over what was measured, with its standard deviation.
 
     Of a value below a limit of detection the limit stands for it, as an arrow that points down.
@@ -174,10 +174,16 @@ def fit_picture(data: pd.DataFrame) -> Figure:
     Parameters
     ----------
     data : DataFrame
-        A row for each measured value, as `data` of a calibration: ``body``,
+        A row for each measured value, as `brief` of a calibration: ``body``,
         ``quantity``, ``measured``, ``sigma`` and ``computed``; ``test``,
         ``time_s``, ``position_m`` and ``below`` where it has them.
+    points : DataFrame, optional
+        A row for each point, as its `data`; of these the profiles are drawn, each in a panel.
     """
+    profiles: list[pd.DataFrame] = []
+    if points is not None:
+        along = points[points["position_m"].notna()]
+        profiles = [rows.sort_values("position_m") for _, rows in along.groupby("place")]
     measured, computed = data["measured"].to_numpy(float), data["computed"].to_numpy(float)
     below = data.get("below", pd.Series(False, index=data.index)).to_numpy(bool)
     rows = np.arange(len(data))[::-1]
@@ -185,8 +191,9 @@ def fit_picture(data: pd.DataFrame) -> Figure:
     with house_style():
         # Long names make the picture wider, not its axes narrower.
         room = NAME * max(map(len, names), default=0)
-        figure = new_figure(18.0 + FIT * max(len(data), 3), max(SINGLE_COLUMN, 45.0 + room))
-        axes = figure.subplots()
+        heights = [18.0 + FIT * max(len(data), 3), *(PROFILE for _ in profiles)]
+        figure = new_figure(sum(heights), max(SINGLE_COLUMN, 45.0 + room))
+        axes, *panels = figure.subplots(len(heights), height_ratios=heights, squeeze=False)[:, 0]
         axes.axvline(1.0, color="black", linewidth=0.5)
         told: dict[str, Any] = {"fmt": "none", "ecolor": "#56b4e9", "elinewidth": 2.4}
         if not below.all():
@@ -205,8 +212,23 @@ def fit_picture(data: pd.DataFrame) -> Figure:
         axes.set_ylim(-0.7, len(data) - 0.3)
         axes.set_xlabel("Over what was measured")
         axes.xaxis.set_major_locator(ticks(5))
+        for panel, rows in zip(panels, profiles, strict=True):
+            _profile(panel, rows)
         legend_below(figure, axes.get_legend_handles_labels()[0], columns=2)
     return figure
+
+
+def _profile(axes: Axes, rows: pd.DataFrame) -> None:
+    """Draw a profile that was measured and that of the fit, over the place."""
+    place, depths = 1e3 * rows["position_m"], 1e6 * rows[["measured", "sigma", "computed"]]
+    axes.errorbar(
+        place, depths["measured"], yerr=depths["sigma"], fmt="o", color="#56b4e9", markersize=2.0
+    )
+    axes.plot(place, depths["computed"], color="#202020", linewidth=0.8)
+    axes.invert_yaxis()
+    axes.set_title(_measured_name({**rows.iloc[0], "position_m": None}))
+    axes.set_xlabel("Place along it (mm)")
+    axes.set_ylabel("Depth (µm)")
 
 
 def _measured_name(row: dict[str, Any]) -> str:

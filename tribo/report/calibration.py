@@ -84,7 +84,9 @@ def calibration_page(found: Calibration, title: str) -> str:
         notes=found.notes,
         has_moments=False,
         curves_title="",
-        stills=stills({"fit, over what was measured": partial(fit_picture, found.brief)}),
+        stills=stills(
+            {"fit, over what was measured": partial(fit_picture, found.brief, found.data)}
+        ),
         always=True,
         provenance=[("report made with", ", ".join(f"{k} {v}" for k, v in packages.items()))],
         citation=CITATION.format(version=packages.get("tribo", "")),

@@ -24,15 +24,22 @@ from tribo.study.calibration.measured import Measurements
 from tribo.study.calibration.notes import notes
 from tribo.study.calibration.parameters import Parameter
 from tribo.study.calibration.posed import Posed
-from tribo.study.calibration.quantities import DEPTH_MAP, PROFILES, QUANTITIES, in_si, plain
+from tribo.study.calibration.quantities import (
+    DEPTH_MAP,
+    FIELDS,
+    PROFILES,
+    QUANTITIES,
+    in_si,
+    plain,
+)
 from tribo.study.calibration.sample import check_sampling, sampled
 
 REACHED, UNSETTLED = "reached the edge of the window", "have not settled"
 """Words of errors that a wrong pitch may be the reason of."""
-DATA = ["test", "body", "quantity", "time_s", "position_m", "unit"]
+DATA = ["test", "body", "quantity", "time_s", "position_m", "place", "unit"]
 DATA += ["measured", "below", "sigma", "computed", "residual"]
 """Columns of a calibration's data."""
-PLACE = ["place", "x_m", "y_m", "shift_x_m", "shift_y_m"]
+PLACE = ["x_m", "y_m", "shift_x_m", "shift_y_m"]
 """More of them, where a depth map is among the data."""
 AT_BOUND = 1e-6
 """Relative distance below which an estimate counts as on its bound."""
@@ -60,11 +67,11 @@ class Calibration:
     """
     data: pd.DataFrame
     """A row a measured value: `test`, empty for one of the case as it is; `body`, `quantity`,
-    `time_s`, `position_m` of a profile's point, `unit`, `measured`, `below` for a limit, `sigma`,
-    of the measurement, the grid, and from test to test, `computed`, and `residual`, computed less
-    measured in units of `sigma`; of a limit z of them above the computed value √(−2 ln Φ(z)). With
-    maps also `place`, their entry in the file, and of each part its middle, `x_m` and `y_m`;
-    `shift_x_m` and `shift_y_m`, how far the scar was found from the middle of the map."""
+    `time_s`, `position_m` of a profile's point, `place`, its entry in the file, `unit`,
+    `measured`, `below` for a limit, `sigma`, of the measurement, the grid, and from test to test,
+    `computed`, and `residual`, computed less measured in units of `sigma`; of a limit z of them
+    above the computed value √(−2 ln Φ(z)). With maps also of each part its middle, `x_m` and
+    `y_m`; `shift_x_m` and `shift_y_m`, how far the scar was found from the middle of the map."""
     predictions: pd.DataFrame
     """What else the fitted case gives at the end of each test, in the mean, where tests scatter:
     `test`, `body`, `quantity`, `unit`, `value`, `lower`, `upper`; 0 and infinite where it depends
@@ -98,17 +105,17 @@ class Calibration:
 
     @property
     def brief(self) -> pd.DataFrame:
-        """The data, a depth map in one row.
+        """The data, a depth map or a profile in one row.
 
         That has the number of its `depths`, the mean of those measured and computed, and the root
         mean squares of `sigma` and `residual`.
         """
-        is_map = self.data["quantity"] == DEPTH_MAP
-        parts = [self.data[~is_map].assign(depths=1)]
-        for _, rows in self.data[is_map].groupby("place") if np.any(is_map) else ():
+        parts, is_field = [], self.data["quantity"].isin(FIELDS)
+        for _, rows in self.data.groupby(self.data["place"].where(is_field, self.data.index)):
             means = rows[["measured", "computed"]].mean()
             squares = (rows[["sigma", "residual"]] ** 2).mean() ** 0.5
-            parts.append(rows[:1].assign(depths=len(rows), **means, **squares))
+            part = rows[:1].assign(depths=len(rows), **means, **squares)
+            parts.append(part if len(rows) == 1 else part.assign(position_m=math.nan))
         return pd.concat(parts).sort_index()
 
     @property
