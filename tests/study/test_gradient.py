@@ -341,7 +341,8 @@ def unasked(method):
 
     def mutant(*given):
         found = method(*given)
-        return replace(found, along=replace(found.along, rates=()))
+        rates = [(each, [0 * seed for seed in seeds]) for each, seeds in found.along.rates]
+        return replace(found, along=replace(found.along, rates=rates))
 
     return mutant
 
@@ -436,7 +437,7 @@ MUTANTS = [
     ("remembers", remembering.Remembering, "_back", forgotten),
     ("remembers", remembering.Remembering, "_back", unasked),
     ("remembers", remembering._Along, "by_length", lambda _: 0.0),
-    ("remembers", parameters, "carriers_of", nothing),
+    ("remembers", parameters, "moved", nothing),
     ("load over time", slopes.Sloping, "_by_pressure", unfelt("load")),
     ("layers", course, "_layers", lambda of: lambda *given: (of(*given)[0], 1.0)),
     ("layers", course, "by_bottoms", lambda _: lambda shares: ()),

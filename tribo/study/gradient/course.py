@@ -137,8 +137,9 @@ def plain(
         (response,) = local(lambda p: rates(pressed(contacts, p)), rates(contacts), pressure)
         steep = np.asarray(response.own)
     shares = np.array([position.share for position in model.cycle])
-    factor = slid.increment * carrier.mean(depth, shares)
-    slope = slid.increment * carrier.part * steep
+    box = whole(model.grid.cells)
+    factor = slid.increment * carrier.mean(depth, shares, box)
+    slope = slid.increment * carrier.part(box) * steep
     return Plain(model, contacts, slid, known, carrier, slope, factor, worn)
 
 

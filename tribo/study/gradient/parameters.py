@@ -229,7 +229,7 @@ def chain(
                 model,
                 weight / step,
                 own if model is base else Stops.of(model),
-                carriers_of(model) if moves else None,
+                moved(model, base) if moves else None,
             )
             for model, (_, weight) in zip(models, scheme, strict=True)
         ]
@@ -239,6 +239,12 @@ def chain(
     for place in (path, *(".".join(map(str, place)) for place in places)):
         why = why.removeprefix(f"{place}: ")
     raise CaseError(f"has no derivative here: {why}", path)
+
+
+def moved(model: Model, base: Model) -> Mapping[str, Carrier] | None:
+    """Return how the surfaces of bodies meet the window; None if as in the base."""
+    found, own = carriers_of(model), carriers_of(base)
+    return found if any(found[name].differs(own[name]) for name in found) else None
 
 
 def of_length(model: Model, end: float) -> Chain:

@@ -4,38 +4,48 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cache, cached_property, partial
+from functools import cache, cached_property
+from itertools import chain
 from math import prod
+from typing import Generic, TypeVar
 
 import numpy as np
 
 from tribo.contact.projection import CELLS, over
 from tribo.core.arrays import Array
 from tribo.stepping.memory import Memory
-from tribo.stepping.neville import PLAIN, RELAXING
+from tribo.stepping.neville import EXACT, PLAIN, RELAXING, apart, part_of
 from tribo.stepping.relaxation import bending, lasting, relaxing
-from tribo.study.gradient.asked import Place
 from tribo.study.gradient.course import Before, Other
 from tribo.study.gradient.linear import Carrier
 from tribo.study.gradient.passing import lowered, with_bottoms
 from tribo.study.gradient.response import NUDGE, Arrays, Field
 from tribo.study.gradient.slopes import Slopes, Sloping
+from tribo.study.gradient.stages import Place, Stage, together
 
 _Seeded = tuple[Slopes, Sequence[Field]]
 """Rates, and the derivatives in them."""
 
 
-@dataclass(frozen=True)
-class _Part:
-    """A part of an increment: its rates along each row of the extrapolation.
+Kind = TypeVar("Kind", bound=Stage)
 
-    `moved` has each state that relaxes, the rates where it is moved by a little, and by how much.
+
+@dataclass(frozen=True)
+class _Part(Generic[Kind]):
+    """A part of an increment: its stages along each row of the extrapolation.
+
+    `moved` has each state that relaxes, the stage where it is moved by a little, and by how much.
     """
 
     length: float
     relaxing: Sequence[Field]
-    rows: Sequence[Sequence[Slopes]]
-    moved: Sequence[tuple[int, Slopes, Array]]
+    rows: Sequence[Sequence[Kind]]
+    moved: Sequence[tuple[int, Kind, Array]]
+
+    @property
+    def stages(self) -> list[Kind]:
+        """All of them; rows may begin with the same one."""
+        return [*chain(*self.rows), *(stage for _, stage, _ in self.moved)]
 
 
 @dataclass(frozen=True)
@@ -61,13 +71,25 @@ class _Along:
         )
 
     @cached_property
-    def by_cell(self) -> Sequence[_Seeded]:
-        """The derivatives in rates at each cell of each position."""
+    def by_cell(self) -> Arrays:
+        """The derivatives in the rates at each cell, shape (stages, positions, nx, ny)."""
         shares = over(self.asked.shares)
+        each = [self.asked.seen(seeds) for _, seeds in self.seeded]
+        shape = self.seeded[0][0].rates[0].shape
         return [
-            (rates, [shares * each for each in self.asked.seen(seeds)])
-            for rates, seeds in (*self.rates, *self.moved)
+            np.stack([np.broadcast_to(shares * seed, shape) for seed in of_rate])
+            for of_rate in zip(*each, strict=True)
         ]
+
+    @cached_property
+    def seeded(self) -> Sequence[_Seeded]:
+        """All rates, and the derivatives in their means."""
+        return [*self.rates, *self.moved]
+
+    @cached_property
+    def states(self) -> Arrays:
+        """What is remembered at their stages, shape (stages, rows, ny)."""
+        return together([slopes.states for slopes, _ in self.seeded])
 
     @cached_property
     def by_bottoms(self) -> dict[str, list[float]]:
@@ -75,7 +97,7 @@ class _Along:
         found = {
             name: [0.0] * len(self.asked.model.laws[name].bottoms) for name in self.asked.layered
         }
-        for rates, seeds in (*self.rates, *self.moved):
+        for rates, seeds in self.seeded:
             for name, more in self.asked.by_bottoms(rates, seeds).items():
                 found[name] = [a + b for a, b in zip(found[name], more, strict=True)]
         return found
@@ -119,6 +141,7 @@ class Remembering:
         each = iter(np.asarray(state) for state in found.states)
         pressure = found.pressure + _summed(found.load)
         pressure = pressure + _summed(found.square) * self.asked.pressure
+        pressure = self.asked.embedded(pressure)
         states = states.with_values(each)
         through = {
             name: wear[name] + seed for name, seed in zip(self.asked.layered, each, strict=True)
@@ -149,79 +172,115 @@ class Remembering:
         for name, deeper in along.by_bottoms.items():
             total += float(np.dot(deeper, lowered(other.model, self.asked.model, name)))
 
-        def rates(slopes: Slopes) -> Arrays:
-            if not asks:
-                return slopes.found
-            place = slopes.place._replace(over=longer * slopes.place.over)
-            return asked.rates(slopes.states, asked.in_layers(slopes.states, place))
-
-        if other.carriers is not self.asked.carriers:
-            for slopes, seeds in (*along.rates, *along.moved):
-                total += _dot(seeds, asked.means(rates(slopes)), slopes.means)
-        elif asks:
-            for slopes, seeds in along.by_cell:
-                total += _dot(seeds, rates(slopes), slopes.found)
-        return total
+        if not asks and other.carriers is self.asked.carriers:
+            return total
+        seeded, rates = along.seeded, together([slopes.rates for slopes, _ in along.seeded])
+        if asks:
+            places = [
+                asked.in_layers(s.states, s.place._replace(over=longer * s.place.over))
+                for s, _ in seeded
+            ]
+            rates = asked.rates(along.states, places)
+        if other.carriers is self.asked.carriers:
+            before = together([slopes.rates for slopes, _ in seeded])
+            return total + _dot(along.by_cell, rates, before)
+        return total + sum(
+            _dot(seeds, asked.means([rate[i] for rate in rates]), slopes.means)
+            for i, (slopes, seeds) in enumerate(seeded)
+        )
 
     @cached_property
-    def _parts(self) -> list[_Part]:
+    def _parts(self) -> list[_Part[Slopes]]:
         """Go through the increment as it was divided, once more."""
-        asked, slid, passed = self.asked, self.asked.slid, 0.0
-        found: list[_Part] = []
-        states = asked.begin
-        start, _ = asked.first
+        asked, passed = self.asked, 0.0
+        states, divided = asked.begin, list[_Part[Stage]]()
         if not asked.along:
-            return [_Part(slid.increment, [0.0] * len(states), [[start]], [])]
-        for share, relaxes in slid.plan.parts:
-            span = share * slid.increment
-            begin = Place(passed, span)
-            if found:
-                start = asked.sloped(states, begin)
-            of_states: list[Field] = [0.0] * len(states)
-            moved = []
-            if relaxes:
-                at_start = partial(asked.of_states, begin)
-                of_states = relaxing(at_start, states, at_start(states), span, asked.limits)
-                for at, nudge in enumerate(asked.nudges(states, start.found, NUDGE)):
-                    if np.any(np.asarray(of_states[at]) < 0):
-                        other = [*states[:at], states[at] + nudge, *states[at + 1 :]]
-                        moved.append((at, asked.sloped(other, begin), nudge))
-            rows, ends = [], [np.zeros_like(state) for state in states]
-            stages = RELAXING if relaxes else PLAIN
-            for steps in stages:
-                first = start
-                if steps > 1 and asked.of_steps:
-                    first = asked.sloped(states, Place(passed, span / steps))
-                row, end = self._row(states, first, of_states, passed, share, steps)
-                rows.append(row)
-                counts = _counts(steps, stages)
-                ends = [total + counts * each for total, each in zip(ends, end, strict=True)]
-            found.append(_Part(span, of_states, rows, moved))
-            states = asked.held(ends)
+            divided.append(_Part(asked.slid.increment, [0.0] * len(states), [[asked.start]], []))
+        for share, relaxes in asked.slid.plan.parts if asked.along else ():
+            part, states = self._part(states, passed, share, relaxes=relaxes)
+            divided.append(part)
             passed += share
-        return found
+        stages = {id(stage): stage for part in divided for stage in part.stages}
+        slopes = dict(zip(stages, asked.sloped(list(stages.values())), strict=True))
+        return [
+            _Part(
+                part.length,
+                part.relaxing,
+                [[slopes[id(stage)] for stage in row] for row in part.rows],
+                [(at, slopes[id(stage)], by) for at, stage, by in part.moved],
+            )
+            for part in divided
+        ]
 
-    def _row(
+    def _part(
+        self, states: Arrays, passed: float, share: float, *, relaxes: bool
+    ) -> tuple[_Part[Stage], Arrays]:
+        """Return the stages of a part of the increment, and the states at its end."""
+        asked, span, own = self.asked, share * self.asked.slid.increment, len(self.asked.own)
+        begin = Place(passed, span)
+        start = asked.at([states], [begin])[0] if passed else asked.start
+        of_states: list[Field] = [0.0] * len(states)
+        moved = []
+        if relaxes:
+
+            def nearby(others: Sequence[Array], *_: float) -> Arrays:
+                return asked.at([others], [begin])[0].means[own:]
+
+            of_states = relaxing(nearby, states, start.means[own:], span, asked.limits)
+            falling = [at for at, of in enumerate(of_states) if np.any(np.asarray(of) < 0)]
+            nudges = asked.nudges(states, start.rates, NUDGE)
+            for at in falling:
+                other = [*states[:at], states[at] + nudges[at], *states[at + 1 :]]
+                moved.append((at, asked.at([other], [begin])[0], nudges[at]))
+        rows, ends = self._rows(states, start, of_states, passed, share, relaxes=relaxes)
+        counts = [_counts(len(row), [len(each) for each in rows]) for row in rows]
+        total = [
+            np.sum([by * end[at] for by, end in zip(counts, ends, strict=True)], axis=0)
+            for at in range(len(states))
+        ]
+        return _Part(span, of_states, rows, moved), asked.held(total)
+
+    def _rows(
         self,
         states: Arrays,
-        start: Slopes,
+        start: Stage,
         of_states: Sequence[Field],
         passed: float,
         share: float,
-        steps: int,
-    ) -> tuple[list[Slopes], Arrays]:
-        """Return the rates along some Euler steps, and the states at their end."""
-        asked, row, step = self.asked, [start], share * self.asked.slid.increment / steps
-        counted = [lasting(step, slope) for slope in of_states]
-        for taken in range(1, steps + 1):
-            means = row[-1].means[len(asked.own) :]
-            states = [
-                state + mean * by for state, mean, by in zip(states, means, counted, strict=True)
+        *,
+        relaxes: bool,
+    ) -> tuple[list[list[Stage]], list[Arrays]]:
+        """Return the stages of each row of Euler steps, and the states at its end.
+
+        The rows are gone along side by side. Where means over one step and over two agree, as exact
+        ones do, one step is all.
+        """
+        asked, own = self.asked, len(self.asked.own)
+        rows: list[list[Stage]] = [[] for _ in (RELAXING if relaxes else PLAIN)]
+        ends = [states] * len(rows)
+        for taken in range(len(rows)):
+            going = range(taken, len(rows))
+            begin = [
+                Place(passed + share * taken / (1 + i), share * asked.slid.increment / (1 + i))
+                for i in going
             ]
-            if taken < steps:
-                place = Place(passed + share * taken / steps, step)
-                row.append(asked.sloped(states, place))
-        return row, states
+            if taken or asked.of_steps:
+                found = asked.at([ends[i] for i in going], begin)
+            else:
+                found = [start] * len(rows)
+            for i, stage, (_, step, *_) in zip(going, found, begin, strict=True):
+                rows[i].append(start if i == taken == 0 else stage)
+                changes = zip(ends[i], rows[i][-1].means[own:], of_states, strict=True)
+                ends[i] = [state + lasting(step, of) * mean for state, mean, of in changes]
+            if taken == 1 and asked.advances and asked.model.advances:
+                once, twice = (
+                    [*end, *np.mean([stage.means[:own] for stage in row], axis=0)]
+                    for row, end in zip(rows[:2], ends[:2], strict=True)
+                )
+                pairs = zip(once, twice, strict=True)
+                if all(part_of(apart(fine, one), np.abs(fine)) <= EXACT for one, fine in pairs):
+                    return rows[:1], ends[:1]
+        return rows, ends
 
     def _back(self, depth: Sequence[Field], after: Sequence[Field]) -> _Back:
         """Go back from derivatives in the depths and the states after."""
@@ -269,7 +328,7 @@ class Remembering:
         pressure, load, square, *factors = total
         return _Back(pressure, load, square, factors, after, _Along(along, moved, bent, self.asked))
 
-    def _of_relaxing(self, part: _Part, seeds: Sequence[Field]) -> list[_Seeded]:
+    def _of_relaxing(self, part: _Part[Slopes], seeds: Sequence[Field]) -> list[_Seeded]:
         """Return derivatives in the rates that tell how fast states relax, from those in that."""
         found, own = list[_Seeded](), len(self.asked.own)
         for at, rates, by in part.moved:
@@ -323,13 +382,13 @@ class Alone(Remembering):
     def bodies(self) -> Sequence[tuple[Carrier, Array]]:
         """Its carrier, and the derivative of a point's depth in the pressures of its cells."""
         (carrier,) = self.asked.own
-        return [(carrier, np.asarray(self._of_depth.pressure))]
+        return [(carrier, self.asked.embedded(np.asarray(self._of_depth.pressure)))]
 
     def back(self, wear: Mapping[str, Array]) -> Before:
         """Return derivatives before it from those in the depths after."""
         (name,), (carrier,) = self.asked.model.laws, self.asked.own
         one, other, by = self._of_states, self._of_depth, wear[name]
-        cells = carrier.seen(by, self.asked.window)
+        cells = carrier.seen(by, self.asked.box)
         found = _Back(
             one.pressure + cells * other.pressure,
             one.load + cells * other.load,
