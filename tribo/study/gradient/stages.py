@@ -225,20 +225,23 @@ class Stages:
         model = model or self.model
         if told is None:
             told = self.told(places)
-        lengths = [place.over if self.advances else 0.0 for place in places]
-        groups = [[i] for i in range(len(places))]
-        if not model.effects:
-            groups = [
-                [i for i, own in enumerate(lengths) if own == length] for length in {*lengths}
-            ]
-        rates = Arrays()
+        if model.effects:
+            groups = [[i] for i in range(len(places))]
+        else:
+            lengths = [self._over(place) for place in places]
+            groups = [[i for i, own in enumerate(lengths) if own == each] for each in {*lengths}]
+        ask, rates = self._in_window if model.effects else self._of_laws, Arrays()
         for group in groups:
-            here, own = [places[i] for i in group], [state[group] for state in states]
-            ask = self._in_window if model.effects else self._of_laws
-            found = ask(model, own, here, told[group], lengths[group[0]])
+            # One group is all, without copies.
+            part: list[int] | slice = group if len(groups) > 1 else slice(None)
+            here = [places[i] for i in group]
+            found = ask(model, [state[part] for state in states], here, told[part])
+            if len(groups) == 1:
+                rates = found
+                break
             rates = rates or [np.empty(told.shape) for _ in found]
             for rate, values in zip(rates, found, strict=True):
-                rate[group] = values
+                rate[part] = values
         return rates + [rates[at] for at, law in enumerate(model.laws.values()) if law.bottoms]
 
     def memory(self, states: Sequence[Array]) -> Memory:
@@ -251,9 +254,13 @@ class Stages:
             return place
         memory = self.memory(self.held(states))
         told = pressed(self.contacts, self.told([place])[0])
-        moment = replace(self._moment(place), over=place.over if self.advances else 0.0)
+        moment = replace(self._moment(place), over=self._over(place))
         shared, _ = in_layers(self.model, memory, told, place.over, moment)
         return place._replace(shares=shared.shares)
+
+    def _over(self, place: Place) -> float:
+        """Return the length (m) over which rates are means there; 0 where they are of one place."""
+        return place.over if self.advances else 0.0
 
     def _moment(self, place: Place) -> Moment:
         if not self.along:
@@ -267,16 +274,16 @@ class Stages:
         return loaded(self.model, contacts, end.back(half).time, end.time, passed)
 
     def _in_window(
-        self, model: Model, states: Arrays, places: Sequence[Place], told: Array, over: float
+        self, model: Model, states: Arrays, places: Sequence[Place], told: Array
     ) -> Arrays:
         """Return the rates at one place, of laws and of effects, which see the whole window."""
         (place,) = places
         memory = replace(self.memory([state[0] for state in states]), shares=place.shares)
-        moment = replace(self._moment(place), over=over)
+        moment = replace(self._moment(place), over=self._over(place))
         return [r[None] for r in stacked(model, pressed(self.contacts, told[0]), memory, moment)]
 
     def _of_laws(
-        self, model: Model, states: Arrays, places: Sequence[Place], told: Array, over: float
+        self, model: Model, states: Arrays, places: Sequence[Place], told: Array
     ) -> Arrays:
         """Return the rates of the laws at some places, means over the same length (m) each."""
         depths, changes = Arrays(), Arrays()
@@ -293,7 +300,7 @@ class Stages:
                     position,
                     told[:, position],
                     {key: of[:, position] for key, of in seen.items()},
-                    0.0 if name in model.swept else over,
+                    0.0 if name in model.swept else self._over(places[0]),
                 )
                 for position in range(len(model.cycle))
             ]
@@ -334,15 +341,13 @@ class Stages:
             },
             state={key: tall(values) for key, values in state.items()},
         )
-        total = [np.zeros(pressure.shape)] * (1 + len(keys))
+        total = Arrays()
         for speed, part, _ in by_row(place.speeds or [(mean, 1.0)], place.reach):
             rate = law.rate(replace(told, speed=speed), over)
             counts = part[self.box.slices[1]] if isinstance(part, np.ndarray) else part
-            rates = (rate.depth_rate, *(rate.state_rates[key] for key in keys))
-            total = [
-                before + counts * each.reshape(pressure.shape)
-                for before, each in zip(total, rates, strict=True)
-            ]
+            each = (rate.depth_rate, *(rate.state_rates[key] for key in keys))
+            rates = [counts * values.reshape(pressure.shape) for values in each]
+            total = [a + b for a, b in zip(total, rates, strict=True)] if total else rates
         return total
 
 
