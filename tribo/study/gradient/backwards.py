@@ -287,7 +287,7 @@ class Backwards:
                 for name in model.laws
             ]
 
-        def asked(*names: str) -> Sloping:
+        def stages(*names: str) -> Sloping:
             own = {name: slid.before.laws[name] for name in names}
             alone, box, pressed = _of(model, *names), whole(model.grid.cells), contacts
             if not (self.together or layered_bodies(alone)):
@@ -305,9 +305,9 @@ class Backwards:
             )
 
         if self.together:
-            return [Together(asked(*model.laws))]
+            return [Together(stages(*model.laws))]
         laws = self.states.laws
-        return [Alone(asked(name), Memory({name: laws[name]}, {})) for name in model.laws]
+        return [Alone(stages(name), Memory({name: laws[name]}, {})) for name in model.laws]
 
     def _of_wear(self, increment: Together, box: Box, z: Array) -> Array:
         """Return what the wear and the filling that pressures make add to the adjoint of K."""

@@ -26,6 +26,8 @@ from tribo.study.gradient.tape import Pressed, Slid
 
 LAW = "law"
 """What a number changes of a law that it enters."""
+CONTACT = ("young", "poisson", "hardness")
+"""Numbers of a material that contacts follow."""
 MOVES = "it moves the positions of the cycle by whole cells"
 
 
@@ -208,7 +210,7 @@ def chain(
     step = value * (ASIDE if moves else NUDGE)
     error: Exception | None = None
     central, upper = [(1, 0.5), (-1, -0.5)], [(0, -1.5), (1, 2.0), (2, -0.5)]
-    if all("wear" in place[2:] for place in places):
+    if all(map(_only_wears, places)):
         # Only what is worn under given contacts follows it, which is known of the case itself.
         step, central, upper = ASIDE * value, [], [(0, -1.0), (1, 1.0)]
     lower = [(-by, -weight) for by, weight in upper]
@@ -239,6 +241,12 @@ def chain(
     for place in (path, *(".".join(map(str, place)) for place in places)):
         why = why.removeprefix(f"{place}: ")
     raise CaseError(f"has no derivative here: {why}", path)
+
+
+def _only_wears(place: Sequence[Any]) -> bool:
+    """Whether a number at a place of a case changes no contact, but only what is worn under it."""
+    of_material = place[2:3] == ["material"] and place[3] not in CONTACT
+    return place[0] in ("effects", "friction") or "wear" in place[2:] or of_material
 
 
 def moved(model: Model, base: Model) -> Mapping[str, Carrier] | None:
