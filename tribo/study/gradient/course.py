@@ -8,6 +8,7 @@ from functools import cached_property, partial
 
 import numpy as np
 
+from tribo.contact.projection import over
 from tribo.core.arrays import Array, readonly
 from tribo.core.box import whole
 from tribo.core.contact import ContactSolution
@@ -138,8 +139,8 @@ def plain(
         steep = np.asarray(response.own)
     shares = np.array([position.share for position in model.cycle])
     box = whole(model.grid.cells)
-    factor = slid.increment * carrier.mean(depth, shares, box)
-    slope = slid.increment * carrier.part(box) * steep
+    part = slid.increment * carrier.part(box)
+    factor, slope = carrier.gathered(over(shares) * part * depth, box), part * steep
     return Plain(model, contacts, slid, known, carrier, slope, factor, worn)
 
 

@@ -59,9 +59,11 @@ class Carrier:
         """Return fields on the body, shape (…, rows, ny), as they lie in a box, by position."""
         along, columns = box.slices
         field = own[..., columns]
-        if self.weights is not None:
+        if self.weights is not None or not any(self.starts):
+            here = field if self.weights is not None else field[..., along, :]
             shape = (*own.shape[:-2], len(self.starts), *box.shape)
-            return np.broadcast_to(field[..., None, :, :], shape)
+            placed = here[..., None, :, :]
+            return placed if placed.shape == shape else np.broadcast_to(placed, shape)
         rows = np.arange(along.start, along.stop)
         each = [np.take(field, start + rows, -2, mode="wrap") for start in self.starts]
         return np.stack(each, axis=-3)
@@ -69,10 +71,6 @@ class Carrier:
     def part(self, box: Box) -> Array | float:
         """Return what each cell of a box counts for in the mean rate of its point."""
         return 1.0 if self.weights is None else self.weights[box.slices]
-
-    def mean(self, rate: Array, shares: Array, box: Box) -> Array:
-        """Return the mean of a rate on a box, by position, over each point of the body."""
-        return self.gathered(over(shares) * self.part(box) * rate, box)
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,6 @@ import numpy as np
 from tribo.contact.projection import CELLS, over
 from tribo.core.arrays import Array
 from tribo.stepping.memory import Memory
-from tribo.stepping.relaxation import bending, lasting
 from tribo.study.gradient.course import Before, Other
 from tribo.study.gradient.linear import Carrier
 from tribo.study.gradient.passing import lowered, with_bottoms
@@ -28,49 +27,42 @@ _Seeded = tuple[Slopes, Sequence[Field]]
 class _Along:
     """Derivatives of an objective along an increment.
 
-    `rates` has those in the `means` of rates along it, `moved` those in rates that only tell how
-    fast states relax, and `bent` those in ln(its length) where all these stay as they are.
+    `rates` has those in the `means` of the rates at its stages, and `longer` those in ln(its
+    length) where the rates stay as they are, by depth and state.
     """
 
     rates: Sequence[_Seeded]
-    moved: Sequence[_Seeded]
-    bent: Sequence[Field]
+    longer: Sequence[Field]
     stages: Sloping
 
     def plus(self, other: _Along, by: Array) -> _Along:
         """Return the sum with another's, times a number at each point."""
-        return _Along(
-            _plus(self.rates, other.rates, by),
-            _plus(self.moved, other.moved, by),
-            _added(self.bent, _times(by, other.bent)),
-            self.stages,
-        )
+        rates = [
+            (stage, _added(seeds, _times(by, more)))
+            for (stage, seeds), (_, more) in zip(self.rates, other.rates, strict=True)
+        ]
+        return _Along(rates, _added(self.longer, _times(by, other.longer)), self.stages)
 
     @cached_property
     def by_cell(self) -> Arrays:
         """The derivatives in the rates at each cell, shape (stages, positions, nx, ny)."""
         shares = over(self.stages.shares)
-        each = [self.stages.seen(seeds) for _, seeds in self.seeded]
-        shape = self.seeded[0][0].rates[0].shape
+        each = [self.stages.seen(seeds) for _, seeds in self.rates]
+        shape = self.rates[0][0].rates[0].shape
         return [
             np.stack([np.broadcast_to(shares * seed, shape) for seed in of_rate])
             for of_rate in zip(*each, strict=True)
         ]
 
     @cached_property
-    def seeded(self) -> Sequence[_Seeded]:
-        """All rates, and the derivatives in their means."""
-        return [*self.rates, *self.moved]
-
-    @cached_property
     def states(self) -> Arrays:
         """What is remembered at their stages, shape (stages, rows, ny)."""
-        return together([stage.states for stage, _ in self.seeded])
+        return together([stage.states for stage, _ in self.rates])
 
     @cached_property
     def found(self) -> Arrays:
         """The rates there, shape (stages, positions, nx, ny)."""
-        return together([stage.rates for stage, _ in self.seeded])
+        return together([stage.rates for stage, _ in self.rates])
 
     @cached_property
     def by_bottoms(self) -> dict[str, list[float]]:
@@ -78,20 +70,15 @@ class _Along:
         found = {
             name: [0.0] * len(self.stages.model.laws[name].bottoms) for name in self.stages.layered
         }
-        for rates, seeds in self.seeded:
+        for rates, seeds in self.rates:
             for name, more in self.stages.by_bottoms(rates, seeds).items():
                 found[name] = [a + b for a, b in zip(found[name], more, strict=True)]
         return found
 
-    @cached_property
+    @property
     def by_length(self) -> float:
         """The derivative in ln(its length) where the rates stay as they are."""
-        parts = [
-            seed * mean
-            for rates, seeds in self.rates
-            for seed, mean in zip(seeds, rates.means, strict=True)
-        ]
-        return sum(float(np.sum(each)) for each in (*self.bent, *parts))
+        return sum(float(np.sum(each)) for each in self.longer)
 
 
 @dataclass(frozen=True)
@@ -156,13 +143,13 @@ class Remembering:
         if asks:
             places = [
                 others.in_layers(stage.states, stage.place._replace(over=longer * stage.place.over))
-                for stage, _ in along.seeded
+                for stage, _ in along.rates
             ]
             rates = others.rates(along.states, places)
         if moves:
             return total + sum(
                 _dot(seeds, others.means([rate[i] for rate in rates]), stage.means)
-                for i, (stage, seeds) in enumerate(along.seeded)
+                for i, (stage, seeds) in enumerate(along.rates)
             )
         return total + _dot(along.by_cell, rates, along.found) if asks else total
 
@@ -173,10 +160,12 @@ class Remembering:
     def _back(self, depth: Sequence[Field], after: Sequence[Field]) -> _Back:
         """Go back from derivatives in the depths and the states after."""
         total: list[Field] = [0.0] * (3 + len(depth))
-        along, moved, bent = list[_Seeded](), list[_Seeded](), list[Field]()
+        longer: list[Field] = [0.0] * (len(depth) + len(after))
+        along = list[_Seeded]()
 
         def behind(seeded: _Seeded, before: Sequence[Field]) -> list[Field]:
             """Go back through rates; return what they add to derivatives in the states before."""
+            along.append(seeded)
             found, states = self.stages.behind(*seeded)
             total[:] = _added(total, found)
             return _added(before, states)
@@ -186,48 +175,44 @@ class Remembering:
             bends: list[Field] = [0.0] * len(after)
             starts: list[_Seeded] = []
             lengths = [len(row) for row in part.rows]
-            for steps, row in zip(lengths, part.rows, strict=True):
+            pairs = zip(part.rows, part.lasting, part.bending, strict=True)
+            for steps, (row, counted, bent_by) in zip(lengths, pairs, strict=True):
                 counts = weight(steps, lengths)
                 seeds = [counts * seed for seed in after]
                 step = part.length / steps
                 deep = [step * counts * seed for seed in depth]
-                counted = [lasting(step, slope) for slope in part.relaxing]
-                bent_by = [bending(step, slope) for slope in part.relaxing]
-                for rates in reversed(row):
+                for stage in reversed(row):
                     for at, bend in enumerate(bent_by):
                         if np.ndim(bend):
-                            bends[at] = bends[at] + seeds[at] * rates.means[len(depth) + at] * bend
+                            bends[at] = bends[at] + seeds[at] * stage.means[len(depth) + at] * bend
                     kept = [seed * by for seed, by in zip(seeds, counted, strict=True)]
-                    each: _Seeded = (rates, [*deep, *kept])
-                    if rates is row[0]:
-                        _join(starts, each)
+                    each: _Seeded = (stage, [*deep, *kept])
+                    longer = _added(longer, _products(each[1], stage.means))
+                    if stage is row[0]:
+                        _join(starts, *each)
                     else:
-                        along.append(each)
                         seeds = behind(each, seeds)
                 before = _added(before, seeds)
+            slower = _products(bends, part.relaxing)
+            longer = _added(longer, [*(0.0 for _ in depth), *slower])
+            self._join_relaxing(starts, part, bends)
             for each in starts:
-                along.append(each)
-                before = behind(each, before)
-            bent += [bend * slope for bend, slope in zip(bends, part.relaxing, strict=True)]
-            for each in self._of_relaxing(part, bends):
-                moved.append(each)
                 before = behind(each, before)
             after = before
         pressure, load, square, *factors = total
-        return _Back(
-            pressure, load, square, factors, after, _Along(along, moved, bent, self.stages)
-        )
+        return _Back(pressure, load, square, factors, after, _Along(along, longer, self.stages))
 
-    def _of_relaxing(self, part: Part[Slopes], seeds: Sequence[Field]) -> list[_Seeded]:
-        """Return derivatives in the rates that tell how fast states relax, from those in that."""
-        found, own = list[_Seeded](), len(self.stages.own)
-        for at, rates, by in part.moved:
+    def _join_relaxing(
+        self, seeded: list[_Seeded], part: Part[Slopes], bends: Sequence[Field]
+    ) -> None:
+        """Add derivatives in the rates that tell how fast states relax, from those in that."""
+        own = len(self.stages.own)
+        for at, moved, by in part.moved:
             falls = np.asarray(part.relaxing[at]) < 0
-            for where, sign in ((rates, 1.0), (part.rows[0][0], -1.0)):
-                of_rates: list[Field] = [0.0] * (own + len(seeds))
-                of_rates[own + at] = sign * falls * seeds[at] / by
-                found.append((where, of_rates))
-        return found
+            for stage, sign in ((moved, 1.0), (part.rows[0][0], -1.0)):
+                seeds: list[Field] = [0.0] * (own + len(bends))
+                seeds[own + at] = sign * falls * bends[at] / by
+                _join(seeded, stage, seeds)
 
 
 @dataclass(frozen=True)
@@ -304,24 +289,21 @@ class Alone(Remembering):
         return self.stages.own[0].rows, self.stages.model.grid.cells[1]
 
 
-def _plus(one: Sequence[_Seeded], other: Sequence[_Seeded], by: Array) -> Sequence[_Seeded]:
-    return [
-        (rates, _added(seeds, _times(by, more)))
-        for (rates, seeds), (_, more) in zip(one, other, strict=True)
-    ]
-
-
-def _join(seeded: list[_Seeded], new: _Seeded) -> None:
-    """Add derivatives in rates to those in the same ones, which rows may begin with."""
-    rates, seeds = new
-    if seeded and seeded[-1][0] is rates:
-        seeded[-1] = rates, _added(seeded[-1][1], seeds)
-    else:
-        seeded.append(new)
+def _join(seeded: list[_Seeded], stage: Slopes, seeds: Sequence[Field]) -> None:
+    """Add derivatives in the rates of a stage, to those in them that there are already."""
+    for at, (other, before) in enumerate(seeded):
+        if other is stage:
+            seeded[at] = stage, _added(before, seeds)
+            return
+    seeded.append((stage, seeds))
 
 
 def _times(by: Array, fields: Sequence[Field]) -> list[Field]:
     return [by * field for field in fields]
+
+
+def _products(one: Sequence[Field], other: Sequence[Field]) -> list[Field]:
+    return [a * b for a, b in zip(one, other, strict=True)]
 
 
 def _added(one: Sequence[Field], other: Sequence[Field]) -> list[Field]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import chain
 from math import prod
 from typing import Generic, TypeVar
@@ -12,7 +13,7 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.stepping.neville import EXACT, PLAIN, RELAXING, apart, part_of
-from tribo.stepping.relaxation import lasting, relaxing
+from tribo.stepping.relaxation import bending, lasting, relaxing
 from tribo.study.gradient.response import NUDGE, Arrays, Field
 from tribo.study.gradient.slopes import Slopes, Sloping
 from tribo.study.gradient.stages import Place, Stage
@@ -31,6 +32,16 @@ class Part(Generic[Kind]):
     relaxing: Sequence[Field]
     rows: Sequence[Sequence[Kind]]
     moved: Sequence[tuple[int, Kind, Array]]
+
+    @cached_property
+    def lasting(self) -> list[list[Field]]:
+        """What a step of each row counts for in each state."""
+        return [[lasting(self.length / len(row), of) for of in self.relaxing] for row in self.rows]
+
+    @cached_property
+    def bending(self) -> list[list[Field]]:
+        """The derivatives of that in how fast the state relaxes."""
+        return [[bending(self.length / len(row), of) for of in self.relaxing] for row in self.rows]
 
     @property
     def stages(self) -> list[Kind]:

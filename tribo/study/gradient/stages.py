@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tribo.contact.projection import over
 from tribo.core.arrays import Array, readonly
 from tribo.core.box import Box
 from tribo.core.contact import ContactSolution
@@ -153,10 +154,16 @@ class Stages:
             nudges.append(np.where(state + nudge > limit.most, -nudge, nudge))
         return nudges
 
+    @cached_property
+    def counts(self) -> Sequence[tuple[Carrier, Array]]:
+        """The carriers of all rates, and what each cell of the box counts for in their means."""
+        shares = over(self.shares)
+        return [(each, shares * each.part(self.box)) for each in (*self.own, *self.kept)]
+
     def means(self, rates: Arrays) -> Arrays:
         """Return the mean rates of the depths and of what is remembered, where these lie."""
-        pairs = zip((*self.own, *self.kept), rates, strict=True)
-        return [carrier.mean(rate, self.shares, self.box) for carrier, rate in pairs]
+        pairs = zip(self.counts, rates, strict=True)
+        return [carrier.gathered(counts * rate, self.box) for (carrier, counts), rate in pairs]
 
     def embedded(self, values: Array) -> Array:
         """Return values on the box, by position, in a window of zeros."""
@@ -304,7 +311,10 @@ class Stages:
                 )
                 for position in range(len(model.cycle))
             ]
-            depth, *of_states = (np.stack(rates, axis=1) for rates in zip(*found, strict=True))
+            depth, *of_states = (
+                np.stack(rates, axis=1) if len(found) > 1 else rates[0][:, None]
+                for rates in zip(*found, strict=True)
+            )
             depths.append(depth)
             changes += of_states
         return depths + changes
@@ -325,7 +335,9 @@ class Stages:
             return [np.zeros(pressure.shape)] * (1 + len(keys))
 
         def tall(values: Array) -> Array:
-            return readonly(np.broadcast_to(values, pressure.shape).reshape(-1, self.box.shape[1]))
+            if values.shape != pressure.shape:
+                values = np.broadcast_to(values, pressure.shape)
+            return readonly(values.reshape(-1, self.box.shape[1]))
 
         given: Mapping[str, Mapping[str, Array]] = {}
         if law.requires:
