@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import groupby
 from typing import NamedTuple
 
 import numpy as np
@@ -24,6 +25,9 @@ from tribo.study.gradient.course import pressed, stacked
 from tribo.study.gradient.linear import Carrier, carriers_between
 from tribo.study.gradient.response import ASIDE, Arrays
 from tribo.study.gradient.tape import Slid
+
+AT_ONCE = 1 << 18
+"""Cells of which laws are asked at once, so that what they compute does not grow with a step."""
 
 
 class Place(NamedTuple):
@@ -232,23 +236,16 @@ class Stages:
         model = model or self.model
         if told is None:
             told = self.told(places)
-        if model.effects:
-            groups = [[i] for i in range(len(places))]
-        else:
-            lengths = [self._over(place) for place in places]
-            groups = [[i for i, own in enumerate(lengths) if own == each] for each in {*lengths}]
-        ask, rates = self._in_window if model.effects else self._of_laws, Arrays()
+        groups = [slice(i, i + 1) for i in range(len(places))]
+        if not model.effects:
+            groups = list(self._alike(places, max(1, AT_ONCE // told[0].size)))
+        ask, found = self._in_window if model.effects else self._of_laws, list[Arrays]()
         for group in groups:
-            # One group is all, without copies.
-            part: list[int] | slice = group if len(groups) > 1 else slice(None)
-            here = [places[i] for i in group]
-            found = ask(model, [state[part] for state in states], here, told[part])
-            if len(groups) == 1:
-                rates = found
-                break
-            rates = rates or [np.empty(told.shape) for _ in found]
-            for rate, values in zip(rates, found, strict=True):
-                rate[part] = values
+            own = [state[group] for state in states]
+            found.append(ask(model, own, places[group], told[group]))
+        rates = [
+            each[0] if len(each) == 1 else np.concatenate(each) for each in zip(*found, strict=True)
+        ]
         return rates + [rates[at] for at, law in enumerate(model.laws.values()) if law.bottoms]
 
     def memory(self, states: Sequence[Array]) -> Memory:
@@ -264,6 +261,15 @@ class Stages:
         moment = replace(self._moment(place), over=self._over(place))
         shared, _ = in_layers(self.model, memory, told, place.over, moment)
         return place._replace(shares=shared.shares)
+
+    def _alike(self, places: Sequence[Place], most: int) -> Iterator[slice]:
+        """Yield runs of places, of so many at most, over which means are of one length."""
+        first = 0
+        for _, group in groupby(places, self._over):
+            end = first + len(list(group))
+            for start in range(first, end, most):
+                yield slice(start, min(start + most, end))
+            first = end
 
     def _over(self, place: Place) -> float:
         """Return the length (m) over which rates are means there; 0 where they are of one place."""
