@@ -17,8 +17,9 @@ ASIDE = 1e-7
 """The same where it is varied to one side only, or a derivative may soon change."""
 LEAST = 0.1
 """Part of a cell's pressure that must be varied to find what follows it."""
-AGREES = 1e-4
-"""Relative difference up to which a change in all that is varied is the sum of its parts."""
+AGREES, CERTAIN = 1e-4, 1e-7
+"""Relative difference up to which a change in all that is varied is the sum of its parts; and of
+parts that leave out most of what it could follow."""
 
 MOST = 25
 """Points around one, itself among them, that it may follow."""
@@ -228,14 +229,15 @@ def _inverse(one: Array, other: Array) -> Array:
     return np.asarray(np.linalg.pinv(matrix, rcond=1e-9), dtype=np.float64)
 
 
-def agrees(parts: Sequence[Arrays], found: Arrays, rates: Arrays) -> bool:
+def agrees(parts: Sequence[Arrays], found: Arrays, rates: Arrays, within: float) -> bool:
     """Whether rates, in a change of all at once, change by the sum of what they do by each part.
 
-    The parts, as of pressures and of a state, may all but cancel.
+    It need be so within a part of the largest change; those by pressures and by a state may all but
+    cancel.
     """
     return all(
         np.max(np.abs(sum(changes) - other))
-        <= AGREES * max(np.max(np.abs(each)) for each in (other, *changes))
+        <= within * max(np.max(np.abs(each)) for each in (other, *changes))
         + 1e-8 * NUDGE * np.max(np.abs(rate))
         for *changes, other, rate in zip(*parts, found, rates, strict=True)
     )

@@ -17,8 +17,10 @@ from tribo.study.gradient.linear import Carrier
 from tribo.study.gradient.local import localised
 from tribo.study.gradient.passing import Layered
 from tribo.study.gradient.response import (
+    AGREES,
     ALONE,
     ASIDE,
+    CERTAIN,
     NUDGE,
     PLACES,
     Arrays,
@@ -37,9 +39,12 @@ from tribo.study.gradient.stages import Place, Stage, Stages, together
 
 
 class Reach(NamedTuple):
-    """How many cells apart points are that follow each other's pressure, and each state."""
+    """How many cells apart points are that follow each other's pressure, and each state.
 
-    pressure: Offset
+    Without one for the pressure they follow their own, the load and the area.
+    """
+
+    pressure: Offset | None
     states: Sequence[Offset]
 
 
@@ -86,13 +91,16 @@ class Sloping(Stages):
 
         Effects are refused of which a change in all at once is not the sum of its parts.
         """
-        reach = Reach(ALONE, [ALONE] * len(self.begin))
-        (slopes,) = self._sloped([self.start], reach)
-        if not self.model.effects or self._agrees(slopes):
-            return slopes, reach
+        alone = [ALONE] * len(self.begin)
+        # What is taken to follow its own cell alone must do so to the last digits.
+        for pressure, within in ((ALONE, CERTAIN), (None, AGREES)):
+            reach = Reach(pressure, alone)
+            (slopes,) = self._sloped([self.start], reach)
+            if not self.model.effects or self._agrees(slopes, within):
+                return slopes, reach
         reach = self._reached(slopes)
         (slopes,) = self._sloped([self.start], reach)
-        if self._agrees(slopes):
+        if self._agrees(slopes, AGREES):
             return slopes, reach
         who = ", ".join(repr(effect.component.type) for effect in self.model.effects)
         raise CaseError(
@@ -197,7 +205,7 @@ class Sloping(Stages):
             for at, nudge in enumerate(self.nudges(states, rates))
         ]
         by_pressure = self._by_pressure(states, places, rates, reach.pressure)
-        by_factor = self._by_factor(states, places, rates, reach.pressure)
+        by_factor = self._by_factor(states, places, rates, reach.pressure or ALONE)
         return [
             Slopes(
                 **vars(stage),
@@ -229,7 +237,7 @@ class Sloping(Stages):
             rates = [each.means[at] for each in of_layers[: 1 + len(bottoms[name])]]
             bodies[name] = Layered(bottoms[name], worn[name], rates, place.over)
             by_share[name] = [
-                self._by_share(name, self.own[at], layer, stage, reach.pressure)
+                self._by_share(name, self.own[at], layer, stage, reach.pressure or ALONE)
                 for layer in range(len(rates))
             ]
         return Passing(bodies, by_share, of_layers)
@@ -249,13 +257,13 @@ class Sloping(Stages):
         return _at(0, near(rates, found, share, nudge, reach, self._seen_by(carrier)))
 
     def _by_pressure(
-        self, states: Arrays, places: Sequence[Place], found: Arrays, reach: Offset
+        self, states: Arrays, places: Sequence[Place], found: Arrays, reach: Offset | None
     ) -> Sequence[Response]:
         def rates(pressure: Array) -> Arrays:
             return self.rates(states, places, self.told(places, pressure))
 
         pressure = np.broadcast_to(self.pressure, (len(places), *self.pressure.shape))
-        if self.model.effects and reach == ALONE:
+        if reach is None:
             return shared(rates, pressure)
         if self.model.effects:
             return local(rates, found, pressure, reach)
@@ -343,8 +351,8 @@ class Sloping(Stages):
             ],
         )
 
-    def _agrees(self, slopes: Slopes) -> bool:
-        """Whether a change in all at once is the sum of its parts."""
+    def _agrees(self, slopes: Slopes, within: float) -> bool:
+        """Whether a change in all at once is the sum of its parts, within a part of it."""
         random, held, places = np.random.default_rng(0), slopes.states, [slopes.place]
         nudges = [
             by * random.uniform(0.5, 1.5, state.shape)
@@ -366,7 +374,7 @@ class Sloping(Stages):
             span = kept.seen(up - down, self.box)
             parts.append([each.change(span, span) for each in responses])
         found = [up[0] - down[0] for up, down in zip(higher, lower, strict=True)]
-        return agrees(parts, found, slopes.rates)
+        return agrees(parts, found, slopes.rates, within)
 
 
 def _at(stage: int, responses: Sequence[Response]) -> list[Response]:
