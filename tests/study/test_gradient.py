@@ -165,6 +165,16 @@ KINDS = {
         ["load.normal", *SHAPE, *OF_LAYER, "bodies.disk.wear.over"],
         1e-6,
     ),
+    "layers, both laws remember": Kind(
+        run(
+            grid=ODD,
+            bodies=layered(None, ("0.02 um", SMOOTH), FRESH, FRESH),
+            stepping=LONG,
+        ),
+        Depth("disk"),
+        ["load.normal", *SHAPE, OF_LAYER[0], "bodies.disk.layers.0.wear.depth", *OF_FRESH],
+        1e-6,
+    ),
     "layers, passed late in a step, remembers": Kind(
         run(
             bodies=layered(("0.05 um", archard()), of_ball=FRESH),
