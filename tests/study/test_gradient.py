@@ -165,6 +165,40 @@ KINDS = {
         ["load.normal", *SHAPE, *OF_LAYER, "bodies.disk.wear.over"],
         1e-6,
     ),
+    "positions, remembers, stroke": Kind(
+        run(
+            bodies=pair(FRESH, SMOOTH),
+            kinematics=resolved(stroke="0.13 mm", waveform="sinusoidal", duration=0.5),
+            stepping=LONG,
+        ),
+        Depth("disk", 5e-5),
+        ["load.normal", "kinematics.stroke"],
+        1e-6,
+    ),
+    "load on a plateau, remembers": Kind(
+        run(
+            load=[
+                {"at": 0, "normal": 10.0},
+                {"at": 10, "normal": 20.0},
+                {"at": 20, "normal": 20.0},
+            ],
+            bodies=pair(FRESH, archard()),
+            stepping=LONG,
+        ),
+        Depth("disk"),
+        ["load.normal.1.normal", "load.normal.2.normal"],
+        1e-5,
+    ),
+    "load on a plateau, smooths": Kind(
+        run(
+            load=[{"at": 0, "normal": 20.0}, {"at": 20, "normal": 20.0}],
+            bodies=pair(FRESH, SMOOTH),
+            stepping=LONG,
+        ),
+        Depth("disk"),
+        ["load.normal.0.normal"],
+        1e-5,
+    ),
     "layers, both laws remember": Kind(
         run(
             grid=ODD,

@@ -252,7 +252,9 @@ def _only_wears(place: Sequence[Any]) -> bool:
 def moved(model: Model, base: Model) -> Mapping[str, Carrier] | None:
     """Return how the surfaces of bodies meet the window; None if as in the base."""
     found, own = carriers_of(model), carriers_of(base)
-    return found if any(found[name].differs(own[name]) for name in found) else None
+    shares, others = ([position.share for position in each.cycle] for each in (model, base))
+    alike = shares == others and not any(found[name].differs(own[name]) for name in found)
+    return None if alike else found
 
 
 def of_length(model: Model, end: float) -> Chain:

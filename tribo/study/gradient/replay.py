@@ -114,9 +114,10 @@ def _rows(
     """Return the stages of each row of Euler steps, and the states at its end.
 
     The rows are gone along side by side. Where means over one step and over two agree, as exact
-    ones do, one step is all.
+    ones do under one load, one step is all.
     """
     own = len(increment.own)
+    exact = increment.advances and increment.model.advances and not increment.loads_change
     rows: list[list[Stage]] = [[] for _ in (RELAXING if relaxes else PLAIN)]
     ends = [states] * len(rows)
     for taken in range(len(rows)):
@@ -133,7 +134,7 @@ def _rows(
             rows[i].append(start if i == taken == 0 else stage)
             changes = zip(ends[i], rows[i][-1].means[own:], of_states, strict=True)
             ends[i] = [state + lasting(step, of) * mean for state, mean, of in changes]
-        if taken == 1 and increment.advances and increment.model.advances:
+        if taken == 1 and exact:
             once, twice = (
                 [*end, *np.mean([stage.means[:own] for stage in row], axis=0)]
                 for row, end in zip(rows[:2], ends[:2], strict=True)

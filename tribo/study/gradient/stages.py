@@ -10,13 +10,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribo.contact.projection import over
+from tribo.contact.projection import CELLS, over
 from tribo.core.arrays import Array, readonly
 from tribo.core.box import Box
 from tribo.core.contact import ContactSolution
 from tribo.core.fields import LocalConditions
 from tribo.simulation.model import Model
-from tribo.stepping.evolution import layered_bodies, limits_of, loaded, memory_with
+from tribo.stepping.evolution import layered_bodies, limits_of, memory_with, with_loads
 from tribo.stepping.layers import in_layers
 from tribo.stepping.memory import Memory, at_surface
 from tribo.stepping.rates import Moment, by_row, local_fields
@@ -128,8 +128,11 @@ class Stages:
 
     @cached_property
     def loads_change(self) -> bool:
-        """Whether laws are told pressures that change along the increment, with the loads."""
-        return self.along and self._loaded(self.contacts, 0.0) is not self.contacts
+        """Whether laws are told pressures in proportion to loads that may change along it.
+
+        Loads that are alike at both ends in the case need not be so with another number.
+        """
+        return self.along and not isinstance(self.model.case.load.normal, float)
 
     @cached_property
     def limits(self) -> list[Limits]:
@@ -153,8 +156,10 @@ class Stages:
         """
         nudges = []
         for state, rate, limit in zip(states, rates[len(self.own) :], self.limits, strict=True):
-            fastest = self.slid.increment * float(np.max(np.abs(rate)))
-            nudge = part * (max(float(np.max(np.abs(state))), fastest) or 1.0)
+            largest = np.max(np.abs(state), CELLS, keepdims=True)
+            fastest = over(np.max(np.abs(rate), (-3, *CELLS)))
+            most = np.maximum(largest, self.slid.increment * fastest)
+            nudge = part * np.where(most > 0, most, 1.0)
             nudges.append(np.where(state + nudge > limit.most, -nudge, nudge))
         return nudges
 
@@ -284,7 +289,7 @@ class Stages:
         self, contacts: Sequence[ContactSolution], passed: float
     ) -> Sequence[ContactSolution]:
         end, half = self.slid.moment, 0.5 * self.slid.increment
-        return loaded(self.model, contacts, end.back(half).time, end.time, passed)
+        return with_loads(self.model, contacts, end.back(half).time, end.time, passed)
 
     def _in_window(
         self, model: Model, states: Arrays, places: Sequence[Place], told: Array
