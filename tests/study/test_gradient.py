@@ -78,6 +78,9 @@ def flats():
 LINE = [named("ball", Cylinder(radius="5 mm"), steel(), archard()), named("disk", flat(), steel())]
 OF_SPEED = RunningIn(law=Faster(), factor=4.0, over="1 GPa m")
 FAST = RunningIn(law=archard(2 * K), factor=4.0, over="0.5 GPa m")
+SLOW = SMOOTH.model_copy(update={"law": archard(K / 2), "depth": 1e-7})
+FLEETING = SMOOTH.model_copy(update={"law": archard(4 * K), "depth": 5e-9})
+"""Of which a cell, in a step of many parts, would lose many times the roughness there is."""
 OF_LAYER = ["bodies.disk.layers.0.thickness", "bodies.disk.layers.0.wear.over"]
 YIELDING = pair(archard(), archard(), ("1.2 GPa", "1.1 GPa"))
 SOFT = pair(archard(), archard(), ("1.1 GPa", "1 GPa"))
@@ -207,6 +210,17 @@ KINDS = {
         ),
         Depth("disk"),
         ["load.normal", *SHAPE, OF_LAYER[0], "bodies.disk.layers.0.wear.depth", *OF_FRESH],
+        1e-6,
+    ),
+    "layers, remembers for a small part of a step": Kind(
+        run(
+            grid=ODD,
+            bodies=layered(None, ("0.01 um", SLOW), None, FLEETING),
+            kinematics=motion(duration=5),
+            stepping=LONG,
+        ),
+        Depth("disk"),
+        ["load.normal", "bodies.disk.layers.0.thickness"],
         1e-6,
     ),
     "layers, passed late in a step, remembers": Kind(

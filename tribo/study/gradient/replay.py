@@ -88,7 +88,7 @@ def _part(
 
         of_states = relaxing(nearby, states, start.means[own:], span, increment.limits)
         falling = [at for at, of in enumerate(of_states) if np.any(np.asarray(of) < 0)]
-        nudges = increment.nudges(states, start.rates, NUDGE)
+        nudges = increment.nudges(states, start.rates, span, NUDGE)
         for at in falling:
             other = [*states[:at], states[at] + nudges[at], *states[at + 1 :]]
             moved.append((at, increment.at([other], [begin])[0], nudges[at]))

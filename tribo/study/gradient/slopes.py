@@ -200,9 +200,10 @@ class Sloping(Stages):
         """Return stages with their derivatives, of all at once, where points reach so far."""
         states, rates = (together([vars(s)[of] for s in stages]) for of in ("states", "rates"))
         places = [stage.place for stage in stages]
+        lengths = over(np.array([place.over for place in places]))
         by_state = [
             self._by_state(at, states, nudge, places, rates, reach.states[at])
-            for at, nudge in enumerate(self.nudges(states, rates))
+            for at, nudge in enumerate(self.nudges(states, rates, lengths))
         ]
         by_pressure = self._by_pressure(states, places, rates, reach.pressure)
         by_factor = self._by_factor(states, places, rates, reach.pressure or ALONE)
@@ -327,7 +328,7 @@ class Sloping(Stages):
         """Return how far apart points follow each other, as seen from some that touch."""
         states, places = slopes.states, [slopes.place]
         touching = np.argwhere(self.pressure > 0)
-        nudges = self.nudges(states, slopes.rates)
+        nudges = self.nudges(states, slopes.rates, slopes.place.over)
         of_pressure, of_states = [], [list[Offset]() for _ in states]
 
         def far(now: Arrays) -> Offset:
@@ -354,9 +355,10 @@ class Sloping(Stages):
     def _agrees(self, slopes: Slopes, within: float) -> bool:
         """Whether a change in all at once is the sum of its parts, within a part of it."""
         random, held, places = np.random.default_rng(0), slopes.states, [slopes.place]
+        nudges = self.nudges(held, slopes.rates, slopes.place.over)
         nudges = [
             by * random.uniform(0.5, 1.5, state.shape)
-            for by, state in zip(self.nudges(held, slopes.rates), held, strict=True)
+            for by, state in zip(nudges, held, strict=True)
         ]
         by = NUDGE * self.pressure * random.uniform(-1, 1, self.pressure.shape)
         ends = [

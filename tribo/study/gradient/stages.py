@@ -23,7 +23,7 @@ from tribo.stepping.rates import Moment, by_row, local_fields
 from tribo.stepping.relaxation import Limits
 from tribo.study.gradient.course import pressed, stacked
 from tribo.study.gradient.linear import Carrier, carriers_between
-from tribo.study.gradient.response import ASIDE, Arrays
+from tribo.study.gradient.response import ASIDE, Arrays, Field
 from tribo.study.gradient.tape import Slid
 
 AT_ONCE = 1 << 18
@@ -149,16 +149,20 @@ class Stages:
         pairs = zip(states, self.limits, strict=True)
         return [np.clip(state, limit.least, limit.most) for state, limit in pairs]
 
-    def nudges(self, states: Sequence[Array], rates: Arrays, part: float = ASIDE) -> Arrays:
+    def nudges(
+        self, states: Sequence[Array], rates: Arrays, lengths: Field, part: float = ASIDE
+    ) -> Arrays:
         """Return by how much each state is varied, within its limits, to find what follows it.
 
-        By a part of the largest value that it has, or comes to.
+        By a part of the largest value that it has, or comes to at these rates over lengths (m):
+        those of the stages, since over all of an increment in many parts that may be far beyond
+        what it is.
         """
         nudges = []
         for state, rate, limit in zip(states, rates[len(self.own) :], self.limits, strict=True):
             largest = np.max(np.abs(state), CELLS, keepdims=True)
             fastest = over(np.max(np.abs(rate), (-3, *CELLS)))
-            most = np.maximum(largest, self.slid.increment * fastest)
+            most = np.maximum(largest, lengths * fastest)
             nudge = part * np.where(most > 0, most, 1.0)
             nudges.append(np.where(state + nudge > limit.most, -nudge, nudge))
         return nudges
