@@ -202,16 +202,6 @@ KINDS = {
         ["load.normal.0.normal"],
         1e-5,
     ),
-    "layers, both laws remember": Kind(
-        run(
-            grid=ODD,
-            bodies=layered(None, ("0.02 um", SMOOTH), FRESH, FRESH),
-            stepping=LONG,
-        ),
-        Depth("disk"),
-        ["load.normal", *SHAPE, OF_LAYER[0], "bodies.disk.layers.0.wear.depth", *OF_FRESH],
-        1e-6,
-    ),
     "layers, remembers for a small part of a step": Kind(
         run(
             grid=ODD,
