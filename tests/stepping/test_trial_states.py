@@ -83,12 +83,29 @@ class Worn(WearLaw):
 
     def rate(self, local):
         k = np.where(local.state["slid"] > 1, -K, K)
-        return WearRate(k * local.pressure, np.abs(k), {"slid": np.ones_like(k)})
+        return WearRate(k * local.pressure, np.abs(k), {"slid": 1.0 * (local.pressure > 0)})
 
 
 def test_a_law_that_is_bad_from_a_state_on_ends_the_run_there_by_name(tmp_path):
     with pytest.raises(PluginError, match=r"wear law 'test\.worn' .* negative depth .* at 1 m"):
         Simulation(model(Worn())).run(tmp_path / "run.h5")
+
+
+class Ageing(WearLaw):
+    """Archard's law, whose state changes where nothing presses too."""
+
+    type = "test.ageing"
+
+    state_fields = (Field("age", "m", "Path of the motion."),)
+
+    def rate(self, local):
+        k = np.full_like(local.pressure, K)
+        return WearRate(k * local.pressure, k, {"age": np.ones_like(k)})
+
+
+def test_a_state_that_changes_where_nothing_presses_is_refused():
+    with pytest.raises(PluginError, match=r"rate of 'age' that is not 0 in \d+ cells where the"):
+        lost(model(Ageing()))
 
 
 CHANGES = {

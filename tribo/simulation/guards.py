@@ -93,6 +93,8 @@ class GuardedLaw(Guard[WearLaw]):
             slope = self._slope(local, depth)
         slope = self.field("a derivative", slope, shape, spread=True)
         state = _rates(self, answer.state_rates, dict.fromkeys(self.initial_state, shape))
+        for name, change in state.items():
+            self._untouched(f"a rate of {name!r}", change, local.pressure)
         return WearRate(depth, np.maximum(slope, 0.0) if np.min(slope) < 0 else slope, state)
 
     def _depth(
@@ -104,13 +106,17 @@ class GuardedLaw(Guard[WearLaw]):
             raise self.wrong(answer, "instead of a WearRate")
         what = "a depth per metre"
         depth = self.field(what, answer.depth_rate, pressure.shape, spread=True, at_least=0.0)
-        bare = np.count_nonzero((depth != 0) & (pressure == 0))
+        self._untouched(what, depth, pressure)
+        return answer, depth
+
+    def _untouched(self, what: str, values: Array, pressure: Array) -> None:
+        """Refuse values that are not 0 where nothing presses: a law is asked near the contact."""
+        bare = np.count_nonzero((values != 0) & (pressure == 0))
         if bare:
             raise BadValues(
                 f"{self} gave {what} that is not 0 in {bare} cells where the pressure is 0; what "
-                "is not touched does not wear"
+                "is not touched neither wears nor changes"
             )
-        return answer, depth
 
     def _slope(self, local: LocalConditions, depth: Array) -> Array:
         """Return the derivative of the depth in pressure, by a finite step up; 0 at no pressure."""

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tribo.core.arrays import Array, readonly
-from tribo.core.box import around_region, whole
+from tribo.core.box import around_region
 from tribo.core.contact import ContactSolution
 from tribo.core.errors import CaseError
 from tribo.core.fields import (
@@ -201,10 +201,8 @@ def _rates_of(
     rates = {}
     shares = fields.get(LOAD_SHARE.name)
     for name, law in model.laws.items():
-        # A law is pointwise, so it need not be asked where nothing touches; its state
-        # fields, though, may change there.
-        box = whole(model.grid.cells) if law.state_fields else near
-        part = box.slices
+        # A law is pointwise, and leaves everything as it is where nothing touches.
+        part = near.slices
         solid = None if shares is None else readonly(1.0 - shares[name][part])
         rate = law.rate(
             LocalConditions(
@@ -221,8 +219,9 @@ def _rates_of(
         )
         if solid is not None:
             rate = replace(rate, depth_slope=solid * rate.depth_slope)
-        if not box.is_window:
-            rate = WearRate(box.embed(rate.depth_rate), box.embed(rate.depth_slope))
+        if not near.is_window:
+            states = {key: near.embed(values) for key, values in rate.state_rates.items()}
+            rate = WearRate(near.embed(rate.depth_rate), near.embed(rate.depth_slope), states)
         rates[name] = rate
     if not memory.between:
         return Rates(rates, {})
