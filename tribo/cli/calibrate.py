@@ -134,7 +134,7 @@ def _numbers(
         for fit in unsampled:
             note = "sampling was interrupted, so that the intervals are not checked by it"
             give(replace(fit, notes=(*fit.notes, note)))
-            if isinstance(error, Interrupted | KeyboardInterrupt):
+            if isinstance(error, KeyboardInterrupt):
                 raise Interrupted("stopped while sampling; the fit is as printed") from error
         raise
     give(found)

@@ -14,7 +14,7 @@ import click
 
 from tribo.cli.interrupts import no_interrupt_lost
 from tribo.cli.streams import Output, Remarks, over, say
-from tribo.core.errors import CaseError, ReaderGone, TriboError, TriboWarning
+from tribo.core.errors import CaseError, Interrupted, ReaderGone, TriboError, TriboWarning
 from tribo.core.words import did_you_mean, suggestion
 
 COMMANDS = {
@@ -123,8 +123,9 @@ def main() -> None:
             tribo.main(standalone_mode=False)
             # What a plugin may have printed.
             print(end="", flush=True)
-    except click.exceptions.Abort:
-        _fail("interrupted", 130)
+    except click.exceptions.Abort as error:
+        stopped = error.__cause__
+        _fail(str(stopped) if isinstance(stopped, Interrupted) else "interrupted", 130)
     except click.ClickException as error:
         if isinstance(error, click.NoSuchOption) and error.option_name in GLOBAL:
             what = f"'{error.option_name}' stands before the command."

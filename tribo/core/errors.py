@@ -59,8 +59,11 @@ class OutputError(TriboError):
     exit_code: ClassVar[int] = 3
 
 
-class Interrupted(TriboError):
-    """The run was stopped from outside and can be resumed."""
+class Interrupted(KeyboardInterrupt):
+    """The run was stopped from outside and can be resumed.
+
+    Like Ctrl-C, it passes code that goes on after errors.
+    """
 
     exit_code: ClassVar[int] = 130
 

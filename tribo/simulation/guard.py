@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from tribo.component import Component
 from tribo.core.arrays import Array
-from tribo.core.errors import BadValues, Interrupted, NumericalError, PluginError, TriboError
+from tribo.core.errors import BadValues, NumericalError, PluginError, TriboError
 from tribo.core.words import said
 
 REAL = "fiub"
@@ -42,7 +42,7 @@ class Guard(Generic[C]):
         """Call a method of the component; what nobody expects becomes a `PluginError`."""
         try:
             return method(*given, **named)
-        except (KeyboardInterrupt, Interrupted, PluginError):
+        except (KeyboardInterrupt, PluginError):
             raise
         except MemoryError as error:
             raise NumericalError(f"{self} ran out of memory; lower grid.cells") from error

@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from tribo.case import Case
-from tribo.core.errors import CaseError, TriboError, TriboWarning
+from tribo.core.errors import CaseError, Interrupted, TriboError, TriboWarning
 from tribo.core.files import writing
 from tribo.observers.observer import Observer
 from tribo.registry.registry import Registry
@@ -101,7 +101,7 @@ def run_variants(
                 results.append(Result.open(path))
             else:
                 results.append(complete(simulation, path, observers()))
-        except TriboError as error:
+        except (TriboError, Interrupted) as error:
             raise type(error)(f"{label}: {error}") from error
     return results
 
