@@ -17,13 +17,13 @@ from tribo.config.overrides import apply_settings
 from tribo.config.write import to_toml
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, NumericalError
+from tribo.study.calibration.experiment import Experiment
 from tribo.study.calibration.fit import ABOVE_ROUNDING, NO_EFFECT, fit, interval
 from tribo.study.calibration.linearised import Linearised, Weights, root_covariance
 from tribo.study.calibration.map_notes import map_notes
 from tribo.study.calibration.measured import Measurements
 from tribo.study.calibration.notes import notes
 from tribo.study.calibration.parameters import Parameter
-from tribo.study.calibration.posed import Posed
 from tribo.study.calibration.quantities import (
     DEPTH_MAP,
     FIELDS,
@@ -172,61 +172,65 @@ def calibrate(
     """
     if not 0 < level < 1:
         raise CaseError(f"the level, {level:g}, must lie between 0 and 1, as 0.95 does")
-    posed = Posed.of(case, measured)
-    for each in posed.data[posed.data["measured"].isna()].itertuples():
+    experiment = Experiment.of(case, measured)
+    for each in experiment.data[experiment.data["measured"].isna()].itertuples():
         others = {
             "mass": "value, or before and after",
             DEPTH_MAP: "depth, the file of a height map",
         }
         raise CaseError(f"give {others.get(each.quantity, 'value')}", each.place)
-    if (count := len(posed.data)) < len(posed.parameters):
+    if (count := len(experiment.data)) < len(experiment.parameters):
         raise CaseError(
-            f"{len(posed.parameters)} parameters cannot be fitted to {count} measured "
+            f"{len(experiment.parameters)} parameters cannot be fitted to {count} measured "
             f"value{'' if count == 1 else 's'}: measure more, or leave parameters out of fit"
         )
     if sample:
-        check_sampling(sample, len(posed.parameters))
-    posed = posed.centred(posed.start)
-    far = far_off(posed.data, posed.run(posed.start).responses, posed.parameters)
+        check_sampling(sample, len(experiment.parameters))
+    experiment = experiment.centred(experiment.start)
+    far = far_off(
+        experiment.data, experiment.run(experiment.start).responses, experiment.parameters
+    )
     # What is common to all of a map is known near the estimate only.
-    problem = posed.problem(posed.start).without_common()
+    problem = experiment.problem(experiment.start).without_common()
 
     def responses(values: Array) -> Array:
-        found = posed.run(values).responses
+        found = experiment.run(values).responses
         misfit = problem.residuals(found, problem.weights())
-        on_run(posed.made, float(np.sum(misfit**2)))
+        on_run(experiment.run_count, float(np.sum(misfit**2)))
         return found
 
     try:
-        fitted = fit(responses, problem, posed.start)
+        fitted = fit(responses, problem, experiment.start)
         estimate, before = np.exp(fitted.point), problem.sigma
-        posed = posed.centred(estimate)
-        problem = posed.problem(estimate)
+        experiment = experiment.centred(estimate)
+        problem = experiment.problem(estimate)
         if problem.common.size or np.any(np.abs(problem.sigma - before) > ALIKE * before):
-            estimate = np.where(fitted.limited(), posed.start, estimate)
+            estimate = np.where(fitted.limited(), experiment.start, estimate)
             fitted = fit(responses, problem, estimate)
     except (CaseError, NumericalError) as error:
-        words = [str(error), *doubts(posed, str(error))]
+        words = [str(error), *doubts(experiment, str(error))]
         if far:
             words.append(f"or is a measured value off? {'; '.join(far)}")
         if len(words) == 1:
             raise
         raise type(error)("; ".join(words)) from error
-    found = _outcome(fitted, posed, level)
+    found = _outcome(fitted, experiment, level)
     if not sample:
         return found
     on_fit(found)
     parameters, note = sampled(responses, fitted, found.parameters, sample, level)
-    return replace(found, runs=posed.made, parameters=parameters, notes=(*found.notes, note))
+    return replace(
+        found, runs=experiment.run_count, parameters=parameters, notes=(*found.notes, note)
+    )
 
 
-def doubts(posed: Posed, error: str) -> Iterator[str]:
+def doubts(experiment: Experiment, error: str) -> Iterator[str]:
     """Say what else may be why a fit fails."""
-    if any(bench.model.case.stop.depth is not None for bench in posed.tested):
+    if any(setup.model.case.stop.depth is not None for setup in experiment.setups):
         yield (
             "or leave out stop.depth: it ends the run at different times for different coefficients"
         )
-    given = set(posed.data["quantity"]) if REACHED in error or UNSETTLED in error else set()
+    given = set(experiment.data["quantity"]) if REACHED in error or UNSETTLED in error else set()
     if DEPTH_MAP in given:
         yield "or check pitch"
     if given & {*PROFILES}:
@@ -267,13 +271,13 @@ def far_off(data: pd.DataFrame, computed: Array, parameters: Sequence[Parameter]
     return found
 
 
-def _outcome(fitted: Linearised, posed: Posed, level: float) -> Calibration:
+def _outcome(fitted: Linearised, experiment: Experiment, level: float) -> Calibration:
     """Return the calibration that follows from a fit."""
-    jacobian, data = fitted.sensitivity(), posed.data
-    last = posed.run(np.exp(fitted.point))
+    jacobian, data = fitted.sensitivity(), experiment.data
+    last = experiment.run(np.exp(fitted.point))
     root = root_covariance(jacobian)
     deviations = np.sqrt(np.sum(root**2, axis=1))
-    estimates = _estimates(fitted, jacobian, posed, level)
+    estimates = _estimates(fitted, jacobian, experiment, level)
     held = estimates["held"].to_numpy()
     settled = {each.path: float(f"{each.value:.7g}") for each in estimates.itertuples()}
     problem, computed = fitted.problem, fitted.responses[: len(data)]
@@ -288,12 +292,12 @@ def _outcome(fitted: Linearised, posed: Posed, level: float) -> Calibration:
         alone=fitted.residuals(fitted.point),
     )
     told = np.max(np.abs(jacobian[~problem.below]), axis=0, initial=0.0) > NO_EFFECT
-    moved = sum(bool(far) for each in posed.placed.values() for far in each.shift)
+    moved = sum(bool(far) for each in experiment.placed.values() for far in each.shift)
     spare = max(int(np.sum(~problem.below)) - int(np.sum(told & ~held)) - moved, 0)
-    predictions = _predictions(fitted, posed, estimates, level)
+    predictions = _predictions(fitted, experiment, estimates, level)
     return Calibration(
         level=level,
-        runs=posed.made,
+        runs=experiment.run_count,
         parameters=estimates,
         data=data[DATA + PLACE if "x_m" in data else DATA],
         predictions=predictions,
@@ -301,20 +305,20 @@ def _outcome(fitted: Linearised, posed: Posed, level: float) -> Calibration:
         degrees_of_freedom=spare,
         repeatability=fitted.repeatability,
         repeatability_estimated=problem.repeatability is None,
-        fitted={each.name: apply_settings(each.case, settled) for each in posed.tested},
+        fitted={each.name: apply_settings(each.case, settled) for each in experiment.setups},
         correlation=root @ root.T / np.outer(deviations, deviations),
         singular_values=np.asarray(np.linalg.svd(jacobian, compute_uv=False), dtype=np.float64),
         bic=fitted.deviance(fitted.point)
         + (len(held) + (problem.repeatability is None)) * math.log(len(data)),
         left_out=fitted.left_out(),
         notes=(
-            *map_notes(fitted, posed),
+            *map_notes(fitted, experiment),
             *notes(
                 estimates,
                 data,
                 jacobian,
                 None if problem.repeatability is None else spare,
-                min(bench.model.grid.cells[1] for bench in posed.tested),
+                min(setup.model.grid.cells[1] for setup in experiment.setups),
             ),
             *last.notices,
         ),
@@ -322,7 +326,7 @@ def _outcome(fitted: Linearised, posed: Posed, level: float) -> Calibration:
 
 
 def _predictions(
-    fitted: Linearised, posed: Posed, estimates: pd.DataFrame, level: float
+    fitted: Linearised, experiment: Experiment, estimates: pd.DataFrame, level: float
 ) -> pd.DataFrame:
     """Return `Calibration.predictions`.
 
@@ -332,13 +336,15 @@ def _predictions(
     values, held = (estimates[name].to_numpy() for name in ("value", "held"))
     limited = estimates["limited"].to_numpy()
     at_bounds = [
-        _at_bound(fitted, posed, values, one, estimates["upper"].iloc[one])
+        _at_bound(fitted, experiment, values, one, estimates["upper"].iloc[one])
         for one in np.flatnonzero(limited).tolist()
     ]
-    by_grid = math.sqrt(chdtri(1, 1 - level)) * posed.run(np.exp(fitted.point)).read_off
-    positive = np.all([posed.of_data(made).responses > 0 for made in posed.runs.values()], axis=0)
+    by_grid = math.sqrt(chdtri(1, 1 - level)) * experiment.run(np.exp(fitted.point)).grid_sigma
+    positive = np.all(
+        [experiment.of_data(made).responses > 0 for made in experiment.runs.values()], axis=0
+    )
     rows = []
-    for i, each in enumerate(posed.predicted.itertuples(), len(posed.data)):
+    for i, each in enumerate(experiment.predicted.itertuples(), len(experiment.data)):
         if not positive[i]:
             continue
         value, ends = float(fitted.responses[i]), (0.0, math.inf)
@@ -362,22 +368,26 @@ def _ends(value: float, moves: Sequence[float]) -> tuple[float, float]:
     return max(value - down, 0.0), value + up
 
 
-def _at_bound(fitted: Linearised, posed: Posed, values: Array, one: int, bound: float) -> Array:
+def _at_bound(
+    fitted: Linearised, experiment: Experiment, values: Array, one: int, bound: float
+) -> Array:
     """Return the responses where a parameter is at its upper bound; infinite if that is not run."""
     if np.isfinite(bound):
         place = values.copy()
         place[one] = bound
         try:
-            return posed.run(place).responses
+            return experiment.run(place).responses
         except (CaseError, NumericalError):
             # What fits is not lost for a prediction.
             pass
     return np.where(np.abs(fitted.slopes[:, one]) > ABOVE_ROUNDING, np.inf, fitted.responses)
 
 
-def _estimates(fitted: Linearised, jacobian: Array, posed: Posed, level: float) -> pd.DataFrame:
+def _estimates(
+    fitted: Linearised, jacobian: Array, experiment: Experiment, level: float
+) -> pd.DataFrame:
     """Return `Calibration.parameters`."""
-    table = pd.DataFrame(posed.parameters).drop(columns="start")
+    table = pd.DataFrame(experiment.parameters).drop(columns="start")
     values = np.exp(fitted.point)
     lower, upper = table[["lower", "upper"]].to_numpy(float, copy=True).T
     held = (values - lower <= AT_BOUND * values) | (upper - values <= AT_BOUND * values)
@@ -387,7 +397,7 @@ def _estimates(fitted: Linearised, jacobian: Array, posed: Posed, level: float) 
         lower[i], upper[i] = max(0.0 if limited[i] else low, lower[i]), min(high, upper[i])
     standard = np.asarray(np.linalg.pinv(jacobian), dtype=np.float64)
     effect = fitted.weights.back(standard.T).T
-    deviation, most = posed.data[["step_sigma", "step_most"]].to_numpy().T
+    deviation, most = experiment.data[["step_sigma", "step_most"]].to_numpy().T
     share = np.sum((effect * deviation) ** 2, axis=1) / np.sum(standard**2, axis=1)
     return table[["path", "unit"]].assign(
         value=values,

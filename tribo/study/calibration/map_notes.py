@@ -16,8 +16,8 @@ from tribo.study.calibration.placing import Placed, slopes
 from tribo.study.calibration.quantities import AXES, DEPTHS, PROFILES, WORN
 
 if TYPE_CHECKING:
+    from tribo.study.calibration.experiment import Experiment
     from tribo.study.calibration.linearised import Linearised
-    from tribo.study.calibration.posed import Posed
 
 WAYS = ("along", "across")
 """The sliding direction."""
@@ -33,17 +33,17 @@ GROWS = 0.9
 """Power of the depth with which a scar's volume grows, below which it is said not to."""
 
 
-def map_notes(fitted: Linearised, posed: Posed) -> Iterator[str]:
+def map_notes(fitted: Linearised, experiment: Experiment) -> Iterator[str]:
     """Name maps that are off their middle, not levelled, or of another pitch; shifted profiles."""
-    for reading, depth in posed.run(np.exp(fitted.point)).maps.items():
-        row, found = posed.table.loc[reading], posed.placed[reading]
+    for reading, depth in experiment.run(np.exp(fitted.point)).maps.items():
+        row, found = experiment.table.loc[reading], experiment.placed[reading]
         name = f"the {named(row)}"
-        spacing = posed.tested[row["bench"]].model.grid.spacing
+        spacing = experiment.setups[row["setup"]].model.grid.spacing
         yield from off_middle(name, found)
-        measured = posed.on_cells(reading, found.shift)
+        measured = experiment.on_cells(reading, found.shift)
         yield from off_level(name, measured, depth, row["sigma"])
-        yield from _off_pitch(name, fitted, posed, reading, depth, spacing)
-    yield from _off_profiles(fitted, posed)
+        yield from _off_pitch(name, fitted, experiment, reading, depth, spacing)
+    yield from _off_profiles(fitted, experiment)
 
 
 def off_middle(name: str, found: Placed) -> Iterator[str]:
@@ -87,15 +87,15 @@ def off_level(name: str, measured: Array, depth: Array, sigma: float) -> Iterato
         )
 
 
-def _off_profiles(fitted: Linearised, posed: Posed) -> Iterator[str]:
+def _off_profiles(fitted: Linearised, experiment: Experiment) -> Iterator[str]:
     """Say how far profiles lie from the model's, by what their slopes explain of the residuals."""
-    profiles = posed.data[posed.data["quantity"].isin(PROFILES)]
+    profiles = experiment.data[experiment.data["quantity"].isin(PROFILES)]
     for _, own in profiles.groupby("place", sort=False):
         rows, positions = own.index.to_numpy(), own["position_m"].to_numpy()
         x, first = np.unique(positions, return_index=True)
         if len(x) < FEWEST:
             continue
-        column = np.zeros(len(posed.data))
+        column = np.zeros(len(experiment.data))
         column[rows] = np.interp(positions, x, np.gradient(fitted.responses[rows][first], x))
         shift, size = _explained(fitted, column)
         if abs(shift) * size > CERTAIN:
@@ -121,7 +121,7 @@ def _explained(fitted: Linearised, column: Array) -> tuple[float, float]:
 def _off_pitch(
     name: str,
     fitted: Linearised,
-    posed: Posed,
+    experiment: Experiment,
     reading: int,
     depth: Array,
     spacing: tuple[float, float],
@@ -131,9 +131,9 @@ def _off_pitch(
     for axis, slope in slopes(depth, spacing).items():
         n = depth.shape[axis]
         stretch += spacing[axis] * (np.indices(depth.shape)[axis] - 0.5 * (n - 1)) * slope
-    rows = np.flatnonzero(posed.data["reading"] == reading)
-    column = np.zeros(len(posed.data))
-    column[rows] = means(stretch, posed.data["cells"].iloc[rows])
+    rows = np.flatnonzero(experiment.data["reading"] == reading)
+    column = np.zeros(len(experiment.data))
+    column[rows] = means(stretch, experiment.data["cells"].iloc[rows])
     wider, size = _explained(fitted, column)
     fall = (wider * size) ** 2
     misfit = float(np.sum(fitted.residuals(fitted.point)[rows] ** 2))
@@ -141,7 +141,7 @@ def _off_pitch(
     excess = misfit - min(len(rows), max(misfit - fall, 0.0))
     if excess < CERTAIN**2:
         return
-    widths = _widths(fitted, posed, reading, depth)
+    widths = _widths(fitted, experiment, reading, depth)
     if widths is None:
         return
     times, met = widths
@@ -158,15 +158,15 @@ def _off_pitch(
 
 
 def _widths(
-    fitted: Linearised, posed: Posed, reading: int, depth: Array
+    fitted: Linearised, experiment: Experiment, reading: int, depth: Array
 ) -> tuple[float, Array] | None:
     """Return how many times as wide a scar is as the model's of its depth, by volumes over depths.
 
     And the responses with the model's scar made as wide and deep. As a parameter grows the model's
     volume and depth do as powers; that which changes it most. None where nothing makes it grow.
     """
-    rows = np.flatnonzero(posed.data["reading"] == reading)
-    data = posed.data.iloc[rows]
+    rows = np.flatnonzero(experiment.data["reading"] == reading)
+    data = experiment.data.iloc[rows]
     cells = data["cells"].map(len).to_numpy()
     measured, computed = data["measured"].to_numpy(), fitted.responses[rows]
     effects = fitted.effects(fitted.point)[rows]

@@ -19,7 +19,7 @@ from tribo.simulation.run import Simulation
 from tribo.study.calibration.cells import on_cells, read_map, surface_shape
 from tribo.study.calibration.map_notes import off_level, off_middle
 from tribo.study.calibration.maps import FittedMaps, Prior, fit_maps
-from tribo.study.calibration.measured import Mapped
+from tribo.study.calibration.measured import MapEntry
 from tribo.study.calibration.placing import find_scar
 from tribo.study.gradient.objective import View
 from tribo.study.variation import unknown_body
@@ -27,7 +27,7 @@ from tribo.study.variation import unknown_body
 
 def calibrate_maps(
     case: Case | Mapping[str, Any] | str | Path,
-    mapped: Mapping[str, Mapped],
+    mapped: Mapping[str, MapEntry],
     *,
     on_run: Callable[[int, float], None] = lambda count, misfit: None,
 ) -> FittedMaps:
@@ -57,7 +57,7 @@ def calibrate_maps(
 
 
 def _remarks(
-    entry: Mapped, heights: Heights, depth: Array, model: Array, spacing: tuple[float, float]
+    entry: MapEntry, heights: Heights, depth: Array, model: Array, spacing: tuple[float, float]
 ) -> Iterator[str]:
     """Say that a map is off the middle of the case's scar, or not levelled."""
     name = f"the map of {entry.body!r}"

@@ -31,7 +31,7 @@ FINEST, _BEYOND_NOISE = 1e-6, 3.0
 """Smallest relative uncertainty; standard deviations below 0 at which no noise explains a mean."""
 
 
-class Measured(Table):
+class MeasuredEntry(Table):
     """One measured quantity of one body."""
 
     body: str
@@ -141,7 +141,7 @@ class Measured(Table):
                 "say how well it was measured: uncertainty (a standard deviation), resolution, "
                 "or both"
             )
-        if told := told_wrong(self, self.values):
+        if told := data_error(self, self.values):
             raise ValueError(told)
         return self
 
@@ -191,7 +191,7 @@ class Measured(Table):
         return float(np.hypot(self.uncertainty or 0.0, self.from_resolution[0]))
 
 
-def told_wrong(entry: Measured, values: Array) -> str:
+def data_error(entry: MeasuredEntry, values: Array) -> str:
     """Say that values are too exact, or depths negative in the mean; nothing if they are not."""
     mean, largest = float(np.mean(values)), float(np.max(np.abs(values)))
     if entry.sigma < FINEST * largest:
@@ -208,7 +208,7 @@ def told_wrong(entry: Measured, values: Array) -> str:
     )
 
 
-class Fitted(Table):
+class FitEntry(Table):
     """One parameter to fit."""
 
     path: str
@@ -221,14 +221,14 @@ class Fitted(Table):
     """Largest value allowed."""
 
 
-class Tested(Table):
+class TestEntry(Table):
     """A test, or several alike, on a changed case."""
 
     name: str = ""
     """What it is called in tables."""
     set: Mapping[str, Any] = {}
     """How it differs from the case: values by path, as ``load.normal = "50 N"``."""
-    measured: tuple[Measured, ...]
+    measured: tuple[MeasuredEntry, ...]
     """What was measured in it. The nth values of all lists are of one test, the nth."""
 
     @model_validator(mode="before")
@@ -247,7 +247,7 @@ class Tested(Table):
             raise ValueError(str(error)) from None
 
 
-class Mapped(Table):
+class MapEntry(Table):
     """The depth worn off a body, measured all over it, and how its coefficient may vary."""
 
     body: str
@@ -267,21 +267,21 @@ class Mapped(Table):
 class Measurements(Table):
     """What was measured, and what is to be fitted to it."""
 
-    fit: tuple[Fitted, ...] = ()
+    fit: tuple[FitEntry, ...] = ()
     """The parameters; if left out, the k of each body that something was measured of."""
-    measured: tuple[Measured, ...] = ()
+    measured: tuple[MeasuredEntry, ...] = ()
     """What was measured in a test of the case as it is."""
-    test: tuple[Tested, ...] = ()
+    test: tuple[TestEntry, ...] = ()
     """What was measured in tests that differ from it."""
-    map: tuple[Mapped, ...] = ()
+    map: tuple[MapEntry, ...] = ()
     """Depth maps, instead, to which local coefficients are fitted."""
     repeatability: Annotated[float, Quantity("1", at_least=0, below=3)] | None = None
     """Relative standard deviation of the parameters from test to test; estimated if left out."""
 
     @property
-    def tests(self) -> dict[str, Tested]:
+    def tests(self) -> dict[str, TestEntry]:
         """All tests, by their place in the file."""
-        own = {"": Tested(measured=self.measured)} if self.measured else {}
+        own = {"": TestEntry(measured=self.measured)} if self.measured else {}
         named = enumerate(self.test, 1)
         told = (each.model_copy(update={"name": each.name or f"test {i}"}) for i, each in named)
         return own | {f"test.{i}.": each for i, each in enumerate(told)}
@@ -290,7 +290,7 @@ class Measurements(Table):
         """Return the measured numbers in SI, one row each; of a depth map one without a value.
 
         `place` is the entry in the file, `test` the name of its test, `of` the index of that in
-        `tests`, `specimen` that of the single test, `entry` the `Measured`; `step_sigma` and
+        `tests`, `specimen` that of the single test, `entry` the `MeasuredEntry`; `step_sigma` and
         `step_most` are the standard deviation and the largest error due to the resolution, `step`.
         """
         tables, specimens = [], 0

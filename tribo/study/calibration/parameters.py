@@ -12,7 +12,7 @@ from tribo.config.overrides import leaves, path_keys
 from tribo.core.errors import CaseError, located
 from tribo.core.units import Quantity
 from tribo.core.words import did_you_mean, shown, suggestion
-from tribo.study.calibration.measured import Fitted
+from tribo.study.calibration.measured import FitEntry
 
 WITHIN = 1e-9
 """Relative distance that a parameter keeps from an open bound."""
@@ -30,13 +30,13 @@ class Parameter(NamedTuple):
 
 
 def find_parameters(
-    case: Case, fit: Sequence[Fitted], measured: Collection[str]
+    case: Case, fit: Sequence[FitEntry], measured: Collection[str]
 ) -> list[Parameter]:
     """Return the parameters that are asked for, or else the k of each body in `measured`."""
     asked = [(f"fit.{i}", entry) for i, entry in enumerate(fit)]
     if not fit:
         of_bodies = [f"bodies.{name}.wear.k" for name in case.bodies if name in measured]
-        asked = [("fit", Fitted(path=path)) for path in of_bodies if is_number(case, path)]
+        asked = [("fit", FitEntry(path=path)) for path in of_bodies if is_number(case, path)]
     if not asked:
         raise CaseError(
             "no measured body has a wear coefficient k; say what to fit, as [[fit]] with path "
@@ -96,7 +96,7 @@ def _number(case: Case, keys: tuple[str, ...]) -> tuple[float, Quantity]:
     return value, mark or Quantity("1")
 
 
-def _bounded(place: str, entry: Fitted, value: float, mark: Quantity) -> Parameter:
+def _bounded(place: str, entry: FitEntry, value: float, mark: Quantity) -> Parameter:
     """Return a parameter with the bounds that are given, within those of its field."""
     above = max(mark.above or 0.0, 0.0)
     positive = replace(mark, above=above)

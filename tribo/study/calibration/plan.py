@@ -14,9 +14,9 @@ from scipy.special import ndtri, stdtrit
 from tribo.case import Case
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
+from tribo.study.calibration.experiment import Experiment
 from tribo.study.calibration.fit import FEW, check_effect, differenced
 from tribo.study.calibration.measured import Measurements, read_measurements
-from tribo.study.calibration.posed import Posed
 from tribo.study.calibration.quantities import plain
 
 MOST = 1000
@@ -84,28 +84,28 @@ def plan_tests(
     if asked.repeatability is None:
         told = "say how far tests alike scatter, as repeatability = 0.2 for 20 %; 0 if only the "
         raise CaseError(f"{told}instruments count", "repeatability")
-    posed = Posed.of(case, asked)
+    experiment = Experiment.of(case, asked)
 
     def responses(values: Array) -> Array:
-        found = posed.run(values).responses
-        on_run(posed.made)
+        found = experiment.run(values).responses
+        on_run(experiment.run_count)
         return found
 
-    computed = responses(posed.start)
-    problem = posed.problem(posed.start)
-    point = np.log(posed.start)
+    computed = responses(experiment.start)
+    problem = experiment.problem(experiment.start)
+    point = np.log(experiment.start)
     here = differenced(responses, problem, point, computed).weighed(point, asked.repeatability)
     check_effect(here)
     sensitivity, kinds = here.sensitivity(), []
-    for _, own in posed.data.groupby("bench")["specimen"]:
+    for _, own in experiment.data.groupby("setup")["specimen"]:
         rows = own.index[own == own.min()]
         kinds.append(sensitivity[rows].T @ sensitivity[rows])
     search = Search(np.array(kinds), within, level, asked.repeatability > 0)
     counts = search.fewest()
     halves, freedom = search.expected(counts)
-    tests = pd.DataFrame({"test": [bench.name for bench in posed.tested], "count": counts})
+    tests = pd.DataFrame({"test": [setup.name for setup in experiment.setups], "count": counts})
     expected = {"path": list(problem.names), "half_width": halves, "freedom": freedom}
-    return Plan(level, within, posed.made, tests, pd.DataFrame(expected))
+    return Plan(level, within, experiment.run_count, tests, pd.DataFrame(expected))
 
 
 @dataclass(frozen=True)

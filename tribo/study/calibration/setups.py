@@ -19,7 +19,7 @@ from tribo.core.errors import CaseError, NumericalError, TriboWarning
 from tribo.simulation.model import Model
 from tribo.simulation.positions import chosen
 from tribo.simulation.run import Simulation
-from tribo.study.calibration.measured import Measured, Tested
+from tribo.study.calibration.measured import MeasuredEntry, TestEntry
 from tribo.study.calibration.parameters import Parameter
 from tribo.study.calibration.quantities import (
     AXES,
@@ -36,7 +36,7 @@ READ = list(Reading._fields)
 
 
 @dataclass(frozen=True)
-class Bench:
+class Setup:
     """One case among the tests."""
 
     name: str
@@ -50,20 +50,20 @@ class Run(NamedTuple):
     """Responses of a run, their standard deviations due to the grid, and its notices."""
 
     responses: Array
-    read_off: Array
+    grid_sigma: Array
     maps: Mapping[int, Array]
     """Depths all over a surface, shape (rows, ny), by the reading that asks for them."""
     notices: tuple[str, ...]
 
 
-def benches(
+def find_setups(
     tables: Mapping[str, Any],
-    tests: Mapping[str, Tested],
+    tests: Mapping[str, TestEntry],
     data: pd.DataFrame,
-) -> list[Bench]:
-    """Return the cases of the tests, those alike as one, and add the column `bench` to the data."""
+) -> list[Setup]:
+    """Return the cases of the tests, those alike as one, and add the column `setup` to the data."""
     cases: dict[str, tuple[Case, Model]] = {}
-    alike: dict[str, list[Tested]] = {}
+    alike: dict[str, list[TestEntry]] = {}
     of = []
     for place, test in tests.items():
         try:
@@ -81,11 +81,13 @@ def benches(
     for name in names:
         if names.count(name) > 1:
             raise CaseError(f"two tests that differ are called {name!r}; rename one", "test")
-    data["bench"] = np.array(of)[data["of"]]
-    return [_bench(tables, alike[key], *each) for key, each in cases.items()]
+    data["setup"] = np.array(of)[data["of"]]
+    return [_setup(tables, alike[key], *each) for key, each in cases.items()]
 
 
-def _bench(tables: Mapping[str, Any], tests: Sequence[Tested], case: Case, model: Model) -> Bench:
+def _setup(
+    tables: Mapping[str, Any], tests: Sequence[TestEntry], case: Case, model: Model
+) -> Setup:
     """Return the case of tests that are alike."""
     changed = apply_settings(tables, tests[0].set)
     given = validate_case(tables).output.save_times
@@ -96,24 +98,24 @@ def _bench(tables: Mapping[str, Any], tests: Sequence[Tested], case: Case, model
     times = sorted({entry.time for entry in entries if entry.time is not None})
     kept = {"output.save_times": times, "observers": []}
     ready = apply_settings(changed, {**kept, **chosen(case, model)})
-    return Bench(tests[0].name, changed, ready, model)
+    return Setup(tests[0].name, changed, ready, model)
 
 
-def foretold(tested: Sequence[Bench], data: pd.DataFrame) -> pd.DataFrame:
-    """Return `Posed.predicted`."""
-    ends = np.array([bench.model.end_time for bench in tested])
-    at_end = data[~(data["time_s"] < ends[data["bench"]] * (1 - 1e-12))]
-    known = {*at_end[["bench", "body", "quantity"]].itertuples(index=False, name=None)}
+def unmeasured(setups: Sequence[Setup], data: pd.DataFrame) -> pd.DataFrame:
+    """Return `Experiment.predicted`."""
+    ends = np.array([setup.model.end_time for setup in setups])
+    at_end = data[~(data["time_s"] < ends[data["setup"]] * (1 - 1e-12))]
+    known = {*at_end[["setup", "body", "quantity"]].itertuples(index=False, name=None)}
     rows = [
-        (i, bench.name, body, quantity, math.nan, math.nan)
-        for i, bench in enumerate(tested)
-        for body in bench.model.bodies
+        (i, setup.name, body, quantity, math.nan, math.nan)
+        for i, setup in enumerate(setups)
+        for body in setup.model.bodies
         for quantity in QUANTITIES
         if quantity not in FIELDS
         and (i, body, quantity) not in known
-        and not unavailable(bench.model, body, quantity)
+        and not unavailable(setup.model, body, quantity)
     ]
-    return pd.DataFrame(rows, columns=["bench", "test", *READ])
+    return pd.DataFrame(rows, columns=["setup", "test", *READ])
 
 
 def make_run(
@@ -142,7 +144,7 @@ def make_run(
         return Run(*read_all(result, wanted), result.notices)
 
 
-def _check_entry(model: Model, entry: Measured, place: str) -> None:
+def _check_entry(model: Model, entry: MeasuredEntry, place: str) -> None:
     if entry.body not in model.bodies:
         raise unknown_body(entry.body, model.bodies, f"{place}.body")
     reason = unavailable(model, entry.body, entry.quantity)

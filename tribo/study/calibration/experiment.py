@@ -17,7 +17,6 @@ from tribo.config.load import case_tables, validate_case
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, located
 from tribo.lab.heights import Heights
-from tribo.study.calibration.benches import READ, Bench, Run, benches, foretold, make_run
 from tribo.study.calibration.cells import (
     in_blocks,
     means,
@@ -29,8 +28,8 @@ from tribo.study.calibration.cells import (
 from tribo.study.calibration.linearised import Problem
 from tribo.study.calibration.measured import (
     Measurements,
+    data_error,
     read_measurements,
-    told_wrong,
 )
 from tribo.study.calibration.parameters import Parameter, check_set, find_parameters
 from tribo.study.calibration.placing import Placed, find_scar, slopes
@@ -45,6 +44,7 @@ from tribo.study.calibration.quantities import (
     Reading,
     kinked,
 )
+from tribo.study.calibration.setups import READ, Run, Setup, find_setups, make_run, unmeasured
 
 SMALL, ANYWHERE = 0.1, 0.25
 """Part of the largest depth of a profile or a map below which depths are no power laws.
@@ -54,13 +54,13 @@ The second: standard deviation, in parts of the surface, of how far a map is off
 
 
 @dataclass(frozen=True)
-class Posed:
+class Experiment:
     """Parameters of a case, the tests that tell them, and what was measured."""
 
-    tested: list[Bench]
+    setups: list[Setup]
     parameters: list[Parameter]
     table: pd.DataFrame
-    """As `Measurements.table` has it, with `bench`, and `edge`: the σ of a computed diameter."""
+    """As `Measurements.table` has it, with `setup`, and `edge`: the σ of a computed diameter."""
     heights: Mapping[int, Heights]
     """What was measured of a depth map, by its row of the table."""
     data: pd.DataFrame
@@ -68,7 +68,7 @@ class Posed:
     cells that it is averaged over, with `x_m`, `y_m`, and how far its scar lies from the middle of
     the map, `shift_x_m`, `shift_y_m`."""
     predicted: pd.DataFrame
-    """What is read off at the end but was not measured: `bench`, `test` and `READ`."""
+    """What is read off at the end but was not measured: `setup`, `test` and `READ`."""
     repeatability: float | None
     """From test to test; None if it is to be estimated."""
     placed: Mapping[int, Placed] = field(default_factory=dict)
@@ -81,22 +81,22 @@ class Posed:
         cls,
         case: Case | Mapping[str, Any] | str | Path,
         measured: Measurements | Mapping[str, Any] | str | Path,
-    ) -> Posed:
+    ) -> Experiment:
         """Read a case and measured values; CaseError if they are wrong or do not fit together."""
         tables, asked = case_tables(case), read_measurements(measured)
         if asked.map:
             raise CaseError("asks for local coefficients; see calibrate_maps", "map")
         base = validate_case(tables)
         data = asked.table()
-        tested = benches(tables, asked.tests, data)
+        setups = find_setups(tables, asked.tests, data)
         parameters = find_parameters(base, asked.fit, data["body"].unique())
         for place, test in asked.tests.items():
             check_set(parameters, test.set, f"{place}set")
         diameter = data["position_m"].isna() & data["quantity"].isin(AXES)
         axis = data["quantity"].map(AXES).fillna(0).astype(int)
-        spacing = np.array([bench.model.grid.spacing for bench in tested])
-        data["edge"] = np.where(diameter, EDGES * spacing[data["bench"], axis], 0.0)
-        seen = data[~data["below"]].groupby(["bench", *READ], dropna=False)["specimen"]
+        spacing = np.array([setup.model.grid.spacing for setup in setups])
+        data["edge"] = np.where(diameter, EDGES * spacing[data["setup"], axis], 0.0)
+        seen = data[~data["below"]].groupby(["setup", *READ], dropna=False)["specimen"]
         repeatability = asked.repeatability
         if repeatability is None and not np.any(seen.nunique() > 1):
             repeatability = 0.0
@@ -105,7 +105,9 @@ class Posed:
             for each in data.itertuples()
             if each.quantity == DEPTH_MAP and each.entry.depth is not None
         }
-        found = cls(tested, parameters, data, heights, data, foretold(tested, data), repeatability)
+        found = cls(
+            setups, parameters, data, heights, data, unmeasured(setups, data), repeatability
+        )
         return found.moved({})
 
     @property
@@ -114,9 +116,9 @@ class Posed:
         return np.exp(np.log([p.start for p in self.parameters]))
 
     @property
-    def made(self) -> int:
+    def run_count(self) -> int:
         """How many simulations were run."""
-        return len(self.tested) * len(self.runs)
+        return len(self.setups) * len(self.runs)
 
     @cached_property
     def asked(self) -> list[tuple[Array, list[Reading]]]:
@@ -124,10 +126,10 @@ class Posed:
         both = pd.concat([self.table, self.predicted], ignore_index=True)
         return [
             (own.index.to_numpy(), [Reading(*row) for row in own[READ].itertuples(index=False)])
-            for _, own in both.groupby("bench")
+            for _, own in both.groupby("setup")
         ]
 
-    def moved(self, placed: Mapping[int, Placed]) -> Posed:
+    def moved(self, placed: Mapping[int, Placed]) -> Experiment:
         """Return it with the middles of scars, where they were found, on that of the contact."""
         parts = []
         for reading, row in self.table.groupby(level=0):
@@ -140,7 +142,7 @@ class Posed:
     def on_cells(self, reading: int, shift: tuple[float, float]) -> Array:
         """Return a map on the cells of its surface, in m; 0 of one that is not measured yet."""
         row = self.table.loc[reading]
-        model = self.tested[row["bench"]].model
+        model = self.setups[row["setup"]].model
         shape = surface_shape(model, row["body"])
         if reading not in self.heights:
             return np.zeros(shape)
@@ -151,9 +153,9 @@ class Posed:
         """Return a row of the table for each block of cells that a map is averaged over."""
         (each,) = row.itertuples()
         depth = self.on_cells(each.Index, shift)
-        if told := told_wrong(each.entry, depth[np.isfinite(depth)]):
+        if told := data_error(each.entry, depth[np.isfinite(depth)]):
             raise CaseError(told, f"{each.place}.depth")
-        blocks = in_blocks(depth, self.tested[each.bench].model.grid.spacing)
+        blocks = in_blocks(depth, self.setups[each.setup].model.grid.spacing)
         if each.entry.depth is None:
             blocks["measured"] = math.nan
         blocks[["shift_x_m", "shift_y_m"]] = shift
@@ -162,13 +164,13 @@ class Posed:
             rows[error] /= rows["cells"].map(len) ** 0.5
         return rows
 
-    def centred(self, values: Array) -> Posed:
+    def centred(self, values: Array) -> Experiment:
         """Return it with the scar of each map, if that tells where it is, where a run has it."""
         found = {}
         for reading, depth in self._made(values).maps.items():
             if reading in self.heights:
                 row = self.table.loc[reading]
-                spacing = self.tested[row["bench"]].model.grid.spacing
+                spacing = self.setups[row["setup"]].model.grid.spacing
                 sigma = math.hypot(row["sigma"], DEPTHS * float(np.max(depth)))
                 now = find_scar(self.heights[reading], depth, spacing, sigma)
                 found[reading] = now.unless_near(self.placed.get(reading, Placed()), spacing)
@@ -182,32 +184,32 @@ class Posed:
         """Return a run with a response for each row of the data and the predictions."""
         predicted = len(self.table) + np.arange(len(self.predicted))
         reading = np.append(self.data["reading"], predicted).astype(int)
-        responses, read_off = made.responses[reading], made.read_off[reading]
+        responses, grid_sigma = made.responses[reading], made.grid_sigma[reading]
         for i, depth in made.maps.items():
             rows = np.flatnonzero(reading == i)
             cells = self.data["cells"].iloc[rows]
             responses[rows] = means(over_cells(depth), cells)
             at_edge = means(kinked(depth, CUT) ** 2, cells) / cells.map(len)
-            read_off[rows] = np.sqrt(read_off[rows] ** 2 + at_edge)
-        return made._replace(responses=responses, read_off=read_off)
+            grid_sigma[rows] = np.sqrt(grid_sigma[rows] ** 2 + at_edge)
+        return made._replace(responses=responses, grid_sigma=grid_sigma)
 
     def _made(self, values: Array) -> Run:
         """Return the readings of a run, made once."""
         key = values.tobytes()
         if key in self.runs:
             return self.runs[key]
-        responses, read_off = np.empty((2, len(self.table) + len(self.predicted)))
+        responses, grid_sigma = np.empty((2, len(self.table) + len(self.predicted)))
         notices: dict[str, list[str]] = {}
         maps: dict[int, Array] = {}
         for i, (rows, wanted) in enumerate(self.asked):
-            tables, name = self.tested[i].tables, f"run {self.made + i + 1}"
+            tables, name = self.setups[i].tables, f"run {self.run_count + i + 1}"
             made = make_run(tables, self.parameters, values, wanted, name)
-            responses[rows], read_off[rows] = made.responses, made.read_off
+            responses[rows], grid_sigma[rows] = made.responses, made.grid_sigma
             for j, depth in made.maps.items():
-                shape = surface_shape(self.tested[i].model, wanted[j].body)
+                shape = surface_shape(self.setups[i].model, wanted[j].body)
                 maps[int(rows[j])] = depth[: shape[0]]
             for notice in made.notices:
-                notices.setdefault(notice, []).append(self.tested[i].name or "the case as it is")
+                notices.setdefault(notice, []).append(self.setups[i].name or "the case as it is")
         positive = ~self.table["quantity"].isin(FIELDS).to_numpy()
         nothing = positive & (responses <= 0)[: len(self.table)]
         for each in self.table[nothing].itertuples() if np.any(nothing) else ():
@@ -217,16 +219,16 @@ class Posed:
                 each.place,
             )
         told = (
-            notice if len(of) == len(self.tested) else f"{', '.join(of)}: {notice}"
+            notice if len(of) == len(self.setups) else f"{', '.join(of)}: {notice}"
             for notice, of in notices.items()
         )
-        self.runs[key] = Run(responses, read_off, maps, tuple(told))
+        self.runs[key] = Run(responses, grid_sigma, maps, tuple(told))
         return self.runs[key]
 
     def problem(self, values: Array) -> Problem:
         """Return what is to be fitted; how well the grid gives the data a run of `values` says."""
         data, run = self.data, self.run(values)
-        sigma = np.hypot(data["sigma"], run.read_off[: len(data)]).to_numpy()
+        sigma = np.hypot(data["sigma"], run.grid_sigma[: len(data)]).to_numpy()
         computed = pd.Series(run.responses[: len(data)]).abs()
         largest = computed.groupby(data["place"]).transform("max").to_numpy()
         is_field = data["quantity"].isin(FIELDS)
@@ -256,12 +258,12 @@ class Posed:
 
         for _, own in self.data[self.data["quantity"].isin(PROFILES)].groupby("place"):
             rows = own.index.to_numpy()
-            depth, error = run.responses[rows], np.min(run.read_off[rows])
+            depth, error = run.responses[rows], np.min(run.grid_sigma[rows])
             if (largest := np.max(depth)) > 0:
                 add(rows, error * depth / largest)
         for reading, depth in run.maps.items():
             rows = np.flatnonzero(self.data["reading"] == reading)
-            spacing = self.tested[self.data["bench"].iloc[rows[0]]].model.grid.spacing
+            spacing = self.setups[self.data["setup"].iloc[rows[0]]].model.grid.spacing
             sources = [DEPTHS * depth]
             for axis, slope in slopes(depth, spacing).items():
                 sources.append(ANYWHERE * spacing[axis] * depth.shape[axis] * slope)
