@@ -396,7 +396,7 @@ def _estimates(
         low, high = values[i] * np.exp(interval(fitted, np.eye(len(values))[i], level))
         lower[i], upper[i] = max(0.0 if limited[i] else low, lower[i]), min(high, upper[i])
     standard = np.asarray(np.linalg.pinv(jacobian), dtype=np.float64)
-    effect = fitted.weights.back(standard.T).T
+    effect = fitted.weights.weigh_transposed(standard.T).T
     deviation, most = experiment.data[["step_sigma", "step_most"]].to_numpy().T
     share = np.sum((effect * deviation) ** 2, axis=1) / np.sum(standard**2, axis=1)
     return table[["path", "unit"]].assign(

@@ -35,14 +35,14 @@ from tribo.study.calibration.parameters import Parameter, check_set, find_parame
 from tribo.study.calibration.placing import Placed, find_scar, slopes
 from tribo.study.calibration.quantities import (
     AXES,
-    CUT,
     DEPTH_MAP,
-    DEPTHS,
-    EDGES,
+    DEPTH_SIGMA,
+    DIAMETER_SIGMA,
+    EDGE_CELL_SIGMA,
     FIELDS,
     PROFILES,
     Reading,
-    kinked,
+    edge_sigma,
 )
 from tribo.study.calibration.setups import READ, Run, Setup, find_setups, make_run, unmeasured
 
@@ -95,7 +95,7 @@ class Experiment:
         diameter = data["position_m"].isna() & data["quantity"].isin(AXES)
         axis = data["quantity"].map(AXES).fillna(0).astype(int)
         spacing = np.array([setup.model.grid.spacing for setup in setups])
-        data["edge"] = np.where(diameter, EDGES * spacing[data["setup"], axis], 0.0)
+        data["edge"] = np.where(diameter, DIAMETER_SIGMA * spacing[data["setup"], axis], 0.0)
         seen = data[~data["below"]].groupby(["setup", *READ], dropna=False)["specimen"]
         repeatability = asked.repeatability
         if repeatability is None and not np.any(seen.nunique() > 1):
@@ -171,7 +171,7 @@ class Experiment:
             if reading in self.heights:
                 row = self.table.loc[reading]
                 spacing = self.setups[row["setup"]].model.grid.spacing
-                sigma = math.hypot(row["sigma"], DEPTHS * float(np.max(depth)))
+                sigma = math.hypot(row["sigma"], DEPTH_SIGMA * float(np.max(depth)))
                 now = find_scar(self.heights[reading], depth, spacing, sigma)
                 found[reading] = now.unless_near(self.placed.get(reading, Placed()), spacing)
         return self.moved(found) if found else self
@@ -189,7 +189,7 @@ class Experiment:
             rows = np.flatnonzero(reading == i)
             cells = self.data["cells"].iloc[rows]
             responses[rows] = means(over_cells(depth), cells)
-            at_edge = means(kinked(depth, CUT) ** 2, cells) / cells.map(len)
+            at_edge = means(edge_sigma(depth, EDGE_CELL_SIGMA) ** 2, cells) / cells.map(len)
             grid_sigma[rows] = np.sqrt(grid_sigma[rows] ** 2 + at_edge)
         return made._replace(responses=responses, grid_sigma=grid_sigma)
 
@@ -264,7 +264,7 @@ class Experiment:
         for reading, depth in run.maps.items():
             rows = np.flatnonzero(self.data["reading"] == reading)
             spacing = self.setups[self.data["setup"].iloc[rows[0]]].model.grid.spacing
-            sources = [DEPTHS * depth]
+            sources = [DEPTH_SIGMA * depth]
             for axis, slope in slopes(depth, spacing).items():
                 sources.append(ANYWHERE * spacing[axis] * depth.shape[axis] * slope)
             for source in sources:

@@ -13,7 +13,7 @@ from tribo.core.words import signed
 from tribo.study.calibration.cells import means
 from tribo.study.calibration.notes import named
 from tribo.study.calibration.placing import Placed, slopes
-from tribo.study.calibration.quantities import AXES, DEPTHS, PROFILES, WORN
+from tribo.study.calibration.quantities import AXES, DEPTH_SIGMA, PROFILES, WORN
 
 if TYPE_CHECKING:
     from tribo.study.calibration.experiment import Experiment
@@ -77,7 +77,7 @@ def off_level(name: str, measured: Array, depth: Array, sigma: float) -> Iterato
         if (count := int(np.sum(part))) >= FEWEST:
             level = float(np.median(measured[part]))
             noise = CERTAIN * MEDIAN * sigma / count**0.5
-            limit = max(noise, DEPTHS * largest, 2 * abs(worst))
+            limit = max(noise, DEPTH_SIGMA * largest, 2 * abs(worst))
             if abs(level) > limit:
                 worst, where = level, words
     if worst:

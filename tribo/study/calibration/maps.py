@@ -23,7 +23,7 @@ from tribo.simulation.model import Model
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.cells import over_cells
 from tribo.study.calibration.notes import UNLIKELY
-from tribo.study.calibration.quantities import CUT, kinked
+from tribo.study.calibration.quantities import EDGE_CELL_SIGMA, edge_sigma
 from tribo.study.gradient.backwards import swept_back
 from tribo.study.gradient.gradient import ValueAndGradient
 from tribo.study.gradient.local import localised
@@ -159,7 +159,7 @@ def fit_maps(
 
     `depths` are by the name of the body the mean depth of each cell worn off at the end, in m, of
     the shape of `View.wear`, NaN where it was not measured, and its standard deviation; cells that
-    a scar's edge cuts are off by what `kinked` says besides. `on_run` is called after
+    a scar's edge cuts are off by what `edge_sigma` says besides. `on_run` is called after
     each gradient or product with their number and the misfit χ², NaN of a product.
     """
     misfits: list[float] = []
@@ -317,7 +317,7 @@ class _Waves:
         """Set the standard deviations of cells: the edge is where amplitudes have it."""
         view = self.run(self.logs(z))
         for name, (_, sigma) in self.depths.items():
-            self.sigma[name] = np.hypot(sigma, kinked(view.wear(name), CUT))
+            self.sigma[name] = np.hypot(sigma, edge_sigma(view.wear(name), EDGE_CELL_SIGMA))
 
     def residuals(self, view: View) -> dict[str, Array]:
         """Return the computed less the measured depths, in standard deviations."""
