@@ -17,7 +17,7 @@ from tribo.core.errors import CaseError, NumericalError, TriboWarning
 from tribo.plotting.curves import fit_picture
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.calibrate import calibrate
-from tribo.study.calibration.cells import in_blocks, over_cells
+from tribo.study.calibration.cells import block_means, cell_means
 from tribo.study.calibration.choice import choose_case
 from tribo.study.calibration.experiment import Experiment
 from tribo.study.calibration.fit import differenced, fit, interval
@@ -58,7 +58,7 @@ def noisy(tmp_path_factory):
             if field is not None:
                 depth = result.field(field, len(result.times) - 1, body)
             pitch = result.grid.spacing[0]
-        depth = over_cells(depth) + NOISE * random.standard_normal(depth.shape)
+        depth = cell_means(depth) + NOISE * random.standard_normal(depth.shape)
         depth[:3, :5] = np.nan
         file = folder / f"{len(list(folder.iterdir()))}.npy"
         np.save(file, depth)
@@ -214,7 +214,7 @@ def test_intervals_cover_the_coefficient_as_often_as_they_say(tmp_path):
     """Linear about the truth, with noise on each cell, of which numbers are means of four."""
     case = apply_settings(ARCHARD, {"grid.cells": 32, "stepping.depth_tolerance": 0.1})
     with run(case) as result:
-        clean, spacing = over_cells(result.body("ball").wear_depth[-1]), result.grid.spacing
+        clean, spacing = cell_means(result.body("ball").wear_depth[-1]), result.grid.spacing
     clean[:, 20:23] = np.nan
     noise = 100e-9
     np.save(tmp_path / "clean.npy", clean)
@@ -229,7 +229,7 @@ def test_intervals_cover_the_coefficient_as_often_as_they_say(tmp_path):
     random, draws, covered, squares = np.random.default_rng(5), 60, np.zeros(2, int), []
     for _ in range(draws):
         noisy_map = clean + noise * random.standard_normal(clean.shape)
-        observed = in_blocks(noisy_map, spacing)["measured"].to_numpy()
+        observed = block_means(noisy_map, spacing)["measured"].to_numpy()
         drawn = problem.__class__(**{**vars(problem), "observed": observed})
         found = fit(lambda values: here.at(np.log(values)), drawn, experiment.start)
         for i in range(2):
@@ -271,7 +271,7 @@ def test_blocks_leave_out_what_was_not_measured():
     depth = np.arange(50.0 * 50).reshape(50, 50)
     depth[:3, :2] = np.nan
     depth[0, 4] = np.nan
-    blocks = in_blocks(depth, (2e-6, 1e-6))
+    blocks = block_means(depth, (2e-6, 1e-6))
     # Three by three, the last ones two wide.
     assert len(blocks) == 17 * 17
     assert blocks["cells"][0] == (2, 52, 102)
@@ -279,7 +279,7 @@ def test_blocks_leave_out_what_was_not_measured():
     assert len(blocks["cells"][1]) == 8
     assert blocks[["x_m", "y_m"]].iloc[-1].to_list() == pytest.approx([48e-6, 24e-6])
     assert sum(map(len, blocks["cells"])) == np.isfinite(depth).sum()
-    assert len(in_blocks(depth[:1], (2e-6, 1e-6))) == 47
+    assert len(block_means(depth[:1], (2e-6, 1e-6))) == 47
 
 
 @pytest.mark.slow

@@ -18,7 +18,7 @@ from tribo.study.calibration.experiment import Experiment
 from tribo.study.calibration.mapped import calibrate_maps
 from tribo.study.calibration.maps import FittedMaps
 from tribo.study.calibration.measured import MapEntry
-from tribo.study.calibration.placing import Placed, find_scar
+from tribo.study.calibration.scar_shift import ScarShift, find_shift
 
 PIN_K, DISK_K = "bodies.pin.wear.k", "bodies.disk.wear.k"
 K, TRUE = "bodies.ball.wear.k", 3e-16
@@ -200,7 +200,7 @@ def test_where_the_scar_outgrows_the_window_the_pitch_is_doubted(worn, tmp_path)
 def test_uniform_wear_tells_no_place():
     depth = np.full((32, 32), 1e-6)
     pixels = depth + NOISE * np.random.default_rng(0).standard_normal(depth.shape)
-    assert find_scar(Heights(pixels, (1e-6, 1e-6)), depth, (1e-6, 1e-6), NOISE) == Placed()
+    assert find_shift(Heights(pixels, (1e-6, 1e-6)), depth, (1e-6, 1e-6), NOISE) == ScarShift()
 
 
 def test_the_map_of_a_local_coefficient_is_told_as_well(worn, tmp_path, monkeypatch):

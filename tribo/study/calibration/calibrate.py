@@ -292,7 +292,7 @@ def _outcome(fitted: Linearised, experiment: Experiment, level: float) -> Calibr
         alone=fitted.residuals(fitted.point),
     )
     told = np.max(np.abs(jacobian[~problem.below]), axis=0, initial=0.0) > NO_EFFECT
-    moved = sum(bool(far) for each in experiment.placed.values() for far in each.shift)
+    moved = sum(bool(far) for each in experiment.shifts.values() for far in each.shift)
     spare = max(int(np.sum(~problem.below)) - int(np.sum(told & ~held)) - moved, 0)
     predictions = _predictions(fitted, experiment, estimates, level)
     return Calibration(

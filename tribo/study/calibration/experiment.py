@@ -18,10 +18,10 @@ from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, located
 from tribo.lab.heights import Heights
 from tribo.study.calibration.cells import (
-    in_blocks,
-    means,
+    block_means,
+    cell_means,
+    means_over,
     on_cells,
-    over_cells,
     read_map,
     surface_shape,
 )
@@ -32,7 +32,6 @@ from tribo.study.calibration.measured import (
     read_measurements,
 )
 from tribo.study.calibration.parameters import Parameter, check_set, find_parameters
-from tribo.study.calibration.placing import Placed, find_scar, slopes
 from tribo.study.calibration.quantities import (
     AXES,
     DEPTH_MAP,
@@ -44,6 +43,7 @@ from tribo.study.calibration.quantities import (
     Reading,
     edge_sigma,
 )
+from tribo.study.calibration.scar_shift import ScarShift, find_shift, slopes
 from tribo.study.calibration.setups import READ, Run, Setup, find_setups, make_run, unmeasured
 
 SMALL, ANYWHERE = 0.1, 0.25
@@ -71,7 +71,7 @@ class Experiment:
     """What is read off at the end but was not measured: `setup`, `test` and `READ`."""
     repeatability: float | None
     """From test to test; None if it is to be estimated."""
-    placed: Mapping[int, Placed] = field(default_factory=dict)
+    shifts: Mapping[int, ScarShift] = field(default_factory=dict)
     """Where the scar of a map was found, by its row of the table."""
     runs: dict[bytes, Run] = field(default_factory=dict)
     """What has been run, by the bytes of the parameters: readings of the table and predicted."""
@@ -129,15 +129,15 @@ class Experiment:
             for _, own in both.groupby("setup")
         ]
 
-    def moved(self, placed: Mapping[int, Placed]) -> Experiment:
+    def moved(self, shifts: Mapping[int, ScarShift]) -> Experiment:
         """Return it with the middles of scars, where they were found, on that of the contact."""
         parts = []
         for reading, row in self.table.groupby(level=0):
             rows = row.assign(reading=reading)
             if row["quantity"].iloc[0] == DEPTH_MAP:
-                rows = self._of_map(rows, placed.get(reading, Placed()).shift)
+                rows = self._of_map(rows, shifts.get(reading, ScarShift()).shift)
             parts.append(rows)
-        return replace(self, data=pd.concat(parts, ignore_index=True), placed=placed)
+        return replace(self, data=pd.concat(parts, ignore_index=True), shifts=shifts)
 
     def on_cells(self, reading: int, shift: tuple[float, float]) -> Array:
         """Return a map on the cells of its surface, in m; 0 of one that is not measured yet."""
@@ -155,7 +155,7 @@ class Experiment:
         depth = self.on_cells(each.Index, shift)
         if told := data_error(each.entry, depth[np.isfinite(depth)]):
             raise CaseError(told, f"{each.place}.depth")
-        blocks = in_blocks(depth, self.setups[each.setup].model.grid.spacing)
+        blocks = block_means(depth, self.setups[each.setup].model.grid.spacing)
         if each.entry.depth is None:
             blocks["measured"] = math.nan
         blocks[["shift_x_m", "shift_y_m"]] = shift
@@ -172,8 +172,8 @@ class Experiment:
                 row = self.table.loc[reading]
                 spacing = self.setups[row["setup"]].model.grid.spacing
                 sigma = math.hypot(row["sigma"], DEPTH_SIGMA * float(np.max(depth)))
-                now = find_scar(self.heights[reading], depth, spacing, sigma)
-                found[reading] = now.unless_near(self.placed.get(reading, Placed()), spacing)
+                now = find_shift(self.heights[reading], depth, spacing, sigma)
+                found[reading] = now.unless_near(self.shifts.get(reading, ScarShift()), spacing)
         return self.moved(found) if found else self
 
     def run(self, values: Array) -> Run:
@@ -188,8 +188,8 @@ class Experiment:
         for i, depth in made.maps.items():
             rows = np.flatnonzero(reading == i)
             cells = self.data["cells"].iloc[rows]
-            responses[rows] = means(over_cells(depth), cells)
-            at_edge = means(edge_sigma(depth, EDGE_CELL_SIGMA) ** 2, cells) / cells.map(len)
+            responses[rows] = means_over(cell_means(depth), cells)
+            at_edge = means_over(edge_sigma(depth, EDGE_CELL_SIGMA) ** 2, cells) / cells.map(len)
             grid_sigma[rows] = np.sqrt(grid_sigma[rows] ** 2 + at_edge)
         return made._replace(responses=responses, grid_sigma=grid_sigma)
 
@@ -268,5 +268,5 @@ class Experiment:
             for axis, slope in slopes(depth, spacing).items():
                 sources.append(ANYWHERE * spacing[axis] * depth.shape[axis] * slope)
             for source in sources:
-                add(rows, means(source, self.data["cells"].iloc[rows]))
+                add(rows, means_over(source, self.data["cells"].iloc[rows]))
         return np.array(columns).reshape(-1, len(self.data)).T

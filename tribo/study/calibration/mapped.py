@@ -20,7 +20,7 @@ from tribo.study.calibration.cells import on_cells, read_map, surface_shape
 from tribo.study.calibration.map_notes import off_level, off_middle
 from tribo.study.calibration.maps import FittedMaps, Prior, fit_maps
 from tribo.study.calibration.measured import MapEntry
-from tribo.study.calibration.placing import find_scar
+from tribo.study.calibration.scar_shift import find_shift
 from tribo.study.gradient.objective import View
 from tribo.study.variation import unknown_body
 
@@ -61,7 +61,7 @@ def _remarks(
 ) -> Iterator[str]:
     """Say that a map is off the middle of the case's scar, or not levelled."""
     name = f"the map of {entry.body!r}"
-    found = find_scar(heights, model, spacing, entry.uncertainty)
+    found = find_shift(heights, model, spacing, entry.uncertainty)
     # Less may well be due to the coefficient.
     if np.any(np.abs(found.shift) > 0.5 * np.array(spacing)):
         for told in off_middle(name, found):

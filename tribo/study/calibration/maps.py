@@ -21,7 +21,7 @@ from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.march import begin, march
 from tribo.simulation.model import Model
 from tribo.simulation.run import Simulation
-from tribo.study.calibration.cells import over_cells
+from tribo.study.calibration.cells import cell_means
 from tribo.study.calibration.notes import UNLIKELY
 from tribo.study.calibration.quantities import EDGE_CELL_SIGMA, edge_sigma
 from tribo.study.gradient.backwards import swept_back
@@ -187,7 +187,7 @@ def fit_maps(
             prior,
             waves.model.grid.spacing,
             depths[name][0],
-            over_cells(fit.wear(name)),
+            cell_means(fit.wear(name)),
             waves.sigma[name],
         )
     read = sum(int(np.sum(~np.isnan(each))) for each in residuals.values())
@@ -322,7 +322,7 @@ class _Waves:
     def residuals(self, view: View) -> dict[str, Array]:
         """Return the computed less the measured depths, in standard deviations."""
         return {
-            name: (over_cells(view.wear(name)) - depth) / self.sigma[name]
+            name: (cell_means(view.wear(name)) - depth) / self.sigma[name]
             for name, (depth, _) in self.depths.items()
         }
 
@@ -331,7 +331,7 @@ class _Waves:
         off = {name: np.nan_to_num(each) for name, each in self.residuals(view).items()}
         value = 0.5 * sum(float(np.sum(each * each)) for each in off.values())
         # Means over cells are their own adjoint.
-        seeds = {name: over_cells(each / self.sigma[name]) for name, each in off.items()}
+        seeds = {name: cell_means(each / self.sigma[name]) for name, each in off.items()}
         return value, Seeds(seeds)
 
     def local(self, logs: Array) -> Model:
@@ -354,9 +354,9 @@ class _Waves:
             step = STEP / np.max(np.abs(move))
             moved, seeds = self.run(logs + step * move), {}
             for name, (depth, _) in self.depths.items():
-                change = over_cells(moved.wear(name) - end.wear(name)) / step
+                change = cell_means(moved.wear(name) - end.wear(name)) / step
                 known = np.where(np.isnan(depth), 0.0, change / self.sigma[name] ** 2)
-                seeds[name] = over_cells(known)
+                seeds[name] = cell_means(known)
             found = swept_back(model, tape, {time: Seeds(seeds)}, [])
             self.tell(math.nan)
             return self.back(np.concatenate([found.wear_rate[name].ravel() for name in seeds]))
