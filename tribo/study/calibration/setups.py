@@ -1,4 +1,4 @@
-"""The cases of the tests that are fitted to, and runs of them."""
+"""The different cases among the tests of a calibration, and runs of them."""
 
 from __future__ import annotations
 
@@ -32,27 +32,30 @@ from tribo.study.calibration.quantities import (
 from tribo.study.variation import unknown_body, valid_case
 
 READ = list(Reading._fields)
-"""Columns of the data that say what is read off a run."""
+"""Columns of the data that are the fields of a `Reading`."""
 
 
 @dataclass(frozen=True)
 class Setup:
-    """One case among the tests."""
+    """The case of tests under identical conditions."""
 
     name: str
+    """That of the first test."""
     case: Mapping[str, Any]
+    """Tables of the case."""
     tables: Mapping[str, Any]
-    """The case, also with what the readings need; its name is that of the first test."""
+    """The same, saved at the times of the readings."""
     model: Model
 
 
 class Run(NamedTuple):
-    """Responses of a run, their standard deviations due to the grid, and its notices."""
+    """Responses of a run."""
 
     responses: Array
     grid_sigma: Array
+    """Their standard deviations due to the grid."""
     maps: Mapping[int, Array]
-    """Depths all over a surface, shape (rows, ny), by the reading that asks for them."""
+    """Depths all over a surface, shape (rows, ny), by the index of the reading."""
     notices: tuple[str, ...]
 
 
@@ -61,10 +64,10 @@ def find_setups(
     tests: Mapping[str, TestEntry],
     data: pd.DataFrame,
 ) -> list[Setup]:
-    """Return the cases of the tests, those alike as one, and add the column `setup` to the data."""
+    """Return the different cases of the tests, and add the column `setup` to the data."""
     cases: dict[str, tuple[Case, Model]] = {}
-    alike: dict[str, list[TestEntry]] = {}
-    of = []
+    tests_of: dict[str, list[TestEntry]] = {}
+    indices = []
     for place, test in tests.items():
         try:
             # A test may end before times at which the case is saved.
@@ -73,22 +76,22 @@ def find_setups(
             raise error if not place else CaseError(str(error), f"{place}set") from None
         if (key := repr(case)) not in cases:
             cases[key] = case, Simulation(case).model
-        alike.setdefault(key, []).append(test)
-        of.append([*cases].index(key))
+        tests_of.setdefault(key, []).append(test)
+        indices.append([*cases].index(key))
         for i, entry in enumerate(test.measured):
             _check_entry(cases[key][1], entry, f"{place}measured.{i}")
-    names = [first.name for first, *_ in alike.values()]
+    names = [first.name for first, *_ in tests_of.values()]
     for name in names:
         if names.count(name) > 1:
             raise CaseError(f"two tests that differ are called {name!r}; rename one", "test")
-    data["setup"] = np.array(of)[data["of"]]
-    return [_setup(tables, alike[key], *each) for key, each in cases.items()]
+    data["setup"] = np.array(indices)[data["of"]]
+    return [_setup(tables, tests_of[key], *each) for key, each in cases.items()]
 
 
 def _setup(
     tables: Mapping[str, Any], tests: Sequence[TestEntry], case: Case, model: Model
 ) -> Setup:
-    """Return the case of tests that are alike."""
+    """Return the setup of tests that have the same case."""
     changed = apply_settings(tables, tests[0].set)
     given = validate_case(tables).output.save_times
     reached = [time for time in given if time <= model.end_time]
@@ -125,14 +128,14 @@ def make_run(
     wanted: Sequence[Reading],
     name: str = "run",
 ) -> Run:
-    """Run a case with other values of its parameters, and read numbers off the result."""
+    """Run a case with other values of its parameters, and compute the readings."""
     # Taking logarithms may round to just beyond a bound.
     settings = {
         p.path: min(max(float(value), p.lower), p.upper)
         for p, value in zip(parameters, values, strict=True)
     }
     with warnings.catch_warnings():
-        # The calibration has the notices of the last run.
+        # The calibration reports the notices of its last run.
         warnings.simplefilter("ignore", TriboWarning)
         try:
             case = validate_case(apply_settings(tables, settings))
