@@ -126,10 +126,10 @@ def coverage(labs: int, cells: int) -> Iterator[dict[str, object]]:
     )
     model, prior = composed(test), Prior(PRIOR.spread, 2 * PRIOR.length)
     waves = prior.amplitudes((cells, cells), model.grid.spacing)
-    level = prior.level(waves)
+    scale = prior.scale(waves)
     random, shares, misfits, began = np.random.default_rng(7), [], [], process_time()
     for lab in range(labs):
-        logs = level * idctn(waves * random.standard_normal(waves.shape), norm="ortho")
+        logs = scale * idctn(waves * random.standard_normal(waves.shape), norm="ortho")
         depth = worn(model, np.exp(logs))
         noisy = cell_means(depth) + NOISE * random.standard_normal(depth.shape)
         fitted = fit_maps(test, {"ball": (noisy, NOISE)}, {"ball": prior}, products=400)

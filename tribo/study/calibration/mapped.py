@@ -31,7 +31,7 @@ def calibrate_maps(
     *,
     on_run: Callable[[int, float], None] = lambda count, misfit: None,
 ) -> FittedMaps:
-    """Do as `fit_maps`, with the maps by their place in the file, for messages."""
+    """Fit local coefficients to the maps of a file, by their place in it; see `fit_maps`."""
     model = Simulation(
         validate_case(case_tables(case)).model_copy(update={"observers": ()}),
     ).model
@@ -59,11 +59,11 @@ def calibrate_maps(
 def _remarks(
     entry: MapEntry, heights: Heights, depth: Array, model: Array, spacing: tuple[float, float]
 ) -> Iterator[str]:
-    """Say that a map is off the middle of the case's scar, or not levelled."""
+    """Name a map that is off the middle of the case's scar, or not levelled."""
     name = f"the map of {entry.body!r}"
     found = find_shift(heights, model, spacing, entry.uncertainty)
-    # Less may well be due to the coefficient.
+    # A smaller shift may be due to the coefficient.
     if np.any(np.abs(found.shift) > 0.5 * np.array(spacing)):
-        for told in off_middle(name, found):
-            yield f"{told}: centre it, unless the coefficient is higher on that side"
+        for note in off_middle(name, found):
+            yield f"{note}: centre it, unless the coefficient is higher on that side"
     yield from off_level(name, depth, model, entry.uncertainty)
