@@ -144,7 +144,7 @@ def test_an_interrupt_while_it_is_sampled_does_not_lose_the_fit(
     ended = command(*asked, "-o", tmp_path / "fitted.toml")
     assert ended.returncode == 130
     assert "7.08e-16 1/Pa" in ended.stdout
-    assert "Note: sampling was interrupted, so that the intervals are not" in ended.stdout
+    assert "Note: sampling was interrupted: the intervals are not" in ended.stdout
     assert "stopped while sampling" in ended.stderr
     assert read_toml(tmp_path / "fitted.toml")["bodies"]["disk"]["wear"]["k"] == 7.08e-16
     assert len(runs) < 60
