@@ -61,7 +61,7 @@ def print_plan(found: Plan) -> None:
 def print_choice(found: Choice) -> None:
     """Print the comparison of several cases, and the estimates of each."""
     console, names = Console(), list(found.cases["case"])
-    columns = ["criterion", "weight", "left out", "χ²", "to spare", "parameters"]
+    columns = ["criterion", "weight", "left out", "χ²", "d.o.f.", "parameters"]
     table = _table("Cases", names, *columns)
     for each in found.cases.itertuples():
         own = found.calibrations[each.case]
@@ -154,8 +154,9 @@ def predictions_table(found: Calibration) -> Table:
 def fit_sentences(found: Calibration) -> Iterator[str]:
     """Return sentences on the goodness of fit, the repeatability and the correlations."""
     if found.p_value is not None:
+        freedom = found.degrees_of_freedom
         yield (
-            f"χ² {found.chi_square:.3g} with {found.degrees_of_freedom} to spare, "
+            f"χ² {found.chi_square:.3g} with {freedom} degree{'s' * (freedom != 1)} of freedom, "
             f"p = {found.p_value:.2g}."
         )
     if found.repeatability or found.repeatability_estimated:

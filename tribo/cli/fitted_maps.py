@@ -82,7 +82,7 @@ def maps_table(found: FittedMaps, level: float) -> Table:
 def fit_words(found: FittedMaps) -> str:
     """Return the goodness of fit in a sentence."""
     return (
-        f"χ² {found.chi_square:.4g} with {found.degrees_of_freedom:.4g} to spare, "
+        f"χ² {found.chi_square:.4g} with {found.degrees_of_freedom:.4g} degrees of freedom, "
         f"p = {found.p_value:.2g}. A cell is told where less than {SILENT:g} of the prior's "
         "standard deviation is left."
     )

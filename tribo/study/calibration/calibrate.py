@@ -300,7 +300,7 @@ def _outcome(fitted: Linearised, experiment: Experiment, level: float) -> Calibr
     )
     determined = np.max(np.abs(jacobian[~problem.below]), axis=0, initial=0.0) > NO_EFFECT
     moved = sum(bool(far) for each in experiment.shifts.values() for far in each.shift)
-    spare = max(int(np.sum(~problem.below)) - int(np.sum(determined & ~held)) - moved, 0)
+    freedom = max(int(np.sum(~problem.below)) - int(np.sum(determined & ~held)) - moved, 0)
     predictions = _predictions(fitted, experiment, estimates, level)
     return Calibration(
         level=level,
@@ -309,7 +309,7 @@ def _outcome(fitted: Linearised, experiment: Experiment, level: float) -> Calibr
         data=data[DATA + PLACE if "x_m" in data else DATA],
         predictions=predictions,
         chi_square=float(np.sum(fitted.residuals(fitted.point)[~problem.below] ** 2)),
-        degrees_of_freedom=spare,
+        degrees_of_freedom=freedom,
         repeatability=fitted.repeatability,
         repeatability_estimated=problem.repeatability is None,
         fitted={each.name: apply_settings(each.case, settled) for each in experiment.setups},
@@ -324,7 +324,7 @@ def _outcome(fitted: Linearised, experiment: Experiment, level: float) -> Calibr
                 estimates,
                 data,
                 jacobian,
-                None if problem.repeatability is None else spare,
+                None if problem.repeatability is None else freedom,
                 min(setup.model.grid.cells[1] for setup in experiment.setups),
             ),
             *last.notices,

@@ -29,25 +29,25 @@ _CORRELATED = 3.0
 
 
 def notes(
-    estimates: pd.DataFrame, data: pd.DataFrame, jacobian: Array, spare: int | None, cells: int
+    estimates: pd.DataFrame, data: pd.DataFrame, jacobian: Array, freedom: int | None, cells: int
 ) -> list[str]:
     """Return notes; the Jacobian is of the weighted residuals by the logarithms of the parameters.
 
     The column `alone` of the data has the weighted residuals, independent where tests scatter.
-    `spare` are the degrees of freedom of χ², None where the repeatability is estimated; `cells`
+    `freedom` are the degrees of freedom of χ², None where the repeatability is estimated; `cells`
     are those of the coarsest grid.
     """
     return [
-        *_on_parameters(estimates, data, jacobian, spare),
+        *_on_parameters(estimates, data, jacobian, freedom),
         *_on_collinearity(list(estimates["path"]), jacobian),
-        *_on_misfit(data, spare, cells),
+        *_on_misfit(data, freedom, cells),
         *_on_patterns(data),
         *_on_instruments(data),
     ]
 
 
 def _on_parameters(
-    estimates: pd.DataFrame, data: pd.DataFrame, jacobian: Array, spare: int | None
+    estimates: pd.DataFrame, data: pd.DataFrame, jacobian: Array, freedom: int | None
 ) -> Iterator[str]:
     """Name parameters on a bound or not bounded, and the instrument that dominates each."""
     parts = (data["step_sigma"] / data["sigma"]).to_numpy()
@@ -71,7 +71,7 @@ def _on_parameters(
             scatter = "; too few tests were repeated to estimate their scatter: state repeatability"
             yield (
                 f"{each.path}: the data do not bound it from {sides}"
-                f"{scatter if spare is None and all(is_open.values()) else ''}"
+                f"{scatter if freedom is None and all(is_open.values()) else ''}"
             )
         if (
             not (each.held or each.limited or is_open["above"])
@@ -106,25 +106,25 @@ def _on_collinearity(paths: Sequence[str], jacobian: Array) -> Iterator[str]:
         )
 
 
-def _on_misfit(data: pd.DataFrame, spare: int | None, cells: int) -> Iterator[str]:
-    if spare is None:
+def _on_misfit(data: pd.DataFrame, freedom: int | None, cells: int) -> Iterator[str]:
+    if freedom is None:
         return
-    if spare == 0:
+    if freedom == 0:
         yield (
             "there are no more data than parameters, so that nothing is left to test the model with"
         )
         return
     read = data[~data["below"]]
     chi_square = float(np.sum(read["alone"] ** 2))
-    if chdtrc(spare, chi_square) < UNLIKELY:
+    if chdtrc(freedom, chi_square) < UNLIKELY:
         worst = read.loc[read["alone"].abs().idxmax()]
         of_grid = ""
         # Only where errors of the grid dominate is the grid the reason.
         if worst.quantity in FIELDS and worst.sigma**2 > 2 * worst.stated**2:
             of_grid = f", or the grid is too coarse: try grid.cells = {2 * cells}"
         yield (
-            f"data and model disagree: χ² is {chi_square:.3g} where about {spare} is expected; the "
-            f"{named(worst)} is off by {abs(worst.alone):.3g} times its "
+            f"data and model disagree: χ² is {chi_square:.3g} where about {freedom} is expected; "
+            f"the {named(worst)} is off by {abs(worst.alone):.3g} times its "
             "uncertainty. The model leaves something out, or uncertainties are larger than stated"
             f"{of_grid}; the intervals are then too narrow"
         )
