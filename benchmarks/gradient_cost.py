@@ -1,11 +1,12 @@
 """What a gradient costs: the time of the run with all derivatives over that of the run alone.
 
-    python benchmarks/gradient_cost.py [cells]
+    python benchmarks/gradient_cost.py [cells] [part of a case's name]
     python benchmarks/gradient_cost.py [cells] memory
 
 Each case is run in turn with and without, three times, and the best of each is taken. Derivatives
 are those in the wear rate and the height at each cell; and these and those in all numbers of the
-case. The second prints the peak memory of runs of more and more steps.
+case. The second prints the peak memory of runs of more and more steps. The cases with effects need
+the packages tribo-film and tribo-thirdbody.
 """
 
 from __future__ import annotations
@@ -72,6 +73,14 @@ def cases(cells: int) -> dict[str, Case]:
     }
     smoothing = {n: {**dict(b), "wear": polished} for n, b in base.bodies.items()}
     nonlinear = {n: {**dict(b), "wear": power} for n, b in base.bodies.items()}
+    film = {
+        "type": "film.mixed",
+        "viscosity": "0.01 Pa s",
+        "pressure_viscosity": "20 1/GPa",
+        "radius": "5 mm",
+        "roughness": "0.2 um",
+    }
+    debris = {"type": "thirdbody.debris", "ejection_length": "0.5 m", "cover": "1 um"}
     return {
         "half-space, average": base,
         "springs, average": case(cells, contact={"type": "winkler"}),
@@ -80,13 +89,17 @@ def cases(cells: int) -> dict[str, Case]:
         "half-space, running-in": case(cells, bodies=running_in),
         "half-space, smoothing": case(cells, bodies=smoothing),
         "half-space, 33 positions": case(cells, kinematics={**motion, "positions": 33}),
+        "half-space, film": case(cells, effects=[film]),
+        "half-space, debris": case(cells, effects=[debris]),
     }
 
 
-def main(cells: int) -> None:
-    """Print steps, times and ratio of each case."""
+def main(cells: int, part: str) -> None:
+    """Print steps, times and ratio of each case with this part in its name."""
     warnings.simplefilter("ignore", TriboWarning)
     for name, each in cases(cells).items():
+        if part not in name:
+            continue
         alone, maps, both, steps = [], [], [], 0
         for _ in range(TIMES):
             started = process_time()
@@ -128,4 +141,4 @@ if __name__ == "__main__":
     if "memory" in sys.argv:
         memory(int(sys.argv[1]))
         sys.exit()
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 64)
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else 64, "".join(sys.argv[2:3]))

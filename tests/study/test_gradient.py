@@ -78,6 +78,9 @@ def flats():
 LINE = [named("ball", Cylinder(radius="5 mm"), steel(), archard()), named("disk", flat(), steel())]
 OF_SPEED = RunningIn(law=Faster(), factor=4.0, over="1 GPa m")
 FAST = RunningIn(law=archard(2 * K), factor=4.0, over="0.5 GPa m")
+SLOW = SMOOTH.model_copy(update={"law": archard(K / 2), "depth": 1e-7})
+FLEETING = SMOOTH.model_copy(update={"law": archard(4 * K), "depth": 5e-9})
+"""Of which a cell, in a step of many parts, would lose many times the roughness there is."""
 OF_LAYER = ["bodies.disk.layers.0.thickness", "bodies.disk.layers.0.wear.over"]
 YIELDING = pair(archard(), archard(), ("1.2 GPa", "1.1 GPa"))
 SOFT = pair(archard(), archard(), ("1.1 GPa", "1 GPa"))
@@ -163,6 +166,51 @@ KINDS = {
         run(bodies=layered(None, ("0.05 um", FAST), archard(), FRESH), stepping=LONG),
         Depth("disk"),
         ["load.normal", *SHAPE, *OF_LAYER, "bodies.disk.wear.over"],
+        1e-6,
+    ),
+    "positions, remembers, stroke": Kind(
+        run(
+            bodies=pair(FRESH, SMOOTH),
+            kinematics=resolved(stroke="0.13 mm", waveform="sinusoidal", duration=0.5),
+            stepping=LONG,
+        ),
+        Depth("disk", 5e-5),
+        ["load.normal", "kinematics.stroke"],
+        1e-6,
+    ),
+    "load on a plateau, remembers": Kind(
+        run(
+            load=[
+                {"at": 0, "normal": 10.0},
+                {"at": 10, "normal": 20.0},
+                {"at": 20, "normal": 20.0},
+            ],
+            bodies=pair(FRESH, archard()),
+            stepping=LONG,
+        ),
+        Depth("disk"),
+        ["load.normal.1.normal", "load.normal.2.normal"],
+        1e-5,
+    ),
+    "load on a plateau, smooths": Kind(
+        run(
+            load=[{"at": 0, "normal": 20.0}, {"at": 20, "normal": 20.0}],
+            bodies=pair(FRESH, SMOOTH),
+            stepping=LONG,
+        ),
+        Depth("disk"),
+        ["load.normal.0.normal"],
+        1e-5,
+    ),
+    "layers, remembers for a small part of a step": Kind(
+        run(
+            grid=ODD,
+            bodies=layered(None, ("0.01 um", SLOW), None, FLEETING),
+            kinematics=motion(duration=5),
+            stepping=LONG,
+        ),
+        Depth("disk"),
+        ["load.normal", "bodies.disk.layers.0.thickness"],
         1e-6,
     ),
     "layers, passed late in a step, remembers": Kind(
@@ -341,7 +389,8 @@ def unasked(method):
 
     def mutant(*given):
         found = method(*given)
-        return replace(found, along=replace(found.along, rates=()))
+        rates = [(each, [0 * seed for seed in seeds]) for each, seeds in found.along.rates]
+        return replace(found, along=replace(found.along, rates=rates))
 
     return mutant
 
@@ -436,7 +485,7 @@ MUTANTS = [
     ("remembers", remembering.Remembering, "_back", forgotten),
     ("remembers", remembering.Remembering, "_back", unasked),
     ("remembers", remembering._Along, "by_length", lambda _: 0.0),
-    ("remembers", parameters, "carriers_of", nothing),
+    ("remembers", parameters, "moved", nothing),
     ("load over time", slopes.Sloping, "_by_pressure", unfelt("load")),
     ("layers", course, "_layers", lambda of: lambda *given: (of(*given)[0], 1.0)),
     ("layers", course, "by_bottoms", lambda _: lambda shares: ()),

@@ -20,6 +20,13 @@ class Box:
     shape: tuple[int, int]
     window: tuple[int, int]
 
+    @staticmethod
+    def of(region: Region, window: tuple[int, int]) -> Box:
+        """Return the box that is a region of a window."""
+        rows, columns = region
+        first, end = (rows.start, columns.start), (rows.stop, columns.stop)
+        return Box(first, (end[0] - first[0], end[1] - first[1]), window)
+
     @cached_property
     def slices(self) -> tuple[slice, slice]:
         """Where the box lies in an array on the window."""

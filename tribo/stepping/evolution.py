@@ -230,9 +230,20 @@ def loaded(
     Of an increment or a rest that has its `middle` and its `end` at these times, in s.
     """
     # A load that jumps as it begins is told apart in its middle.
-    halfway, last = model.loads.before(middle), model.loads.before(end)
-    if halfway == last:
+    if model.loads.before(middle) == model.loads.before(end):
         return contacts
+    return with_loads(model, contacts, middle, end, passed)
+
+
+def with_loads(
+    model: Model,
+    contacts: Sequence[ContactSolution],
+    middle: float,
+    end: float,
+    passed: float,
+) -> list[ContactSolution]:
+    """Return contacts with pressures that carry the load where a part has passed, as `loaded`."""
+    halfway, last = model.loads.before(middle), model.loads.before(end)
     cell, found = model.grid.cell_area, []
     for contact, half, whole in zip(contacts, halfway, last, strict=True):
         load = whole + 2 * (1 - passed) * (half - whole)

@@ -10,13 +10,13 @@ import numpy as np
 
 from tribo.contact.projection import CELLS, over
 from tribo.core.arrays import Array, readonly
-from tribo.core.box import Box
+from tribo.core.box import Box, whole
 from tribo.core.contact import ContactSolution, Residuals
 from tribo.core.errors import CaseError
 from tribo.core.fields import LOAD_SHARE
 from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.model import Model
-from tribo.stepping.evolution import course
+from tribo.stepping.evolution import course, layered_bodies
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.memory import Memory, first_memory
 from tribo.study.gradient.course import Before, Plain, plain
@@ -190,7 +190,7 @@ class Backwards:
         looked = np.zeros_like(window) if pressed is None else pressed
         for law in self.laws.values():
             law.seen.clear()
-        increments = self._increments(window, slid) if slid else []
+        increments = self._increments(record, window, slid) if slid else []
         if slid is not None and slid.ahead:
             behind = self._behind(increments)
             self.pressure = looked + over(self.shares) * sum(each.pressure for each in behind)
@@ -276,7 +276,7 @@ class Backwards:
             if self.together:
                 self.states = each.states
 
-    def _increments(self, window: Array, slid: Slid) -> list[Increment]:
+    def _increments(self, record: Pressed, window: Array, slid: Slid) -> list[Increment]:
         """Return an increment in parts that do not touch each other."""
         model, contacts = self.model, [_contact(each) for each in window]
         remembers = bool(slid.before.values)
@@ -287,17 +287,27 @@ class Backwards:
                 for name in model.laws
             ]
 
-        def asked(*names: str) -> Sloping:
+        def stages(*names: str) -> Sloping:
             own = {name: slid.before.laws[name] for name in names}
-            alone = replace(slid, before=replace(slid.before, laws=own))
+            alone, box, pressed = _of(model, *names), whole(model.grid.cells), contacts
+            if not (self.together or layered_bodies(alone)):
+                box = Box.of(record.region, model.grid.cells)
+                pressed = [_contact(each) for each in record.pressure]
+            before = replace(slid.before, laws=own)
             return Sloping(
-                _of(model, *names), self.carriers, contacts, alone, remembers, model.tells_length
+                alone,
+                self.carriers,
+                box,
+                pressed,
+                replace(slid, before=before),
+                remembers,
+                model.tells_length,
             )
 
         if self.together:
-            return [Together(asked(*model.laws))]
+            return [Together(stages(*model.laws))]
         laws = self.states.laws
-        return [Alone(asked(name), Memory({name: laws[name]}, {})) for name in model.laws]
+        return [Alone(stages(name), Memory({name: laws[name]}, {})) for name in model.laws]
 
     def _of_wear(self, increment: Together, box: Box, z: Array) -> Array:
         """Return what the wear and the filling that pressures make add to the adjoint of K."""

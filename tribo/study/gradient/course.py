@@ -8,6 +8,7 @@ from functools import cached_property, partial
 
 import numpy as np
 
+from tribo.contact.projection import over
 from tribo.core.arrays import Array, readonly
 from tribo.core.box import whole
 from tribo.core.contact import ContactSolution
@@ -137,8 +138,9 @@ def plain(
         (response,) = local(lambda p: rates(pressed(contacts, p)), rates(contacts), pressure)
         steep = np.asarray(response.own)
     shares = np.array([position.share for position in model.cycle])
-    factor = slid.increment * carrier.mean(depth, shares)
-    slope = slid.increment * carrier.part * steep
+    box = whole(model.grid.cells)
+    part = slid.increment * carrier.part(box)
+    factor, slope = carrier.gathered(over(shares) * part * depth, box), part * steep
     return Plain(model, contacts, slid, known, carrier, slope, factor, worn)
 
 

@@ -10,8 +10,8 @@ import scipy.fft
 
 from tribo.contact.operator import Operator
 from tribo.contact.projection import CELLS, over
-from tribo.core.arrays import Array, Mask, add_from, rows_from
-from tribo.core.box import Box, whole
+from tribo.core.arrays import Array, Mask, add_from
+from tribo.core.box import Box
 from tribo.core.errors import CaseError, NumericalError
 from tribo.simulation.model import Model
 
@@ -38,6 +38,12 @@ class Carrier:
     starts: Sequence[int]
     weights: Array | None
 
+    def differs(self, other: Carrier) -> bool:
+        """Whether another one lies or counts otherwise."""
+        same = self.rows == other.rows and [*self.starts] == [*other.starts]
+        own, others = (np.array(0) if c.weights is None else c.weights for c in (self, other))
+        return not (same and np.array_equal(own, others))
+
     def gathered(self, parts: Array, box: Box) -> Array:
         """Return what fields on a box, by position, add up to on the body: shape (rows, ny)."""
         along, columns = box.slices
@@ -50,23 +56,21 @@ class Carrier:
         return own
 
     def seen(self, own: Array, box: Box) -> Array:
-        """Return a field on the body as it lies in a box, by position."""
+        """Return fields on the body, shape (…, rows, ny), as they lie in a box, by position."""
         along, columns = box.slices
-        if self.weights is not None:
-            return np.broadcast_to(own[:, columns], (len(self.starts), *box.shape))
-        rows = along.stop - along.start
-        return np.stack(
-            [rows_from(own[:, columns], start + along.start, rows) for start in self.starts]
-        )
+        field = own[..., columns]
+        if self.weights is not None or not any(self.starts):
+            here = field if self.weights is not None else field[..., along, :]
+            shape = (*own.shape[:-2], len(self.starts), *box.shape)
+            placed = here[..., None, :, :]
+            return placed if placed.shape == shape else np.broadcast_to(placed, shape)
+        rows = np.arange(along.start, along.stop)
+        each = [np.take(field, start + rows, -2, mode="wrap") for start in self.starts]
+        return np.stack(each, axis=-3)
 
-    @property
-    def part(self) -> Array | float:
-        """What a cell counts for in the mean rate of its point."""
-        return 1.0 if self.weights is None else self.weights
-
-    def mean(self, rate: Array, shares: Array) -> Array:
-        """Return the mean of a rate in the cells, by position, over each point of the body."""
-        return self.gathered(over(shares) * self.part * rate, whole(rate.shape[1:]))
+    def part(self, box: Box) -> Array | float:
+        """Return what each cell of a box counts for in the mean rate of its point."""
+        return 1.0 if self.weights is None else self.weights[box.slices]
 
 
 @dataclass(frozen=True)
@@ -78,8 +82,9 @@ class Uniform(Carrier):
         return np.sum(parts).reshape(1, 1)
 
     def seen(self, own: Array, box: Box) -> Array:
-        """Return the number at each cell of a box, by position."""
-        return np.broadcast_to(own, (len(self.starts), *box.shape))
+        """Return the number, shape (…, 1, 1), at each cell of a box, by position."""
+        shape = (*own.shape[:-2], len(self.starts), *box.shape)
+        return np.broadcast_to(own[..., None, :, :], shape)
 
 
 def carriers_between(model: Model, of_bodies: Mapping[str, Carrier]) -> dict[str, Carrier]:

@@ -26,6 +26,8 @@ from tribo.study.gradient.tape import Pressed, Slid
 
 LAW = "law"
 """What a number changes of a law that it enters."""
+CONTACT = ("young", "poisson", "hardness")
+"""Numbers of a material that contacts follow."""
 MOVES = "it moves the positions of the cycle by whole cells"
 
 
@@ -208,7 +210,7 @@ def chain(
     step = value * (ASIDE if moves else NUDGE)
     error: Exception | None = None
     central, upper = [(1, 0.5), (-1, -0.5)], [(0, -1.5), (1, 2.0), (2, -0.5)]
-    if all("wear" in place[2:] for place in places):
+    if all(map(_only_wears, places)):
         # Only what is worn under given contacts follows it, which is known of the case itself.
         step, central, upper = ASIDE * value, [], [(0, -1.0), (1, 1.0)]
     lower = [(-by, -weight) for by, weight in upper]
@@ -229,7 +231,7 @@ def chain(
                 model,
                 weight / step,
                 own if model is base else Stops.of(model),
-                carriers_of(model) if moves else None,
+                moved(model, base) if moves else None,
             )
             for model, (_, weight) in zip(models, scheme, strict=True)
         ]
@@ -239,6 +241,20 @@ def chain(
     for place in (path, *(".".join(map(str, place)) for place in places)):
         why = why.removeprefix(f"{place}: ")
     raise CaseError(f"has no derivative here: {why}", path)
+
+
+def _only_wears(place: Sequence[Any]) -> bool:
+    """Whether a number at a place of a case changes no contact, but only what is worn under it."""
+    of_material = place[2:3] == ["material"] and place[3] not in CONTACT
+    return place[0] in ("effects", "friction") or "wear" in place[2:] or of_material
+
+
+def moved(model: Model, base: Model) -> Mapping[str, Carrier] | None:
+    """Return how the surfaces of bodies meet the window; None if as in the base."""
+    found, own = carriers_of(model), carriers_of(base)
+    shares, others = ([position.share for position in each.cycle] for each in (model, base))
+    alike = shares == others and not any(found[name].differs(own[name]) for name in found)
+    return None if alike else found
 
 
 def of_length(model: Model, end: float) -> Chain:

@@ -4,91 +4,81 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cache, cached_property, partial
-from math import prod
+from functools import cache, cached_property
 
 import numpy as np
 
 from tribo.contact.projection import CELLS, over
 from tribo.core.arrays import Array
 from tribo.stepping.memory import Memory
-from tribo.stepping.neville import PLAIN, RELAXING
-from tribo.stepping.relaxation import bending, lasting, relaxing
-from tribo.study.gradient.asked import Place
 from tribo.study.gradient.course import Before, Other
 from tribo.study.gradient.linear import Carrier
 from tribo.study.gradient.passing import lowered, with_bottoms
-from tribo.study.gradient.response import NUDGE, Arrays, Field
+from tribo.study.gradient.replay import Part, replayed, weight
+from tribo.study.gradient.response import Arrays, Field
 from tribo.study.gradient.slopes import Slopes, Sloping
+from tribo.study.gradient.stages import together
 
 _Seeded = tuple[Slopes, Sequence[Field]]
 """Rates, and the derivatives in them."""
 
 
 @dataclass(frozen=True)
-class _Part:
-    """A part of an increment: its rates along each row of the extrapolation.
-
-    `moved` has each state that relaxes, the rates where it is moved by a little, and by how much.
-    """
-
-    length: float
-    relaxing: Sequence[Field]
-    rows: Sequence[Sequence[Slopes]]
-    moved: Sequence[tuple[int, Slopes, Array]]
-
-
-@dataclass(frozen=True)
 class _Along:
     """Derivatives of an objective along an increment.
 
-    `rates` has those in the `means` of rates along it, `moved` those in rates that only tell how
-    fast states relax, and `bent` those in ln(its length) where all these stay as they are.
+    `rates` has those in the `means` of the rates at its stages, and `longer` those in ln(its
+    length) where the rates stay as they are, by depth and state.
     """
 
     rates: Sequence[_Seeded]
-    moved: Sequence[_Seeded]
-    bent: Sequence[Field]
-    asked: Sloping
+    longer: Sequence[Field]
+    stages: Sloping
 
     def plus(self, other: _Along, by: Array) -> _Along:
         """Return the sum with another's, times a number at each point."""
-        return _Along(
-            _plus(self.rates, other.rates, by),
-            _plus(self.moved, other.moved, by),
-            _added(self.bent, _times(by, other.bent)),
-            self.asked,
-        )
+        rates = [
+            (stage, _added(seeds, _times(by, more)))
+            for (stage, seeds), (_, more) in zip(self.rates, other.rates, strict=True)
+        ]
+        return _Along(rates, _added(self.longer, _times(by, other.longer)), self.stages)
 
     @cached_property
-    def by_cell(self) -> Sequence[_Seeded]:
-        """The derivatives in rates at each cell of each position."""
-        shares = over(self.asked.shares)
+    def by_cell(self) -> Arrays:
+        """The derivatives in the rates at each cell, shape (stages, positions, nx, ny)."""
+        shares = over(self.stages.shares)
+        each = [self.stages.seen(seeds) for _, seeds in self.rates]
+        shape = self.rates[0][0].rates[0].shape
         return [
-            (rates, [shares * each for each in self.asked.seen(seeds)])
-            for rates, seeds in (*self.rates, *self.moved)
+            np.stack([np.broadcast_to(shares * seed, shape) for seed in of_rate])
+            for of_rate in zip(*each, strict=True)
         ]
+
+    @cached_property
+    def states(self) -> Arrays:
+        """What is remembered at their stages, shape (stages, rows, ny)."""
+        return together([stage.states for stage, _ in self.rates])
+
+    @cached_property
+    def found(self) -> Arrays:
+        """The rates there, shape (stages, positions, nx, ny)."""
+        return together([stage.rates for stage, _ in self.rates])
 
     @cached_property
     def by_bottoms(self) -> dict[str, list[float]]:
         """The derivatives in the depths at which layers end, by body."""
         found = {
-            name: [0.0] * len(self.asked.model.laws[name].bottoms) for name in self.asked.layered
+            name: [0.0] * len(self.stages.model.laws[name].bottoms) for name in self.stages.layered
         }
-        for rates, seeds in (*self.rates, *self.moved):
-            for name, more in self.asked.by_bottoms(rates, seeds).items():
+        for rates, seeds in self.rates:
+            for name, more in self.stages.by_bottoms(rates, seeds).items():
                 found[name] = [a + b for a, b in zip(found[name], more, strict=True)]
         return found
 
-    @cached_property
+    @property
     def by_length(self) -> float:
         """The derivative in ln(its length) where the rates stay as they are."""
-        parts = [
-            seed * mean
-            for rates, seeds in self.rates
-            for seed, mean in zip(seeds, rates.means, strict=True)
-        ]
-        return sum(float(np.sum(each)) for each in (*self.bent, *parts))
+        return sum(float(np.sum(each)) for each in self.longer)
 
 
 @dataclass(frozen=True)
@@ -109,21 +99,22 @@ class _Back:
 
 @dataclass(frozen=True)
 class Remembering:
-    """An increment of the bodies of a model that wear, of which these rates are asked."""
+    """An increment of the bodies of a model that wear, and the rates at its stages."""
 
-    asked: Sloping
+    stages: Sloping
 
     def _before(
         self, wear: Mapping[str, Array], states: Memory, found: _Back, along: Callable[[], _Along]
     ) -> Before:
         each = iter(np.asarray(state) for state in found.states)
         pressure = found.pressure + _summed(found.load)
-        pressure = pressure + _summed(found.square) * self.asked.pressure
+        pressure = pressure + _summed(found.square) * self.stages.pressure
+        pressure = self.stages.embedded(pressure)
         states = states.with_values(each)
         through = {
-            name: wear[name] + seed for name, seed in zip(self.asked.layered, each, strict=True)
+            name: wear[name] + seed for name, seed in zip(self.stages.layered, each, strict=True)
         }
-        factors = dict(zip(self.asked.model.laws, map(np.asarray, found.factors), strict=True))
+        factors = dict(zip(self.stages.model.laws, map(np.asarray, found.factors), strict=True))
         return Before(
             pressure,
             {**wear, **through},
@@ -133,104 +124,49 @@ class Remembering:
         )
 
     def _through(self, along: _Along, other: Other) -> float:
-        laws = self.asked.model.laws
+        laws = self.stages.model.laws
         if not other.wears & laws.keys():
             return 0.0
-        asked = replace(
-            self.asked,
-            model=replace(other.model, laws=with_bottoms(other.model, self.asked.model, [*laws])),
+        others = replace(
+            self.stages,
+            model=replace(other.model, laws=with_bottoms(other.model, self.stages.model, [*laws])),
             carriers=other.carriers,
-            slid=replace(other.slid, before=self.asked.slid.before),
+            slid=replace(other.slid, before=self.stages.slid.before),
         )
-        longer = asked.slid.increment / self.asked.slid.increment
+        longer = others.slid.increment / self.stages.slid.increment
         # Rates follow the length where they are means over it, or loads change along it.
-        asks = other.asks & laws.keys() or self.asked.follows_length
+        asks = other.asks & laws.keys() or self.stages.follows_length
         total = (longer - 1) * along.by_length
         for name, deeper in along.by_bottoms.items():
-            total += float(np.dot(deeper, lowered(other.model, self.asked.model, name)))
-
-        def rates(slopes: Slopes) -> Arrays:
-            if not asks:
-                return slopes.found
-            place = slopes.place._replace(over=longer * slopes.place.over)
-            return asked.rates(slopes.states, asked.in_layers(slopes.states, place))
-
-        if other.carriers is not self.asked.carriers:
-            for slopes, seeds in (*along.rates, *along.moved):
-                total += _dot(seeds, asked.means(rates(slopes)), slopes.means)
-        elif asks:
-            for slopes, seeds in along.by_cell:
-                total += _dot(seeds, rates(slopes), slopes.found)
-        return total
+            total += float(np.dot(deeper, lowered(other.model, self.stages.model, name)))
+        rates, moves = along.found, other.carriers is not self.stages.carriers
+        if asks:
+            places = [
+                others.in_layers(stage.states, stage.place._replace(over=longer * stage.place.over))
+                for stage, _ in along.rates
+            ]
+            rates = others.rates(along.states, places)
+        if moves:
+            return total + sum(
+                _dot(seeds, others.means([rate[i] for rate in rates]), stage.means)
+                for i, (stage, seeds) in enumerate(along.rates)
+            )
+        return total + _dot(along.by_cell, rates, along.found) if asks else total
 
     @cached_property
-    def _parts(self) -> list[_Part]:
-        """Go through the increment as it was divided, once more."""
-        asked, slid, passed = self.asked, self.asked.slid, 0.0
-        found: list[_Part] = []
-        states = asked.begin
-        start, _ = asked.first
-        if not asked.along:
-            return [_Part(slid.increment, [0.0] * len(states), [[start]], [])]
-        for share, relaxes in slid.plan.parts:
-            span = share * slid.increment
-            begin = Place(passed, span)
-            if found:
-                start = asked.sloped(states, begin)
-            of_states: list[Field] = [0.0] * len(states)
-            moved = []
-            if relaxes:
-                at_start = partial(asked.of_states, begin)
-                of_states = relaxing(at_start, states, at_start(states), span, asked.limits)
-                for at, nudge in enumerate(asked.nudges(states, start.found, NUDGE)):
-                    if np.any(np.asarray(of_states[at]) < 0):
-                        other = [*states[:at], states[at] + nudge, *states[at + 1 :]]
-                        moved.append((at, asked.sloped(other, begin), nudge))
-            rows, ends = [], [np.zeros_like(state) for state in states]
-            stages = RELAXING if relaxes else PLAIN
-            for steps in stages:
-                first = start
-                if steps > 1 and asked.of_steps:
-                    first = asked.sloped(states, Place(passed, span / steps))
-                row, end = self._row(states, first, of_states, passed, share, steps)
-                rows.append(row)
-                counts = _counts(steps, stages)
-                ends = [total + counts * each for total, each in zip(ends, end, strict=True)]
-            found.append(_Part(span, of_states, rows, moved))
-            states = asked.held(ends)
-            passed += share
-        return found
-
-    def _row(
-        self,
-        states: Arrays,
-        start: Slopes,
-        of_states: Sequence[Field],
-        passed: float,
-        share: float,
-        steps: int,
-    ) -> tuple[list[Slopes], Arrays]:
-        """Return the rates along some Euler steps, and the states at their end."""
-        asked, row, step = self.asked, [start], share * self.asked.slid.increment / steps
-        counted = [lasting(step, slope) for slope in of_states]
-        for taken in range(1, steps + 1):
-            means = row[-1].means[len(asked.own) :]
-            states = [
-                state + mean * by for state, mean, by in zip(states, means, counted, strict=True)
-            ]
-            if taken < steps:
-                place = Place(passed + share * taken / steps, step)
-                row.append(asked.sloped(states, place))
-        return row, states
+    def _parts(self) -> list[Part[Slopes]]:
+        return replayed(self.stages)
 
     def _back(self, depth: Sequence[Field], after: Sequence[Field]) -> _Back:
         """Go back from derivatives in the depths and the states after."""
         total: list[Field] = [0.0] * (3 + len(depth))
-        along, moved, bent = list[_Seeded](), list[_Seeded](), list[Field]()
+        longer: list[Field] = [0.0] * (len(depth) + len(after))
+        along = list[_Seeded]()
 
         def behind(seeded: _Seeded, before: Sequence[Field]) -> list[Field]:
             """Go back through rates; return what they add to derivatives in the states before."""
-            found, states = self.asked.behind(*seeded)
+            along.append(seeded)
+            found, states = self.stages.behind(*seeded)
             total[:] = _added(total, found)
             return _added(before, states)
 
@@ -238,47 +174,45 @@ class Remembering:
             before: list[Field] = [0.0] * len(after)
             bends: list[Field] = [0.0] * len(after)
             starts: list[_Seeded] = []
-            stages = [len(row) for row in part.rows]
-            for steps, row in zip(stages, part.rows, strict=True):
-                counts = _counts(steps, stages)
+            lengths = [len(row) for row in part.rows]
+            pairs = zip(part.rows, part.lasting, part.bending, strict=True)
+            for steps, (row, counted, bent_by) in zip(lengths, pairs, strict=True):
+                counts = weight(steps, lengths)
                 seeds = [counts * seed for seed in after]
                 step = part.length / steps
                 deep = [step * counts * seed for seed in depth]
-                counted = [lasting(step, slope) for slope in part.relaxing]
-                bent_by = [bending(step, slope) for slope in part.relaxing]
-                for rates in reversed(row):
+                for stage in reversed(row):
                     for at, bend in enumerate(bent_by):
                         if np.ndim(bend):
-                            bends[at] = bends[at] + seeds[at] * rates.means[len(depth) + at] * bend
+                            bends[at] = bends[at] + seeds[at] * stage.means[len(depth) + at] * bend
                     kept = [seed * by for seed, by in zip(seeds, counted, strict=True)]
-                    each: _Seeded = (rates, [*deep, *kept])
-                    if rates is row[0]:
-                        _join(starts, each)
+                    each: _Seeded = (stage, [*deep, *kept])
+                    longer = _added(longer, _products(each[1], stage.means))
+                    if stage is row[0]:
+                        _join(starts, *each)
                     else:
-                        along.append(each)
                         seeds = behind(each, seeds)
                 before = _added(before, seeds)
+            slower = _products(bends, part.relaxing)
+            longer = _added(longer, [*(0.0 for _ in depth), *slower])
+            self._join_relaxing(starts, part, bends)
             for each in starts:
-                along.append(each)
-                before = behind(each, before)
-            bent += [bend * slope for bend, slope in zip(bends, part.relaxing, strict=True)]
-            for each in self._of_relaxing(part, bends):
-                moved.append(each)
                 before = behind(each, before)
             after = before
         pressure, load, square, *factors = total
-        return _Back(pressure, load, square, factors, after, _Along(along, moved, bent, self.asked))
+        return _Back(pressure, load, square, factors, after, _Along(along, longer, self.stages))
 
-    def _of_relaxing(self, part: _Part, seeds: Sequence[Field]) -> list[_Seeded]:
-        """Return derivatives in the rates that tell how fast states relax, from those in that."""
-        found, own = list[_Seeded](), len(self.asked.own)
-        for at, rates, by in part.moved:
+    def _join_relaxing(
+        self, seeded: list[_Seeded], part: Part[Slopes], bends: Sequence[Field]
+    ) -> None:
+        """Add derivatives in the rates that tell how fast states relax, from those in that."""
+        own = len(self.stages.own)
+        for at, moved, by in part.moved:
             falls = np.asarray(part.relaxing[at]) < 0
-            for where, sign in ((rates, 1.0), (part.rows[0][0], -1.0)):
-                of_rates: list[Field] = [0.0] * (own + len(seeds))
-                of_rates[own + at] = sign * falls * seeds[at] / by
-                found.append((where, of_rates))
-        return found
+            for stage, sign in ((moved, 1.0), (part.rows[0][0], -1.0)):
+                seeds: list[Field] = [0.0] * (own + len(bends))
+                seeds[own + at] = sign * falls * bends[at] / by
+                _join(seeded, stage, seeds)
 
 
 @dataclass(frozen=True)
@@ -287,9 +221,9 @@ class Together(Remembering):
 
     def back(self, wear: Mapping[str, Array], states: Memory) -> Before:
         """Return derivatives before it from those in the depths and what is remembered after."""
-        laws = self.asked.model.laws
+        laws = self.stages.model.laws
         # What the depths in layers come to within the increment counts as their wear.
-        within = [0.0] * len(self.asked.layered)
+        within = [0.0] * len(self.stages.layered)
         found = self._back([wear[name] for name in laws], [*states.values, *within])
         return self._before(wear, states, found, lambda: found.along)
 
@@ -299,12 +233,12 @@ class Together(Remembering):
 
         That of the pressures of its own cells, which is not all if effects follow more.
         """
-        own, columns = self.asked.own, self.asked.model.grid.cells[1]
+        own, columns = self.stages.own, self.stages.model.grid.cells[1]
         found = []
         for at, carrier in enumerate(own):
             ones = [np.full((each.rows, columns), float(at == i)) for i, each in enumerate(own)]
             found.append(
-                (carrier, np.asarray(self._back(ones, [0.0] * len(self.asked.begin)).pressure))
+                (carrier, np.asarray(self._back(ones, [0.0] * len(self.stages.begin)).pressure))
             )
         return found
 
@@ -322,14 +256,14 @@ class Alone(Remembering):
     @property
     def bodies(self) -> Sequence[tuple[Carrier, Array]]:
         """Its carrier, and the derivative of a point's depth in the pressures of its cells."""
-        (carrier,) = self.asked.own
-        return [(carrier, np.asarray(self._of_depth.pressure))]
+        (carrier,) = self.stages.own
+        return [(carrier, self.stages.embedded(np.asarray(self._of_depth.pressure)))]
 
     def back(self, wear: Mapping[str, Array]) -> Before:
         """Return derivatives before it from those in the depths after."""
-        (name,), (carrier,) = self.asked.model.laws, self.asked.own
+        (name,), (carrier,) = self.stages.model.laws, self.stages.own
         one, other, by = self._of_states, self._of_depth, wear[name]
-        cells = carrier.seen(by, self.asked.window)
+        cells = carrier.seen(by, self.stages.box)
         found = _Back(
             one.pressure + cells * other.pressure,
             one.load + cells * other.load,
@@ -343,36 +277,33 @@ class Alone(Remembering):
 
     @cached_property
     def _of_depth(self) -> _Back:
-        return self._back([np.ones(self._shape)], [0.0] * len(self.asked.begin))
+        return self._back([np.ones(self._shape)], [0.0] * len(self.stages.begin))
 
     @cached_property
     def _of_states(self) -> _Back:
         # What the depth in layers comes to within the increment counts as its wear.
-        return self._back([0.0], [*self.after.values, *(0.0 for _ in self.asked.layered)])
+        return self._back([0.0], [*self.after.values, *(0.0 for _ in self.stages.layered)])
 
     @property
     def _shape(self) -> tuple[int, int]:
-        return self.asked.own[0].rows, self.asked.model.grid.cells[1]
+        return self.stages.own[0].rows, self.stages.model.grid.cells[1]
 
 
-def _plus(one: Sequence[_Seeded], other: Sequence[_Seeded], by: Array) -> Sequence[_Seeded]:
-    return [
-        (rates, _added(seeds, _times(by, more)))
-        for (rates, seeds), (_, more) in zip(one, other, strict=True)
-    ]
-
-
-def _join(seeded: list[_Seeded], new: _Seeded) -> None:
-    """Add derivatives in rates to those in the same ones, which rows may begin with."""
-    rates, seeds = new
-    if seeded and seeded[-1][0] is rates:
-        seeded[-1] = rates, _added(seeded[-1][1], seeds)
-    else:
-        seeded.append(new)
+def _join(seeded: list[_Seeded], stage: Slopes, seeds: Sequence[Field]) -> None:
+    """Add derivatives in the rates of a stage, to those in them that there are already."""
+    for at, (other, before) in enumerate(seeded):
+        if other is stage:
+            seeded[at] = stage, _added(before, seeds)
+            return
+    seeded.append((stage, seeds))
 
 
 def _times(by: Array, fields: Sequence[Field]) -> list[Field]:
     return [by * field for field in fields]
+
+
+def _products(one: Sequence[Field], other: Sequence[Field]) -> list[Field]:
+    return [a * b for a, b in zip(one, other, strict=True)]
 
 
 def _added(one: Sequence[Field], other: Sequence[Field]) -> list[Field]:
@@ -388,8 +319,3 @@ def _dot(seeds: Sequence[Field], now: Arrays, before: Arrays) -> float:
 def _summed(field: Field) -> Field:
     """Return the sum over each contact of what is known by cell."""
     return over(np.sum(field, CELLS)) if np.ndim(field) else field
-
-
-def _counts(steps: int, stages: Sequence[int]) -> float:
-    """Return what a row of the extrapolation counts for in its end."""
-    return prod(steps / (steps - other) for other in stages if other != steps)

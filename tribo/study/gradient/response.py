@@ -10,8 +10,6 @@ import numpy as np
 
 from tribo.contact.projection import CELLS, over
 from tribo.core.arrays import Array
-from tribo.core.box import whole
-from tribo.study.gradient.linear import Carrier
 
 NUDGE = 3e-5
 """Part of a value by which it is varied up and down to find a derivative, or once for a second."""
@@ -19,8 +17,9 @@ ASIDE = 1e-7
 """The same where it is varied to one side only, or a derivative may soon change."""
 LEAST = 0.1
 """Part of a cell's pressure that must be varied to find what follows it."""
-AGREES = 1e-4
-"""Relative difference up to which a change in all that is varied is the sum of its parts."""
+AGREES, CERTAIN = 1e-4, 1e-7
+"""Relative difference up to which a change in all that is varied is the sum of its parts; and of
+parts that leave out most of what it could follow."""
 
 MOST = 25
 """Points around one, itself among them, that it may follow."""
@@ -42,7 +41,7 @@ ALONE = (0, 0)
 
 @dataclass(frozen=True)
 class Response:
-    """The derivatives of a rate at each cell, of the shape (positions, nx, ny) or 0.
+    """The derivatives of a rate at each cell, of the shape (…, positions, nx, ny) or 0.
 
     In the value of that cell, and of those `beside` it, by how far they lie from it; and in the sum
     of the pressures of all at its position, and in half the sum of their squares.
@@ -59,6 +58,14 @@ class Response:
         for offset, slope in self.beside.items():
             found = found + slope * np.roll(by, (-offset[0], -offset[1]), CELLS)
         return found + self.square * over(np.sum(pressure * by, CELLS))
+
+    def at(self, stage: int) -> Response:
+        """Return those of one of several stages, which are on the first axis."""
+        own, load, square = (
+            each[stage] if isinstance(each, np.ndarray) else each
+            for each in (self.own, self.load, self.square)
+        )
+        return Response(own, load, square, {o: each[stage] for o, each in self.beside.items()})
 
 
 def back(seeds: Sequence[Field], responses: Sequence[Response]) -> Field:
@@ -85,29 +92,27 @@ def near(
     values: Array,
     nudge: Array,
     reach: Offset,
-    carrier: Carrier | None = None,
+    seen: Callable[[Array], Array] = lambda values: values,
 ) -> list[Response]:
     """Return the responses of rates in values that lie on cells.
 
     `found` are the rates at the values, each of which is varied by its `nudge`. Cells so far apart
-    that nothing follows two of them are varied at once. They lie on a carrier, or in the window, by
-    position.
+    that nothing follows two of them are varied at once. Of values that lie on a body `seen` tells
+    how they lie where the rates do.
     """
     # What is added is not quite the nudge: its last digits are lost.
     span = (values + nudge) - values
     if reach == ALONE:
         moved = rates(values + nudge)
-        by = span if carrier is None else carrier.seen(span, whole(moved[0].shape[1:]))
-        by = np.where(by == 0, np.inf, by)
+        span = seen(span)
+        by = np.where(span == 0, np.inf, span)
         pairs = zip(moved, found, strict=True)
         return [Response((after - before) / by) for after, before in pairs]
     colours, ends = _colours(values.shape, reach), []
     for colour in range(int(np.max(colours)) + 1):
         moved = rates(np.where(colours == colour, values + nudge, values))
         ends.append([after - before for after, before in zip(moved, found, strict=True)])
-    if carrier is not None:
-        box = whole(ends[0][0].shape[1:])
-        span, colours = carrier.seen(span, box), carrier.seen(colours, box)
+    span, colours = seen(span), seen(colours)
     changes = [np.stack(each) for each in zip(*ends, strict=True)]
     slopes: dict[Offset, Arrays] = {}
     for offset in product(*(range(-far, far + 1) for far in reach)):
@@ -191,7 +196,8 @@ def shared(rates: Rates, pressure: Array) -> list[Response]:
         own = by_stripes / moved
         left = [other - own * way for other, way in zip(others, ways[1:], strict=True)]
         load, square = (
-            over(inverse[:, row, 0] / total) * left[0] + over(inverse[:, row, 1] / total) * left[1]
+            over(inverse[..., row, 0] / total) * left[0]
+            + over(inverse[..., row, 1] / total) * left[1]
             for row, total in enumerate((sums[0], squares[0]))
         )
         found.append(Response(own, load, square))
@@ -200,13 +206,13 @@ def shared(rates: Rates, pressure: Array) -> list[Response]:
 
 def _balanced(pressure: Array) -> Array:
     """Return signs that alternate, so that neither the load nor Σp² changes by them."""
-    signs = np.where(np.indices(pressure.shape[1:]).sum(axis=0) % 2, -1.0, 1.0)
+    signs = np.where(np.indices(pressure.shape[-2:]).sum(axis=0) % 2, -1.0, 1.0)
     part = pressure / over(np.max(pressure, CELLS))
     first, second, third = _sums([part, part**2, part**3])
     of_sum, of_squares = _sums([part * signs, part**2 * signs])
     inverse = _inverse(second / first, third / second)
     even, steep = (
-        over(inverse[:, row, 0] * of_sum + inverse[:, row, 1] * of_squares) / over(total)
+        over(inverse[..., row, 0] * of_sum + inverse[..., row, 1] * of_squares) / over(total)
         for row, total in enumerate((first, second))
     )
     return np.where(pressure > 0, signs - even - steep * part, 0.0)
@@ -219,18 +225,19 @@ def _sums(fields: Arrays) -> Arrays:
 def _inverse(one: Array, other: Array) -> Array:
     """Return the inverse of [[1, 1], [one, other]] at each position."""
     ones = np.ones_like(one)
-    matrix = np.moveaxis(np.array([[ones, ones], [one, other]]), -1, 0)
-    return np.linalg.pinv(matrix, rcond=1e-9)
+    matrix: Array = np.stack([np.stack([ones, ones], -1), np.stack([one, other], -1)], -2)
+    return np.asarray(np.linalg.pinv(matrix, rcond=1e-9), dtype=np.float64)
 
 
-def agrees(parts: Sequence[Arrays], found: Arrays, rates: Arrays) -> bool:
+def agrees(parts: Sequence[Arrays], found: Arrays, rates: Arrays, within: float) -> bool:
     """Whether rates, in a change of all at once, change by the sum of what they do by each part.
 
-    The parts, as of pressures and of a state, may all but cancel.
+    It need be so within a part of the largest change; those by pressures and by a state may all but
+    cancel.
     """
     return all(
         np.max(np.abs(sum(changes) - other))
-        <= AGREES * max(np.max(np.abs(each)) for each in (other, *changes))
+        <= within * max(np.max(np.abs(each)) for each in (other, *changes))
         + 1e-8 * NUDGE * np.max(np.abs(rate))
         for *changes, other, rate in zip(*parts, found, rates, strict=True)
     )
