@@ -28,7 +28,7 @@ from tribo.core.arrays import Array
 from tribo.simulation.march import begin, march
 from tribo.simulation.model import Model
 from tribo.simulation.positions import composed
-from tribo.study.calibration.cells import over_cells
+from tribo.study.calibration.cells import cell_means
 from tribo.study.calibration.maps import Prior, fit_maps
 from tribo.study.gradient.local import localised
 
@@ -83,7 +83,7 @@ def spot(cells: int, contact: str) -> dict[str, object]:
     began = process_time()
     depth = worn(model, true)
     alone = process_time() - began
-    noisy = over_cells(depth) + NOISE * np.random.default_rng(1).standard_normal(depth.shape)
+    noisy = cell_means(depth) + NOISE * np.random.default_rng(1).standard_normal(depth.shape)
     started = process_time()
     fitted = fit_maps(test, {"ball": (noisy, NOISE)}, {"ball": PRIOR}, products=150)
     spent = process_time() - started
@@ -126,12 +126,12 @@ def coverage(labs: int, cells: int) -> Iterator[dict[str, object]]:
     )
     model, prior = composed(test), Prior(PRIOR.spread, 2 * PRIOR.length)
     waves = prior.amplitudes((cells, cells), model.grid.spacing)
-    level = prior.level(waves)
+    scale = prior.scale(waves)
     random, shares, misfits, began = np.random.default_rng(7), [], [], process_time()
     for lab in range(labs):
-        logs = level * idctn(waves * random.standard_normal(waves.shape), norm="ortho")
+        logs = scale * idctn(waves * random.standard_normal(waves.shape), norm="ortho")
         depth = worn(model, np.exp(logs))
-        noisy = over_cells(depth) + NOISE * random.standard_normal(depth.shape)
+        noisy = cell_means(depth) + NOISE * random.standard_normal(depth.shape)
         fitted = fit_maps(test, {"ball": (noisy, NOISE)}, {"ball": prior}, products=400)
         low, high = fitted.maps["ball"].interval(LEVEL)
         covered = (low < np.exp(logs)) & (np.exp(logs) < high)

@@ -20,7 +20,7 @@ import numpy as np
 from tribo import Simulation, TriboWarning, calibrate
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
-from tribo.study.calibration.quantities import _whole
+from tribo.study.calibration.quantities import surface_depth
 from tribo.templates import template
 
 NOISE = 2e-9
@@ -67,7 +67,7 @@ def measured(case: Mapping[str, object], cells: int, folder: Path) -> list[dict[
     with Simulation(fine).run() as result:
         for name in fine.bodies:
             file = folder / f"{name}.npy"
-            np.save(file, _whole(result, name, -1))
+            np.save(file, surface_depth(result, name, -1))
             entry = {"body": name, "quantity": "depth_map", "depth": str(file)}
             entries.append(entry | {"pitch": fine.grid.size[0] / cells, "uncertainty": NOISE})
     return entries

@@ -7,7 +7,7 @@ from copy import deepcopy
 import pytest
 
 from tribo.config.overrides import apply_settings
-from tribo.study.calibration.benches import make_run
+from tribo.study.calibration.setups import make_run
 from tribo.templates import template
 
 SPRINGS = {
@@ -41,5 +41,5 @@ def kept_runs():
         return kept[key]
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("tribo.study.calibration.posed.make_run", remembered)
+        patch.setattr("tribo.study.calibration.experiment.make_run", remembered)
         yield

@@ -13,7 +13,7 @@ from click.testing import CliRunner
 from command_line import tribo
 from rich.console import Console
 
-from tribo.cli.calibrate import _Told
+from tribo.cli.calibrate import _Progress
 from tribo.cli.fitted import estimates_table
 from tribo.cli.main import tribo as main
 from tribo.config.load import load_case
@@ -139,7 +139,7 @@ def left(told):
 def told(capsys, runs, sample=0, fitted_at=None):
     """Return what is told after rounds of runs: their number, and the time then in s."""
     asked, unsampled, now = read_measurements(EXAMPLES / "weighed.toml"), [], [0.0]
-    tell, lines = _Told(asked, sample, unsampled, lambda: now[0]), []
+    tell, lines = _Progress(asked, sample, unsampled, lambda: now[0]), []
     for made, now[0] in runs:
         if fitted_at is not None and now[0] > fitted_at and not unsampled:
             unsampled.append(SimpleNamespace(runs=made - 1))

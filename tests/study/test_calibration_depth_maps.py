@@ -17,11 +17,11 @@ from tribo.core.errors import CaseError, NumericalError, TriboWarning
 from tribo.plotting.curves import fit_picture
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.calibrate import calibrate
-from tribo.study.calibration.cells import in_blocks, over_cells
+from tribo.study.calibration.cells import block_means, cell_means
 from tribo.study.calibration.choice import choose_case
+from tribo.study.calibration.experiment import Experiment
 from tribo.study.calibration.fit import differenced, fit, interval
 from tribo.study.calibration.plan import plan_tests
-from tribo.study.calibration.posed import Posed
 
 K, N = "bodies.ball.wear.k", "bodies.ball.wear.p_exponent"
 DISK_K = "bodies.disk.wear.k"
@@ -58,7 +58,7 @@ def noisy(tmp_path_factory):
             if field is not None:
                 depth = result.field(field, len(result.times) - 1, body)
             pitch = result.grid.spacing[0]
-        depth = over_cells(depth) + NOISE * random.standard_normal(depth.shape)
+        depth = cell_means(depth) + NOISE * random.standard_normal(depth.shape)
         depth[:3, :5] = np.nan
         file = folder / f"{len(list(folder.iterdir()))}.npy"
         np.save(file, depth)
@@ -197,14 +197,16 @@ def test_a_map_of_the_whole_track_is_met_where_the_stroke_is_resolved(noisy):
     resolved = apply_settings(ARCHARD, changes)
     track = noisy(resolved, "disk", field="track_depth")
     early = noisy(resolved, **{"kinematics.duration": 10}) | {"time": 10.0}
-    posed = Posed.of(resolved, {"measured": [track, early]})
-    computed = posed.run(posed.start).responses
-    off = (computed[: len(posed.data)] - posed.data["measured"]) / posed.problem(posed.start).sigma
+    experiment = Experiment.of(resolved, {"measured": [track, early]})
+    computed = experiment.run(experiment.start).responses
+    off = (computed[: len(experiment.data)] - experiment.data["measured"]) / experiment.problem(
+        experiment.start
+    ).sigma
     for body, count in (("disk", 48 * 16 // 4), ("ball", 16 * 16 - 15)):
-        own = off[posed.data["body"] == body]
+        own = off[experiment.data["body"] == body]
         assert len(own) == count - (body == "disk") * 2
         assert np.std(own) == pytest.approx(1, abs=0.15)
-    assert posed.data["x_m"].max() == pytest.approx(1.5e-3, abs=0.1e-3)
+    assert experiment.data["x_m"].max() == pytest.approx(1.5e-3, abs=0.1e-3)
 
 
 @pytest.mark.slow
@@ -212,24 +214,24 @@ def test_intervals_cover_the_coefficient_as_often_as_they_say(tmp_path):
     """Linear about the truth, with noise on each cell, of which numbers are means of four."""
     case = apply_settings(ARCHARD, {"grid.cells": 32, "stepping.depth_tolerance": 0.1})
     with run(case) as result:
-        clean, spacing = over_cells(result.body("ball").wear_depth[-1]), result.grid.spacing
+        clean, spacing = cell_means(result.body("ball").wear_depth[-1]), result.grid.spacing
     clean[:, 20:23] = np.nan
     noise = 100e-9
     np.save(tmp_path / "clean.npy", clean)
     entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "clean.npy")}
     entry |= {"pitch": spacing[0], "uncertainty": noise}
-    posed = Posed.of(case, {"measured": [entry], "fit": [{"path": K}, {"path": DISK_K}]})
-    truth = np.log(posed.start)
-    problem = posed.problem(posed.start)
+    experiment = Experiment.of(case, {"measured": [entry], "fit": [{"path": K}, {"path": DISK_K}]})
+    truth = np.log(experiment.start)
+    problem = experiment.problem(experiment.start)
     assert problem.sigma.min() == pytest.approx(noise / 2, rel=0.02)
-    made = lambda values: posed.run(values).responses  # noqa: E731
-    here = differenced(made, problem, truth, made(posed.start))
+    made = lambda values: experiment.run(values).responses  # noqa: E731
+    here = differenced(made, problem, truth, made(experiment.start))
     random, draws, covered, squares = np.random.default_rng(5), 60, np.zeros(2, int), []
     for _ in range(draws):
         noisy_map = clean + noise * random.standard_normal(clean.shape)
-        observed = in_blocks(noisy_map, spacing)["measured"].to_numpy()
+        observed = block_means(noisy_map, spacing)["measured"].to_numpy()
         drawn = problem.__class__(**{**vars(problem), "observed": observed})
-        found = fit(lambda values: here.at(np.log(values)), drawn, posed.start)
+        found = fit(lambda values: here.at(np.log(values)), drawn, experiment.start)
         for i in range(2):
             low, high = interval(found, np.eye(2)[i], 0.95)
             covered[i] += low <= truth[i] - found.point[i] <= high
@@ -237,7 +239,7 @@ def test_intervals_cover_the_coefficient_as_often_as_they_say(tmp_path):
     low, high = binom.ppf([0.002, 0.998], draws, 0.95)
     assert np.all((covered >= low) & (covered <= high)), covered
     # Of what a datum may be off the grid's part was not drawn.
-    drawn_part = np.mean((posed.data["sigma"] / problem.sigma) ** 2)
+    drawn_part = np.mean((experiment.data["sigma"] / problem.sigma) ** 2)
     assert np.mean(squares) == pytest.approx(drawn_part, abs=0.05)
 
 
@@ -269,7 +271,7 @@ def test_blocks_leave_out_what_was_not_measured():
     depth = np.arange(50.0 * 50).reshape(50, 50)
     depth[:3, :2] = np.nan
     depth[0, 4] = np.nan
-    blocks = in_blocks(depth, (2e-6, 1e-6))
+    blocks = block_means(depth, (2e-6, 1e-6))
     # Three by three, the last ones two wide.
     assert len(blocks) == 17 * 17
     assert blocks["cells"][0] == (2, 52, 102)
@@ -277,7 +279,7 @@ def test_blocks_leave_out_what_was_not_measured():
     assert len(blocks["cells"][1]) == 8
     assert blocks[["x_m", "y_m"]].iloc[-1].to_list() == pytest.approx([48e-6, 24e-6])
     assert sum(map(len, blocks["cells"])) == np.isfinite(depth).sum()
-    assert len(in_blocks(depth[:1], (2e-6, 1e-6))) == 47
+    assert len(block_means(depth[:1], (2e-6, 1e-6))) == 47
 
 
 @pytest.mark.slow

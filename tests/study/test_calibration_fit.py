@@ -160,16 +160,16 @@ def test_the_weights_are_the_root_of_the_inverse_covariance():
     below = np.arange(n) == 4
     made = problem(np.ones(n), random.uniform(0.1, 1, n), below=below, specimen=np.arange(n) % 3)
     effects = random.standard_normal((n, 2))
-    together = made.together(effects)
+    together = made.by_test(effects)
     weights = Weights.of(made.sigma, 0.3 * together)
     alike = (np.arange(n)[:, None] % 3 == np.arange(n) % 3) & ~(below | below[:, None])
     alike |= np.eye(n, dtype=bool)
     covariance = np.diag(made.sigma**2) + 0.09 * np.where(alike, effects @ effects.T, 0)
     root = weights.weigh(np.eye(n))
     assert root.T @ root @ covariance == pytest.approx(np.eye(n), abs=1e-12)
-    assert weights.back(np.eye(n)) == pytest.approx(root.T, abs=1e-12)
+    assert weights.weigh_transposed(np.eye(n)) == pytest.approx(root.T, abs=1e-12)
     assert weights.weigh(effects[:, 0]) == pytest.approx(root @ effects[:, 0], abs=1e-12)
-    assert weights.alone(below) == pytest.approx(np.diag(root)[below], abs=1e-12)
+    assert weights.diagonal(below) == pytest.approx(np.diag(root)[below], abs=1e-12)
     for rows in (~below, np.arange(n) % 3 == 2):
         own = np.linalg.slogdet(covariance[np.ix_(rows, rows)])[1]
         assert weights.log_determinant(rows) == pytest.approx(-0.5 * own, abs=1e-12)

@@ -8,7 +8,7 @@ import pytest
 from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError
 from tribo.study.calibration.calibrate import calibrate
-from tribo.study.calibration.measured import Measured, read_measurements
+from tribo.study.calibration.measured import MeasuredEntry, read_measurements
 from tribo.study.calibration.quantities import QUANTITIES
 from tribo.templates import template
 
@@ -37,7 +37,7 @@ def changed(**changes):
 
 
 def test_every_quantity_can_be_asked_for():
-    assert set(get_args(Measured.model_fields["quantity"].annotation)) == set(QUANTITIES)
+    assert set(get_args(MeasuredEntry.model_fields["quantity"].annotation)) == set(QUANTITIES)
 
 
 @pytest.mark.parametrize(

@@ -19,7 +19,7 @@ from tribo.lab.heights import Heights
 from tribo.simulation.march import begin, march
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.cells import on_cells
-from tribo.study.calibration.maps import Prior, _Waves, fit_maps
+from tribo.study.calibration.maps import Prior, _Posterior, fit_maps
 from tribo.study.calibration.measured import read_measurements
 from tribo.study.gradient.local import localised
 from tribo.study.gradient.objective import View
@@ -86,7 +86,7 @@ def test_the_prior_is_the_field_that_it_says():
 @pytest.mark.parametrize("length", [0.1e-3, 0.4e-3])
 def test_the_prior_is_as_wide_at_the_ends_as_it_says(depth, length):
     """A sum of waves with reflecting ends alone would be 1.4 times as wide there."""
-    waves = _Waves(
+    waves = _Posterior(
         Simulation(validate_case(CASE)).model,
         {"disk": (depth, NOISE)},
         {"disk": Prior(0.5, length)},
@@ -94,14 +94,14 @@ def test_the_prior_is_as_wide_at_the_ends_as_it_says(depth, length):
     )
     each = np.array([waves.logs(z) for z in np.eye(16)])
     assert np.sqrt(np.sum(each**2, axis=0)) == pytest.approx(0.5)
-    assert each == pytest.approx(np.array([waves.back(slope) for slope in np.eye(16)]).T)
+    assert each == pytest.approx(np.array([waves.adjoint(slope) for slope in np.eye(16)]).T)
 
 
 def test_waves_on_half_the_cells_are_the_long_ones_of_the_whole():
     """And depths are means of four, known twice as well."""
     model = Simulation(validate_case(apply_settings(CASE, {"grid.cells": 32}))).model
     depth = np.random.default_rng(2).standard_normal((32, 32))
-    fine = _Waves(model, {"ball": (depth, 1e-8)}, {"ball": Prior(0.4, 0.3e-3)}, print)
+    fine = _Posterior(model, {"ball": (depth, 1e-8)}, {"ball": Prior(0.4, 0.3e-3)}, print)
     coarse = fine.halved()
     z = np.zeros((16, 16))
     z[:3, :3] = np.random.default_rng(3).standard_normal((3, 3))
@@ -138,18 +138,18 @@ def test_a_standard_deviation_is_that_of_the_profile_likelihood(depth):
     """Held that far off at a cell, the most probable map is less so by a factor of exp(-1/2)."""
     given = {"disk": (depth, NOISE)}, {"disk": Prior(0.4, 0.1e-3)}
     found = fit_maps(CASE, *given).maps["disk"]
-    waves = _Waves(Simulation(validate_case(CASE)).model, *given, lambda misfit: None)
+    waves = _Posterior(Simulation(validate_case(CASE)).model, *given, lambda misfit: None)
     waves.sigma["disk"] = found.uncertainty
 
     def surprise(z):
         value, slope = waves.gradient(waves.logs(z))
-        return value + 0.5 * z @ z, waves.back(slope) + z
+        return value + 0.5 * z @ z, waves.adjoint(slope) + z
 
     best = minimize(surprise, np.zeros(16), jac=True, method="BFGS", options={"gtol": 1e-4})
     # In the groove, and at its edge.
     for cell, sign in ((6, -1), (11, 1)):
         held = found.logs[0, cell] + sign * found.deviation[0, cell]
-        along = waves.back(np.eye(16)[cell])
+        along = waves.adjoint(np.eye(16)[cell])
         off = {"type": "eq", "fun": lambda z: along @ z - held, "jac": lambda z: along}  # noqa: B023
         beside = minimize(surprise, best.x, jac=True, method="SLSQP", constraints=[off])
         assert beside.fun - best.fun == pytest.approx(0.5, abs=0.01)

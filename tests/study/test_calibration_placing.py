@@ -14,11 +14,11 @@ from tribo.lab.heights import Heights
 from tribo.simulation.run import Simulation
 from tribo.study.calibration import mapped
 from tribo.study.calibration.calibrate import calibrate, doubts
+from tribo.study.calibration.experiment import Experiment
 from tribo.study.calibration.mapped import calibrate_maps
 from tribo.study.calibration.maps import FittedMaps
-from tribo.study.calibration.measured import Mapped
-from tribo.study.calibration.placing import Placed, find_scar
-from tribo.study.calibration.posed import Posed
+from tribo.study.calibration.measured import MapEntry
+from tribo.study.calibration.scar_shift import ScarShift, find_shift
 
 PIN_K, DISK_K = "bodies.pin.wear.k", "bodies.disk.wear.k"
 K, TRUE = "bodies.ball.wear.k", 3e-16
@@ -84,7 +84,7 @@ def test_a_map_in_its_middle_is_left_there(fitted):
 @pytest.mark.slow
 def test_intervals_cover_the_coefficient_wherever_the_map_has_its_scar(fitted):
     """The noise puts the coefficient off by as much as the grid does."""
-    random, draws = np.random.default_rng(1), 20
+    random, draws = np.random.default_rng(1), 12
     covered = sum(
         covers(fitted(random.uniform(-60e-6, 60e-6, 2), noise=200e-9, seed=i)) for i in range(draws)
     )
@@ -130,7 +130,7 @@ def test_a_shifted_profile_is_named(worn, shift):
 
 @pytest.mark.slow
 def test_a_profile_in_its_place_is_not_named(worn):
-    found = [profile_fitted(worn, 32, seed=seed) for seed in range(40)]
+    found = [profile_fitted(worn, 32, seed=seed) for seed in range(12)]
     assert not any("position 0" in note for each in found for note in each.notes)
 
 
@@ -190,17 +190,17 @@ def test_a_start_far_off_is_no_matter(worn, tmp_path):
 def test_where_the_scar_outgrows_the_window_the_pitch_is_doubted(worn, tmp_path):
     np.save(tmp_path / "map.npy", worn)
     entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "map.npy")}
-    posed = Posed.of(CASE, {"measured": [entry | {"pitch": PITCH, "uncertainty": NOISE}]})
+    experiment = Experiment.of(CASE, {"measured": [entry | {"pitch": PITCH, "uncertainty": NOISE}]})
     edge = "the contact reached the edge of the window of 1 × 1 mm; make grid.size larger"
-    assert list(doubts(posed, edge)) == ["or check pitch"]
-    assert list(doubts(posed, "the estimates have not settled")) == ["or check pitch"]
-    assert list(doubts(posed, "another reason")) == []
+    assert list(doubts(experiment, edge)) == ["or check pitch"]
+    assert list(doubts(experiment, "the estimates have not settled")) == ["or check pitch"]
+    assert list(doubts(experiment, "another reason")) == []
 
 
 def test_uniform_wear_tells_no_place():
     depth = np.full((32, 32), 1e-6)
     pixels = depth + NOISE * np.random.default_rng(0).standard_normal(depth.shape)
-    assert find_scar(Heights(pixels, (1e-6, 1e-6)), depth, (1e-6, 1e-6), NOISE) == Placed()
+    assert find_shift(Heights(pixels, (1e-6, 1e-6)), depth, (1e-6, 1e-6), NOISE) == ScarShift()
 
 
 def test_the_map_of_a_local_coefficient_is_told_as_well(worn, tmp_path, monkeypatch):
@@ -213,7 +213,7 @@ def test_the_map_of_a_local_coefficient_is_told_as_well(worn, tmp_path, monkeypa
     monkeypatch.setattr(mapped, "fit_maps", unfitted)
     np.save(tmp_path / "map.npy", moved(worn, (52e-6 / PITCH, 0), order=1) + 3e-7)
     entry = {"body": "ball", "depth": str(tmp_path / "map.npy"), "pitch": PITCH}
-    entry = Mapped(**entry, uncertainty=NOISE, length=1e-4)
+    entry = MapEntry(**entry, uncertainty=NOISE, length=1e-4)
     place, level = calibrate_maps(CASE, {"map.0": entry}).notes
     assert "lies +52.0 ± " in place
     assert place.endswith("centre it, unless the coefficient is higher on that side")

@@ -63,7 +63,7 @@ def test_the_expected_interval_is_that_of_a_calibration():
     whole = here.sensitivity()
     kinds = np.array([whole[:2].T @ whole[:2], whole[-2:].T @ whole[-2:]])
     halves, freedom = Search(kinds, 0.1, 0.95, True).expected(counts)
-    assert freedom == pytest.approx([here.freedom(axis) for axis in np.eye(2)], rel=1e-6)
+    assert freedom == pytest.approx([here.degrees_of_freedom(axis) for axis in np.eye(2)], rel=1e-6)
     deviations = np.sqrt(np.sum(root_covariance(whole) ** 2, axis=1))
     assert halves == pytest.approx(t.ppf(0.975, freedom) * deviations, rel=1e-6)
 
@@ -92,8 +92,12 @@ def test_a_case_is_planned_without_values():
 @pytest.mark.parametrize(
     ("changes", "within", "words"),
     [
-        ({}, 0.1, "repeatability: say how far tests alike scatter"),
-        ({"repeatability": 0.2}, 10, "the half of the interval, 10, must lie between 0 and 1"),
+        ({}, 0.1, "repeatability: give the scatter from test to test"),
+        (
+            {"repeatability": 0.2},
+            10,
+            "the half-width of the interval, 10, must lie between 0 and 1",
+        ),
         ({"repeatability": 2.9}, 0.01, "1000 tests are not enough for ±1 %, but give ±18 %"),
     ],
 )

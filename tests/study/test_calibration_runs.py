@@ -16,11 +16,11 @@ from tribo.core.errors import CaseError, NumericalError, TriboWarning
 from tribo.plotting.curves import fit_picture
 from tribo.result.export import profile
 from tribo.simulation.run import Simulation
-from tribo.study.calibration.benches import Run, make_run
 from tribo.study.calibration.calibrate import calibrate
 from tribo.study.calibration.measured import read_measurements
 from tribo.study.calibration.parameters import find_parameters
 from tribo.study.calibration.quantities import Reading, read
+from tribo.study.calibration.setups import Run, make_run
 
 TRUE = {"bodies.ball.wear.k": 3.11e-16, "bodies.disk.wear.k": 1.5e-16}
 CASE = apply_settings(cheap(300), TRUE)
@@ -173,7 +173,7 @@ def test_the_start_leaves_no_trace_in_the_uncertainties(monkeypatch):
         found = [crown if each.quantity == "crown" else mass(values[0]) for each in wanted]
         return Run(np.array(found), off * found, {}, ())
 
-    monkeypatch.setattr("tribo.study.calibration.posed.make_run", made)
+    monkeypatch.setattr("tribo.study.calibration.experiment.make_run", made)
     data = [BALL_LOSS, measured("ball", "crown", 6e-6)]
     near, far = (
         calibrate(CASE, {"measured": data, "fit": fitting(BALL_K, start=start)})

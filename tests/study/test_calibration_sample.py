@@ -12,15 +12,15 @@ from command_line import tribo as command
 from scipy.optimize import brentq
 from scipy.stats import norm, truncnorm
 
-import tribo.study.calibration.posed as posed
+import tribo.study.calibration.experiment as experiment
 from tribo.cli.main import tribo
 from tribo.config.load import read_toml
 from tribo.core.errors import CaseError, Interrupted, NumericalError
-from tribo.study.calibration.benches import Run
 from tribo.study.calibration.calibrate import calibrate
 from tribo.study.calibration.fit import fit, interval
 from tribo.study.calibration.linearised import Problem
 from tribo.study.calibration.sample import sampled
+from tribo.study.calibration.setups import Run
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 CASE, WEIGHED = EXAMPLES / "weighed_split.toml", EXAMPLES / "weighed.toml"
@@ -104,7 +104,7 @@ def losses(monkeypatch):
             (),
         )
 
-    monkeypatch.setattr("tribo.study.calibration.posed.make_run", made)
+    monkeypatch.setattr("tribo.study.calibration.experiment.make_run", made)
 
 
 def test_the_command_prints_sampled_intervals_of_the_weighed_coefficients(losses):
@@ -131,7 +131,7 @@ def test_the_command_prints_sampled_intervals_of_the_weighed_coefficients(losses
 def test_an_interrupt_while_it_is_sampled_does_not_lose_the_fit(
     losses, monkeypatch, tmp_path, error
 ):
-    made, runs = posed.make_run, []
+    made, runs = experiment.make_run, []
 
     def interrupted(*arguments):
         runs.append(arguments)
@@ -139,12 +139,12 @@ def test_an_interrupt_while_it_is_sampled_does_not_lose_the_fit(
             raise error
         return made(*arguments)
 
-    monkeypatch.setattr(posed, "make_run", interrupted)
+    monkeypatch.setattr(experiment, "make_run", interrupted)
     asked = ["calibrate", CASE, "--measured", WEIGHED, "--sample", 1200]
     ended = command(*asked, "-o", tmp_path / "fitted.toml")
     assert ended.returncode == 130
     assert "7.08e-16 1/Pa" in ended.stdout
-    assert "Note: sampling was interrupted, so that the intervals are not" in ended.stdout
+    assert "Note: sampling was interrupted: the intervals are not" in ended.stdout
     assert "stopped while sampling" in ended.stderr
     assert read_toml(tmp_path / "fitted.toml")["bodies"]["disk"]["wear"]["k"] == 7.08e-16
     assert len(runs) < 60
@@ -159,7 +159,7 @@ def products(monkeypatch):
             np.full(len(wanted), 1e-6 * np.prod(values / 3e-16)), np.zeros(len(wanted)), {}, ()
         )
 
-    monkeypatch.setattr("tribo.study.calibration.posed.make_run", made)
+    monkeypatch.setattr("tribo.study.calibration.experiment.make_run", made)
 
 
 def test_a_fit_that_the_data_leave_open_is_kept_without_samples(products):

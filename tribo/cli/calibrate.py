@@ -30,7 +30,7 @@ from tribo.study.runs import file_names
 Shown = TypeVar("Shown", Calibration, Choice, Plan)
 
 PAUSE = 1.0
-"""Least time between two lines that tell of samples, in s."""
+"""Shortest time between two lines of progress of sampling, in s."""
 
 
 @click.command()
@@ -49,20 +49,20 @@ PAUSE = 1.0
     "-o",
     "--output",
     type=PATH,
-    help="Write the fitted case to a file, of several tests one each, and a picture of the fit.",
+    help="Write the fitted case to a file, one for each test, and a picture of the fit.",
 )
 @click.option("--force", is_flag=True, help="Replace existing files.")
 @click.option(
     "--plan",
     type=float,
     metavar="PART",
-    help="Instead, say how many of the tests give intervals of ± this part, as 0.1.",
+    help="Instead, print how many tests give intervals of ± this part, as 0.1.",
 )
 @click.option(
     "--sample",
     type=click.IntRange(min=1),
     metavar="COUNT",
-    help="Check the intervals by so many runs more, sampled with emcee; as 2000.",
+    help="Check the intervals by this many further runs, sampled with emcee; as 2000.",
 )
 @JSON
 def calibrate(
@@ -78,9 +78,9 @@ def calibrate(
 ) -> None:
     """Fit CASE's wear coefficients, or other numbers of it, to measured wear.
 
-    Takes one test or several that differ from CASE, repeated or not. Prints estimates with
-    intervals, how each measured value is met, what the data cannot tell, and what else the fitted
-    case gives. Of several cases, with other laws say, it says for which the data speak.
+    Takes one or more tests, which may differ from CASE or be repeated. Prints estimates with
+    intervals, residuals, notes on the data, and predictions of the fitted case. Compares several
+    cases, of different wear laws say, by Schwarz's criterion.
 
     \b
     Examples:
@@ -88,13 +88,13 @@ def calibrate(
       tribo calibrate archard.toml power.toml --measured weighed.toml
       tribo calibrate my.toml --measured planned.toml --plan 0.1
     """
-    asked = read_measurements(measured)
+    measurements = read_measurements(measured)
     alternatives = {path.stem: apply_settings(read_toml(path), overrides) for path in cases}
     tables = alternatives[cases[0].stem]
     several = len(cases) > 1
-    if sample and (several or asked.map or plan is not None):
+    if sample and (several or measurements.map or plan is not None):
         raise CaseError("--sample is for one case fitted to [[measured]], without --plan")
-    if asked.map and (several or plan is not None):
+    if measurements.map and (several or plan is not None):
         raise CaseError("local coefficients, [[map]], are fitted in one case, without --plan")
     if several and (output or plan is not None or len(alternatives) < len(cases)):
         raise CaseError(
@@ -102,47 +102,56 @@ def calibrate(
             "one case only"
         )
     if several:
-        choice = choose_case(alternatives, asked, level=level, on_run=_tell_of_case)
+        choice = choose_case(alternatives, measurements, level=level, on_run=_print_run_of_case)
         _show(choice, print_choice, as_json)
     elif plan is not None:
-        tests = plan_tests(tables, asked, plan, level=level, on_run=partial(_tell, "run"))
+        tests = plan_tests(
+            tables, measurements, plan, level=level, on_run=partial(_print_run, "run")
+        )
         _show(tests, print_plan, as_json)
-    elif asked.map:
-        _maps(tables, asked, level, output, force, as_json)
+    elif measurements.map:
+        _fit_local(tables, measurements, level, output, force, as_json)
     else:
-        files = None if output is None else _Files.beside(output, asked, force)
+        files = None if output is None else _Files.beside(output, measurements, force)
         settings = [word for each in overrides for word in ("--set", each)]
         again = shlex.join(["tribo", "run", str(cases[0]), *settings])
-        _numbers(tables, asked, level, sample or 0, partial(_give, files, as_json, again))
+        _fit_parameters(
+            tables, measurements, level, sample or 0, partial(_output, files, as_json, again)
+        )
 
 
-def _numbers(
+def _fit_parameters(
     tables: dict[str, Any],
-    asked: Measurements,
+    measurements: Measurements,
     level: float,
     sample: int,
-    give: Callable[[Calibration], None],
+    output: Callable[[Calibration], None],
 ) -> None:
-    """Fit numbers, and give what was found, also if sampling is stopped afterwards."""
+    """Fit parameters and output the result, also if sampling is interrupted."""
     unsampled: list[Calibration] = []
-    told = _Told(asked, sample, unsampled)
+    progress = _Progress(measurements, sample, unsampled)
     try:
         found = fit_numbers(
-            tables, asked, level=level, sample=sample, on_fit=unsampled.append, on_run=told
+            tables,
+            measurements,
+            level=level,
+            sample=sample,
+            on_fit=unsampled.append,
+            on_run=progress,
         )
     except (TriboError, KeyboardInterrupt) as error:
         for fit in unsampled:
-            note = "sampling was interrupted, so that the intervals are not checked by it"
-            give(replace(fit, notes=(*fit.notes, note)))
+            note = "sampling was interrupted: the intervals are not checked by it"
+            output(replace(fit, notes=(*fit.notes, note)))
             if isinstance(error, KeyboardInterrupt):
                 raise Interrupted("stopped while sampling; the fit is as printed") from error
         raise
-    give(found)
+    output(found)
 
 
-def _maps(
+def _fit_local(
     tables: dict[str, Any],
-    asked: Measurements,
+    measurements: Measurements,
     level: float,
     output: Path | None,
     force: bool,
@@ -153,8 +162,8 @@ def _maps(
     from tribo.study.calibration.mapped import calibrate_maps
 
     check_free(output, force)
-    mapped = {f"map.{i}": entry for i, entry in enumerate(asked.map)}
-    found = calibrate_maps(tables, mapped, on_run=partial(_tell, "run and pass back"))
+    mapped = {f"map.{i}": entry for i, entry in enumerate(measurements.map)}
+    found = calibrate_maps(tables, mapped, on_run=partial(_print_run, "run and pass back"))
     if as_json:
         echo_json(maps_json(found, level))
     else:
@@ -165,16 +174,16 @@ def _maps(
 
 @dataclass(frozen=True)
 class _Files:
-    """Where the fitted case of each test is written, by its name, and the picture of the fit."""
+    """Output files: the fitted case of each test, by its name, and the picture of the fit."""
 
     cases: Mapping[str, Path]
     picture: Path
 
     @classmethod
-    def beside(cls, output: Path, asked: Measurements, force: bool) -> _Files:
-        """Return files named after that of the case as it is; CaseError if one exists."""
+    def beside(cls, output: Path, measurements: Measurements, force: bool) -> _Files:
+        """Return files named after `output`; CaseError if one exists."""
         check_folder(output)
-        names = list(dict.fromkeys(test.name for test in asked.tests.values()))
+        names = list(dict.fromkeys(test.name for test in measurements.tests.values()))
         cases = {
             name: output.with_name(f"{output.stem}-{Path(file).stem}.toml") if name else output
             for name, file in zip(names, file_names(names), strict=True)
@@ -197,8 +206,8 @@ class _Files:
         )
 
 
-def _give(files: _Files | None, as_json: bool, again: str, found: Calibration) -> None:
-    """Write a fit to its files, if any, and print it; `again` runs the case as it was given."""
+def _output(files: _Files | None, as_json: bool, again: str, found: Calibration) -> None:
+    """Write a fit to its files, if any, and print it; `again` is the command that runs the case."""
     if files is not None:
         files.write(found)
     _show(found, print_fit, as_json)
@@ -214,41 +223,44 @@ def _give(files: _Files | None, as_json: bool, again: str, found: Calibration) -
 
 
 def _show(found: Shown, in_words: Callable[[Shown], None], as_json: bool) -> None:
-    """Print what was found, as JSON or in words."""
+    """Print a result as JSON or in words."""
     if as_json:
         echo_json(found.as_json())
     else:
         in_words(found)
 
 
-def _tell_of_case(name: str, run: int, misfit: float) -> None:
-    _tell(f"{name}, run", run, misfit)
+def _print_run_of_case(name: str, run: int, misfit: float) -> None:
+    _print_run(f"{name}, run", run, misfit)
 
 
-def _tell(what: str, run: int, misfit: float = math.nan, left: float = 0.0) -> None:
-    told = "" if math.isnan(misfit) else f": misfit χ² {misfit:.3g}"
+def _print_run(what: str, run: int, misfit: float = math.nan, left: float = 0.0) -> None:
+    chi_square = "" if math.isnan(misfit) else f": misfit χ² {misfit:.3g}"
     more = f", {left:.0f} s left at least" if left >= 1 else ""
-    click.echo(f"{what} {run}{told}{more}", err=True)
+    click.echo(f"{what} {run}{chi_square}{more}", err=True)
 
 
-class _Told:
-    """Tell of runs, and how long those that are needed at least will take.
+class _Progress:
+    """Print the number of runs, and the least time that is left.
 
-    That is told from the second round of runs on: what goes before the first, as imports and
-    kernels, is not done again. Sampling counts once it has begun, for it may be left out.
+    The time is estimated from the second round of runs on, as the first includes imports and
+    kernels. Sampling is included once it has begun, since it may be left out.
     """
 
     def __init__(
         self,
-        asked: Measurements,
+        measurements: Measurements,
         sample: int,
         unsampled: Sequence[Calibration],
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        tests = asked.tests.values()
+        tests = measurements.tests.values()
         measured = {entry.body for test in tests for entry in test.measured}
         cases = len({repr(test.set) for test in tests})
-        self._fit, self._sample = cases * (2 + (len(asked.fit) or len(measured))), cases * sample
+        self._fit, self._sample = (
+            cases * (2 + (len(measurements.fit) or len(measured))),
+            cases * sample,
+        )
         self._unsampled, self._clock = unsampled, clock
         self._last, self._first, self._sampling = -math.inf, (0, 0.0), False
 
@@ -262,4 +274,4 @@ class _Told:
         made, began = self._first
         each = (now - began) / (run - made) if run > made else 0.0
         fewest = self._unsampled[0].runs + self._sample if sampling else self._fit
-        _tell("sampling, run" if sampling else "run", run, misfit, (fewest - run) * each)
+        _print_run("sampling, run" if sampling else "run", run, misfit, (fewest - run) * each)

@@ -1,4 +1,4 @@
-"""What `tribo calibrate` prints of numbers that were fitted."""
+"""Tables and sentences that `tribo calibrate` prints of fitted parameters."""
 
 from __future__ import annotations
 
@@ -19,28 +19,28 @@ from tribo.study.calibration.plan import Plan
 from tribo.study.calibration.quantities import digits_of, in_si, in_words, percent
 
 FAR = 10.0
-"""Factor of an interval's end from the value above which its part in percent tells nothing."""
+"""Ratio of an interval's end to the value above which no percentage is printed."""
 BLIND = 0.2
-"""Standard deviations by which a change by a factor e shows, below which the data are blind."""
+"""Singular value of the Jacobian below which a combination of parameters is unknown."""
 LONGEST_NAME = 30
-"""Characters of a name that a table for 80 columns has room for."""
+"""Characters of a name that fit in a table of 80 columns."""
 
 
 def print_fit(found: Calibration) -> None:
-    """Print estimates, how each measured value is met, predictions, and how good the fit is."""
+    """Print estimates, residuals, predictions, the goodness of fit and notes."""
     console = Console()
     console.print(estimates_table(found))
     console.print(data_table(found))
     if len(found.predictions):
         console.print(predictions_table(found))
-    for line in judgement(found):
+    for line in fit_sentences(found):
         console.print(line, markup=False)
     for note in found.notes:
         console.print(f"[yellow]Note:[/] {escape(note)}")
 
 
 def print_plan(found: Plan) -> None:
-    """Print how many tests of each kind there are to be."""
+    """Print the number of tests of each kind, and the intervals expected."""
     names = [each or "the case as it is" for each in found.tests["test"]]
     count = int(found.tests["count"].sum())
     table = _table("Tests", names, "how many")
@@ -59,9 +59,9 @@ def print_plan(found: Plan) -> None:
 
 
 def print_choice(found: Choice) -> None:
-    """Print what the data say of several cases."""
+    """Print the comparison of several cases, and the estimates of each."""
     console, names = Console(), list(found.cases["case"])
-    columns = ["criterion", "weight", "left out", "χ²", "to spare", "parameters"]
+    columns = ["criterion", "weight", "left out", "χ²", "d.o.f.", "parameters"]
     table = _table("Cases", names, *columns)
     for each in found.cases.itertuples():
         own = found.calibrations[each.case]
@@ -83,7 +83,7 @@ def print_choice(found: Choice) -> None:
 
 
 def _table(title: str, names: list[str], *columns: str) -> Table:
-    """Return a table that breaks names and intervals between words, but no values."""
+    """Return a table that wraps names and intervals between words, and never wraps values."""
     table = titled(title)
     table.pad_edge, table.collapse_padding = False, True
     longest = max((len(word) for name in names for word in name.split()), default=0)
@@ -122,7 +122,7 @@ def estimates_table(found: Calibration) -> Table:
 
 
 def data_table(found: Calibration) -> Table:
-    """Return what was measured, and how the fit meets it."""
+    """Return the measured values with their computed values and residuals."""
     data = list(found.brief.itertuples())
     names = [_name(each) for each in data]
     table = _table("Measured", names, "value", "uncertainty", "computed", "residual")
@@ -138,7 +138,7 @@ def data_table(found: Calibration) -> Table:
 
 
 def predictions_table(found: Calibration) -> Table:
-    """Return what else the fitted case gives."""
+    """Return the predictions of the fitted case."""
     names = [_name(each) for each in found.predictions.itertuples()]
     level = f"{100 * found.level:g} % interval"
     table = _table("Not measured, at the end", names, "computed", level, "")
@@ -151,11 +151,12 @@ def predictions_table(found: Calibration) -> Table:
     return table
 
 
-def judgement(found: Calibration) -> Iterator[str]:
-    """Say how good the fit is, and how well the data tell the parameters apart."""
+def fit_sentences(found: Calibration) -> Iterator[str]:
+    """Return sentences on the goodness of fit, the repeatability and the correlations."""
     if found.p_value is not None:
+        freedom = found.degrees_of_freedom
         yield (
-            f"χ² {found.chi_square:.3g} with {found.degrees_of_freedom} to spare, "
+            f"χ² {found.chi_square:.3g} with {freedom} degree{'s' * (freedom != 1)} of freedom, "
             f"p = {found.p_value:.2g}."
         )
     if found.repeatability or found.repeatability_estimated:
@@ -175,7 +176,7 @@ def judgement(found: Calibration) -> Iterator[str]:
 
 
 def _known(singular_value: float) -> str:
-    """Say how well the data tell a combination of parameters."""
+    """Return the standard deviation of a combination of parameters in words."""
     if singular_value < BLIND:
         return "not at all"
     spread = 1 / singular_value
@@ -201,7 +202,7 @@ def _name(row: Any) -> str:
 
 
 def _interval(row: Any, low: str, high: str) -> tuple[str, str]:
-    """Return the interval of a row, and the same relative to the value, if it is not open."""
+    """Return the interval of a row, and the same relative to the value unless it is open."""
     if math.isinf(row.upper):
         return f"{low} to open" if row.lower else "open", ""
     if row.upper > FAR * row.value:

@@ -1,4 +1,4 @@
-"""What `tribo calibrate` prints and writes of local coefficients."""
+"""Tables, files and pictures of local coefficients for `tribo calibrate`."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def _arrays(each: LocalMap, level: float) -> dict[str, Any]:
 
 
 def read_maps(found: Mapping[str, Any]) -> tuple[FittedMaps, float]:
-    """Return fitted maps, and the level of their intervals, from what `maps_json` made of them."""
+    """Return fitted maps and the level of their intervals from the data of `maps_json`."""
     maps = {}
     for name, each in found["maps"].items():
         keys = ("deviation", "prior_deviation", "measured_m", "computed_m", "uncertainty_m")
@@ -69,7 +69,7 @@ def read_maps(found: Mapping[str, Any]) -> tuple[FittedMaps, float]:
 
 
 def maps_table(found: FittedMaps, level: float) -> Table:
-    """Return where coefficients differ, and where the data say nothing."""
+    """Return the range of the factors, and the number of cells where it differs from 1."""
     table = titled(f"Local coefficients, {found.gradients + found.products} runs and passes back")
     table.add_column("")
     for column in ("told", "factor there", f"below 1 at {100 * level:g} %", "above 1"):
@@ -80,11 +80,11 @@ def maps_table(found: FittedMaps, level: float) -> Table:
 
 
 def fit_words(found: FittedMaps) -> str:
-    """Say how well the maps explain the depths."""
+    """Return the goodness of fit in a sentence."""
     return (
-        f"χ² {found.chi_square:.4g} with {found.degrees_of_freedom:.4g} to spare, "
-        f"p = {found.p_value:.2g}. Slopes are exact: passes back through each run. Told is a cell "
-        f"with less than {SILENT:g} of the prior's standard deviation left."
+        f"χ² {found.chi_square:.4g} with {found.degrees_of_freedom:.4g} degrees of freedom, "
+        f"p = {found.p_value:.2g}. A cell is told where less than {SILENT:g} of the prior's "
+        "standard deviation is left."
     )
 
 
@@ -108,7 +108,7 @@ def _row(table: Table, name: str, each: LocalMap, level: float) -> None:
 
 
 def map_pictures(found: FittedMaps) -> dict[str, Callable[[], Figure]]:
-    """Return how to draw the map of each body, and its fit beside what was measured."""
+    """Return functions that draw the map of each body, and its fit to the measured depths."""
     from tribo.plotting.coefficients import coefficient_map, depth_fit
 
     pictures: dict[str, Callable[[], Figure]] = {}
@@ -122,7 +122,7 @@ def map_pictures(found: FittedMaps) -> dict[str, Callable[[], Figure]]:
 
 
 def check_free(output: Path | None, force: bool) -> None:
-    """Check that an output is a NumPy file that is not there yet; CaseError if it is not."""
+    """Check that an output is a new NumPy archive; CaseError if it is not."""
     if output is not None and output.suffix != ".npz":
         raise CaseError(f"{output}: maps are written as a NumPy archive; name it {output.stem}.npz")
     if output is not None and output.exists() and not force:

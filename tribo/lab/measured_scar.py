@@ -1,4 +1,4 @@
-"""What a lab reads of a scar measured before and after a test."""
+"""Volume, depth and widths of a scar from height maps before and after a test."""
 
 from __future__ import annotations
 
@@ -23,44 +23,45 @@ from tribo.surfaces.surface import Surface
 DEEP = 4.0
 """Standard deviations of noise from which on a depth is a scar."""
 MOST = 0.65
-"""Part of the map that a scar may cover, with the pixels beside it."""
+"""Part of the map that a scar may cover, with its margin."""
 SPOT = 0.1
-"""Part of the largest scar's volume below which what is worn is left out as a spot."""
+"""Part of the largest scar's volume below which a worn area is left out."""
 LEVELS = 0.2, 0.4
-"""Of the largest depth, at which the width is read."""
+"""Parts of the largest depth at which the width is read."""
 BOTTOM = 0.8
-"""Part of the largest depth from which on what is worn is the bottom of a scar."""
+"""Part of the largest depth from which on a pixel is of the bottom of the scar."""
 ZEROS = 10
-"""Times as many heights of 0 as of another value from which on they may stand for missing ones."""
-BESIDE = 4
-"""Pixels by which what is shallower than the noise is taken in."""
+"""Ratio of the number of zeros to that of any other height above which zeros may be missing
+values."""
+MARGIN = 4
+"""Pixels added around the scar, where it is shallower than the noise."""
 
 
 @dataclass(frozen=True)
 class MeasuredScar:
-    """A measured scar, its sizes with standard uncertainties, and what formulas make of it.
+    """Sizes of a measured scar with standard uncertainties, and volumes by formulas.
 
     Parameters
     ----------
     registration : Registration
-        How the maps lie on each other, with the depth map, where both reach.
+        Registration of the maps, with the depth map, on their common area.
     after : Heights
-        The map after the test, where both reach.
+        The map after the test, on the common area.
     scar : ndarray of bool, shape (nx, ny)
         The pixels of the scar.
     volume, volume_uncertainty : float
-        Lost in the scar, within the map, in m³.
+        Volume of the scar within the map, in m³.
     piled_up : float
         Volume above the surface before, within the map, in m³.
     depth, depth_uncertainty : float
-        The largest depth, of a paraboloid through the pixels of the scar's bottom, in m.
+        Largest depth, of a paraboloid through the bottom of the scar, in m.
     along, across : float
-        Widths along and across the sliding direction, in m; infinite where it goes on beyond both
-        edges of the map, as a track does.
+        Widths along and across the sliding direction, in m; infinite for a track, which reaches
+        both edges of the map.
     missing : float
-        Part of the scar's pixels that are missing; their depth is that of their neighbours.
+        Part of the scar's pixels that are missing; their depth is interpolated.
     inferred : tuple of InferredVolume
-        Volumes by formulas, and how far each is off the measured one.
+        Volumes by formulas, and their difference from the measured one.
     """
 
     registration: Registration
@@ -83,12 +84,12 @@ class MeasuredScar:
 
     @property
     def is_track(self) -> bool:
-        """Whether it goes on beyond two edges of the map."""
+        """Whether it reaches two opposite edges of the map."""
         return math.isinf(self.along) or math.isinf(self.across)
 
     @property
     def section(self) -> float | None:
-        """Mean area of a track's section, in m²; None of a scar that ends in the map."""
+        """Mean cross-section of a track, in m²; None for a scar that ends within the map."""
         if not self.is_track:
             return None
         axis = 0 if math.isinf(self.along) else 1
@@ -125,26 +126,26 @@ def measured_scar(
     track_length: float | None = None,
     form: int = 1,
 ) -> MeasuredScar:
-    """Measure the scar between two height maps, or an ideal shape and a map.
+    """Measure the scar between height maps before and after a test.
 
     Parameters
     ----------
     before : Heights or Surface
-        The surface before the test, or the shape that it had.
+        The surface before the test, measured or ideal.
     after : Heights
-        The same after the test, x along the sliding direction.
+        The surface after the test, x along the sliding direction.
     radius : float, optional
-        Radius of the ball, in m, for the formulas of standards that need it.
+        Radius of the ball, in m, for the formulas that need it.
     track_length : float, optional
-        Length of the whole track, in m: the stroke, or 2πr. The map's own if left out.
+        Length of the whole track, in m: the stroke, or 2πr. By default its length in the map.
     form : int, optional
-        Order of the polynomial that is taken off the difference besides: 1 a tilt, 2 a curvature as
-        well, as that of an instrument, or of a ball whose radius is not known well.
+        Order of the polynomial form that is removed from the difference: 1 for tilt, 2 for
+        curvature as well, as of an instrument, or of a ball whose radius is uncertain.
 
     Raises
     ------
     CaseError
-        If the maps cannot be laid on each other (see `register`), or nothing is worn.
+        If the maps cannot be registered (see `register`), or nothing is worn.
 
     Examples
     --------
@@ -164,8 +165,8 @@ def measured_scar(
     covered = float(np.mean(found.worn))
     if covered > MOST:
         raise CaseError(
-            f"what differs covers {100 * covered:.0f} % of the map, too much to lay the maps on "
-            "each other by the rest; measure a larger area, half of it unworn"
+            f"{100 * covered:.0f} % of the map differ, too much to register the maps by the rest; "
+            "measure a larger area, half of it unworn"
         )
     smooth, known = smoothed(found.depth), np.isfinite(found.depth)
     sides = known & ~found.worn
@@ -179,41 +180,41 @@ def measured_scar(
             f"nothing is worn {1e9 * DEEP * noise:.3g} nm deep, {DEEP:g} times the noise of means "
             f"over some pixels; {why}"
         )
-    scar = ndimage.binary_dilation(core, iterations=BESIDE)
+    scar = ndimage.binary_dilation(core, iterations=MARGIN)
     holes = interpolated(np.where(known, smooth, np.nan), ~known & scar)
     depth = np.where(known, found.depth, holes)
     area = after.grid.cell_area
     volume = area * float(np.sum(depth[scar]))
     piled = _largest(-smooth, (-smooth > DEEP * noise) & ~scar) & ~scar
-    seen = _widths(smooth, core, after.pitch)
+    widths = _widths(smooth, core, after.pitch)
     deepest, deepest_uncertainty = _deepest(found, smooth, core & known, noise)
-    if math.inf in seen:
-        lengths = after.grid.size[0 if math.isinf(seen.along) else 1], track_length
-        formulas = _of_track(volume, min(seen), lengths, radius)
+    if math.inf in widths:
+        length = after.grid.size[0 if math.isinf(widths.along) else 1]
+        formulas = _track_volumes(volume, min(widths), length, track_length or length, radius)
     elif radius is None:
         formulas = []
     else:
-        _check(min(seen), radius)
+        _check_width(min(widths), radius)
         groove = _groove_radius(after, core)
-        formulas = ball_volumes("ball", seen, radius, groove, volume)
+        formulas = ball_volumes("ball", widths, radius, groove, volume)
     return MeasuredScar(
         registration=found,
         after=after,
         scar=scar,
         volume=volume,
-        volume_uncertainty=area * _of_sum(found, scar),
+        volume_uncertainty=area * _sum_uncertainty(found, scar),
         piled_up=-area * float(np.nansum(depth[piled])),
         depth=deepest,
         depth_uncertainty=deepest_uncertainty,
-        along=seen.along,
-        across=seen.across,
+        along=widths.along,
+        across=widths.across,
         missing=float(np.mean(~known[scar])),
         inferred=tuple(formulas),
     )
 
 
 def _warn_of_zeros(heights: Heights, which: str) -> None:
-    """Warn where heights of exactly 0 are many more than of any other value, and yet the fewer."""
+    """Warn of many heights of exactly 0, which may stand for missing values."""
     known = heights.heights[np.isfinite(heights.heights)]
     values, counts = np.unique(known, return_counts=True)
     zeros, others = (int(np.max(counts[each], initial=0)) for each in (values == 0, values != 0))
@@ -228,43 +229,45 @@ def _warn_of_zeros(heights: Heights, which: str) -> None:
 def _deepest(found: Registration, smooth: Array, core: Mask, noise: float) -> tuple[float, float]:
     """Return the largest depth of a scar and its standard uncertainty, in m.
 
-    Means over some pixels would flatten a curved bottom: a paraboloid through its pixels does not.
-    Uncertain are its terms, the registration, and the larger of the noise of such means and of what
-    they are off the paraboloid.
+    A paraboloid is fitted to the bottom, as smoothing would flatten it. The uncertainty combines
+    that of its coefficients, of the registration, and the larger of the noise and of the residuals
+    of the fit, both smoothed.
     """
     deepest = np.where(core, smooth, -np.inf)
     places, _ = ndimage.label(deepest >= BOTTOM * np.max(deepest))
     bottom = places == places[np.unravel_index(int(np.argmax(deepest)), core.shape)]
-    left = without_form(np.where(bottom, found.depth, np.nan))
-    form = found.depth - left
+    residuals = without_form(np.where(bottom, found.depth, np.nan))
+    form = found.depth - residuals
     top = np.unravel_index(int(np.nanargmax(form)), core.shape)
-    rough = float(np.std(smoothed(left)[bottom]))
-    of_laying = max(float(found.uncertainty[top] ** 2 - found.noise**2), 0.0)
-    of_terms = 6 * found.spread * found.noise**2 / np.count_nonzero(np.isfinite(left))
-    return float(form[top]), math.sqrt(of_terms + of_laying + max(noise, rough) ** 2)
+    rough = float(np.std(smoothed(residuals)[bottom]))
+    of_registration = max(float(found.uncertainty[top] ** 2 - found.noise**2), 0.0)
+    count = np.count_nonzero(np.isfinite(residuals))
+    of_coefficients = 6 * found.variance_inflation * found.noise**2 / count
+    return float(form[top]), math.sqrt(of_coefficients + of_registration + max(noise, rough) ** 2)
 
 
-def _of_sum(found: Registration, scar: Mask) -> float:
+def _sum_uncertainty(found: Registration, scar: Mask) -> float:
     """Return the standard uncertainty of the sum of depths in a scar, in m.
 
-    What is missing is as uncertain as the depths around it differ, in each hole in one way.
+    Missing pixels have the standard deviation of the depths around them, fully correlated in each
+    hole.
     """
     missing = scar & np.isnan(found.depth)
     sums = np.sum(found.slopes[:, scar], axis=1)
     of_fit = float(np.einsum("k,kl,l->", sums, found.covariance, sums))
-    of_noise = found.spread * found.noise**2 * np.count_nonzero(scar & ~missing)
-    off = np.zeros(scar.shape)
+    of_noise = found.variance_inflation * found.noise**2 * np.count_nonzero(scar & ~missing)
+    sigma = np.zeros(scar.shape)
     for width in (8.0, 2.0):
         mean, square = smoothed(found.depth, width), smoothed(found.depth**2, width)
         around = ndimage.gaussian_filter(np.isfinite(found.depth).astype(float), width)
-        off = np.where(around > 0.1, np.sqrt(np.maximum(square - mean**2, 0.0)), off)
+        sigma = np.where(around > 0.1, np.sqrt(np.maximum(square - mean**2, 0.0)), sigma)
     holes, count = ndimage.label(missing)
-    each = ndimage.sum(off, holes, np.arange(1, count + 1))
+    each = ndimage.sum(sigma, holes, np.arange(1, count + 1))
     return math.sqrt(max(of_fit, 0.0) + of_noise + float(np.sum(np.square(each))))
 
 
 def _largest(depth: Array, marked: Mask) -> Mask:
-    """Return the marked places that hang together, of at least a tenth of the largest's volume."""
+    """Return the connected areas whose volume is at least a tenth of the largest's."""
     places, count = ndimage.label(ndimage.binary_opening(marked, iterations=2))
     volumes = np.array(ndimage.sum(depth, places, np.arange(1, count + 1)))
     kept = 1 + np.flatnonzero(volumes >= SPOT * np.max(volumes, initial=0.0))
@@ -275,17 +278,16 @@ def _largest(depth: Array, marked: Mask) -> Mask:
 def _widths(smooth: Array, core: Mask, pitch: tuple[float, float]) -> Scar:
     """Return the widths of a scar: where the parabola through two of its levels comes to 0.
 
-    The profile is the mean of a track, along the line that its middles lie on, and the mean of some
-    lines through the middle of another scar. Of a ball worn flat, and of a groove, the depth is a
-    parabola.
+    The depth of a ball worn flat, and of a groove, is a parabola. The profile is the mean along a
+    track, in its own direction, or that of some lines through the middle of another scar.
     """
-    lost = [np.any(core[[0, -1]], axis=1).all(), np.any(core[:, [0, -1]], axis=0).all()]
+    is_open = [np.any(core[[0, -1]], axis=1).all(), np.any(core[:, [0, -1]], axis=0).all()]
     low, high = LEVELS
     widths = []
     for axis in (0, 1):
         lines = np.moveaxis(np.where(core, smooth, np.minimum(smooth, 0.0)), axis, 0)
         step = pitch[axis]
-        if lost[1 - axis]:
+        if is_open[1 - axis]:
             lines, slope = _straightened(lines)
             step *= math.cos(math.atan(slope * pitch[axis] / pitch[1 - axis]))
         else:
@@ -294,22 +296,22 @@ def _widths(smooth: Array, core: Mask, pitch: tuple[float, float]) -> Scar:
         profile = np.mean(lines, axis=1)
         at_low, at_high = (_crossed(profile, level * float(np.max(profile))) for level in LEVELS)
         square = (high * at_low**2 - low * at_high**2) / (high - low)
-        widths.append(math.inf if lost[axis] else step * math.sqrt(max(square, 0.0)))
+        widths.append(math.inf if is_open[axis] else step * math.sqrt(max(square, 0.0)))
     return Scar(*widths)
 
 
 def _straightened(lines: Array) -> tuple[Array, float]:
-    """Return a track's lines moved to one middle, and by how many pixels a line it was askew."""
+    """Return a track's lines moved to a common middle, and its slope in pixels per line."""
     deep = np.maximum(lines, 0.0)
     middles = np.arange(len(lines)) @ deep / np.maximum(np.sum(deep, axis=0), 1e-300)
     places = np.arange(lines.shape[1]) - 0.5 * (lines.shape[1] - 1)
     slope = float(np.polyfit(places, middles, 1, w=np.sum(deep, axis=0))[0])
-    turn, offset = np.array([[1.0, slope], [0.0, 1.0]]), [slope * places[0], 0.0]
-    return ndimage.affine_transform(lines, turn, offset, order=1, mode="nearest"), slope
+    shear, offset = np.array([[1.0, slope], [0.0, 1.0]]), [slope * places[0], 0.0]
+    return ndimage.affine_transform(lines, shear, offset, order=1, mode="nearest"), slope
 
 
 def _crossed(profile: Array, level: float) -> float:
-    """Return how far apart a profile passes a level first and last, in pixels."""
+    """Return the distance between the first and last crossing of a level, in pixels."""
     ends = []
     for line in (profile, profile[::-1]):
         first = int(np.argmax(line >= level))
@@ -318,26 +320,24 @@ def _crossed(profile: Array, level: float) -> float:
     return profile.size - 1 - sum(ends)
 
 
-def _of_track(
-    volume: float, width: float, lengths: tuple[float, float | None], radius: float | None
+def _track_volumes(
+    volume: float, width: float, length_in_map: float, length: float, radius: float | None
 ) -> list[InferredVolume]:
-    """Return the volumes of a track by formulas, of its length in the map and in all."""
-    seen, whole = lengths
-    length = whole or seen
-    measured = planimetric_volume(volume / seen, length)
+    """Return the volumes of a track by formulas."""
+    measured = planimetric_volume(volume / length_in_map, length)
     found = [("mean section times length", "ASTM G133, D7755", measured)]
     if radius is not None:
-        _check(width, radius)
+        _check_width(width, radius)
         area = circular_groove_area(width, radius)
         ends = reciprocating_track_volume(width, radius, length)
         found += [(UNWORN, "ASTM G99", area * length), ("the same, with ends", "ASTM G133", ends)]
     return [inferred("track", *each, measured) for each in found]
 
 
-def _check(width: float, radius: float) -> None:
+def _check_width(width: float, radius: float) -> None:
     if not 0 < width < 2 * radius:
         raise CaseError(
-            f"a scar {1e3 * width:.4g} mm wide is none of a ball of {1e3 * radius:.4g} mm radius; "
+            f"a ball of {1e3 * radius:.4g} mm radius cannot have a scar {1e3 * width:.4g} mm wide; "
             "correct radius",
             "radius",
         )

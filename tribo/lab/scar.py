@@ -1,4 +1,4 @@
-"""The size of a wear scar, read off its depth."""
+"""Diameters and crown of a wear scar, from its depth."""
 
 from __future__ import annotations
 
@@ -14,11 +14,13 @@ from tribo.core.grid import Grid
 from tribo.core.measures import vertex
 
 VISIBLE = 1e-4
-"""Smallest depth taken for wear, as a part of the largest."""
+"""Depth, relative to the largest, from which on a cell is worn."""
 STEEPEST = 2.0
-"""Largest power of the distance from the edge with which a depth may begin."""
-SHALLOW, NARROWER = 0.05, 0.8
-"""Part of the largest depth that is not of the scar where the rest is narrower than such a part."""
+"""Largest exponent of the depth in the distance from the edge."""
+SHALLOW = 0.05
+"""Depth, relative to the largest, up to which a wide rim is not part of the scar."""
+NARROWER = 0.8
+"""Width without the rim, relative to that with it, below which the rim is wide."""
 
 
 class Scar(NamedTuple):
@@ -56,13 +58,13 @@ def diameter(depth: Array, axis: int, spacing: float) -> float:
     """Extent of a scar along `axis`, to a fraction of a cell.
 
     An edge lies where the parabola through the three outermost worn cells comes
-    to 0, as a ball worn flat has lost a paraboloid. Where the depth runs out in a
-    toe, as that of a groove does, and that of a scar under elastic bodies, the
-    parabola is one through a root of the depths; which, a fourth cell tells. A
-    scar some ten cells wide is good to a tenth of a cell, and to a third in its
-    first nanometres. A cell is worn where it is deeper than 10⁻⁴ of the deepest; or
-    than a twentieth where those are less than 0.8 times as wide, as on a ball that
-    also meets the ends of its track: no microscope shows such shallow wear.
+    to 0, as a ball worn flat has lost a paraboloid. Grooves, and scars of elastic
+    bodies, end in a flat toe: there the parabola goes through a root of the depths,
+    whose exponent follows from a fourth cell. The error is a tenth of a cell for a
+    scar ten cells wide, and a third of a cell in its first nanometres. A cell is
+    worn if it is deeper than 10⁻⁴ of the largest depth. The limit is a twentieth
+    where that makes the scar less than 0.8 times as wide, as on a ball that also
+    touches the ends of its track: no microscope shows such shallow wear.
 
     Parameters
     ----------
@@ -83,7 +85,7 @@ def diameter(depth: Array, axis: int, spacing: float) -> float:
 
 
 def crown(height: Array, depth: Array) -> float:
-    """How far a worn profile bulges over the chord between the edges of its scar.
+    """Height of a worn profile over the chord between the edges of its scar.
 
     The edges are those of `diameter`. A ball worn flat has crown 0 along its
     sliding direction; across it the crown is the depth of the groove the ball
@@ -119,7 +121,7 @@ def crown(height: Array, depth: Array) -> float:
 
 
 def _ends(line: Array) -> tuple[float, float] | None:
-    """Return the edges of what is worn of a line, counted in cells from the first's centre."""
+    """Return the edges of the scar on a line, in cells from the centre of the first."""
     deepest = max(float(np.max(line)), 0.0)
     index, deep = (np.flatnonzero(line > part * deepest) for part in (VISIBLE, SHALLOW))
     if index.size == 0:
@@ -134,10 +136,10 @@ def _ends(line: Array) -> tuple[float, float] | None:
 
 
 def _beyond(worn: Array, most: float) -> float:
-    """Return how far beyond the first of the worn cells the edge lies, in cells.
+    """Return the distance of the edge beyond the first worn cell, in cells.
 
-    A rim narrower than a cell appears at once when it reaches the centre of a cell. Weighting
-    it by how far the edge lies beyond that centre lets the edge move evenly.
+    A rim narrower than a cell appears suddenly when it reaches the centre of a cell. A weight that
+    grows with the distance of the edge from that centre makes the edge move smoothly.
     """
     outer, inner = _extrapolated(worn[:4]), _extrapolated(worn[1:5])
     if outer is None:
@@ -148,12 +150,12 @@ def _beyond(worn: Array, most: float) -> float:
 
 
 def _extrapolated(cells: Array) -> float | None:
-    """Return how far beyond the first of up to four cells the edge lies, if they get deeper."""
+    """Return the distance of the edge beyond the first cell; None if cells do not deepen."""
     if cells.size < 3 or cells[1] <= cells[0]:
         return None
 
     def toe(power: float) -> float:
-        """Return how much further out the edge lies by the inner three than by the outer."""
+        """Return how much further out the inner three cells put the edge than the outer three."""
         straight = cells ** (1 / power)
         return _root(straight[1:]) - 1 - _root(straight[:3])
 
@@ -164,7 +166,10 @@ def _extrapolated(cells: Array) -> float | None:
 
 
 def _root(three: Array) -> float:
-    """Return how far beyond the first of three values, at most 3, their parabola comes to 0."""
+    """Return the distance beyond the first of three values at which their parabola comes to 0.
+
+    It is 3 at most.
+    """
     outer, middle, inner = (float(each) for each in three)
     bend = 0.5 * (inner - 2 * middle + outer)
     fall = middle - outer - bend

@@ -12,25 +12,25 @@ from tribo.plotting.style import DIFFERENCES, Look, house_style, new_figure
 
 DOUBLE = 140.0
 """Width of a picture with two panels, in mm."""
-SURE = 3.0
-"""Standard deviations from the data that a picture of the residuals reaches at least, and beyond
-which a map of them is outlined, so that its sign is seen in grey."""
+SIGNIFICANT = 3.0
+"""Residual, in standard deviations, that is outlined, so that its sign is also visible in grey; and
+the least range of its colour scale."""
 Range = tuple[float | None, float | None]
 
 
 def coefficient_map(
     factor: Array, part: Array, told: Mask, spacing: tuple[float, float], title: str = ""
 ) -> Figure:
-    """Draw the factor on a wear coefficient, and how much of the prior's uncertainty is left.
+    """Draw the factor on a wear coefficient, and its standard deviation relative to the prior's.
 
     Parameters
     ----------
     factor : ndarray, shape (rows, ny)
         The factor at each cell; with one row, along y only.
     part : ndarray, shape (rows, ny)
-        Its standard deviation over the prior's: at 1 the data say nothing.
+        Standard deviation over the prior's: at 1 the data say nothing.
     told : ndarray of bool, shape (rows, ny)
-        Where the data say something; the factor is left blank elsewhere.
+        Where the data narrow the prior; the factor is left blank elsewhere.
     spacing : tuple of float
         Edge lengths of a cell, in m.
     title : str, optional
@@ -50,30 +50,30 @@ def depth_fit(
     spacing: tuple[float, float],
     title: str = "",
 ) -> Figure:
-    """Draw a measured depth, and how far the fitted one is off it.
+    """Draw a measured depth, and the residual of the fit.
 
-    On a map a line surrounds what is more than three deviations too deep, a dashed one what is as
-    much too shallow.
+    On a map a solid line surrounds residuals above three standard deviations, a dashed one those
+    below minus three.
 
     Parameters
     ----------
     measured, computed : ndarray, shape (rows, ny)
         Depth worn off, in m; NaN where it was not measured.
     uncertainty : ndarray, shape (rows, ny)
-        Standard deviation of what is between them, in m.
+        Standard deviation of their difference, in m.
     spacing : tuple of float
         Edge lengths of a cell, in m.
     title : str, optional
         Of the picture.
     """
     off = (computed - measured) / uncertainty
-    largest = float(np.max(np.abs(off), initial=SURE, where=np.isfinite(off)))
+    largest = float(np.max(np.abs(off), initial=SIGNIFICANT, where=np.isfinite(off)))
     panels: dict[str, tuple[Array, Range]] = {
         "measured depth (µm)": (1e6 * measured, (None, None)),
         "fit − measured (deviations)": (off, (-largest, largest)),
     }
     figure = _drawn(panels, spacing, title, "Blues", DIFFERENCES)
-    lines = [at for at in (-SURE, SURE) if np.nanmin(off) < at < np.nanmax(off)]
+    lines = [at for at in (-SIGNIFICANT, SIGNIFICANT) if np.nanmin(off) < at < np.nanmax(off)]
     if len(off) > 1 and lines:
         (image,) = figure.axes[1].images
         look: Look = {"extent": image.get_extent(), "colors": "#202020", "linewidths": 0.7}

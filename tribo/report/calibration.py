@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from tribo.cli.fitted import data_table, estimates_table, judgement, predictions_table
+from tribo.cli.fitted import data_table, estimates_table, fit_sentences, predictions_table
 from tribo.cli.fitted_maps import read_maps
 from tribo.config.load import case_tables, validate_case
 from tribo.config.write import to_toml
@@ -80,7 +80,7 @@ def calibration_page(found: Calibration, title: str) -> str:
         answers=list(_answers(found)),
         tables_title="What was fitted",
         tables=[for_page(table) for table in tables],
-        remarks=list(judgement(found)),
+        remarks=list(fit_sentences(found)),
         notes=found.notes,
         has_moments=False,
         curves_title="",
@@ -98,13 +98,13 @@ def calibration_page(found: Calibration, title: str) -> str:
 
 
 def _answers(found: Calibration) -> Iterator[str]:
-    """Say each estimate, and between which ends it lies."""
+    """Return each estimate and its interval in a sentence."""
     for each in found.parameters.itertuples():
         words = f"{each.path} is {in_si(each.value, each.unit)}"
         if each.held:
             yield f"{words}, held by its bound."
         elif each.limited:
-            yield f"{each.path} is below {in_si(each.upper, each.unit)}; no more was seen of it."
+            yield f"{each.path} is below {in_si(each.upper, each.unit)}, as nothing was detected."
         elif math.isinf(each.upper):
             yield f"{words}; the data do not bound it."
         else:
@@ -115,7 +115,7 @@ def _answers(found: Calibration) -> Iterator[str]:
 
 
 def _facts(found: Calibration) -> list[tuple[str, str]]:
-    """Return the numbers of the first case; none where a plugin or file of it is missing here."""
+    """Return the facts of the first case that loads; none if plugins or files are missing."""
     for tables in found.fitted.values():
         with suppress(CaseError):
             return facts(case_tables(validate_case(tables)))

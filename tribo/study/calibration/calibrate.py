@@ -1,4 +1,4 @@
-"""Fit a case to what was measured: estimates with intervals, and what they predict."""
+"""Fit parameters of a case to measured wear: estimates, intervals, predictions."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from tribo.config.overrides import apply_settings
 from tribo.config.write import to_toml
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, NumericalError
+from tribo.study.calibration.experiment import Experiment
 from tribo.study.calibration.fit import ABOVE_ROUNDING, NO_EFFECT, fit, interval
 from tribo.study.calibration.linearised import Linearised, Weights, root_covariance
 from tribo.study.calibration.map_notes import map_notes
 from tribo.study.calibration.measured import Measurements
 from tribo.study.calibration.notes import notes
 from tribo.study.calibration.parameters import Parameter
-from tribo.study.calibration.posed import Posed
 from tribo.study.calibration.quantities import (
     DEPTH_MAP,
     FIELDS,
@@ -35,68 +35,73 @@ from tribo.study.calibration.quantities import (
 from tribo.study.calibration.sample import check_sampling, sampled
 
 REACHED, UNSETTLED = "reached the edge of the window", "have not settled"
-"""Words of errors that a wrong pitch may be the reason of."""
+"""Parts of the messages of errors that a wrong pitch or position may cause."""
 DATA = ["test", "body", "quantity", "time_s", "position_m", "place", "unit"]
 DATA += ["measured", "below", "sigma", "computed", "residual"]
 """Columns of a calibration's data."""
 PLACE = ["x_m", "y_m", "shift_x_m", "shift_y_m"]
-"""More of them, where a depth map is among the data."""
+"""Further columns, where a depth map is among the data."""
 AT_BOUND = 1e-6
 """Relative distance below which an estimate counts as on its bound."""
-ALIKE = 0.05
-"""Part by which a datum's uncertainty, of which the grid gives some, may change with the fit."""
-NOTABLE, TOO_FAR = 5.0, 300.0
-"""Factors between measured and computed: mentioned if a run fails, refused. A prefix is 1000."""
+SIGMA_CHANGE = 0.05
+"""Relative change of a standard deviation, by errors of the grid, up to which a fit is kept."""
+SUSPICIOUS = 5.0
+"""Factor between measured and computed values from which on it is mentioned if a fit fails."""
+REFUSED = 300.0
+"""Factor from which on values are refused: a wrong prefix of a unit makes 1000."""
 
 
 @dataclass(frozen=True, eq=False)
 class Calibration:
-    """Estimates, the data behind them, and predictions; in SI units."""
+    """Estimates, the data, and predictions; in SI units."""
 
     level: float
-    """Probability with which each interval is to cover the truth."""
+    """Confidence level of the intervals."""
     runs: int
-    """Simulations that it took."""
+    """Number of simulations."""
     parameters: pd.DataFrame
-    """A row each: `path`, `unit`, `value`; `lower` and `upper`, the ends of its interval, infinite
-    or 0 where the data do not bound it; `resolution_share`, the part of its variance that comes
-    from instruments' resolution; `resolution_limit`, how far it may be off through that alone,
-    relative to `value`; `held`, whether it lies on one of its bounds, which `lower` and `upper`
-    then are; `limited`, whether only limits of detection tell of it: `upper` is all that is known;
-    `sampled_lower` and `sampled_upper`, if that was asked for.
+    """One row per parameter: `path`, `unit`, `value`; `lower` and `upper`, the ends of its
+    interval, 0 or infinite where the data do not bound it; `resolution_share`, the part of its
+    variance due to the resolution of instruments; `resolution_limit`, its largest error due to the
+    resolution, relative to `value`; `held`, whether it lies on one of its bounds, which are then
+    `lower` and `upper`; `limited`, whether only limits of detection depend on it, so that only
+    `upper` is known; `sampled_lower` and `sampled_upper`, if the intervals were sampled.
     """
     data: pd.DataFrame
-    """A row a measured value: `test`, empty for one of the case as it is; `body`, `quantity`,
-    `time_s`, `position_m` of a profile's point, `place`, its entry in the file, `unit`,
-    `measured`, `below` for a limit, `sigma`, of the measurement, the grid, and from test to test,
-    `computed`, and `residual`, computed less measured in units of `sigma`; of a limit z of them
-    above the computed value √(−2 ln Φ(z)). With maps also of each part its middle, `x_m` and
-    `y_m`; `shift_x_m` and `shift_y_m`, how far the scar was found from the middle of the map."""
+    """One row per measured value: `test`, empty for the case as it is; `body`, `quantity`,
+    `time_s`, `position_m` on a profile, `place`, its entry in the file, `unit`, `measured`,
+    `below`, whether it is a limit of detection, `sigma`, its standard deviation with that of the
+    grid and from test to test, `computed`, and `residual`, computed less measured in units of
+    `sigma`; √(−2 ln Φ(z)) for a limit that lies z above the computed value. A map has one row per
+    block of cells, with its middle, `x_m` and `y_m`, and the shift of the scar from the middle of
+    the map, `shift_x_m` and `shift_y_m`."""
     predictions: pd.DataFrame
-    """What else the fitted case gives at the end of each test, in the mean, where tests scatter:
-    `test`, `body`, `quantity`, `unit`, `value`, `lower`, `upper`; 0 and infinite where it depends
-    on a parameter that a bound holds. Of a parameter that is `limited` its upper bound is run."""
+    """Other quantities of the fitted case at the end of each test: `test`, `body`, `quantity`,
+    `unit`, `value`, `lower`, `upper`; 0 and infinite if it depends on a parameter held by a bound.
+    For a parameter that is `limited` the case is run at its upper bound. Where tests scatter, the
+    interval is that of the mean."""
     chi_square: float
-    """Sum of the squared residuals, limits left out, made independent where tests scatter."""
+    """Sum of squared weighted residuals, without limits of detection."""
     degrees_of_freedom: int
-    """Values, limits left out, less the parameters that they depend on and no bound holds, and
-    the shifts of maps that were moved."""
+    """Values, without limits of detection, less the parameters that they determine and the shifts
+    of maps."""
     repeatability: float
     """Relative standard deviation of the parameters from test to test."""
     repeatability_estimated: bool
-    """Whether it is estimated from tests alike, rather than stated or 0."""
+    """Whether it is estimated from repeated tests, rather than stated or 0."""
     fitted: Mapping[str, Mapping[str, Any]]
     """The tables of each test's case with the estimates, by the name of the test."""
     correlation: Array
-    """Between the logarithms of the parameters."""
+    """Correlation matrix of the logarithms of the parameters."""
     singular_values: Array
-    """Standard deviations by which a change by a factor e would show in the data, largest first."""
+    """Of the weighted Jacobian by the logarithms of the parameters, largest first."""
     bic: float
-    """Schwarz's criterion, −2 ln L + p ln n, the repeatability a parameter where estimated."""
+    """Schwarz's criterion, −2 ln L + p ln n; p includes an estimated repeatability."""
     left_out: Array
-    """Log-likelihood of each test foretold from all others; NaN where those do not suffice."""
+    """Log-likelihood of each test predicted from all others; NaN if these do not determine a
+    parameter."""
     notes: tuple[str, ...]
-    """Remarks on what the data can tell."""
+    """Notes on the data, the fit and the model."""
 
     @property
     def settings(self) -> dict[str, float]:
@@ -105,10 +110,10 @@ class Calibration:
 
     @property
     def brief(self) -> pd.DataFrame:
-        """The data, a depth map or a profile in one row.
+        """The data, with one row per depth map or profile.
 
-        That has the number of its `depths`, the mean of those measured and computed, and the root
-        mean squares of `sigma` and `residual`.
+        It has the number of `depths`, the means of `measured` and `computed`, and the root mean
+        squares of `sigma` and `residual`.
         """
         parts, is_field = [], self.data["quantity"].isin(FIELDS)
         for _, rows in self.data.groupby(self.data["place"].where(is_field, self.data.index)):
@@ -120,13 +125,13 @@ class Calibration:
 
     @property
     def p_value(self) -> float | None:
-        """Probability of so large a misfit; None where no data are left to tell."""
+        """Probability of a χ² at least as large by chance; None without degrees of freedom."""
         if self.degrees_of_freedom == 0 or self.repeatability_estimated:
             return None
         return float(chdtrc(self.degrees_of_freedom, self.chi_square))
 
     def as_json(self) -> dict[str, Any]:
-        """Return it as plain data in SI units, the fitted cases as TOML; NaN is not given."""
+        """Return it as plain data in SI units, the fitted cases as TOML; NaN stands for none."""
         fitted = {name: to_toml(tables) for name, tables in self.fitted.items()}
         return plain(self) | {"p_value": self.p_value, "fitted": fitted}
 
@@ -140,103 +145,109 @@ def calibrate(
     on_fit: Callable[[Calibration], object] = lambda fit: None,
     on_run: Callable[[int, float], object] = lambda run, misfit: None,
 ) -> Calibration:
-    """Fit parameters of a case to wear that was measured in one test or several.
+    """Fit parameters of a case to wear measured in one or more tests.
 
-    Weighted least squares by Gauss-Newton steps in logarithms, which are exact for volumes under
-    Archard's law. Tests alike share their runs, which are in memory, without observers.
+    Weighted least squares by Gauss-Newton steps in the logarithms of the parameters, exact for
+    volumes under Archard's law. Repeated tests share their runs, which have no observers.
 
     Parameters
     ----------
     case : Case, Mapping, str or Path
         A case, its tables, or its TOML file.
     measured : Measurements, Mapping, str or Path
-        What was measured in it or in other tests, and what is to be fitted; or its TOML file.
+        Measured values of the case or of other tests, and the parameters to fit; or a TOML file.
     level : float, optional
-        Probability with which each interval is to cover the truth.
+        Confidence level of the intervals.
     sample : int, optional
-        How many runs more, of each test's case, to check the intervals by, with emcee.
+        Number of further runs of each test's case that sample the posterior, with emcee, to check
+        the intervals.
     on_fit : callable, optional
-        Called with the fit before it is sampled, which takes long and may be interrupted.
+        Called with the fit before sampling, which takes long and may be interrupted.
     on_run : callable, optional
-        Called after each round of runs with the number of runs and their misfit χ².
+        Called after each round of runs with the number of runs and their χ².
 
     Returns
     -------
     Calibration
-        Estimates, intervals, residuals, what the data can tell, predictions.
+        Estimates, intervals, residuals, notes, predictions.
 
     Raises
     ------
     CaseError, NumericalError
-        If the case or the measured values are wrong, or a run fails, or estimates do not settle.
+        If the case or the measured values are wrong, a run fails, or the fit does not converge.
     """
     if not 0 < level < 1:
         raise CaseError(f"the level, {level:g}, must lie between 0 and 1, as 0.95 does")
-    posed = Posed.of(case, measured)
-    for each in posed.data[posed.data["measured"].isna()].itertuples():
+    experiment = Experiment.of(case, measured)
+    for each in experiment.data[experiment.data["measured"].isna()].itertuples():
         others = {
             "mass": "value, or before and after",
             DEPTH_MAP: "depth, the file of a height map",
         }
         raise CaseError(f"give {others.get(each.quantity, 'value')}", each.place)
-    if (count := len(posed.data)) < len(posed.parameters):
+    if (count := len(experiment.data)) < len(experiment.parameters):
         raise CaseError(
-            f"{len(posed.parameters)} parameters cannot be fitted to {count} measured "
+            f"{len(experiment.parameters)} parameters cannot be fitted to {count} measured "
             f"value{'' if count == 1 else 's'}: measure more, or leave parameters out of fit"
         )
     if sample:
-        check_sampling(sample, len(posed.parameters))
-    posed = posed.centred(posed.start)
-    far = far_off(posed.data, posed.run(posed.start).responses, posed.parameters)
-    # What is common to all of a map is known near the estimate only.
-    problem = posed.problem(posed.start).without_common()
+        check_sampling(sample, len(experiment.parameters))
+    experiment = experiment.centred(experiment.start)
+    far = far_off(
+        experiment.data, experiment.run(experiment.start).responses, experiment.parameters
+    )
+    # Correlated errors of a map scale with its depth, which is known near the estimate only.
+    problem = experiment.problem(experiment.start).without_common()
 
     def responses(values: Array) -> Array:
-        found = posed.run(values).responses
+        found = experiment.run(values).responses
         misfit = problem.residuals(found, problem.weights())
-        on_run(posed.made, float(np.sum(misfit**2)))
+        on_run(experiment.run_count, float(np.sum(misfit**2)))
         return found
 
     try:
-        fitted = fit(responses, problem, posed.start)
+        fitted = fit(responses, problem, experiment.start)
         estimate, before = np.exp(fitted.point), problem.sigma
-        posed = posed.centred(estimate)
-        problem = posed.problem(estimate)
-        if problem.common.size or np.any(np.abs(problem.sigma - before) > ALIKE * before):
-            estimate = np.where(fitted.limited(), posed.start, estimate)
+        experiment = experiment.centred(estimate)
+        problem = experiment.problem(estimate)
+        if problem.common.size or np.any(np.abs(problem.sigma - before) > SIGMA_CHANGE * before):
+            estimate = np.where(fitted.limited(), experiment.start, estimate)
             fitted = fit(responses, problem, estimate)
     except (CaseError, NumericalError) as error:
-        words = [str(error), *doubts(posed, str(error))]
+        words = [str(error), *doubts(experiment, str(error))]
         if far:
             words.append(f"or is a measured value off? {'; '.join(far)}")
         if len(words) == 1:
             raise
         raise type(error)("; ".join(words)) from error
-    found = _outcome(fitted, posed, level)
+    found = _outcome(fitted, experiment, level)
     if not sample:
         return found
     on_fit(found)
     parameters, note = sampled(responses, fitted, found.parameters, sample, level)
-    return replace(found, runs=posed.made, parameters=parameters, notes=(*found.notes, note))
+    return replace(
+        found, runs=experiment.run_count, parameters=parameters, notes=(*found.notes, note)
+    )
 
 
-def doubts(posed: Posed, error: str) -> Iterator[str]:
-    """Say what else may be why a fit fails."""
-    if any(bench.model.case.stop.depth is not None for bench in posed.tested):
+def doubts(experiment: Experiment, error: str) -> Iterator[str]:
+    """Return other possible reasons of a failed fit."""
+    if any(setup.model.case.stop.depth is not None for setup in experiment.setups):
         yield (
             "or leave out stop.depth: it ends the run at different times for different coefficients"
         )
-    given = set(posed.data["quantity"]) if REACHED in error or UNSETTLED in error else set()
-    if DEPTH_MAP in given:
-        yield "or check pitch"
-    if given & {*PROFILES}:
-        yield "or check position"
+    if REACHED in error or UNSETTLED in error:
+        quantities = set(experiment.data["quantity"])
+        if DEPTH_MAP in quantities:
+            yield "or check pitch"
+        if quantities & {*PROFILES}:
+            yield "or check position"
 
 
 def far_off(data: pd.DataFrame, computed: Array, parameters: Sequence[Parameter]) -> list[str]:
-    """Return a sentence for each entry that is several times what the first run gives, or a part.
+    """Return a sentence for each entry that differs from the first run by a factor above 5.
 
-    CaseError if the factor is above 300, one line per entry.
+    CaseError if the factor is above 300, with one line per entry.
     """
     given = ", ".join(f"{p.path} = {in_si(p.start, p.unit)}" for p in parameters)
     sizes = data[["unit", "sigma", "below"]].assign(
@@ -248,7 +259,7 @@ def far_off(data: pd.DataFrame, computed: Array, parameters: Sequence[Parameter]
     ):
         if own == 0:
             continue
-        # A value below its uncertainty only says that the quantity is no larger, as a limit does.
+        # A value below its uncertainty is only an upper limit.
         factor = own / max(value, sigma)
         if not below:
             factor = max(factor, value / own)
@@ -256,24 +267,24 @@ def far_off(data: pd.DataFrame, computed: Array, parameters: Sequence[Parameter]
             f"{place} was read as {in_si(value, unit)}, and the case gives {in_si(own, unit)} "
             f"with {given}"
         )
-        if factor > TOO_FAR:
+        if factor > REFUSED:
             refused.append(
                 f"{text}: check the value and its unit, or give a start in fit that is nearer to it"
             )
-        elif factor > NOTABLE:
+        elif factor > SUSPICIOUS:
             found.append(text)
     if refused:
         raise CaseError("\n".join(refused))
     return found
 
 
-def _outcome(fitted: Linearised, posed: Posed, level: float) -> Calibration:
+def _outcome(fitted: Linearised, experiment: Experiment, level: float) -> Calibration:
     """Return the calibration that follows from a fit."""
-    jacobian, data = fitted.sensitivity(), posed.data
-    last = posed.run(np.exp(fitted.point))
+    jacobian, data = fitted.sensitivity(), experiment.data
+    last = experiment.run(np.exp(fitted.point))
     root = root_covariance(jacobian)
     deviations = np.sqrt(np.sum(root**2, axis=1))
-    estimates = _estimates(fitted, jacobian, posed, level)
+    estimates = _estimates(fitted, jacobian, experiment, level)
     held = estimates["held"].to_numpy()
     settled = {each.path: float(f"{each.value:.7g}") for each in estimates.itertuples()}
     problem, computed = fitted.problem, fitted.responses[: len(data)]
@@ -287,34 +298,34 @@ def _outcome(fitted: Linearised, posed: Posed, level: float) -> Calibration:
         residual=problem.residuals(computed, Weights.of(sigma)),
         alone=fitted.residuals(fitted.point),
     )
-    told = np.max(np.abs(jacobian[~problem.below]), axis=0, initial=0.0) > NO_EFFECT
-    moved = sum(bool(far) for each in posed.placed.values() for far in each.shift)
-    spare = max(int(np.sum(~problem.below)) - int(np.sum(told & ~held)) - moved, 0)
-    predictions = _predictions(fitted, posed, estimates, level)
+    determined = np.max(np.abs(jacobian[~problem.below]), axis=0, initial=0.0) > NO_EFFECT
+    moved = sum(bool(far) for each in experiment.shifts.values() for far in each.shift)
+    freedom = max(int(np.sum(~problem.below)) - int(np.sum(determined & ~held)) - moved, 0)
+    predictions = _predictions(fitted, experiment, estimates, level)
     return Calibration(
         level=level,
-        runs=posed.made,
+        runs=experiment.run_count,
         parameters=estimates,
         data=data[DATA + PLACE if "x_m" in data else DATA],
         predictions=predictions,
         chi_square=float(np.sum(fitted.residuals(fitted.point)[~problem.below] ** 2)),
-        degrees_of_freedom=spare,
+        degrees_of_freedom=freedom,
         repeatability=fitted.repeatability,
         repeatability_estimated=problem.repeatability is None,
-        fitted={each.name: apply_settings(each.case, settled) for each in posed.tested},
+        fitted={each.name: apply_settings(each.case, settled) for each in experiment.setups},
         correlation=root @ root.T / np.outer(deviations, deviations),
         singular_values=np.asarray(np.linalg.svd(jacobian, compute_uv=False), dtype=np.float64),
         bic=fitted.deviance(fitted.point)
         + (len(held) + (problem.repeatability is None)) * math.log(len(data)),
         left_out=fitted.left_out(),
         notes=(
-            *map_notes(fitted, posed),
+            *map_notes(fitted, experiment),
             *notes(
                 estimates,
                 data,
                 jacobian,
-                None if problem.repeatability is None else spare,
-                min(bench.model.grid.cells[1] for bench in posed.tested),
+                None if problem.repeatability is None else freedom,
+                min(setup.model.grid.cells[1] for setup in experiment.setups),
             ),
             *last.notices,
         ),
@@ -322,23 +333,25 @@ def _outcome(fitted: Linearised, posed: Posed, level: float) -> Calibration:
 
 
 def _predictions(
-    fitted: Linearised, posed: Posed, estimates: pd.DataFrame, level: float
+    fitted: Linearised, experiment: Experiment, estimates: pd.DataFrame, level: float
 ) -> pd.DataFrame:
     """Return `Calibration.predictions`.
 
-    Slopes near a coefficient of as good as none say nothing of what its upper bound gives: of a
-    parameter that is only limited the bound itself is run.
+    A parameter that is `limited` is estimated near 0, where slopes do not extend to its upper
+    bound: the case is run there.
     """
     values, held = (estimates[name].to_numpy() for name in ("value", "held"))
     limited = estimates["limited"].to_numpy()
     at_bounds = [
-        _at_bound(fitted, posed, values, one, estimates["upper"].iloc[one])
+        _at_bound(fitted, experiment, values, one, estimates["upper"].iloc[one])
         for one in np.flatnonzero(limited).tolist()
     ]
-    by_grid = math.sqrt(chdtri(1, 1 - level)) * posed.run(np.exp(fitted.point)).read_off
-    positive = np.all([posed.of_data(made).responses > 0 for made in posed.runs.values()], axis=0)
+    by_grid = math.sqrt(chdtri(1, 1 - level)) * experiment.run(np.exp(fitted.point)).grid_sigma
+    positive = np.all(
+        [experiment.of_data(made).responses > 0 for made in experiment.runs.values()], axis=0
+    )
     rows = []
-    for i, each in enumerate(posed.predicted.itertuples(), len(posed.data)):
+    for i, each in enumerate(experiment.predicted.itertuples(), len(experiment.data)):
         if not positive[i]:
             continue
         value, ends = float(fitted.responses[i]), (0.0, math.inf)
@@ -347,7 +360,7 @@ def _predictions(
             known = value * np.expm1(interval(fitted, slopes, level))
             to_bounds = [float(found[i]) - value for found in at_bounds]
             ends = _ends(value, (*known, -by_grid[i], by_grid[i], *to_bounds))
-            # What a coefficient more than doubles vanishes with it.
+            # A response that the bound more than doubles vanishes with the parameter.
             if max(to_bounds, default=0.0) > value:
                 ends = 0.0, ends[1]
         unit = QUANTITIES[each.quantity].unit
@@ -357,27 +370,34 @@ def _predictions(
 
 
 def _ends(value: float, moves: Sequence[float]) -> tuple[float, float]:
-    """Return how far down, to 0 at most, and up independent moves take a value together."""
+    """Return the ends of an interval with independent errors, combined in quadrature on each side.
+
+    The lower end is 0 at the least.
+    """
     down, up = (math.hypot(*(max(sign * move, 0.0) for move in moves)) for sign in (-1, 1))
     return max(value - down, 0.0), value + up
 
 
-def _at_bound(fitted: Linearised, posed: Posed, values: Array, one: int, bound: float) -> Array:
-    """Return the responses where a parameter is at its upper bound; infinite if that is not run."""
+def _at_bound(
+    fitted: Linearised, experiment: Experiment, values: Array, one: int, bound: float
+) -> Array:
+    """Return the responses with a parameter at its upper bound; infinite if they are not known."""
     if np.isfinite(bound):
         place = values.copy()
         place[one] = bound
         try:
-            return posed.run(place).responses
+            return experiment.run(place).responses
         except (CaseError, NumericalError):
-            # What fits is not lost for a prediction.
+            # A failed prediction must not lose the fit.
             pass
     return np.where(np.abs(fitted.slopes[:, one]) > ABOVE_ROUNDING, np.inf, fitted.responses)
 
 
-def _estimates(fitted: Linearised, jacobian: Array, posed: Posed, level: float) -> pd.DataFrame:
+def _estimates(
+    fitted: Linearised, jacobian: Array, experiment: Experiment, level: float
+) -> pd.DataFrame:
     """Return `Calibration.parameters`."""
-    table = pd.DataFrame(posed.parameters).drop(columns="start")
+    table = pd.DataFrame(experiment.parameters).drop(columns="start")
     values = np.exp(fitted.point)
     lower, upper = table[["lower", "upper"]].to_numpy(float, copy=True).T
     held = (values - lower <= AT_BOUND * values) | (upper - values <= AT_BOUND * values)
@@ -386,8 +406,8 @@ def _estimates(fitted: Linearised, jacobian: Array, posed: Posed, level: float) 
         low, high = values[i] * np.exp(interval(fitted, np.eye(len(values))[i], level))
         lower[i], upper[i] = max(0.0 if limited[i] else low, lower[i]), min(high, upper[i])
     standard = np.asarray(np.linalg.pinv(jacobian), dtype=np.float64)
-    effect = fitted.weights.back(standard.T).T
-    deviation, most = posed.data[["step_sigma", "step_most"]].to_numpy().T
+    effect = fitted.weights.weigh_transposed(standard.T).T
+    deviation, most = experiment.data[["step_sigma", "step_most"]].to_numpy().T
     share = np.sum((effect * deviation) ** 2, axis=1) / np.sum(standard**2, axis=1)
     return table[["path", "unit"]].assign(
         value=values,

@@ -1,4 +1,4 @@
-"""A measured depth map on the cells of a body's surface."""
+"""A measured depth map, averaged over the cells of a body's surface."""
 
 from __future__ import annotations
 
@@ -13,12 +13,15 @@ from tribo.core.errors import CaseError, located
 from tribo.lab.heights import Heights, read_heights
 from tribo.simulation.model import Model
 
-FINER, LEAST = 1e-6, 0.5 - 1e-6
-"""Part by which a pixel may be larger than a cell, and of a cell that must be measured."""
-MOST = 600
-"""Numbers that a map is averaged to where a few parameters are fitted to it."""
-UNEVEN = 3.0
-"""How many times as uneven along a track as across it, in its noise, a map has swapped axes."""
+ROUNDING = 1e-6
+"""Relative rounding of pixel pitch and cell size."""
+COVERED = 0.5 - 1e-6
+"""Part of a cell that must be measured."""
+MOST_BLOCKS = 600
+"""Blocks that a map is averaged over where a few parameters are fitted to it."""
+SWAPPED = 3.0
+"""Ratio of the unevenness along a track to that across it, each in units of its noise, above which
+the axes of a map are swapped."""
 
 
 def read_map(file: str, pitch: float | None, place: str) -> Heights:
@@ -28,18 +31,18 @@ def read_map(file: str, pitch: float | None, place: str) -> Heights:
 
 
 def surface_shape(model: Model, body: str) -> tuple[int, int]:
-    """Return how many cells a body's own surface has along and across."""
+    """Return the number of cells along and across a body's own surface."""
     return model.exposures[body].rows, model.grid.cells[1]
 
 
-def in_blocks(depth: Array, spacing: tuple[float, float]) -> pd.DataFrame:
-    """Return the mean of a map over equal blocks of cells, 600 at most, a row each.
+def block_means(depth: Array, spacing: tuple[float, float]) -> pd.DataFrame:
+    """Return the mean of a map over equal blocks of cells, 600 at most, one row each.
 
-    `measured` is the mean, `x_m` and `y_m` its place, and `cells` those that were measured, counted
-    row by row.
+    `measured` is the mean, `x_m` and `y_m` its position, and `cells` the flat indices of the cells
+    that were measured.
     """
     side = 1
-    while np.prod(-(-np.array(depth.shape) // side)) > MOST:
+    while np.prod(-(-np.array(depth.shape) // side)) > MOST_BLOCKS:
         side += 1
     (rows, ny), cells = depth.shape, np.arange(depth.size)
     i, j = cells // ny, cells % ny
@@ -57,10 +60,10 @@ def in_blocks(depth: Array, spacing: tuple[float, float]) -> pd.DataFrame:
     return means.assign(cells=blocks["cells"].agg(tuple)).reset_index(drop=True)
 
 
-def over_cells(depth: Array) -> Array:
-    """Return the means over cells of a depth that is known at their centres.
+def cell_means(depth: Array) -> Array:
+    """Return the means over cells of a depth given at their centres.
 
-    Of a surface that is curved they are less by h²/24 times its second derivative, or more.
+    The mean is the value at the centre plus h²/24 times the second derivative along each axis.
     """
     found = depth.copy()
     for axis in (0, 1):
@@ -68,8 +71,8 @@ def over_cells(depth: Array) -> Array:
     return found
 
 
-def means(depth: Array, cells: Iterable[tuple[int, ...]]) -> Array:
-    """Return the mean of a map over each of several blocks of cells, as of `in_blocks`."""
+def means_over(depth: Array, cells: Iterable[tuple[int, ...]]) -> Array:
+    """Return the mean of a map over each block of cells of `block_means`."""
     flat = depth.ravel()
     return np.array([np.mean(flat[list(each)]) for each in cells])
 
@@ -80,14 +83,14 @@ def on_cells(
     spacing: tuple[float, float],
     shift: tuple[float, float] = (0.0, 0.0),
 ) -> Array:
-    """Return the mean of a map over each cell of a surface.
+    """Return the mean of a map over each cell of a surface, weighted by shared area.
 
-    The point so far from the map's middle, in m, lies on the surface's. Of the pixels that a cell
-    cuts it has a part. NaN where less than half of it was measured.
+    The point at `shift` from the middle of the map, in m, lies on the middle of the surface. NaN
+    where less than half of a cell was measured.
     """
     averaged = shape[0] == 1
     cell = heights.heights.shape[0] * heights.pitch[0] if averaged else spacing[0], spacing[1]
-    if any(pitch > (1 + FINER) * size for pitch, size in zip(heights.pitch, cell, strict=True)):
+    if any(pitch > (1 + ROUNDING) * size for pitch, size in zip(heights.pitch, cell, strict=True)):
         raise CaseError(
             f"its pixels, {1e6 * heights.pitch[0]:g} × {1e6 * heights.pitch[1]:g} µm, are larger "
             f"than cells, {1e6 * cell[0]:g} × {1e6 * cell[1]:g} µm; check pitch, or lower "
@@ -95,18 +98,17 @@ def on_cells(
         )
     known = np.isfinite(heights.heights)
     pixels = np.where(known, heights.heights, 0.0)
-    if averaged and _is_turned(pixels, known):
+    if averaged and _has_swapped_axes(pixels, known):
         raise CaseError(
-            "it is uneven along x, the sliding direction, and alike across it, where a track is "
-            "alike all along: its axes are swapped; x goes from row to row of the map, y along "
-            "each"
+            "it is uneven along x, the sliding direction, and even across it, but a track is even "
+            "along x: its axes are swapped; x goes from row to row of the map, y along each"
         )
-    # Heights within a pixel follow those beside it, or parts of one would be off.
+    # A cell takes parts of pixels: linear interpolation gives the mean of each part.
     slopes = [
         np.where(known, np.nan_to_num(np.gradient(heights.heights, axis=axis)), 0.0)
         for axis in (0, 1)
     ]
-    (in_x, off_x), (in_y, off_y) = (
+    (in_x, offset_x), (in_y, offset_y) = (
         _overlaps(n, width, m, pitch, off)
         for n, width, m, pitch, off in zip(
             shape,
@@ -117,9 +119,10 @@ def on_cells(
             strict=True,
         )
     )
-    total = in_x @ pixels @ in_y.T + off_x @ slopes[0] @ in_y.T + in_x @ slopes[1] @ off_y.T
+    total = in_x @ pixels @ in_y.T
+    total = total + offset_x @ slopes[0] @ in_y.T + in_x @ slopes[1] @ offset_y.T
     measured = in_x @ known @ in_y.T
-    enough = measured >= LEAST * cell[0] * cell[1]
+    enough = measured >= COVERED * cell[0] * cell[1]
     found = np.divide(total, measured, out=np.full(shape, np.nan), where=enough)
     if not np.any(enough):
         raise CaseError(
@@ -129,8 +132,8 @@ def on_cells(
     return np.asarray(found)
 
 
-def _is_turned(depth: Array, known: Mask) -> bool:
-    """Whether a map, once it is level, is uneven along x and alike across it."""
+def _has_swapped_axes(depth: Array, known: Mask) -> bool:
+    """Whether a map, with its tilt removed, is uneven along x and even across it."""
     plane = np.stack([*np.nonzero(known), np.ones(np.sum(known))], axis=1)
     level = np.zeros(depth.shape)
     level[known] = depth[known] - plane @ np.linalg.lstsq(plane, depth[known], rcond=None)[0]
@@ -144,15 +147,15 @@ def _is_turned(depth: Array, known: Mask) -> bool:
         uneven.append(np.std(means[there]))
         within = (level - np.expand_dims(means, 1 - axis))[known]
         noise.append(np.std(within) / np.mean(count[there]) ** 0.5)
-    return bool(uneven[0] * noise[1] > UNEVEN * uneven[1] * noise[0])
+    return bool(uneven[0] * noise[1] > SWAPPED * uneven[1] * noise[0])
 
 
 def _overlaps(
     cells: int, width: float, pixels: int, pitch: float, shift: float
 ) -> tuple[Array, Array]:
-    """Return what cells and pixels share, one centre `shift` off: lengths, shape (cells, pixels).
+    """Return the lengths shared by cells and pixels, shape (cells, pixels), at a shift.
 
-    And each times how far the middle of what is shared lies from that of the pixel, in pixels.
+    Also each length times the offset of its middle from that of the pixel, in pixels.
     """
     to_cell = width * (np.arange(cells + 1)[:, None] - 0.5 * cells)
     to_pixel = pitch * (np.arange(pixels + 1) - 0.5 * pixels) - shift

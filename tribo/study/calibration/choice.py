@@ -1,4 +1,4 @@
-"""Which of several cases, of other laws say, the data speak for; or that they cannot tell."""
+"""Selection between several cases, of different wear laws say, by Schwarz's criterion."""
 
 from __future__ import annotations
 
@@ -21,28 +21,29 @@ from tribo.study.calibration.parameters import is_number
 from tribo.study.calibration.quantities import in_words
 
 STRONG = 6.0
-"""Difference of the criterion from which evidence is called strong (Kass & Raftery)."""
-_ERRORS = 2.0
+"""Difference of the criterion from which on evidence is strong (Kass & Raftery)."""
+_SIGNIFICANT = 2.0
+"""Standard errors by which a case must predict left-out tests worse to be rejected."""
 SAME = 1e-6
-"""Part by which two ratios differ that is rounding."""
+"""Relative rounding of two ratios."""
 
 
 @dataclass(frozen=True, eq=False)
 class Choice:
-    """Several cases calibrated to the same data, and what these say of them."""
+    """Several cases calibrated to the same data, and their comparison."""
 
     cases: pd.DataFrame
-    """A row a case, the best first: `case`, its name; `bic`, Schwarz's criterion, −2 ln L + p ln n
-    for p parameters and n values; `weight`, the probability that follows where all were as likely
-    before; `left_out`, the log-likelihood of each test foretold from the others, in sum, NaN where
-    the others do not determine a parameter; `parameters`, their number."""
+    """One row per case, the best first: `case`, its name; `bic`, Schwarz's criterion,
+    −2 ln L + p ln n for p parameters and n values; `weight`, its posterior probability with equal
+    priors; `left_out`, the sum of the log-likelihoods of tests predicted from the others, NaN if
+    these do not determine a parameter; `parameters`, their number."""
     calibrations: Mapping[str, Calibration]
     """By the name of the case."""
     verdict: str
-    """What the data say, in a sentence."""
+    """The result in a sentence."""
 
     def as_json(self) -> dict[str, Any]:
-        """Return it as plain data in SI units; what is not given is NaN."""
+        """Return it as plain data in SI units; NaN stands for none."""
         own = [self.calibrations[name].as_json() for name in self.cases["case"]]
         cases = self.cases.assign(calibration=own).to_dict("records")
         return {"verdict": self.verdict, "cases": cases}
@@ -55,16 +56,16 @@ def choose_case(
     level: float = 0.95,
     on_run: Callable[[str, int, float], object] = lambda name, run, misfit: None,
 ) -> Choice:
-    """Calibrate several cases to the same data, and say for which of them these speak.
+    """Calibrate several cases to the same data, and compare them by Schwarz's criterion.
 
     Parameters
     ----------
     cases : Mapping
-        By name the cases, their tables, or their TOML files.
+        Cases, their tables, or their TOML files, by name.
     measured : Measurements, Mapping, str or Path
-        As for `calibrate`. Of the parameters to fit a case takes those it has.
+        As for `calibrate`. Each case fits those of the parameters that it has.
     level, on_run
-        As for `calibrate`; the name of the case is told before the number of its runs.
+        As for `calibrate`; `on_run` gets the name of the case first.
 
     Raises
     ------
@@ -79,7 +80,7 @@ def choose_case(
     if len(cases) < 2:
         raise CaseError("give two cases or more to choose from")
     found = {}
-    for name, own in _asked_of_each(cases, read_measurements(measured)).items():
+    for name, own in _measurements_of_each(cases, read_measurements(measured)).items():
         try:
             found[name] = calibrate(cases[name], own, level=level, on_run=partial(on_run, name))
         except TriboError as error:
@@ -98,22 +99,22 @@ def choose_case(
     return Choice(rows, found, _verdict(rows, found))
 
 
-def _asked_of_each(
-    cases: Mapping[str, Case | Mapping[str, Any] | str | Path], asked: Measurements
+def _measurements_of_each(
+    cases: Mapping[str, Case | Mapping[str, Any] | str | Path], measurements: Measurements
 ) -> dict[str, Measurements]:
-    """Return what is asked of each case, which is to fit those of the parameters that it has."""
+    """Return the measurements for each case, with those parameters to fit that it has."""
     known = {name: validate_case(case_tables(case)) for name, case in cases.items()}
     fits = {
-        name: tuple(entry for entry in asked.fit if is_number(case, entry.path))
+        name: tuple(entry for entry in measurements.fit if is_number(case, entry.path))
         for name, case in known.items()
     }
-    for i, entry in enumerate(asked.fit):
+    for i, entry in enumerate(measurements.fit):
         if not any(entry in fit for fit in fits.values()):
             raise CaseError(f"{entry.path} is a number of none of the cases", f"fit.{i}.path")
     for name, fit in fits.items():
-        if asked.fit and not fit:
+        if measurements.fit and not fit:
             raise CaseError(f"{name} has none of the numbers to fit; add one of its own to fit")
-    return {name: asked.model_copy(update={"fit": fit}) for name, fit in fits.items()}
+    return {name: measurements.model_copy(update={"fit": fit}) for name, fit in fits.items()}
 
 
 def _verdict(rows: pd.DataFrame, found: Mapping[str, Calibration]) -> str:
@@ -123,25 +124,29 @@ def _verdict(rows: pd.DataFrame, found: Mapping[str, Calibration]) -> str:
         by = other.bic - best.bic
         ahead = found[best.case].left_out - found[other.case].left_out
         error = float(np.std(ahead, ddof=1) * len(ahead) ** 0.5) if len(ahead) > 1 else np.inf
-        # Where a test alone determines a parameter it cannot be left out.
-        refuted = bool(np.sum(ahead) < -_ERRORS * error)
-        if by < STRONG or refuted:
+        # NaN, where a test alone determines a parameter, does not reject.
+        rejected = bool(np.sum(ahead) < -_SIGNIFICANT * error)
+        if by < STRONG or rejected:
             doubts.append((other.case, by))
     if not doubts:
         by = others[0].bic - best.bic
-        told = f"the data speak for {best.case}: Schwarz's criterion is lower by {by:.3g} or more"
-        wrong = found[best.case].p_value
-        if wrong is not None and wrong < UNLIKELY:
-            told += f"; yet {best.case} does not describe them either (p = {wrong:.1g})"
-        return told
+        verdict = (
+            f"the data speak for {best.case}: Schwarz's criterion is lower by {by:.3g} or more"
+        )
+        p_value = found[best.case].p_value
+        if p_value is not None and p_value < UNLIKELY:
+            verdict += f"; yet {best.case} does not describe them either (p = {p_value:.1g})"
+        return verdict
     names = " and ".join([best.case, *(name for name, _ in doubts)])
     differs = ", ".join(f"{by:.2g}" for _, by in doubts)
-    told = f"these data cannot tell {names} apart: Schwarz's criterion differs by {differs}"
-    return f"{told}, where {STRONG:g} is strong evidence{_telling(found, best.case, doubts[0][0])}"
+    return (
+        f"these data cannot tell {names} apart: Schwarz's criterion differs by {differs}, where "
+        f"{STRONG:g} is strong evidence{_next_quantity(found, best.case, doubts[0][0])}"
+    )
 
 
-def _telling(found: Mapping[str, Calibration], first: str, second: str) -> str:
-    """Name the quantity in which two cases differ most, for the next test."""
+def _next_quantity(found: Mapping[str, Calibration], first: str, second: str) -> str:
+    """Name the unmeasured quantity in which two cases differ most, for the next test."""
     keys = ["test", "body", "quantity"]
     both = found[first].predictions.merge(found[second].predictions, on=keys)
     both["ratio"] = both["value_x"] / both["value_y"]
@@ -149,7 +154,7 @@ def _telling(found: Mapping[str, Calibration], first: str, second: str) -> str:
     ratios = data.assign(ratio=data["computed"] / found[second].data["computed"])
 
     def is_new(row: Any) -> bool:
-        # What differs as a measured number of the body does is that number, as a volume is a mass.
+        # A quantity proportional to a measured one, as a volume to a mass, tells nothing new.
         own = ratios[(ratios["test"] == row.test) & (ratios["body"] == row.body)]
         return not np.any(np.abs(own["ratio"] / row.ratio - 1) < SAME)
 

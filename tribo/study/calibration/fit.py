@@ -1,4 +1,4 @@
-"""Least squares in few runs, and the intervals of what was fitted."""
+"""Gauss-Newton least squares in few runs, and profile-likelihood intervals."""
 
 from __future__ import annotations
 
@@ -14,70 +14,77 @@ from tribo.core.errors import CaseError, NumericalError
 from tribo.study.calibration.linearised import Linearised, Problem, root_covariance
 
 STEP = 0.2
-"""Relative change of a parameter for a difference; a scar must grow by more than rounding."""
-FAR, FORETOLD = np.log(2.0), 0.3
-"""How far, in the logarithm, slopes are trusted, and up to which error of what they foretold."""
-REACH = np.log(1e4)
-"""How far an interval is followed; beyond, the data leave it open."""
-FEW = 0.5
-"""Degrees of freedom below which a scatter is as good as unknown."""
-SETTLED, HARDLY = 0.01, 0.1
-"""Change of all data together, in standard deviations, that ends the fit; the second if χ² stays
-the same. The first is also the part of χ² that counts as a fall."""
+"""Change of a logarithm for a finite difference; large, since computed scars are rounded."""
+TRUST_RADIUS = np.log(2.0)
+"""Distance, in logarithms, up to which slopes are kept."""
+PREDICTION_ERROR = 0.3
+"""Error of a predicted step, relative to the step, up to which slopes are kept."""
+OPEN = np.log(1e4)
+"""Distance, in logarithms, beyond which the end of an interval counts as open."""
+FEWEST_DEGREES_OF_FREEDOM = 0.5
+"""Degrees of freedom below which a repeatability counts as unknown."""
+CONVERGED = 0.01
+"""Change of all data together, in standard deviations, that ends the fit; and the relative fall of
+χ² that counts as progress."""
+STALLED = 0.1
+"""The change that ends the fit where χ² no longer falls."""
 NO_EFFECT = 1e-3
-"""Change of a datum, in standard deviations, per change of a parameter by e: nothing to learn."""
+"""Change of a datum, in standard deviations, per change of a parameter by a factor e, below which
+nothing depends on the parameter."""
 UNSEEN = 0.01
-"""What is computed for a loss that was not seen, in parts of its limit."""
+"""Computed value of a loss that was not seen, relative to its limit of detection."""
 ABOVE_ROUNDING = 0.01
-"""Relative change of a datum, per change of a parameter by e, that is above rounding."""
-MOST_ROUNDS, MOST_IN_VAIN = 12, 4
-"""Rounds, and rounds without a lower misfit, after which a fit is given up."""
+"""Relative change of a response, per change of a parameter by a factor e, above rounding."""
+MOST_ROUNDS = 12
+"""Rounds after which a fit fails."""
+MOST_WITHOUT_PROGRESS = 4
+"""Rounds without a lower χ² after which it ends."""
 
 
 def fit(model: Callable[[Array], Array], problem: Problem, start: Array) -> Linearised:
-    """Return the model about its last run, whose parameters are the estimate.
+    """Return the model linearised about its last run, whose parameters are the estimate.
 
-    By Gauss-Newton steps in logarithms, each to the least χ² of the linearised model. Its slopes
-    are differences, taken anew where they foretold a step badly or were taken far away. CaseError
-    if a parameter changes none of the data; NumericalError if the estimate does not settle.
+    Gauss-Newton in logarithms: each step goes to the least χ² of the linearised model. Slopes are
+    finite differences, updated where they predicted a step badly or were taken far away. CaseError
+    if no datum depends on a parameter; NumericalError if the estimate does not converge.
     """
-    known = np.log(start)
-    here = differenced(model, problem, known, model(np.exp(known)))
+    origin = np.log(start)
+    here = differenced(model, problem, origin, model(np.exp(origin)))
     check_effect(here)
     if np.any(limited := here.limited()):
-        known = np.where(limited, _as_good_as_none(here), known)
-        problem = replace(problem, lower=np.where(limited, known, problem.lower))
-        here = differenced(model, problem, known, model(np.exp(known)))
-    least, in_vain = np.inf, 0
+        origin = np.where(limited, _unseen(here), origin)
+        problem = replace(problem, lower=np.where(limited, origin, problem.lower))
+        here = differenced(model, problem, origin, model(np.exp(origin)))
+    least, without_progress = np.inf, 0
     for rounds in range(1, MOST_ROUNDS + 1):  # noqa: B007
         here, point = here.best()
-        foretold = here.residuals(point)
-        shift = np.linalg.norm(foretold - here.residuals(here.point))
-        if shift > SETTLED:
+        predicted = here.residuals(point)
+        change = np.linalg.norm(predicted - here.residuals(here.point))
+        if change > CONVERGED:
             responses = model(np.exp(point))
             residuals = problem.residuals(responses, here.weights)
-            # What of the error moves the next estimate.
+            # Only the error in the column space of the Jacobian moves the next estimate.
             directions = np.linalg.svd(here.jacobian(point), full_matrices=False)[0]
-            error = np.linalg.norm((residuals - foretold) @ directions)
+            error = np.linalg.norm((residuals - predicted) @ directions)
             here = replace(here, point=point, responses=responses)
-            if error > FORETOLD * shift:
-                known, here = point, differenced(model, problem, point, responses)
+            if error > PREDICTION_ERROR * change:
+                origin, here = point, differenced(model, problem, point, responses)
             misfit = float(np.sum(residuals**2))
-            in_vain = 0 if misfit < (1 - SETTLED) * least else in_vain + 1
+            without_progress = 0 if misfit < (1 - CONVERGED) * least else without_progress + 1
             least = min(least, misfit)
-            if in_vain == MOST_IN_VAIN:
-                # Where the model is wrong more is not to be had of it.
-                if shift > HARDLY * max(1.0, (least / len(problem.observed)) ** 0.5):
+            if without_progress == MOST_WITHOUT_PROGRESS:
+                # A wrong model cannot fit the data any better.
+                if change > STALLED * max(1.0, (least / len(problem.observed)) ** 0.5):
                     break
                 return here.best()[0]
-        elif np.max(np.abs(here.point - known)) > FAR:
-            known = here.point
-            here = differenced(model, problem, known, here.responses)
+        elif np.max(np.abs(here.point - origin)) > TRUST_RADIUS:
+            origin = here.point
+            here = differenced(model, problem, origin, here.responses)
         else:
             return here
     raise NumericalError(
         f"the estimates have not settled after {rounds} rounds: χ² has come down to {least:.3g}, "
-        f"and computed values still change by {shift:.2g} of their uncertainty; refine "
+        f"and computed values still change by {change:.2g} of their uncertainty; refine "
         "grid.cells, start nearer, or state the uncertainties larger"
     )
 
@@ -85,13 +92,13 @@ def fit(model: Callable[[Array], Array], problem: Problem, start: Array) -> Line
 def interval(here: Linearised, direction: Array, level: float) -> tuple[float, float]:
     """Return the interval of direction · point, relative to its value at the last run.
 
-    By the profile likelihood: the least and the largest value at the points within the bounds
-    whose χ² is at most its minimum plus the quantile of χ²₁, or that of t² where the repeatability
-    is estimated; infinite where the data leave it open. The direction is a unit vector for a
-    parameter, or the slopes of a response.
+    Profile likelihood: the smallest and largest value at points within the bounds whose χ² is at
+    most its minimum plus the quantile of χ²₁, or of t² where the repeatability is estimated;
+    infinite where the data do not bound it. The direction is a unit vector for a parameter, or the
+    slopes of a response.
     """
     best = here.least(here.point)
-    freedom = here.freedom(direction)
+    freedom = here.degrees_of_freedom(direction)
     t = stdtrit(freedom, 0.5 + 0.5 * level)
     rise = float(chdtri(1, 1 - level) if np.isinf(freedom) else t**2)
     least = float(np.sum(here.residuals(best) ** 2))
@@ -101,9 +108,9 @@ def interval(here: Linearised, direction: Array, level: float) -> tuple[float, f
     spread = float(np.sqrt(np.sum(gradient**2)))
     if spread == 0:
         return 0.0, 0.0
-    if spread > REACH or freedom < FEW:
+    if spread > OPEN or freedom < FEWEST_DEGREES_OF_FREEDOM:
         return -np.inf, np.inf
-    lower, upper = here.bounds(2 * REACH / np.clip(np.max(np.abs(direction)), 0.05, 1.0))
+    lower, upper = here.bounds(2 * OPEN / np.clip(np.max(np.abs(direction)), 0.05, 1.0))
 
     def point(z: Array) -> Array:
         return np.asarray(best + np.sum(root * z, axis=1))
@@ -131,7 +138,7 @@ def interval(here: Linearised, direction: Array, level: float) -> tuple[float, f
             options={"ftol": 1e-5, "maxiter": 200},
         )
         far = sign * offset - float(found.fun) * spread
-        return sign * (np.inf if far > REACH else far)
+        return sign * (np.inf if far > OPEN else far)
 
     offset = float(np.sum(direction * (best - here.point)))
     return end(-1.0), end(1.0)
@@ -140,11 +147,11 @@ def interval(here: Linearised, direction: Array, level: float) -> tuple[float, f
 def differenced(
     model: Callable[[Array], Array], problem: Problem, point: Array, responses: Array
 ) -> Linearised:
-    """Return the model linearised about a run, by a run more for each parameter."""
+    """Return the model linearised about a run, by one more run for each parameter."""
     columns = []
     for i in range(len(point)):
         below, above = point[i] - problem.lower[i], problem.upper[i] - point[i]
-        # If bounds leave no room for a whole step, take the larger part of it.
+        # Where bounds leave no room for a whole step, step to the farther bound.
         step = min(STEP, above) if above >= min(STEP, below) else -min(STEP, below)
         moved = point.copy()
         moved[i] += step
@@ -154,8 +161,8 @@ def differenced(
     return Linearised(problem, point, responses, slopes, weights=problem.weights())
 
 
-def _as_good_as_none(here: Linearised) -> Array:
-    """Return logarithms of parameters at which what was not seen is a hundredth of its limit."""
+def _unseen(here: Linearised) -> Array:
+    """Return logarithms of parameters that give a hundredth of the limits of detection."""
     below = here.problem.below
     n = len(below)
     slopes = here.slopes[:n][below]
@@ -166,7 +173,7 @@ def _as_good_as_none(here: Linearised) -> Array:
 
 
 def check_effect(here: Linearised) -> None:
-    """Check that each parameter changes some of the data; CaseError if one does not."""
+    """Check that some datum depends on each parameter; CaseError if none does."""
     sigma = here.problem.sigma[:, None]
     effects = np.max(np.abs(here.effects(here.point) / sigma), axis=0)
     for name, effect in zip(here.problem.names, effects, strict=True):

@@ -1,4 +1,4 @@
-"""A model near a run, and how well it meets what was measured."""
+"""A model linearised about a run, its residuals and its likelihood."""
 
 from __future__ import annotations
 
@@ -11,97 +11,106 @@ from scipy.stats import multivariate_normal
 
 from tribo.core.arrays import Array, Mask
 
-LEAP, STRIDE = np.log(100.0), np.log(4.0)
-"""How far a parameter may move between two runs; the second where depths are taken as linear."""
-REPEATABILITIES = (1e-3, 3.0)
-"""Least and largest that is estimated."""
-FAINT = 0.1
-"""Change of the data, in standard deviations, per change by e, that tells as good as nothing."""
-_PASSES, _SAME, _RIDGE = 30, 1e-5, 1e-12
-_UNKNOWN = 10.0
-"""Standard deviation of a logarithm from which a parameter is not determined."""
+LONGEST_STEP = np.log(100.0)
+"""Largest change of a logarithm between two runs."""
+LONGEST_STEP_OF_DEPTHS = np.log(4.0)
+"""The same where profiles or depth maps, which are linearised, are among the data."""
+REPEATABILITY_RANGE = (1e-3, 3.0)
+"""Smallest and largest repeatability that is estimated."""
+INSENSITIVE = 0.1
+"""Change of all data together, in standard deviations, per change of a parameter by a factor e,
+below which the data are taken as insensitive to it."""
+_ITERATIONS, _CONVERGED, _RIDGE = 30, 1e-5, 1e-12
+_UNDETERMINED = 10.0
+"""Standard deviation of a logarithm from which on a parameter counts as undetermined."""
 
 
 @dataclass(frozen=True)
 class Weights:
-    """The symmetric root of the inverse covariance of data in their standard deviations.
+    """Root W of the inverse covariance of the data, WᵀW = V⁻¹.
 
-    The covariance is 1 + B Bᵀ with B what is off together, shape (n, k); the root of its inverse
-    is 1 − U c Uᵀ with the singular vectors U of B.
+    V = S (1 + B Bᵀ) S with the independent standard deviations S and the correlated errors B,
+    shape (n, k), in units of S. With the singular vectors U of B, W = (1 − U c Uᵀ) S⁻¹.
     """
 
     sigma: Array
-    """Standard deviations of the data alone, shape (n,)."""
-    along: Array
-    less: Array
-    """The vectors U, shape (n, k), and c, shape (k,)."""
+    """Standard deviations S of the independent errors, shape (n,)."""
+    vectors: Array
+    """U, shape (n, k)."""
+    reduction: Array
+    """c, shape (k,)."""
 
     @classmethod
-    def of(cls, sigma: Array, together: Array | None = None) -> Weights:
-        """Return the weights of data, of which so much, shape (n, k), is off together."""
-        if together is None:
+    def of(cls, sigma: Array, correlated: Array | None = None) -> Weights:
+        """Return the weights for independent errors and correlated ones, S B, shape (n, k)."""
+        if correlated is None:
             return cls(sigma, np.zeros((len(sigma), 0)), np.zeros(0))
-        along, sizes, _ = np.linalg.svd(together / sigma[:, None], full_matrices=False)
-        return cls(sigma, along, 1 - (1 + sizes**2) ** -0.5)
+        vectors, sizes, _ = np.linalg.svd(correlated / sigma[:, None], full_matrices=False)
+        return cls(sigma, vectors, 1 - (1 + sizes**2) ** -0.5)
 
     def weigh(self, values: Array) -> Array:
-        """Return values in standard deviations, made independent; shape (n,) or (n, m)."""
+        """Return W times values, of shape (n,) or (n, m)."""
         return self._root((values.T / self.sigma).T)
 
-    def back(self, values: Array) -> Array:
-        """Return the product of the transposed weights with values, of the same shape."""
+    def weigh_transposed(self, values: Array) -> Array:
+        """Return Wᵀ times values, of the same shape."""
         return (self._root(values).T / self.sigma).T
 
     def _root(self, values: Array) -> Array:
-        common = self.less * (self.along.T @ values).T
-        return np.asarray(values - self.along @ common.T)
+        common = self.reduction * (self.vectors.T @ values).T
+        return np.asarray(values - self.vectors @ common.T)
 
-    def alone(self, rows: Mask) -> Array:
-        """Return the weights of data that share nothing with others."""
-        return np.asarray((1 - self.along[rows] ** 2 @ self.less) / self.sigma[rows])
+    def diagonal(self, rows: Mask) -> Array:
+        """Return the diagonal of W at some rows."""
+        return np.asarray((1 - self.vectors[rows] ** 2 @ self.reduction) / self.sigma[rows])
 
     def log_determinant(self, rows: Mask) -> float:
-        """Return the logarithm of the determinant for data that share nothing with the others."""
-        inside = self.along[rows].T @ self.along[rows]
-        size = np.linalg.slogdet(np.eye(len(inside)) - self.less[:, None] * inside)[1]
+        """Return ln |W| of some rows, whose errors are independent of those of the others."""
+        inside = self.vectors[rows].T @ self.vectors[rows]
+        size = np.linalg.slogdet(np.eye(len(inside)) - self.reduction[:, None] * inside)[1]
         return float(size - np.sum(np.log(self.sigma[rows])))
 
 
 @dataclass(frozen=True)
 class Problem:
-    """What is fitted: p parameters, to n data, which the first n of m responses answer to."""
+    """A least-squares problem: p parameters, n data, and m responses of which n are of the data."""
 
     names: tuple[str, ...]
+    """Of the parameters."""
     observed: Array
+    """Measured values, shape (n,)."""
     sigma: Array
-    """Measured values and their standard deviations, shape (n,)."""
+    """Their standard deviations, shape (n,)."""
     below: Mask
+    """Whether a value is censored, below a limit of detection; shape (n,)."""
     specimen: Array
-    """Where the value is a limit of detection, and of which test it is, shape (n,)."""
+    """Number of the test that a value is of, shape (n,)."""
     repeatability: float | None
     """Relative standard deviation of the parameters from test to test; None to estimate it."""
     small: Array
-    """Of a depth that may be 0 how much is no more near to a power law of the parameters, shape
-    (m,); 0 for what is positive."""
+    """Depth below which a response is linear rather than a power law, shape (m,); 0 for a
+    positive response."""
     lower: Array
+    """Lower bounds of the logarithms of the parameters, shape (p,); −infinity for none."""
     upper: Array
-    """Bounds of the logarithms of the parameters, shape (p,); infinite for none."""
+    """Upper bounds, infinity for none."""
     common: Array
-    """What errors of one standard deviation, of one source each, add to all data, shape (n, k)."""
+    """Correlated errors: what one standard deviation of each source adds to the data, shape
+    (n, k)."""
 
     def weights(self, scatter: Array | None = None) -> Weights:
-        """Return the weights of the data, of which so much more, shape (n, j), is off together."""
+        """Return the weights of the data, with more correlated errors, shape (n, j), if given."""
         parts = [self.common] if scatter is None else [self.common, scatter]
         return Weights.of(self.sigma, np.concatenate(parts, axis=1))
 
     def without_common(self) -> Problem:
-        """Return the problem with errors that each datum has alone."""
+        """Return the problem without correlated errors."""
         return replace(self, common=self.common[:, :0])
 
     def scaled(self, responses: Array) -> Array:
-        """Return responses in whose terms slopes change little: logarithms, linear near 0.
+        """Return responses on a scale on which slopes change little: logarithms, linear near 0.
 
-        A prediction may be 0, and remains so.
+        A prediction of 0 stays 0.
         """
         found = np.log(responses, out=responses.copy(), where=responses > 0)
         depth = self.small > 0
@@ -109,18 +118,19 @@ class Problem:
         return found
 
     def residuals(self, responses: Array, weights: Weights) -> Array:
-        """Return residuals, in standard deviations; their squares are −2 ln of the likelihood.
+        """Return weighted residuals; their sum of squares is −2 ln L but for a constant.
 
-        That of a limit of detection is √(−2 ln Φ(z)), z being how far below it the value lies.
+        That of a censored value is √(−2 ln Φ(z)), where the response lies z standard deviations
+        below the limit of detection.
         """
         found = weights.weigh(responses[: len(self.observed)] - self.observed)
         found[self.below] = np.sqrt(-2 * log_ndtr(-found[self.below]))
         return found
 
-    def together(self, effects: Array) -> Array:
-        """Return the effects of the parameters of each test alone, shape (n, tests · p).
+    def by_test(self, effects: Array) -> Array:
+        """Return the effects of parameters that differ from test to test, shape (n, tests · p).
 
-        All that was measured in a test is off together; a limit of detection is a test of its own.
+        Each censored value counts as a test of its own, so that it is independent of the others.
         """
         test = np.where(self.below, -1 - np.arange(len(self.below)), self.specimen)
         own = test[:, None] == np.unique(test)
@@ -129,17 +139,18 @@ class Problem:
 
 @dataclass(frozen=True)
 class Linearised:
-    """The model near a run: power laws, of depths that may be 0 linear in the logarithms."""
+    """The model about a run: power laws of the parameters, and depths linear in the logarithms."""
 
     problem: Problem
     point: Array
+    """Logarithms of the parameters of the run, shape (p,)."""
     responses: Array
-    """Logarithms of the parameters of the run, shape (p,), and what it gave, shape (m,)."""
+    """Its responses, shape (m,)."""
     slopes: Array
     """Derivatives of `Problem.scaled` by the logarithms of the parameters, shape (m, p)."""
     weights: Weights
     repeatability: float = 0.0
-    """Part of the weights: relative standard deviation from test to test."""
+    """Relative standard deviation from test to test, included in the weights."""
 
     def at(self, point: Array) -> Array:
         """Return the responses at another point."""
@@ -156,12 +167,12 @@ class Linearised:
     def effects(self, point: Array) -> Array:
         """Return the derivatives of the data by the logarithms of the parameters, shape (n, p)."""
         n = len(self.problem.observed)
-        # A depth's are the same everywhere, as those by which tests are taken to scatter.
+        # Depths are linear, so that tests scatter by the same effects at every point.
         factor = np.where(self.problem.small > 0, self._steepness, self.at(point))[:n]
         return np.asarray(factor[:, None] * self.slopes[:n])
 
     def residuals(self, point: Array) -> Array:
-        """Return the misfit of the data; see `Problem.residuals`."""
+        """Return the weighted residuals of the data; see `Problem.residuals`."""
         return self.problem.residuals(self.at(point), self.weights)
 
     def jacobian(self, point: Array) -> Array:
@@ -171,16 +182,16 @@ class Linearised:
         # d/dz of √(−2 ln Φ(z)) is −φ/(Φ √(−2 ln Φ)).
         root = self.residuals(point)[below]
         above = (self.at(point)[: len(below)] - self.problem.observed)[below]
-        above = above * self.weights.alone(below)
+        above = above * self.weights.diagonal(below)
         inside = np.exp(-0.5 * above**2 + 0.5 * root**2) / np.sqrt(2 * np.pi)
         slope = np.divide(inside, root, out=np.zeros_like(root), where=root > 0)
         found[below] *= slope[:, None]
         return found
 
     def sensitivity(self) -> Array:
-        """Return the derivatives of the data in standard deviations, shape (n, p).
+        """Return the weighted derivatives of the data, shape (n, p).
 
-        Those of a limit of detection are of a value that just meets it.
+        Of a censored value they are those at the limit of detection.
         """
         effects, observed = self.effects(self.point), self.problem.observed
         below = self.problem.below
@@ -189,20 +200,21 @@ class Linearised:
         return self.weights.weigh(effects)
 
     def limited(self) -> Mask:
-        """Return of which parameters nothing but limits of detection tells, shape (p,)."""
+        """Return which parameters only censored values depend on, shape (p,)."""
         found, below = self.sensitivity(), self.problem.below
-        told = np.sqrt(np.sum(found[~below] ** 2, axis=0))
-        return np.asarray((told < FAINT) & np.any(np.abs(found[below]) > FAINT, axis=0))
+        not_by_values = np.sqrt(np.sum(found[~below] ** 2, axis=0)) < INSENSITIVE
+        by_limits = np.any(np.abs(found[below]) > INSENSITIVE, axis=0)
+        return np.asarray(by_limits & not_by_values)
 
     def bounds(self, reach: float) -> tuple[Array, Array]:
-        """Return the bounds of a point no farther than `reach` from that of the run."""
+        """Return the bounds of points within `reach` of that of the run."""
         lower = np.maximum(self.problem.lower, self.point - reach)
         return lower, np.minimum(self.problem.upper, self.point + reach)
 
     def least(self, start: Array, rows: Mask | slice = slice(None)) -> Array:
-        """Return the least-squares point of rows of the data within the bounds and a leap."""
-        fields = np.any(self.problem.small > 0)
-        ends = self.bounds(STRIDE if fields else LEAP)
+        """Return the least-squares point of rows of the data, within bounds and a longest step."""
+        has_depths = np.any(self.problem.small > 0)
+        ends = self.bounds(LONGEST_STEP_OF_DEPTHS if has_depths else LONGEST_STEP)
         found = least_squares(
             lambda point: self.residuals(point)[rows],
             np.clip(start, *ends),
@@ -215,55 +227,55 @@ class Linearised:
         return np.asarray(found.x)
 
     def best(self) -> tuple[Linearised, Array]:
-        """Return the model with the data weighed as at its least-squares point, and that point."""
+        """Return the model with the weights of its least-squares point, and that point."""
         here, point = self, self.least(self.point)
         if self.problem.repeatability == 0:
             return here, point
-        for _ in range(_PASSES):
+        for _ in range(_ITERATIONS):
             given = self.problem.repeatability
             here = here.weighed(point, here._estimated(point) if given is None else given)
             former, point = point, here.least(point)
-            if np.max(np.abs(point - former)) < _SAME:
+            if np.max(np.abs(point - former)) < _CONVERGED:
                 break
         return here, point
 
     def weighed(self, point: Array, repeatability: float) -> Linearised:
-        """Return the model with data that repeat so well weighed as at a point."""
+        """Return the model with the weights that follow from a repeatability at a point."""
         scatter = None
         if repeatability > 0:
-            scatter = repeatability * self.problem.together(self.effects(point))
+            scatter = repeatability * self.problem.by_test(self.effects(point))
         weights = self.problem.weights(scatter)
         return replace(self, weights=weights, repeatability=repeatability)
 
-    def freedom(self, direction: Array) -> float:
-        """Return the degrees of freedom with which the variance of direction · point is known.
+    def degrees_of_freedom(self, direction: Array) -> float:
+        """Return the degrees of freedom of the variance of direction · point.
 
-        2 g²/Var(g) with the variance g (Satterthwaite 1946, Biometrics Bulletin 2, 110-114);
+        2 g²/Var(g) for a variance g (Satterthwaite 1946, Biometrics Bulletin 2, 110-114);
         infinite if the repeatability is stated.
         """
         if self.problem.repeatability is not None:
             return np.inf
         jacobian = self.sensitivity()
-        together = self.weights.weigh(self.problem.together(self.effects(self.point)))
+        scatter = self.weights.weigh(self.problem.by_test(self.effects(self.point)))
         directions = np.linalg.svd(jacobian, full_matrices=False)[0]
-        left = together - directions @ (directions.T @ together)
+        left = scatter - directions @ (directions.T @ scatter)
         root = root_covariance(jacobian)
         effect = np.sum(jacobian * np.sum(root * (direction @ root), axis=1), axis=1)
-        slope = np.sum((effect @ together) ** 2)
+        slope = np.sum((effect @ scatter) ** 2)
         variance = np.sum((direction @ root) ** 2)
-        known = np.sum((left.T @ left) ** 2)
-        return float(variance**2 * known / slope**2) if slope > 0 else np.inf
+        information = np.sum((left.T @ left) ** 2)
+        return float(variance**2 * information / slope**2) if slope > 0 else np.inf
 
     def deviance(self, point: Array) -> float:
-        """Return twice the negative logarithm of the likelihood at a point."""
+        """Return −2 ln L at a point."""
         values = ~self.problem.below
         scale = np.sum(values) * np.log(2 * np.pi) - 2 * self.weights.log_determinant(values)
         return float(np.sum(self.residuals(point) ** 2) + scale)
 
     def left_out(self) -> Array:
-        """Return the log-likelihood of each test foretold from all others, shape (tests,).
+        """Return the log-likelihood of each test predicted from all others, shape (tests,).
 
-        NaN if those do not determine a parameter; none of a single test.
+        NaN if the others do not determine a parameter; empty for a single test.
         """
         found, below, n = [], self.problem.below, len(self.problem.observed)
         tests = np.unique(self.problem.specimen)
@@ -272,36 +284,37 @@ class Linearised:
             point = self.least(self.point, ~own)
             rest = replace(self, point=point, responses=self.at(point))
             root = root_covariance(rest.sensitivity()[~own])
-            # How far the estimate puts each value off, beside its own scatter.
-            apart = self.weights.weigh(rest.effects(point)) @ root
-            off = self.weights.weigh(rest.responses[:n] - self.problem.observed)
+            # The error of the estimate adds to that of each value.
+            from_estimate = self.weights.weigh(rest.effects(point)) @ root
+            residuals = self.weights.weigh(rest.responses[:n] - self.problem.observed)
             values, limits = own & ~below, own & below
-            broader = np.sqrt(1 + np.sum(apart[limits] ** 2, axis=1))
-            likelihood = np.sum(log_ndtr(-off[limits] / broader))
+            sigma = np.sqrt(1 + np.sum(from_estimate[limits] ** 2, axis=1))
+            likelihood = np.sum(log_ndtr(-residuals[limits] / sigma))
             if np.any(values):
-                covariance = np.eye(np.sum(values)) + apart[values] @ apart[values].T
-                likelihood += multivariate_normal.logpdf(off[values], cov=covariance)
+                covariance = np.eye(np.sum(values))
+                covariance += from_estimate[values] @ from_estimate[values].T
+                likelihood += multivariate_normal.logpdf(residuals[values], cov=covariance)
                 likelihood += self.weights.log_determinant(values)
-            known = np.max(np.sum(root**2, axis=1)) < _UNKNOWN**2
-            found.append(likelihood if known else np.nan)
+            determined = np.max(np.sum(root**2, axis=1)) < _UNDETERMINED**2
+            found.append(likelihood if determined else np.nan)
         return np.array(found)
 
     def _estimated(self, point: Array) -> float:
-        """Return the repeatability by restricted maximum likelihood about a point."""
+        """Return the repeatability by restricted maximum likelihood (REML) about a point."""
         bounds = self.problem.lower, self.problem.upper
-        free = np.all([np.abs(point - bound) > _SAME for bound in bounds], axis=0)
+        free = np.all([np.abs(point - bound) > _CONVERGED for bound in bounds], axis=0)
 
         def criterion(repeatability: float) -> float:
             here = self.weighed(point, repeatability)
             left, sizes, _ = np.linalg.svd(here.jacobian(point)[:, free], full_matrices=False)
-            # What a step of Gauss and Newton takes off the misfit.
-            taken = np.sum(left * here.residuals(point)[:, None], axis=0)
-            lost = 2 * np.sum(np.log(sizes + _RIDGE))
-            return float(here.deviance(point) - np.sum(taken**2) + lost)
+            # By how much a Gauss-Newton step would lower χ².
+            fall = np.sum(np.sum(left * here.residuals(point)[:, None], axis=0) ** 2)
+            log_information = 2 * np.sum(np.log(sizes + _RIDGE))
+            return float(here.deviance(point) - fall + log_information)
 
         found = minimize_scalar(
             lambda log: criterion(np.exp(log)),
-            bounds=np.log(REPEATABILITIES),
+            bounds=np.log(REPEATABILITY_RANGE),
             method="bounded",
             options={"xatol": 1e-4},
         )
@@ -309,7 +322,7 @@ class Linearised:
 
 
 def root_covariance(jacobian: Array) -> Array:
-    """Return a root B of the covariance (JᵀJ)⁻¹ = B Bᵀ, shape (p, p); finite in any case."""
+    """Return a root B of the covariance (JᵀJ)⁻¹ = B Bᵀ, shape (p, p); finite for a singular J."""
     size = np.sqrt(np.sum(jacobian**2, axis=0)) + _RIDGE
     _, values, directions = np.linalg.svd(jacobian / size, full_matrices=False)
     return np.asarray(directions.T / np.sqrt(values**2 + _RIDGE) / size[:, None])

@@ -19,19 +19,19 @@ from tribo.simulation.run import Simulation
 from tribo.study.calibration.cells import on_cells, read_map, surface_shape
 from tribo.study.calibration.map_notes import off_level, off_middle
 from tribo.study.calibration.maps import FittedMaps, Prior, fit_maps
-from tribo.study.calibration.measured import Mapped
-from tribo.study.calibration.placing import find_scar
+from tribo.study.calibration.measured import MapEntry
+from tribo.study.calibration.scar_shift import find_shift
 from tribo.study.gradient.objective import View
 from tribo.study.variation import unknown_body
 
 
 def calibrate_maps(
     case: Case | Mapping[str, Any] | str | Path,
-    mapped: Mapping[str, Mapped],
+    mapped: Mapping[str, MapEntry],
     *,
     on_run: Callable[[int, float], None] = lambda count, misfit: None,
 ) -> FittedMaps:
-    """Do as `fit_maps`, with the maps by their place in the file, for messages."""
+    """Fit local coefficients to the maps of a file, by their place in it; see `fit_maps`."""
     model = Simulation(
         validate_case(case_tables(case)).model_copy(update={"observers": ()}),
     ).model
@@ -57,13 +57,13 @@ def calibrate_maps(
 
 
 def _remarks(
-    entry: Mapped, heights: Heights, depth: Array, model: Array, spacing: tuple[float, float]
+    entry: MapEntry, heights: Heights, depth: Array, model: Array, spacing: tuple[float, float]
 ) -> Iterator[str]:
-    """Say that a map is off the middle of the case's scar, or not levelled."""
+    """Name a map that is off the middle of the case's scar, or not levelled."""
     name = f"the map of {entry.body!r}"
-    found = find_scar(heights, model, spacing, entry.uncertainty)
-    # Less may well be due to the coefficient.
+    found = find_shift(heights, model, spacing, entry.uncertainty)
+    # A smaller shift may be due to the coefficient.
     if np.any(np.abs(found.shift) > 0.5 * np.array(spacing)):
-        for told in off_middle(name, found):
-            yield f"{told}: centre it, unless the coefficient is higher on that side"
+        for note in off_middle(name, found):
+            yield f"{note}: centre it, unless the coefficient is higher on that side"
     yield from off_level(name, depth, model, entry.uncertainty)

@@ -1,4 +1,4 @@
-"""Coefficients that differ from place to place, from a map of the depth worn off."""
+"""Local wear coefficients from depth maps: the most probable map, and its standard deviation."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.march import begin, march
 from tribo.simulation.model import Model
 from tribo.simulation.run import Simulation
-from tribo.study.calibration.cells import over_cells
+from tribo.study.calibration.cells import cell_means
 from tribo.study.calibration.notes import UNLIKELY
-from tribo.study.calibration.quantities import CUT, kinked
+from tribo.study.calibration.quantities import EDGE_CELL_SIGMA, edge_sigma
 from tribo.study.gradient.backwards import swept_back
 from tribo.study.gradient.gradient import ValueAndGradient
 from tribo.study.gradient.local import localised
@@ -31,39 +31,49 @@ from tribo.study.gradient.objective import Seeds, View
 from tribo.study.gradient.tape import Tape, recorded
 
 STEP = 1e-2
-"""Largest change of a logarithm for the derivative of all depths along a direction."""
-EACH, LITTLE = 10, 0.2
-"""Products with the information of the data until it is seen what each told, and what is little."""
-ROUGHLY, ITERATIONS, MEMORY, FALL = 10, 100, 30, 0.05
-"""Steps of L-BFGS before, at most after, remembered; and the fall of −ln p that ends it."""
+"""Largest change of a logarithm for the finite difference of all depths along a direction."""
+CHECK_INTERVAL = 10
+"""Products with the Fisher information between two checks of what they add."""
+LEAST_GAIN = 0.2
+"""Degrees of freedom per product below which the Krylov space is large enough."""
+FIRST_ITERATIONS = 10
+"""Steps of L-BFGS before the information is computed."""
+ITERATIONS = 100
+"""Largest number of steps after it."""
+MEMORY = 30
+"""Steps that L-BFGS remembers."""
+FALL = 0.05
+"""Fall of −ln p that ends it."""
 FINE = 0.125
-"""Largest cell, in correlation lengths, of a grid that is halved to begin on."""
-EXHAUSTED, SILENT = 1e-9, 0.9
-"""Part of a new direction that is none, and of the prior's spread where the data say nothing."""
+"""Cell size, in correlation lengths, below which the fit starts on a grid of half as many cells."""
+EXHAUSTED = 1e-9
+"""Relative length of a new Krylov vector that is rounding."""
+SILENT = 0.9
+"""Posterior standard deviation over the prior's from which on the data say nothing."""
 
 
 @dataclass(frozen=True)
 class Prior:
-    """What is known of ln(k/k₀) at each cell before anything is measured: a Gaussian field.
+    """Prior of ln(k/k₀) at each cell: a Gaussian field.
 
-    Its covariance is that of Whittle (1954, Biometrika 41, 434-449), s² (r/ℓ) K₁(r/ℓ), with
-    reflecting ends, and as wide there as elsewhere. At the distance ℓ 0.60 of the correlation is
-    left.
+    Its covariance is s² (r/ℓ) K₁(r/ℓ) (Whittle 1954, Biometrika 41, 434-449), with reflecting ends
+    and a uniform standard deviation. The correlation at the distance ℓ is 0.60.
     """
 
     spread: float
+    """Standard deviation s."""
     length: float
-    """The standard deviation s, and the length ℓ, in m."""
+    """Correlation length ℓ, in m."""
 
     def amplitudes(self, shape: tuple[int, int], spacing: tuple[float, float]) -> Array:
-        """Return the relative standard deviations of cosine waves, of the shape of the map."""
+        """Return the relative standard deviations of the cosine modes, of the shape of the map."""
         waves = [np.pi * np.arange(n) / (n * h) for n, h in zip(shape, spacing, strict=True)]
         squared = waves[0][:, None] ** 2 + waves[1] ** 2
         planes = np.count_nonzero(np.array(shape) > 1)
         return np.asarray((1 + self.length**2 * squared) ** -(0.5 + 0.25 * planes))
 
-    def level(self, amplitudes: Array) -> Array:
-        """Return the factors on a sum of waves that make it as wide as the spread everywhere."""
+    def scale(self, amplitudes: Array) -> Array:
+        """Return the factor at each cell that makes the standard deviation of the field uniform."""
         waves = [idctn(np.eye(n), axes=[0], norm="ortho") ** 2 for n in amplitudes.shape]
         return np.asarray(self.spread / np.sqrt(waves[0] @ amplitudes**2 @ waves[1].T))
 
@@ -73,25 +83,28 @@ class LocalMap:
     """The factor on a body's wear coefficient at each cell of its surface, shape (rows, ny)."""
 
     logs: Array
+    """Most probable ln(k/k₀)."""
     deviation: Array
+    """Its standard deviation."""
     prior: Array
-    """The most probable ln(k/k₀), its standard deviation, and that of the prior."""
+    """Standard deviation of the prior."""
     spacing: tuple[float, float]
     """Edge lengths of a cell, in m."""
     measured: Array
+    """Measured depth, in m; NaN where missing."""
     computed: Array
+    """Depth of the fit, in m."""
     uncertainty: Array
-    """The depth measured, NaN where it was not, that of the fit, and the standard deviation of
-    what is between them, in m."""
+    """Standard deviation of their difference, in m."""
 
     @property
     def factor(self) -> Array:
-        """k/k₀ in the median."""
+        """Median of k/k₀."""
         return np.exp(self.logs)
 
     @property
     def told(self) -> Mask:
-        """Where the data say something, beyond the prior."""
+        """Where the data narrow the prior."""
         return np.asarray(self.deviation < SILENT * self.prior)
 
     def interval(self, level: float) -> tuple[Array, Array]:
@@ -107,22 +120,23 @@ class FittedMaps:
     maps: Mapping[str, LocalMap]
     """By the name of the body."""
     gradients: int
+    """Number of gradients."""
     products: int
-    """Gradients, and products with the Hessian, that it took."""
+    """Number of products with the Fisher information."""
     chi_square: float
     degrees_of_freedom: float
-    """Cells that were measured, less Σ λ/(1 + λ) over the eigenvalues of the information."""
+    """Measured cells, less Σ λ/(1 + λ) over the eigenvalues λ of the information."""
     remarks: tuple[str, ...] = ()
-    """On the maps as they were measured."""
+    """Notes on the measured maps."""
 
     @property
     def p_value(self) -> float:
-        """Probability of a misfit at least as large by chance."""
+        """Probability of a χ² at least as large by chance."""
         return float(chdtrc(self.degrees_of_freedom, self.chi_square))
 
     @property
     def notes(self) -> list[str]:
-        """Remarks on what the data can tell."""
+        """Notes on the maps and the fit."""
         notes = list(self.remarks)
         notes += [
             f"{name}: the data say nothing of {np.sum(~each.told)} cells, mostly where nothing was "
@@ -147,20 +161,20 @@ def fit_maps(
     products: int = 60,
     on_run: Callable[[int, float], None] = lambda count, misfit: None,
 ) -> FittedMaps:
-    """Find the factors on the wear coefficients of bodies that explain maps of their depth.
+    """Fit local factors on the wear coefficients of bodies to maps of their depth.
 
-    The most probable ones, by L-BFGS with exact gradients in waves of the prior. Their standard
-    deviations are linearised after its first steps: the information of the data, Jᵀ V⁻¹ J, is
-    projected on a Krylov space (Bui-Thanh et al. 2013, SIAM J. Sci. Comput. 35, A2494-A2523), by
-    products that are each a run and a pass back, at most so many. What lies beyond is left to the
-    prior, so that they come out too large rather than too small. The other steps are taken in
-    directions that this makes about equally wide. Where cells are far smaller than the correlation
-    lengths, all this is done on a coarser grid first, whose waves are the long ones of the finer.
+    The maximum of the posterior is found by L-BFGS with exact gradients, in cosine modes of the
+    prior. The posterior's standard deviation is linearised: the Fisher information Jᵀ V⁻¹ J is
+    projected on a Krylov space (Bui-Thanh et al. 2013, SIAM J. Sci. Comput. 35, A2494-A2523) by at
+    most `products` products, each a run and an adjoint pass. Directions beyond keep the prior's
+    standard deviation, which is too large rather than too small. The information also
+    preconditions L-BFGS. Where cells are far smaller than the correlation lengths, the fit starts
+    on a coarser grid.
 
-    `depths` are by the name of the body the mean depth of each cell worn off at the end, in m, of
-    the shape of `View.wear`, NaN where it was not measured, and its standard deviation; cells that
-    a scar's edge cuts are off by what `kinked` says besides. `on_run` is called after
-    each gradient or product with their number and the misfit χ², NaN of a product.
+    `depths` has, by the name of the body, the mean depth of each cell at the end, in m, of the
+    shape of `View.wear`, NaN where missing, and its standard deviation, to which `edge_sigma` is
+    added. `on_run` is called after each gradient or product with their number and χ², NaN for a
+    product.
     """
     misfits: list[float] = []
 
@@ -168,27 +182,27 @@ def fit_maps(
         misfits.append(misfit)
         on_run(len(misfits), misfit)
 
-    waves = _Waves(Simulation(case).model, depths, priors, tell)
-    z, basis, values = waves.fitted(products)
-    logs = waves.logs(z)
-    fit = waves.run(logs)
-    residuals = waves.residuals(fit)
-    taken = sum(
-        value / (1 + value) * waves.logs(vector) ** 2
+    posterior = _Posterior(Simulation(case).model, depths, priors, tell)
+    z, basis, values = posterior.fitted(products)
+    logs = posterior.logs(z)
+    fit = posterior.run(logs)
+    residuals = posterior.residuals(fit)
+    reduction = sum(
+        value / (1 + value) * posterior.logs(vector) ** 2
         for vector, value in zip(basis, values, strict=True)
     )
     maps = {}
-    for name, part in waves.parts.items():
-        shape, prior = waves.shapes[name], np.full(waves.shapes[name], priors[name].spread)
-        left = prior**2 - taken[part].reshape(shape)
+    for name, part in posterior.parts.items():
+        shape, prior = posterior.shapes[name], np.full(posterior.shapes[name], priors[name].spread)
+        variance = prior**2 - reduction[part].reshape(shape)
         maps[name] = LocalMap(
             logs[part].reshape(shape),
-            np.sqrt(np.maximum(left, 0.0)),
+            np.sqrt(np.maximum(variance, 0.0)),
             prior,
-            waves.model.grid.spacing,
+            posterior.model.grid.spacing,
             depths[name][0],
-            over_cells(fit.wear(name)),
-            waves.sigma[name],
+            cell_means(fit.wear(name)),
+            posterior.sigma[name],
         )
     read = sum(int(np.sum(~np.isnan(each))) for each in residuals.values())
     made = int(np.sum(np.isnan(misfits)))
@@ -201,8 +215,8 @@ def fit_maps(
     )
 
 
-class _Waves:
-    """Maps as waves of the prior, of independent amplitudes of standard deviation 1."""
+class _Posterior:
+    """The posterior of maps, in cosine modes whose prior amplitudes are independent N(0, 1)."""
 
     def __init__(
         self,
@@ -213,7 +227,7 @@ class _Waves:
     ) -> None:
         self.model, self.depths, self.priors, self.tell = model, depths, priors, tell
         self.shapes = {name: (model.exposures[name].rows, model.grid.cells[1]) for name in depths}
-        self.amplitudes, self.levels, self.parts, self.size = {}, {}, {}, 0
+        self.amplitudes, self.scales, self.parts, self.size = {}, {}, {}, 0
         for name, shape in self.shapes.items():
             if depths[name][0].shape != shape:
                 raise CaseError(
@@ -221,15 +235,15 @@ class _Waves:
                     f"{shape}"
                 )
             self.amplitudes[name] = priors[name].amplitudes(shape, model.grid.spacing)
-            self.levels[name] = priors[name].level(self.amplitudes[name])
+            self.scales[name] = priors[name].scale(self.amplitudes[name])
             self.parts[name] = slice(self.size, self.size + shape[0] * shape[1])
             self.size = self.parts[name].stop
         self.sigma: dict[str, Array] = {}
-        """Of each cell by the body, with what the grid puts off at a scar's edge, in m."""
+        """Standard deviation of each cell, with that of the grid at a scar's edge, in m."""
         self.gradient = ValueAndGradient(model, self.misfit, (), list(depths))
 
-    def halved(self) -> _Waves | None:
-        """Return them on half as many cells; None if those were too large for the maps."""
+    def halved(self) -> _Posterior | None:
+        """Return it on half as many cells along each axis; None if these are too large."""
         case, grid = self.model.case, self.model.grid
         cells = (grid.cells[0] // 2, grid.cells[1] // 2)
         shortest = min(prior.length for prior in self.priors.values())
@@ -244,10 +258,10 @@ class _Waves:
                 return None
             split = depth.reshape(shape[0], blocks[0], shape[1], blocks[1])
             depths[name] = split.mean(axis=(1, 3)), sigma / (blocks[0] * blocks[1]) ** 0.5
-        return _Waves(model, depths, self.priors, self.tell)
+        return _Posterior(model, depths, self.priors, self.tell)
 
-    def raised(self, coarse: _Waves, z: Array) -> Array:
-        """Return amplitudes of another grid's waves on this one, without the shorter waves."""
+    def raised(self, coarse: _Posterior, z: Array) -> Array:
+        """Return the amplitudes of a coarser grid on this one; 0 for shorter waves."""
         found = np.zeros(self.size)
         for name, part in self.parts.items():
             rows, columns = coarse.shapes[name]
@@ -256,12 +270,12 @@ class _Waves:
         return found
 
     def fitted(self, products: int) -> tuple[Array, Array, Array]:
-        """Return the most probable amplitudes, and eigenvectors and -values of the information."""
+        """Return the most probable amplitudes, and the eigenpairs of the information."""
         coarse = self.halved()
         if coarse is None:
             near = np.zeros(self.size)
             self.weigh(near)
-            near = self.least(near, ROUGHLY)
+            near = self.least(near, FIRST_ITERATIONS)
             self.weigh(near)
             with closing(Tape()) as tape:
                 basis, values = _krylov(self.products(self.logs(near), tape), self.size, products)
@@ -275,54 +289,55 @@ class _Waves:
     def least(
         self, near: Array, steps: int, basis: Array | None = None, less: Array | None = None
     ) -> Array:
-        """Return the most probable amplitudes, or where so many steps lead to, by L-BFGS.
+        """Return the most probable amplitudes, or those after `steps`, by L-BFGS.
 
-        The posterior is a part `less` narrower than the prior along the rows of the basis.
+        The posterior's standard deviation along the rows of `basis` is 1 + `less`, which
+        preconditions the steps.
         """
 
-        def rounded(y: Array) -> Array:
+        def preconditioned(y: Array) -> Array:
             if basis is None or less is None:
                 return y
             along = less * np.sum(basis * y, axis=1)
             return np.asarray(y + np.sum(along[:, None] * basis, axis=0))
 
         def posterior(y: Array) -> tuple[float, Array]:
-            z = near + rounded(y)
+            z = near + preconditioned(y)
             value, slope = self.gradient(self.logs(z))
             self.tell(2 * value)
-            return value + 0.5 * float(np.sum(z * z)), rounded(self.back(slope) + z)
+            return value + 0.5 * float(np.sum(z * z)), preconditioned(self.adjoint(slope) + z)
 
         options = {"maxiter": steps, "ftol": 2 * FALL / self.size, "maxcor": MEMORY}
         found = minimize(posterior, 0 * near, jac=True, method="L-BFGS-B", options=options)
-        return np.asarray(near + rounded(found.x))
+        return np.asarray(near + preconditioned(found.x))
 
     def logs(self, z: Array) -> Array:
-        """Return the logarithms of the factors of amplitudes."""
+        """Return ln(k/k₀) of amplitudes."""
         found = np.empty(self.size)
         for name, part in self.parts.items():
             waves = self.amplitudes[name] * z[part].reshape(self.shapes[name])
-            found[part] = (self.levels[name] * idctn(waves, norm="ortho")).ravel()
+            found[part] = (self.scales[name] * idctn(waves, norm="ortho")).ravel()
         return found
 
-    def back(self, slope: Array) -> Array:
-        """Return derivatives in the amplitudes from those in the logarithms."""
+    def adjoint(self, slope: Array) -> Array:
+        """Return derivatives by the amplitudes from those by ln(k/k₀), the adjoint of `logs`."""
         found = np.empty(self.size)
         for name, part in self.parts.items():
-            levelled = self.levels[name] * slope[part].reshape(self.shapes[name])
-            waves = dctn(levelled, norm="ortho")
+            scaled = self.scales[name] * slope[part].reshape(self.shapes[name])
+            waves = dctn(scaled, norm="ortho")
             found[part] = (self.amplitudes[name] * waves).ravel()
         return found
 
     def weigh(self, z: Array) -> None:
-        """Set the standard deviations of cells: the edge is where amplitudes have it."""
+        """Set the standard deviations of cells, with the edge of the scar of these amplitudes."""
         view = self.run(self.logs(z))
         for name, (_, sigma) in self.depths.items():
-            self.sigma[name] = np.hypot(sigma, kinked(view.wear(name), CUT))
+            self.sigma[name] = np.hypot(sigma, edge_sigma(view.wear(name), EDGE_CELL_SIGMA))
 
     def residuals(self, view: View) -> dict[str, Array]:
         """Return the computed less the measured depths, in standard deviations."""
         return {
-            name: (over_cells(view.wear(name)) - depth) / self.sigma[name]
+            name: (cell_means(view.wear(name)) - depth) / self.sigma[name]
             for name, (depth, _) in self.depths.items()
         }
 
@@ -330,22 +345,22 @@ class _Waves:
         """Return half of the sum of the squared residuals, and its derivative."""
         off = {name: np.nan_to_num(each) for name, each in self.residuals(view).items()}
         value = 0.5 * sum(float(np.sum(each * each)) for each in off.values())
-        # Means over cells are their own adjoint.
-        seeds = {name: over_cells(each / self.sigma[name]) for name, each in off.items()}
+        # `cell_means` is its own adjoint.
+        seeds = {name: cell_means(each / self.sigma[name]) for name, each in off.items()}
         return value, Seeds(seeds)
 
     def local(self, logs: Array) -> Model:
-        """Return the model with factors of these logarithms."""
+        """Return the model with local factors, given as ln(k/k₀)."""
         return localised(self.model, self.gradient.at(logs)[1])
 
     def run(self, logs: Array) -> View:
-        """Return the end of a run with factors of these logarithms."""
+        """Return the end of a run with local factors, given as ln(k/k₀)."""
         model = self.local(logs)
         *_, last = march(model, begin(model))
         return View(model, last.state)
 
     def products(self, logs: Array, tape: Tape) -> Callable[[Array], Array]:
-        """Return the product of Jᵀ V⁻¹ J about a map with amplitudes, as a function."""
+        """Return the function that multiplies amplitudes by the information Jᵀ V⁻¹ J of a map."""
         model, time = self.local(logs), self.model.end_time
         end = View(model, recorded(model, [time], tape)[time])
 
@@ -354,12 +369,12 @@ class _Waves:
             step = STEP / np.max(np.abs(move))
             moved, seeds = self.run(logs + step * move), {}
             for name, (depth, _) in self.depths.items():
-                change = over_cells(moved.wear(name) - end.wear(name)) / step
+                change = cell_means(moved.wear(name) - end.wear(name)) / step
                 known = np.where(np.isnan(depth), 0.0, change / self.sigma[name] ** 2)
-                seeds[name] = over_cells(known)
+                seeds[name] = cell_means(known)
             found = swept_back(model, tape, {time: Seeds(seeds)}, [])
             self.tell(math.nan)
-            return self.back(np.concatenate([found.wear_rate[name].ravel() for name in seeds]))
+            return self.adjoint(np.concatenate([found.wear_rate[name].ravel() for name in seeds]))
 
         return product
 
@@ -368,7 +383,7 @@ def _krylov(product: Callable[[Array], Array], size: int, most: int) -> tuple[Ar
     """Return approximate eigenvectors, as rows, and eigenvalues, by Lanczos' method."""
     vector = np.random.default_rng(0).standard_normal(size)
     basis = images = np.empty((0, size))
-    projected, known = np.empty((0, 0)), 0.0
+    projected, gained = np.empty((0, 0)), 0.0
     while len(basis) < min(most, size):
         whole = np.sum(vector**2)
         for _ in range(2):
@@ -382,11 +397,11 @@ def _krylov(product: Callable[[Array], Array], size: int, most: int) -> tuple[Ar
         images = np.vstack([images, vector])
         projected = basis @ images.T
         projected = 0.5 * (projected + projected.T)
-        if len(basis) % EACH == 0:
-            # Σ λ/(1 + λ) over its eigenvalues.
+        if len(basis) % CHECK_INTERVAL == 0:
+            # Degrees of freedom Σ λ/(1 + λ) = n − tr (1 + H)⁻¹.
             inverse = np.linalg.inv(np.eye(len(basis)) + projected)
-            former, known = known, len(basis) - float(np.trace(inverse))
-            if known - former < LITTLE * EACH:
+            former, gained = gained, len(basis) - float(np.trace(inverse))
+            if gained - former < LEAST_GAIN * CHECK_INTERVAL:
                 break
-    values, turned = np.linalg.eigh(projected)
-    return turned.T @ basis, np.maximum(values, 0.0)
+    values, vectors = np.linalg.eigh(projected)
+    return vectors.T @ basis, np.maximum(values, 0.0)

@@ -1,4 +1,4 @@
-"""The file of measured values: what was measured, how well, and what to fit to it."""
+"""The file of measured values, their uncertainties, and the parameters to fit."""
 
 from __future__ import annotations
 
@@ -27,11 +27,13 @@ class Below(float):
 
 LOCAL = "local coefficients are fitted to maps of one test: give [[map]] in a file of its own"
 UNSEEN = "what was too little to be seen is given as a limit, '< 0.1 mg' say"
-FINEST, _BEYOND_NOISE = 1e-6, 3.0
-"""Smallest relative uncertainty; standard deviations below 0 at which no noise explains a mean."""
+LEAST_UNCERTAINTY = 1e-6
+"""Smallest relative uncertainty."""
+_SIGNIFICANT = 3.0
+"""Standard deviations by which a mean depth below 0 is not noise."""
 
 
-class Measured(Table):
+class MeasuredEntry(Table):
     """One measured quantity of one body."""
 
     body: str
@@ -48,11 +50,11 @@ class Measured(Table):
         "profile_across",
         "depth_map",
     ]
-    """What was measured; what a body lost, the diameters of its scar, its largest depth."""
+    """Measured quantity."""
     value: float | tuple[float, ...] | None = None
-    """The value, with its unit, or below a limit, ``"< 0.1 mg"``; none of a test that is planned.
+    """The value with its unit, or a limit of detection, ``"< 0.1 mg"``; none in a planned test.
 
-    For a profile a list of depths, for tests alike one of values.
+    A list of depths for a profile, a list of values for repeated tests.
     """
     before: Annotated[float, Quantity("kg", above=0)] | None = None
     """Instead of the value of a mass: the balance's reading before the test."""
@@ -61,10 +63,11 @@ class Measured(Table):
     position: tuple[Annotated[float, Quantity("m")], ...] | None = None
     """Where a profile's depths were measured, from the centre of the contact."""
     depth: str | None = None
+    """File of a depth map, instead of a value."""
     pitch: Annotated[float, Quantity("m", above=0)] | None = None
-    """Of a depth map its file, instead of a value, and the distance between its pixels."""
+    """Pixel pitch of a depth map."""
     uncertainty: float | None = None
-    """Standard deviation; of a profile, that of each depth, of a map that of a cell's."""
+    """Standard deviation; of a profile that of each depth, of a map that of each cell."""
     resolution: float | None = None
     """Smallest step that the instrument shows."""
     time: Annotated[float, Quantity("s", above=0)] | None = None
@@ -141,13 +144,13 @@ class Measured(Table):
                 "say how well it was measured: uncertainty (a standard deviation), resolution, "
                 "or both"
             )
-        if told := told_wrong(self, self.values):
-            raise ValueError(told)
+        if error := data_error(self, self.values):
+            raise ValueError(error)
         return self
 
     @property
     def values(self) -> Array:
-        """What was measured, shape (n,): a profile's depths or a value a test; NaN for none."""
+        """Depths of a profile, or one value per test, shape (n,); NaN for none."""
         if self.before is not None and self.after is not None:
             return np.array([self.before - self.after])
         if self.value is None:
@@ -156,12 +159,12 @@ class Measured(Table):
 
     @property
     def below(self) -> Mask:
-        """Which of the values are limits that the true reading is below, shape (n,)."""
+        """Which of the values are limits of detection, shape (n,)."""
         given = self.value if isinstance(self.value, tuple) else [self.value] * len(self.values)
         return np.array([isinstance(each, Below) for each in given])
 
     def rows(self) -> pd.DataFrame:
-        """Return the values, a row each, as `Measurements.table` has them."""
+        """Return one row of `Measurements.table` per value."""
         step_sigma, step_most = self.from_resolution
         values = pd.DataFrame({"measured": self.values, "below": self.below})
         return values.assign(
@@ -191,16 +194,16 @@ class Measured(Table):
         return float(np.hypot(self.uncertainty or 0.0, self.from_resolution[0]))
 
 
-def told_wrong(entry: Measured, values: Array) -> str:
-    """Say that values are too exact, or depths negative in the mean; nothing if they are not."""
+def data_error(entry: MeasuredEntry, values: Array) -> str:
+    """Return why values cannot be right: too exact, or depths negative in the mean; else empty."""
     mean, largest = float(np.mean(values)), float(np.max(np.abs(values)))
-    if entry.sigma < FINEST * largest:
+    if entry.sigma < LEAST_UNCERTAINTY * largest:
         return (
             f"known to {in_words(entry.quantity, entry.sigma)}, less than a millionth of "
             f"{in_words(entry.quantity, largest)}: no run is that exact; check the "
             "uncertainty, and the units of both"
         )
-    if not mean < -_BEYOND_NOISE * entry.sigma / np.sqrt(len(values)):
+    if not mean < -_SIGNIFICANT * entry.sigma / np.sqrt(len(values)):
         return ""
     return (
         f"the depths are negative, {1e6 * mean:.3g} µm in the mean; depths count downwards from "
@@ -208,7 +211,7 @@ def told_wrong(entry: Measured, values: Array) -> str:
     )
 
 
-class Fitted(Table):
+class FitEntry(Table):
     """One parameter to fit."""
 
     path: str
@@ -221,15 +224,15 @@ class Fitted(Table):
     """Largest value allowed."""
 
 
-class Tested(Table):
-    """A test, or several alike, on a changed case."""
+class TestEntry(Table):
+    """A test, or several repeated ones, on a changed case."""
 
     name: str = ""
     """What it is called in tables."""
     set: Mapping[str, Any] = {}
-    """How it differs from the case: values by path, as ``load.normal = "50 N"``."""
-    measured: tuple[Measured, ...]
-    """What was measured in it. The nth values of all lists are of one test, the nth."""
+    """Settings in which it differs from the case, by path, as ``load.normal = "50 N"``."""
+    measured: tuple[MeasuredEntry, ...]
+    """Values measured in it. The nth values of all lists are of the nth test."""
 
     @model_validator(mode="before")
     @classmethod
@@ -247,8 +250,8 @@ class Tested(Table):
             raise ValueError(str(error)) from None
 
 
-class Mapped(Table):
-    """The depth worn off a body, measured all over it, and how its coefficient may vary."""
+class MapEntry(Table):
+    """A depth map of a body, and the prior of its local wear coefficient."""
 
     body: str
     """Name of the body in the case."""
@@ -259,39 +262,41 @@ class Mapped(Table):
     uncertainty: Annotated[float, Quantity("m", above=0)]
     """Standard deviation of the depth of a cell of the grid."""
     spread: Annotated[float, Quantity("1", above=0, below=3)] = 0.5
-    """Relative standard deviation of the coefficient from place to place: that of its logarithm."""
+    """Prior standard deviation of the logarithm of the coefficient from place to place."""
     length: Annotated[float, Quantity("m", above=0)]
-    """Correlation length: the distance at which coefficients are still much alike."""
+    """Correlation length of the coefficient."""
 
 
 class Measurements(Table):
-    """What was measured, and what is to be fitted to it."""
+    """Measured values, and the parameters to fit."""
 
-    fit: tuple[Fitted, ...] = ()
-    """The parameters; if left out, the k of each body that something was measured of."""
-    measured: tuple[Measured, ...] = ()
-    """What was measured in a test of the case as it is."""
-    test: tuple[Tested, ...] = ()
-    """What was measured in tests that differ from it."""
-    map: tuple[Mapped, ...] = ()
+    fit: tuple[FitEntry, ...] = ()
+    """The parameters; if left out, the k of each measured body."""
+    measured: tuple[MeasuredEntry, ...] = ()
+    """Values measured in a test of the case as it is."""
+    test: tuple[TestEntry, ...] = ()
+    """Tests that differ from it."""
+    map: tuple[MapEntry, ...] = ()
     """Depth maps, instead, to which local coefficients are fitted."""
     repeatability: Annotated[float, Quantity("1", at_least=0, below=3)] | None = None
     """Relative standard deviation of the parameters from test to test; estimated if left out."""
 
     @property
-    def tests(self) -> dict[str, Tested]:
+    def tests(self) -> dict[str, TestEntry]:
         """All tests, by their place in the file."""
-        own = {"": Tested(measured=self.measured)} if self.measured else {}
-        named = enumerate(self.test, 1)
-        told = (each.model_copy(update={"name": each.name or f"test {i}"}) for i, each in named)
-        return own | {f"test.{i}.": each for i, each in enumerate(told)}
+        own = {"": TestEntry(measured=self.measured)} if self.measured else {}
+        return own | {
+            f"test.{i}.": each.model_copy(update={"name": each.name or f"test {i + 1}"})
+            for i, each in enumerate(self.test)
+        }
 
     def table(self) -> pd.DataFrame:
-        """Return the measured numbers in SI, one row each; of a depth map one without a value.
+        """Return the measured numbers in SI, one row each; a depth map has one without a value.
 
         `place` is the entry in the file, `test` the name of its test, `of` the index of that in
-        `tests`, `specimen` that of the single test, `entry` the `Measured`; `step_sigma` and
-        `step_most` are the standard deviation and the largest error due to the resolution, `step`.
+        `tests`, `specimen` the number of the single test, `entry` the `MeasuredEntry`; `step_sigma`
+        and `step_most` are the standard deviation and the largest error due to the resolution,
+        `step`.
         """
         tables, specimens = [], 0
         for of, (place, test) in enumerate(self.tests.items()):

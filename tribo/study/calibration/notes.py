@@ -1,4 +1,4 @@
-"""How far a calibration can be trusted, in words."""
+"""Notes on the parameters, the misfit and the instruments of a calibration."""
 
 from __future__ import annotations
 
@@ -14,35 +14,42 @@ from tribo.core.arrays import Array
 from tribo.study.calibration.quantities import FIELDS, in_si, in_words, percent
 
 UNLIKELY = 0.01
-"""Probability of so large a misfit below which data and model are said to disagree."""
-HARDLY, NOT_AT_ALL = 0.2, 0.01
-"""How far apart the effects of parameters are: 1 is at right angles, 0 is the same."""
-_TAKES_PART, _MOST, _ALIKE = 0.3, 0.5, 3.0
-"""The last: standard deviations by which residuals of neighbours are alike more than noise is."""
+"""p-value below which data and model disagree."""
+NEARLY_COLLINEAR = 0.2
+"""Singular value of the Jacobian with normalised columns below which parameters are hardly told
+apart: 1 if their effects are orthogonal, 0 if they are the same."""
+COLLINEAR = 0.01
+"""Singular value below which they are not told apart at all."""
+_PARTICIPATES = 0.3
+"""Component of a singular vector from which on a parameter is named."""
+_DOMINATES = 0.5
+"""Part of a variance."""
+_CORRELATED = 3.0
+"""Standard deviations above which the correlation of neighbouring residuals is significant."""
 
 
 def notes(
-    estimates: pd.DataFrame, data: pd.DataFrame, jacobian: Array, spare: int | None, cells: int
+    estimates: pd.DataFrame, data: pd.DataFrame, jacobian: Array, freedom: int | None, cells: int
 ) -> list[str]:
-    """Return notes, with the derivatives of the residuals by the logarithms of the parameters.
+    """Return notes; the Jacobian is of the weighted residuals by the logarithms of the parameters.
 
-    The data have residuals also `alone`: made independent of each other where tests scatter.
-    `spare` are the degrees of freedom of χ², None where the data tell their own scatter; `cells`
+    The column `alone` of the data has the weighted residuals, independent where tests scatter.
+    `freedom` are the degrees of freedom of χ², None where the repeatability is estimated; `cells`
     are those of the coarsest grid.
     """
     return [
-        *_on_parameters(estimates, data, jacobian, spare),
-        *_entangled(list(estimates["path"]), jacobian),
-        *_on_misfit(data, spare, cells),
+        *_on_parameters(estimates, data, jacobian, freedom),
+        *_on_collinearity(list(estimates["path"]), jacobian),
+        *_on_misfit(data, freedom, cells),
         *_on_patterns(data),
         *_on_instruments(data),
     ]
 
 
 def _on_parameters(
-    estimates: pd.DataFrame, data: pd.DataFrame, jacobian: Array, spare: int | None
+    estimates: pd.DataFrame, data: pd.DataFrame, jacobian: Array, freedom: int | None
 ) -> Iterator[str]:
-    """Name parameters on a bound or left open, and the instrument that limits each."""
+    """Name parameters on a bound or not bounded, and the instrument that dominates each."""
     parts = (data["step_sigma"] / data["sigma"]).to_numpy()
     for each, effect in zip(estimates.itertuples(), np.linalg.pinv(jacobian), strict=True):
         is_open = {"below": each.lower == 0, "above": math.isinf(each.upper)}
@@ -61,12 +68,15 @@ def _on_parameters(
             )
         elif any(is_open.values()):
             sides = " or ".join(side for side, so in is_open.items() if so)
-            scatter = "; too few tests alike tell how far they scatter: state repeatability"
+            scatter = "; too few tests were repeated to estimate their scatter: state repeatability"
             yield (
                 f"{each.path}: the data do not bound it from {sides}"
-                f"{scatter if spare is None and all(is_open.values()) else ''}"
+                f"{scatter if freedom is None and all(is_open.values()) else ''}"
             )
-        if not (each.held or each.limited or is_open["above"]) and each.resolution_share > _MOST:
+        if (
+            not (each.held or each.limited or is_open["above"])
+            and each.resolution_share > _DOMINATES
+        ):
             entry = data.iloc[int(np.argmax(np.abs(effect) * parts))]
             yield (
                 f"{each.path}: the {_instrument(entry)}'s resolution dominates the uncertainty; "
@@ -75,20 +85,20 @@ def _on_parameters(
             )
 
 
-def _entangled(paths: Sequence[str], jacobian: Array) -> Iterator[str]:
-    """Name parameters that change the data in the same way."""
+def _on_collinearity(paths: Sequence[str], jacobian: Array) -> Iterator[str]:
+    """Name parameters whose effects on the data are nearly collinear."""
     scaled = jacobian / np.sqrt(np.sum(jacobian**2, axis=0))
     _, angles, directions = np.linalg.svd(scaled, full_matrices=False)
     for angle, direction in zip(angles, directions, strict=True):
-        if angle > HARDLY:
+        if angle > NEARLY_COLLINEAR:
             continue
-        taking = [i for i in range(len(paths)) if abs(direction[i]) > _TAKES_PART]
+        taking = [i for i in range(len(paths)) if abs(direction[i]) > _PARTICIPATES]
         names = [paths[i] for i in taking]
         how = "changing them together"
         if len(taking) == 2:
             opposed = direction[taking[0]] * direction[taking[1]] < 0
             how = "raising one and lowering the other" if opposed else "raising both"
-        cannot = angle <= NOT_AT_ALL
+        cannot = angle <= COLLINEAR
         yield (
             f"the data {'cannot' if cannot else 'can hardly'} tell {', '.join(names[:-1])} and "
             f"{names[-1]} apart: {how} changes {'none' if cannot else 'little'} of the computed "
@@ -96,41 +106,41 @@ def _entangled(paths: Sequence[str], jacobian: Array) -> Iterator[str]:
         )
 
 
-def _on_misfit(data: pd.DataFrame, spare: int | None, cells: int) -> Iterator[str]:
-    if spare is None:
+def _on_misfit(data: pd.DataFrame, freedom: int | None, cells: int) -> Iterator[str]:
+    if freedom is None:
         return
-    if spare == 0:
+    if freedom == 0:
         yield (
             "there are no more data than parameters, so that nothing is left to test the model with"
         )
         return
     read = data[~data["below"]]
     chi_square = float(np.sum(read["alone"] ** 2))
-    if chdtrc(spare, chi_square) < UNLIKELY:
+    if chdtrc(freedom, chi_square) < UNLIKELY:
         worst = read.loc[read["alone"].abs().idxmax()]
         of_grid = ""
-        # Where the instrument is less exact than the grid it is not that.
+        # Only where errors of the grid dominate is the grid the reason.
         if worst.quantity in FIELDS and worst.sigma**2 > 2 * worst.stated**2:
             of_grid = f", or the grid is too coarse: try grid.cells = {2 * cells}"
         yield (
-            f"data and model disagree: χ² is {chi_square:.3g} where about {spare} is expected; the "
-            f"{named(worst)} is off by {abs(worst.alone):.3g} times its "
+            f"data and model disagree: χ² is {chi_square:.3g} where about {freedom} is expected; "
+            f"the {named(worst)} is off by {abs(worst.alone):.3g} times its "
             "uncertainty. The model leaves something out, or uncertainties are larger than stated"
             f"{of_grid}; the intervals are then too narrow"
         )
 
 
 def _on_patterns(data: pd.DataFrame) -> Iterator[str]:
-    """Name profiles and maps whose residuals are alike from place to place, as noise is not."""
+    """Name profiles and maps whose neighbouring residuals are correlated."""
     along = data[data["quantity"].isin(FIELDS)].sort_values("position_m", kind="stable")
     for _, rows in along.groupby("place", sort=False):
         residuals = rows["alone"].to_numpy()
-        alike = np.sum(residuals[1:] * residuals[:-1]) / np.sum(residuals**2)
-        if alike * len(rows) ** 0.5 > _ALIKE and np.max(np.abs(residuals)) > 1:
+        correlation = np.sum(residuals[1:] * residuals[:-1]) / np.sum(residuals**2)
+        if correlation * len(rows) ** 0.5 > _CORRELATED and np.max(np.abs(residuals)) > 1:
             yield (
                 f"the residuals of the {named(next(rows.itertuples()))} follow a pattern: those "
-                f"of neighbours are alike, with a correlation of {alike:.2f}, so that the scar has "
-                "another shape than the model gives it"
+                f"of neighbours have a correlation of {correlation:.2f}, so the scar has another "
+                "shape than the model's"
             )
 
 

@@ -1,4 +1,4 @@
-"""Which numbers of a case are fitted, and between which bounds."""
+"""The parameters that are fitted, and their bounds."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from tribo.config.overrides import leaves, path_keys
 from tribo.core.errors import CaseError, located
 from tribo.core.units import Quantity
 from tribo.core.words import did_you_mean, shown, suggestion
-from tribo.study.calibration.measured import Fitted
+from tribo.study.calibration.measured import FitEntry
 
 WITHIN = 1e-9
 """Relative distance that a parameter keeps from an open bound."""
@@ -26,17 +26,17 @@ class Parameter(NamedTuple):
     start: float
     lower: float
     upper: float
-    """Its bounds; 0 and infinity for none."""
+    """The bounds are 0 and infinity for none."""
 
 
 def find_parameters(
-    case: Case, fit: Sequence[Fitted], measured: Collection[str]
+    case: Case, fit: Sequence[FitEntry], measured: Collection[str]
 ) -> list[Parameter]:
-    """Return the parameters that are asked for, or else the k of each body in `measured`."""
+    """Return the parameters in `fit`, or by default the k of each body in `measured`."""
     asked = [(f"fit.{i}", entry) for i, entry in enumerate(fit)]
     if not fit:
         of_bodies = [f"bodies.{name}.wear.k" for name in case.bodies if name in measured]
-        asked = [("fit", Fitted(path=path)) for path in of_bodies if is_number(case, path)]
+        asked = [("fit", FitEntry(path=path)) for path in of_bodies if is_number(case, path)]
     if not asked:
         raise CaseError(
             "no measured body has a wear coefficient k; say what to fit, as [[fit]] with path "
@@ -58,7 +58,7 @@ def check_set(parameters: Sequence[Parameter], paths: Iterable[str], place: str)
     """Check that no test sets a parameter, or what it is part of; CaseError if one does."""
     for path in paths:
         keys = path_keys(path)
-        # Another type has other numbers.
+        # Another type has other parameters.
         whole = keys[:-1] if keys[-1] == "type" else keys
         for each in parameters:
             if path_keys(each.path)[: len(whole)] == whole:
@@ -70,18 +70,18 @@ def check_set(parameters: Sequence[Parameter], paths: Iterable[str], place: str)
 
 
 def is_number(case: Case, path: str) -> bool:
-    """Whether a path leads to a number of a case that can be fitted; CaseError if it is no path."""
+    """Whether a case has a real number at a path; CaseError if it is no path."""
     value, _ = _leaves(case).get(tuple(path_keys(path)), (None, None))
     return isinstance(value, float)
 
 
 def _leaves(case: Case) -> dict[tuple[str, ...], tuple[Any, Quantity | None]]:
-    """Return the values of a case, and what their fields say of them, by their place."""
+    """Return the values of a case and their `Quantity` annotations, by their keys."""
     return {tuple(map(str, place)): (value, mark) for place, value, mark in leaves(case)}
 
 
 def _number(case: Case, keys: tuple[str, ...]) -> tuple[float, Quantity]:
-    """Return the number that the keys lead to, and what its field says of it."""
+    """Return the number at the keys, and its `Quantity`."""
     known = _leaves(case)
     value, mark = known.get(keys, (None, None))
     if not isinstance(value, float):
@@ -96,8 +96,8 @@ def _number(case: Case, keys: tuple[str, ...]) -> tuple[float, Quantity]:
     return value, mark or Quantity("1")
 
 
-def _bounded(place: str, entry: Fitted, value: float, mark: Quantity) -> Parameter:
-    """Return a parameter with the bounds that are given, within those of its field."""
+def _bounded(place: str, entry: FitEntry, value: float, mark: Quantity) -> Parameter:
+    """Return a parameter with the bounds given, within those of its field."""
     above = max(mark.above or 0.0, 0.0)
     positive = replace(mark, above=above)
 

@@ -1,4 +1,4 @@
-"""How many tests tell the parameters of a case as well as wanted."""
+"""The fewest tests that give confidence intervals of a wanted width."""
 
 from __future__ import annotations
 
@@ -14,31 +14,34 @@ from scipy.special import ndtri, stdtrit
 from tribo.case import Case
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
-from tribo.study.calibration.fit import FEW, check_effect, differenced
+from tribo.study.calibration.experiment import Experiment
+from tribo.study.calibration.fit import FEWEST_DEGREES_OF_FREEDOM, check_effect, differenced
 from tribo.study.calibration.measured import Measurements, read_measurements
-from tribo.study.calibration.posed import Posed
 from tribo.study.calibration.quantities import plain
 
 MOST = 1000
-"""Tests that are thought of."""
-_RIDGE, _POWER = 1e-12, 4
+"""Largest number of tests that is tried."""
+_RIDGE = 1e-12
+_POWER = 4
+"""Of the norm over parameters whose intervals are shortened."""
 
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """The fewest tests of each kind that give intervals as short as wanted."""
+    """The fewest tests of each kind that give intervals of a wanted width."""
 
     level: float
+    """Confidence level of the intervals."""
     within: float
-    """Probability of the intervals, and the half that was wanted, relative to the value."""
+    """Half-width that was wanted, relative to the value."""
     runs: int
-    """Simulations that it took."""
+    """Number of simulations."""
     tests: pd.DataFrame
-    """A row a kind: `test`, its name, and `count`."""
+    """One row per kind of test: `test`, its name, and `count`."""
     parameters: pd.DataFrame
-    """A row a parameter: `path`; `half_width` expected of its interval, relative to the value;
-    `freedom`, the degrees of freedom with which its variance will be known, infinite without
-    scatter from test to test."""
+    """One row per parameter: `path`; `half_width`, expected of its interval, relative to the value;
+    `freedom`, the degrees of freedom of its variance, infinite without scatter from test to
+    test."""
 
     def as_json(self) -> dict[str, Any]:
         """Return it as plain data."""
@@ -53,22 +56,22 @@ def plan_tests(
     level: float = 0.95,
     on_run: Callable[[int], object] = id,
 ) -> Plan:
-    """Return the fewest tests that determine each parameter of a case as well as wanted.
+    """Return the fewest tests that give each parameter an interval of a wanted width.
 
-    By the Fisher information of the case's own values, Gᵀ V⁻¹ G with V from the uncertainties and
-    the repeatability: tests are added, and exchanged between kinds, as shortens the longest
-    interval most (Fedorov 1972, Theory of Optimal Experiments). The intervals are those that
-    `calibrate` gives on average when it estimates the repeatability from the tests.
+    Uses the Fisher information at the case's own values, Gᵀ V⁻¹ G with V from the uncertainties
+    and the repeatability. Tests are added, and exchanged between kinds, so that the longest
+    intervals shrink most (Fedorov 1972, Theory of Optimal Experiments). The intervals are those
+    that `calibrate` gives on average when it estimates the repeatability from the tests.
 
     Parameters
     ----------
     case, level
-        As for `calibrate`; the case has likely parameters.
+        As for `calibrate`; the parameters of the case should be realistic.
     measured : Measurements, Mapping, str or Path
-        What is to be measured, values left out, and the repeatability. The entries of `test` are
+        What will be measured, without values, and the repeatability. The entries of `test` are
         the kinds to choose from.
     within : float
-        Half of the interval that is wanted, relative to the value, as 0.1.
+        Half-width of the interval that is wanted, relative to the value, as 0.1.
     on_run : callable, optional
         Called after each round of runs with the number of runs.
 
@@ -78,49 +81,59 @@ def plan_tests(
         If the case or the tests are wrong, 1000 are not enough, or a run fails.
     """
     if not 0 < level < 1 or not 0 < within < 1:
-        told = f"the level, {level:g}, and the half of the interval, {within:g}, must lie between 0"
-        raise CaseError(f"{told} and 1, as 0.95 and 0.1 do")
-    asked = read_measurements(measured)
-    if asked.repeatability is None:
-        told = "say how far tests alike scatter, as repeatability = 0.2 for 20 %; 0 if only the "
-        raise CaseError(f"{told}instruments count", "repeatability")
-    posed = Posed.of(case, asked)
+        raise CaseError(
+            f"the level, {level:g}, and the half-width of the interval, {within:g}, must lie "
+            "between 0 and 1, as 0.95 and 0.1 do"
+        )
+    measurements = read_measurements(measured)
+    if measurements.repeatability is None:
+        raise CaseError(
+            "give the scatter from test to test, as repeatability = 0.2 for 20 %; 0 if only the "
+            "instruments count",
+            "repeatability",
+        )
+    experiment = Experiment.of(case, measurements)
 
     def responses(values: Array) -> Array:
-        found = posed.run(values).responses
-        on_run(posed.made)
+        found = experiment.run(values).responses
+        on_run(experiment.run_count)
         return found
 
-    computed = responses(posed.start)
-    problem = posed.problem(posed.start)
-    point = np.log(posed.start)
-    here = differenced(responses, problem, point, computed).weighed(point, asked.repeatability)
+    computed = responses(experiment.start)
+    problem = experiment.problem(experiment.start)
+    point = np.log(experiment.start)
+    here = differenced(responses, problem, point, computed)
+    here = here.weighed(point, measurements.repeatability)
     check_effect(here)
     sensitivity, kinds = here.sensitivity(), []
-    for _, own in posed.data.groupby("bench")["specimen"]:
+    for _, own in experiment.data.groupby("setup")["specimen"]:
         rows = own.index[own == own.min()]
         kinds.append(sensitivity[rows].T @ sensitivity[rows])
-    search = Search(np.array(kinds), within, level, asked.repeatability > 0)
+    search = Search(np.array(kinds), within, level, measurements.repeatability > 0)
     counts = search.fewest()
     halves, freedom = search.expected(counts)
-    tests = pd.DataFrame({"test": [bench.name for bench in posed.tested], "count": counts})
+    tests = pd.DataFrame({"test": [setup.name for setup in experiment.setups], "count": counts})
     expected = {"path": list(problem.names), "half_width": halves, "freedom": freedom}
-    return Plan(level, within, posed.made, tests, pd.DataFrame(expected))
+    return Plan(level, within, experiment.run_count, tests, pd.DataFrame(expected))
 
 
 @dataclass(frozen=True)
 class Search:
-    """Information of a test of each kind, shape (kinds, p, p), and what is wanted."""
+    """Search for the fewest tests."""
 
     kinds: Array
+    """Fisher information of one test of each kind, shape (kinds, p, p)."""
     within: float
+    """Half-width that is wanted."""
     level: float
     scatters: bool
+    """Whether the repeatability is estimated, which costs degrees of freedom."""
 
     def expected(self, counts: Array) -> tuple[Array, Array]:
-        """Return half of each interval, and the degrees of freedom, of so many tests a kind.
+        """Return half-widths and degrees of freedom expected of a number of tests of each kind.
 
-        As `Linearised.freedom`, where tests of a kind scatter by J Jᵀ with their weighted slopes J.
+        As `Linearised.degrees_of_freedom`, with the weighted slopes J of a test that scatters by
+        J Jᵀ.
         """
         once, twice, thrice = (
             np.sum(counts[:, None, None] * np.linalg.matrix_power(self.kinds, power), axis=0)
@@ -131,19 +144,23 @@ class Search:
         freedom = np.full(len(once), np.inf)
         if self.scatters:
             scattered = twice @ covariance
-            known = np.trace(twice) - 2 * np.trace(thrice @ covariance)
-            known += np.sum(scattered * scattered.T)
+            information = np.trace(twice) - 2 * np.trace(thrice @ covariance)
+            information += np.sum(scattered * scattered.T)
             slopes = np.diag(covariance @ scattered)
-            np.divide(variances**2 * max(known, 0.0), slopes**2, out=freedom, where=slopes > 0)
+            np.divide(
+                variances**2 * max(information, 0.0), slopes**2, out=freedom, where=slopes > 0
+            )
         part = 0.5 + 0.5 * self.level
-        few = freedom < FEW
+        unknown = freedom < FEWEST_DEGREES_OF_FREEDOM
         quantiles = np.where(
-            np.isinf(freedom), ndtri(part), stdtrit(np.clip(freedom, FEW, 1e9), part)
+            np.isinf(freedom),
+            ndtri(part),
+            stdtrit(np.clip(freedom, FEWEST_DEGREES_OF_FREEDOM, 1e9), part),
         )
-        return np.where(few, np.inf, quantiles * np.sqrt(variances)), freedom
+        return np.where(unknown, np.inf, quantiles * np.sqrt(variances)), freedom
 
     def fewest(self) -> Array:
-        """Return how many tests of each kind are enough; CaseError if none are."""
+        """Return the number of tests of each kind; CaseError if 1000 are not enough."""
         counts = np.zeros(len(self.kinds), dtype=int)
         for _ in range(MOST):
             counts = min((counts + one for one in np.eye(len(counts), dtype=int)), key=self._size)
@@ -158,14 +175,14 @@ class Search:
         )
 
     def _size(self, counts: Array) -> tuple[float, float]:
-        """Return how long the intervals are, the long ones most, and if the scatter were known."""
+        """Return a norm of the half-widths, and the same with a known repeatability."""
         searches = self, replace(self, scatters=False)
-        # The longest alone would not fall by an exchange that shortens all others.
+        # The maximum alone ignores exchanges that shorten all other intervals.
         halves, known = (np.sum(each.expected(counts)[0] ** _POWER) for each in searches)
         return float(halves), float(known)
 
     def _exchanged(self, counts: Array) -> list[Array]:
-        """Return counts, first as they are, then with one test of another kind instead."""
+        """Return the counts, then those with one test exchanged for another kind."""
         ones = np.eye(len(counts), dtype=int)
         changed = (counts - ones[i] + add for i in np.flatnonzero(counts) for add in ones)
         return [counts, *changed]

@@ -1,4 +1,4 @@
-"""Quantities that a lab measures on a worn body, read off a result."""
+"""Quantities measured on a worn body, and their values computed from a result."""
 
 from __future__ import annotations
 
@@ -22,26 +22,32 @@ from tribo.result.layout import TRACK
 from tribo.result.read import Result
 from tribo.simulation.model import Model
 
-EDGES, DEPTHS = 0.2, 2e-3
-"""Standard deviations of a computed diameter, in cells, and of a depth, in parts of the largest."""
-CUT = 0.1
-"""That of the mean over a cell that the scar's edge cuts, in parts of the steepest step between
-cells."""
+DIAMETER_SIGMA = 0.2
+"""Standard deviation of a computed diameter, in cells."""
+DEPTH_SIGMA = 2e-3
+"""Standard deviation of a computed depth, relative to the largest."""
+EDGE_CELL_SIGMA = 0.1
+"""Standard deviation of the mean depth of a cell at the scar's edge, relative to the largest
+difference between neighbouring cells."""
 WORN = 1e-3
-"""Part of the largest depth from which a cell counts as worn."""
-ROUNDING, EXACT = 1e-9, 1e-7
-"""Part of a number that is none, and an interval's below which its ends are not told apart."""
+"""Part of the largest depth from which on a cell counts as worn."""
+ROUNDING = 1e-9
+"""Relative number that is printed as 0 %."""
+POINT = 1e-7
+"""Relative width of an interval below which its ends count as equal."""
 
 
 class WornQuantity(NamedTuple):
-    """A quantity that is measured of a worn body, by its SI unit."""
+    """A quantity that is measured on a worn body."""
 
     unit: str
+    """SI unit."""
     shown: str
+    """Unit in which it is printed."""
     per_unit: float
-    """The unit it is shown in, and how many of those make one in SI."""
+    """Printed units in one SI unit."""
     of: Literal["both", "stationary", "swept"] = "both"
-    """Which bodies have it: those that stay in the contact, or are swept through it."""
+    """The bodies that have it: those that stay in the contact, or are swept through it."""
 
 
 _DEPTH = WornQuantity("m", "µm", 1e6)
@@ -59,17 +65,18 @@ QUANTITIES = {
 }
 """By the name in a file of measured values."""
 AXES = {"scar_along": 0, "scar_across": 1, "profile_along": 0, "profile_across": 1}
+"""Axis of a diameter or a profile."""
 PROFILES = ("profile_along", "profile_across")
-"""The axis that a diameter or a profile follows; those are depths at several positions along it."""
+"""Depths at several positions along a line."""
 DEPTH_MAP = "depth_map"
 FIELDS = (*PROFILES, DEPTH_MAP)
-"""Quantities that are depths at many places, which may be 0, rather than one positive number."""
+"""Depths at many places, which may be 0; all other quantities are one positive number."""
 
 
 class Reading(NamedTuple):
-    """One number to read off a run: a body and a quantity; when, if not at the end, and where.
+    """One number to compute from a run; of a depth map the largest depth.
 
-    Of a depth map it is the largest.
+    `time_s` is NaN for the end of the run, `position_m` for all but profiles.
     """
 
     body: str
@@ -89,38 +96,35 @@ def plain(found: Any) -> dict[str, Any]:
 
 
 def in_words(name: str, value: float, digits: int = 3) -> str:
-    """Return a value of a quantity in the unit it is shown in, as ``"2.05 mg"``."""
+    """Return a value of a quantity in its printed unit, as ``"2.05 mg"``."""
     return f"{QUANTITIES[name].per_unit * value:.{digits}g} {QUANTITIES[name].shown}"
 
 
 def in_si(value: float, unit: str, digits: int = 3) -> str:
-    """Return a value in SI with its unit, if that is not 1, as ``"7.08e-15 1/Pa"``."""
+    """Return a value in SI with its unit, as ``"7.08e-15 1/Pa"``."""
     return f"{value:.{digits}g}" if unit == "1" else f"{value:.{digits}g} {unit}"
 
 
 def digits_of(lower: float, upper: float) -> int:
-    """Return how many digits show half of an interval to two of its own, 3 or more.
-
-    One that is next to nothing has 4.
-    """
+    """Return how many digits of its ends show an interval's half-width to two digits; 3 or more."""
     if not 0 < upper - lower < math.inf:
         return 3
-    if upper - lower < EXACT * upper:
+    if upper - lower < POINT * upper:
         return 4
     return max(3, 2 + math.floor(math.log10(upper)) - math.floor(math.log10((upper - lower) / 2)))
 
 
 def percent(part: float) -> str:
-    """Return a part in percent, rounded, for a table or a sentence; without the sign."""
+    """Return a part in percent, rounded, without the sign."""
     if ROUNDING < part < 0.00095:
         return f"{100 * part:.2g}"
     return f"{100 * part:.0f}" if part >= 0.095 else f"{100 * part:.1f}"
 
 
 def read_all(result: Result, asked: Sequence[Reading]) -> tuple[Array, Array, dict[int, Array]]:
-    """Return computed values, their standard deviations due to the grid, and maps by the index."""
+    """Return computed values, their standard deviations due to the grid, and depth maps."""
     maps = {
-        i: _whole(result, each.body, _save(result, each))
+        i: surface_depth(result, each.body, _save(result, each))
         for i, each in enumerate(asked)
         if each.quantity == DEPTH_MAP
     }
@@ -129,18 +133,18 @@ def read_all(result: Result, asked: Sequence[Reading]) -> tuple[Array, Array, di
 
 
 def read(result: Result, asked: Reading) -> tuple[float, float]:
-    """Return the computed value, and its standard deviation due to the grid."""
+    """Return a computed value, and its standard deviation due to the grid."""
     save, body = _save(result, asked), result.body(asked.body)
     depth, spacing, name = body.wear_depth[save], result.grid.spacing, asked.quantity
     if name in ("scar_along", "scar_across"):
         axis = AXES[name]
-        return diameter(depth, axis, spacing[axis]), EDGES * spacing[axis]
+        return diameter(depth, axis, spacing[axis]), DIAMETER_SIGMA * spacing[axis]
     if name == DEPTH_MAP:
-        value = float(np.max(_whole(result, asked.body, save)))
-        return value, DEPTHS * value
+        value = float(np.max(surface_depth(result, asked.body, save)))
+        return value, DEPTH_SIGMA * value
     if name == "depth":
         value = float(np.max(depth)) + between_cells(depth)
-        return value, DEPTHS * value
+        return value, DEPTH_SIGMA * value
     if name == "crown":
         return _crown(result, body, save)
     if name == "section":
@@ -151,10 +155,10 @@ def read(result: Result, asked: Reading) -> tuple[float, float]:
     return mass_from_volume(volume, body.density or 0.0) if name == "mass" else volume, 0.0
 
 
-def kinked(depth: Array, part: float) -> Array:
-    """Return the error of depths beside a scar's edge, where they have a kink; 0 elsewhere.
+def edge_sigma(depth: Array, part: float) -> Array:
+    """Return the standard deviation of computed depths at a scar's edge; 0 elsewhere.
 
-    It is a part of the steepest step between cells.
+    It is a part of the largest difference between neighbouring cells.
     """
     worn = depth > WORN * np.max(depth)
     edge = binary_dilation(worn) & ~binary_erosion(worn, border_value=1)
@@ -164,29 +168,25 @@ def kinked(depth: Array, part: float) -> Array:
 
 
 def _on_line(depth: Array, axis: int, position: float, result: Result) -> tuple[float, float]:
-    """Depth at a place on a middle line, by cubics, as scars are curved; and its error.
-
-    That is larger beside the scar's edge, where the line has a kink.
-    """
+    """Return the depth at a position on a middle line, by cubics, and its standard deviation."""
     centres = result.grid.x, result.grid.y
     known = centres[axis]
     line = profile(depth, axis)
     if depth.shape[1 - axis] > 1:
         line = Akima1DInterpolator(centres[1 - axis], depth, axis=1 - axis)(0.0)
     value = float(Akima1DInterpolator(known, line)(np.clip(position, known[0], known[-1])))
-    at_edge = float(np.interp(position, known, kinked(line, EDGES)))
-    return value, math.hypot(DEPTHS * float(np.max(depth)), at_edge)
+    at_edge = float(np.interp(position, known, edge_sigma(line, DIAMETER_SIGMA)))
+    return value, math.hypot(DEPTH_SIGMA * float(np.max(depth)), at_edge)
 
 
 def _save(result: Result, asked: Reading) -> int:
     return -1 if math.isnan(asked.time_s) else result.save_at(asked.time_s)
 
 
-def _whole(result: Result, body: str, save: int) -> Array:
+def surface_depth(result: Result, body: str, save: int) -> Array:
     """Return the depth on a body's own surface, shape (rows, ny).
 
-    The surface is longer than the window under a resolved stroke. Of a track that is the same all
-    along the result repeats the one row that it has.
+    Under a resolved stroke the surface of a track is longer than the window.
     """
     depth = result.field("wear_depth", save, body)
     if TRACK in dir(result):
@@ -197,16 +197,17 @@ def _whole(result: Result, body: str, save: int) -> Array:
 
 
 def _crown(result: Result, body: BodyResult, save: int) -> tuple[float, float]:
-    """Crown; its error is that of the chord's ends times the slope of the surface there."""
+    """Return the crown; its standard deviation is the chord ends' times the slope there."""
     height, depth = profile(body.surface(save), 1), profile(body.wear_depth[save], 1)
     spacing = result.grid.spacing[1]
     half = 0.5 * diameter(body.wear_depth[save], 1, spacing)
     slopes = np.interp([-half, half], result.grid.y, np.gradient(height + depth, spacing))
-    return crown(height, depth), 0.375 * EDGES * spacing * float(np.mean(np.abs(slopes)))
+    error = 0.375 * DIAMETER_SIGMA * spacing * float(np.mean(np.abs(slopes)))
+    return crown(height, depth), error
 
 
 def unavailable(model: Model, body: str, name: str) -> str:
-    """Return why runs of a model do not give a quantity of a body; nothing if they do."""
+    """Return why a model does not give a quantity of a body; empty if it does."""
     found, swept, of = model.bodies[body], body in model.swept, QUANTITIES[name].of
     if found.wear is None:
         return f"body {body!r} does not wear in this case; give it a wear law, bodies.{body}.wear"

@@ -1,4 +1,4 @@
-"""Intervals by sampling what is likely, with runs of the case itself in place of power laws."""
+"""Intervals by sampling the posterior, with runs of the case itself in place of power laws."""
 
 from __future__ import annotations
 
@@ -11,26 +11,28 @@ from scipy.stats import norm
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, NumericalError, PluginError
-from tribo.study.calibration.linearised import REPEATABILITIES, Linearised, root_covariance
+from tribo.study.calibration.linearised import REPEATABILITY_RANGE, Linearised, root_covariance
 from tribo.study.calibration.quantities import percent
 
-LEAST, LEFT_OUT = 100, 0.25
-"""Fewest samples of a chain, and the part of them, at its beginning, that is left out."""
+FEWEST = 100
+"""Samples of a chain."""
+BURN_IN = 0.25
+"""Part of a chain that is discarded, at its beginning."""
 WIDE = 1.0
-"""Standard deviation of a logarithm beyond which chains begin anywhere in the interval."""
-NEVER = -1e30
-"""Logarithm of the probability where nothing can be run; finite, as chains may begin there."""
+"""Standard deviation of a logarithm beyond which chains start anywhere in the interval."""
+IMPOSSIBLE = -1e30
+"""Logarithm of the probability where the case cannot be run; finite, as chains may start there."""
 
 
 def check_sampling(count: int, parameters: int) -> None:
-    """Raise CaseError if there is nothing to sample with, or too few samples are asked for."""
+    """Raise CaseError if emcee is not installed, or too few samples are asked for."""
     try:
         import emcee  # noqa: F401
     except ImportError as error:
         raise CaseError(
             "sampling needs emcee, which is not installed: pip install emcee"
         ) from error
-    if count < (least := LEAST * _chains(parameters)):
+    if count < (least := FEWEST * _chains(parameters)):
         raise CaseError(
             f"{count} samples are too few for {parameters} parameter{'s' * (parameters > 1)}: "
             f"give {least} or more"
@@ -44,12 +46,12 @@ def sampled(
     count: int,
     level: float,
 ) -> tuple[pd.DataFrame, str]:
-    """Return the estimates with the ends of sampled intervals, and a remark on them.
+    """Return the estimates with the ends of sampled intervals, and a note on them.
 
-    By differential evolution (ter Braak and Vrugt 2008, Stat. Comput. 18, 435-446) as emcee has it
-    (Foreman-Mackey et al. 2013, PASP 125, 306-312). Before the data all values of a parameter
-    within its bounds are equally likely, and all logarithms of a repeatability that is not stated.
-    Nothing is sampled where the data leave a parameter open, as the remark then says.
+    Differential evolution (ter Braak and Vrugt 2008, Stat. Comput. 18, 435-446) by emcee
+    (Foreman-Mackey et al. 2013, PASP 125, 306-312). The prior is uniform in each parameter within
+    its bounds, and in the logarithm of a repeatability that is not stated. Nothing is sampled where
+    an interval is open, as the note then says.
     """
     import emcee
 
@@ -64,13 +66,13 @@ def sampled(
     near = fitted.point + random.standard_normal((chains, p)) @ root.T
     within = np.log(random.uniform(estimates["lower"], estimates["upper"], (chains, p)))
     start = np.where(np.linalg.norm(root, axis=1) > WIDE, within, near)
-    # Mirrored, so that no two begin on a bound.
+    # Mirrored, so that no two chains start on a bound.
     start = np.where(start > ends[1], 2 * ends[1] - start, start)
     start = np.where(start < ends[0], 2 * ends[0] - start, start)
     if problem.repeatability is None:
-        ends = np.column_stack([ends, np.log(REPEATABILITIES)])
+        ends = np.column_stack([ends, np.log(REPEATABILITY_RANGE)])
         about = fitted.repeatability * random.uniform(0.5, 1.5, chains)
-        start = np.column_stack([start, np.log(about + REPEATABILITIES[0])])
+        start = np.column_stack([start, np.log(about + REPEATABILITY_RANGE[0])])
 
     failed = 0
     ended: BaseException | None = None
@@ -78,7 +80,7 @@ def sampled(
     def log_probability(place: Array) -> float:
         nonlocal failed, ended
         if ended is not None:
-            return NEVER
+            return IMPOSSIBLE
         if np.any((place < ends[0]) | (place > ends[1])):
             return -np.inf
         point = place[:p]
@@ -91,7 +93,7 @@ def sampled(
                 failed += 1
             else:
                 ended = error
-            return NEVER
+            return IMPOSSIBLE
         here = here.weighed(point, float(scatter))
         return float(np.sum(point)) - 0.5 * here.deviance(point)
 
@@ -102,22 +104,22 @@ def sampled(
     for _ in sampler.sample(begun, iterations=count // chains):
         if ended is not None:
             raise ended
-    discard = int(LEFT_OUT * count / chains)
+    discard = int(BURN_IN * count / chains)
     found = np.exp(sampler.get_chain(discard=discard, flat=True)[:, :p])
     part = 0.5 + 0.5 * level
     lower, upper = np.quantile(found, [1 - part, part], axis=0)
     lower = np.where(estimates["limited"], 0.0, lower)
     both = estimates.assign(sampled_lower=lower, sampled_upper=upper)
     off = np.maximum(np.abs(lower - both["lower"]), np.abs(upper - both["upper"]))
-    apart = float(np.max(off / (both["upper"] - both["lower"])))
-    alone = len(found) / float(np.max(sampler.get_autocorr_time(discard=discard, tol=0)))
+    difference = float(np.max(off / (both["upper"] - both["lower"])))
+    effective = len(found) / float(np.max(sampler.get_autocorr_time(discard=discard, tol=0)))
     far = norm.ppf(part)
-    chance = np.sqrt(part * (1 - part) / alone) / (2 * far * norm.pdf(far))
+    error = np.sqrt(part * (1 - part) / effective) / (2 * far * norm.pdf(far))
     return both, (
-        f"ends of sampled intervals lie up to {percent(apart)} % of their lengths from those by "
-        f"power laws; {len(found)} samples, as good as {alone:.0f} independent ones, give them "
-        f"to about ±{percent(chance)} %"
-        + (f"; {failed} more could not be run, where they end" if failed else "")
+        f"ends of sampled intervals lie up to {percent(difference)} % of their lengths from those "
+        f"by power laws; {len(found)} samples, as good as {effective:.0f} independent ones, give "
+        f"them to about ±{percent(error)} %"
+        + (f"; {failed} more could not be run and were left out" if failed else "")
     )
 
 

@@ -1,4 +1,4 @@
-"""The cases of the tests that are fitted to, and runs of them."""
+"""The different cases among the tests of a calibration, and runs of them."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from tribo.core.errors import CaseError, NumericalError, TriboWarning
 from tribo.simulation.model import Model
 from tribo.simulation.positions import chosen
 from tribo.simulation.run import Simulation
-from tribo.study.calibration.measured import Measured, Tested
+from tribo.study.calibration.measured import MeasuredEntry, TestEntry
 from tribo.study.calibration.parameters import Parameter
 from tribo.study.calibration.quantities import (
     AXES,
@@ -32,39 +32,42 @@ from tribo.study.calibration.quantities import (
 from tribo.study.variation import unknown_body, valid_case
 
 READ = list(Reading._fields)
-"""Columns of the data that say what is read off a run."""
+"""Columns of the data that are the fields of a `Reading`."""
 
 
 @dataclass(frozen=True)
-class Bench:
-    """One case among the tests."""
+class Setup:
+    """The case of tests under identical conditions."""
 
     name: str
+    """That of the first test."""
     case: Mapping[str, Any]
+    """Tables of the case."""
     tables: Mapping[str, Any]
-    """The case, also with what the readings need; its name is that of the first test."""
+    """The same, saved at the times of the readings."""
     model: Model
 
 
 class Run(NamedTuple):
-    """Responses of a run, their standard deviations due to the grid, and its notices."""
+    """Responses of a run."""
 
     responses: Array
-    read_off: Array
+    grid_sigma: Array
+    """Their standard deviations due to the grid."""
     maps: Mapping[int, Array]
-    """Depths all over a surface, shape (rows, ny), by the reading that asks for them."""
+    """Depths all over a surface, shape (rows, ny), by the index of the reading."""
     notices: tuple[str, ...]
 
 
-def benches(
+def find_setups(
     tables: Mapping[str, Any],
-    tests: Mapping[str, Tested],
+    tests: Mapping[str, TestEntry],
     data: pd.DataFrame,
-) -> list[Bench]:
-    """Return the cases of the tests, those alike as one, and add the column `bench` to the data."""
+) -> list[Setup]:
+    """Return the different cases of the tests, and add the column `setup` to the data."""
     cases: dict[str, tuple[Case, Model]] = {}
-    alike: dict[str, list[Tested]] = {}
-    of = []
+    tests_of: dict[str, list[TestEntry]] = {}
+    indices = []
     for place, test in tests.items():
         try:
             # A test may end before times at which the case is saved.
@@ -73,20 +76,22 @@ def benches(
             raise error if not place else CaseError(str(error), f"{place}set") from None
         if (key := repr(case)) not in cases:
             cases[key] = case, Simulation(case).model
-        alike.setdefault(key, []).append(test)
-        of.append([*cases].index(key))
+        tests_of.setdefault(key, []).append(test)
+        indices.append([*cases].index(key))
         for i, entry in enumerate(test.measured):
             _check_entry(cases[key][1], entry, f"{place}measured.{i}")
-    names = [first.name for first, *_ in alike.values()]
+    names = [first.name for first, *_ in tests_of.values()]
     for name in names:
         if names.count(name) > 1:
             raise CaseError(f"two tests that differ are called {name!r}; rename one", "test")
-    data["bench"] = np.array(of)[data["of"]]
-    return [_bench(tables, alike[key], *each) for key, each in cases.items()]
+    data["setup"] = np.array(indices)[data["of"]]
+    return [_setup(tables, tests_of[key], *each) for key, each in cases.items()]
 
 
-def _bench(tables: Mapping[str, Any], tests: Sequence[Tested], case: Case, model: Model) -> Bench:
-    """Return the case of tests that are alike."""
+def _setup(
+    tables: Mapping[str, Any], tests: Sequence[TestEntry], case: Case, model: Model
+) -> Setup:
+    """Return the setup of tests that have the same case."""
     changed = apply_settings(tables, tests[0].set)
     given = validate_case(tables).output.save_times
     reached = [time for time in given if time <= model.end_time]
@@ -96,24 +101,24 @@ def _bench(tables: Mapping[str, Any], tests: Sequence[Tested], case: Case, model
     times = sorted({entry.time for entry in entries if entry.time is not None})
     kept = {"output.save_times": times, "observers": []}
     ready = apply_settings(changed, {**kept, **chosen(case, model)})
-    return Bench(tests[0].name, changed, ready, model)
+    return Setup(tests[0].name, changed, ready, model)
 
 
-def foretold(tested: Sequence[Bench], data: pd.DataFrame) -> pd.DataFrame:
-    """Return `Posed.predicted`."""
-    ends = np.array([bench.model.end_time for bench in tested])
-    at_end = data[~(data["time_s"] < ends[data["bench"]] * (1 - 1e-12))]
-    known = {*at_end[["bench", "body", "quantity"]].itertuples(index=False, name=None)}
+def unmeasured(setups: Sequence[Setup], data: pd.DataFrame) -> pd.DataFrame:
+    """Return `Experiment.predicted`."""
+    ends = np.array([setup.model.end_time for setup in setups])
+    at_end = data[~(data["time_s"] < ends[data["setup"]] * (1 - 1e-12))]
+    known = {*at_end[["setup", "body", "quantity"]].itertuples(index=False, name=None)}
     rows = [
-        (i, bench.name, body, quantity, math.nan, math.nan)
-        for i, bench in enumerate(tested)
-        for body in bench.model.bodies
+        (i, setup.name, body, quantity, math.nan, math.nan)
+        for i, setup in enumerate(setups)
+        for body in setup.model.bodies
         for quantity in QUANTITIES
         if quantity not in FIELDS
         and (i, body, quantity) not in known
-        and not unavailable(bench.model, body, quantity)
+        and not unavailable(setup.model, body, quantity)
     ]
-    return pd.DataFrame(rows, columns=["bench", "test", *READ])
+    return pd.DataFrame(rows, columns=["setup", "test", *READ])
 
 
 def make_run(
@@ -123,14 +128,14 @@ def make_run(
     wanted: Sequence[Reading],
     name: str = "run",
 ) -> Run:
-    """Run a case with other values of its parameters, and read numbers off the result."""
+    """Run a case with other values of its parameters, and compute the readings."""
     # Taking logarithms may round to just beyond a bound.
     settings = {
         p.path: min(max(float(value), p.lower), p.upper)
         for p, value in zip(parameters, values, strict=True)
     }
     with warnings.catch_warnings():
-        # The calibration has the notices of the last run.
+        # The calibration reports the notices of its last run.
         warnings.simplefilter("ignore", TriboWarning)
         try:
             case = validate_case(apply_settings(tables, settings))
@@ -142,7 +147,7 @@ def make_run(
         return Run(*read_all(result, wanted), result.notices)
 
 
-def _check_entry(model: Model, entry: Measured, place: str) -> None:
+def _check_entry(model: Model, entry: MeasuredEntry, place: str) -> None:
     if entry.body not in model.bodies:
         raise unknown_body(entry.body, model.bodies, f"{place}.body")
     reason = unavailable(model, entry.body, entry.quantity)
