@@ -229,18 +229,15 @@ class Together(Remembering):
 
     @cached_property
     def bodies(self) -> Sequence[tuple[Carrier, Array]]:
-        """Of each body its carrier and what its depth follows pressures by.
+        """Of each body its carrier and about what its depth follows pressures by.
 
-        That of the pressures of its own cells, which is not all if effects follow more.
+        That of the pressures of its own cells as the increment begins, to precondition with.
         """
-        own, columns = self.stages.own, self.stages.model.grid.cells[1]
-        found = []
-        for at, carrier in enumerate(own):
-            ones = [np.full((each.rows, columns), float(at == i)) for i, each in enumerate(own)]
-            found.append(
-                (carrier, np.asarray(self._back(ones, [0.0] * len(self.stages.begin)).pressure))
-            )
-        return found
+        start, window = self._parts[0].rows[0][0], np.ones(self.stages.pressure.shape)
+        return [
+            (own, self.stages.slid.increment * own.part(self.stages.box) * by.own * window)
+            for own, by in zip(self.stages.own, start.by_pressure, strict=False)
+        ]
 
 
 @dataclass(frozen=True)
