@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +19,10 @@ from tribo.registry.registry import default_registry
 OWN = (".npy", ".csv", ".txt", ".h5", ".hdf5")
 """Files that are read without a plugin; they state no scale."""
 FEWEST = 16
+AROUND = np.array([[0, 1, 0], [1, 0, 1], [0, 1, 0]]) / 4
+"""Weights of the neighbours of a pixel."""
+SWEEPS = 20
+"""Of averages over neighbours, which fill holes of a few pixels."""
 
 
 @dataclass(frozen=True)
@@ -62,6 +67,15 @@ class Heights:
                 "Heights and depths are in m, and NaN where nothing was measured: put NaN for fill "
                 "values, 1e-6 times the height for one in µm"
             )
+
+    @cached_property
+    def filled(self) -> Array:
+        """The heights, with missing ones that of a soap film over the hole, if it is small."""
+        missing, found = np.isnan(self.heights), nearest_filled(self.heights)
+        for _ in range(SWEEPS if missing.any() else 0):
+            around = ndimage.convolve(found, AROUND, mode="nearest")
+            found = np.where(missing, around, found)
+        return found
 
     @property
     def grid(self) -> Grid:
@@ -118,6 +132,13 @@ def _by_plugin(path: Path) -> Heights:
         )
     heights: Heights = formats[0].read(path)
     return heights
+
+
+def nearest_filled(heights: Array) -> Array:
+    """Return heights with missing ones filled by the nearest known."""
+    missing = np.isnan(heights)
+    nearest = ndimage.distance_transform_edt(missing, return_distances=False, return_indices=True)
+    return np.asarray(heights[tuple(nearest)])
 
 
 def smoothed(heights: Array, width: float = 2.0) -> Array:

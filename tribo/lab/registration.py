@@ -11,7 +11,7 @@ import scipy.ndimage as ndimage
 
 from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError
-from tribo.lab.heights import Heights, smoothed
+from tribo.lab.heights import Heights, nearest_filled, smoothed
 
 SAME = 1e-3
 """Relative difference up to which two pitches are the same."""
@@ -152,7 +152,7 @@ class _Fit:
 
     def difference(self, blur: float) -> tuple[Array, Array]:
         """Return the depth, and its derivatives by shift, rotation times lever and form."""
-        before, after = (_filled(m.heights) for m in (self.before, self.after))
+        before, after = (nearest_filled(m.heights) for m in (self.before, self.after))
         if blur:
             before, after = (ndimage.gaussian_filter(each, blur) for each in (before, after))
         x, y = rotated = np.einsum("ij,jxy->ixy", _rotation(self.angle), self.places)
@@ -321,7 +321,7 @@ def _relief(heights: Array, factor: int) -> tuple[Array, Array]:
         around = smoothed(np.isfinite(heights).astype(float), 0.5 * factor)[lines]
         heights = np.where(around > 0.5, smoothed(heights, 0.5 * factor)[lines], np.nan)
     known = np.isfinite(heights)
-    filled = _filled(heights)
+    filled = nearest_filled(heights)
     relief = filled - ndimage.gaussian_filter(filled, FINE)
     # At the border the filter is one-sided, and leaves the slope of the form.
     border = min(int(2 * FINE), min(heights.shape) // 8)
@@ -331,13 +331,6 @@ def _relief(heights: Array, factor: int) -> tuple[Array, Array]:
     relief -= np.median(relief[known]) if known.any() else 0.0
     most = 3 * _robust_deviation(relief[known])
     return np.where(known, np.clip(relief, -most, most), 0.0), known.astype(float)
-
-
-def _filled(heights: Array) -> Array:
-    """Return heights with missing ones filled by the nearest known."""
-    missing = np.isnan(heights)
-    nearest = ndimage.distance_transform_edt(missing, return_distances=False, return_indices=True)
-    return np.asarray(heights[tuple(nearest)])
 
 
 def _robust_deviation(values: Array) -> float:

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 import numpy as np
 import pandas as pd
-from scipy.ndimage import correlate1d
+from scipy.ndimage import binary_opening, correlate1d
 
 from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError, located
@@ -17,6 +17,8 @@ ROUNDING = 1e-6
 """Relative rounding of pixel pitch and cell size."""
 COVERED = 0.5 - 1e-6
 """Part of a cell that must be measured."""
+HOLES = 0.05
+"""Part of a cell that may lie in holes of 3 × 3 pixels or more."""
 MOST_BLOCKS = 600
 """Blocks that a map is averaged over where a few parameters are fitted to it."""
 SWAPPED = 3.0
@@ -85,8 +87,9 @@ def on_cells(
 ) -> Array:
     """Return the mean of a map over each cell of a surface, weighted by shared area.
 
-    The point at `shift` from the middle of the map, in m, lies on the middle of the surface. NaN
-    where less than half of a cell was measured.
+    The point at `shift` from the middle of the map, in m, lies on the middle of the surface.
+    Missing pixels are interpolated, but for a track. NaN in cells of which less than half was
+    measured, or that have a part in a larger hole.
     """
     averaged = shape[0] == 1
     cell = heights.heights.shape[0] * heights.pitch[0] if averaged else spacing[0], spacing[1]
@@ -97,17 +100,16 @@ def on_cells(
             "grid.cells"
         )
     known = np.isfinite(heights.heights)
-    pixels = np.where(known, heights.heights, 0.0)
+    # Along a track all is alike, so that nothing need be interpolated.
+    used = known if averaged else np.ones(known.shape)
+    pixels = np.where(used, heights.filled, 0.0)
     if averaged and _has_swapped_axes(pixels, known):
         raise CaseError(
             "it is uneven along x, the sliding direction, and even across it, but a track is even "
             "along x: its axes are swapped; x goes from row to row of the map, y along each"
         )
     # A cell takes parts of pixels: linear interpolation gives the mean of each part.
-    slopes = [
-        np.where(known, np.nan_to_num(np.gradient(heights.heights, axis=axis)), 0.0)
-        for axis in (0, 1)
-    ]
+    slopes = [np.where(used, slope, 0.0) for slope in np.gradient(heights.filled)]
     (in_x, offset_x), (in_y, offset_y) = (
         _overlaps(n, width, m, pitch, off)
         for n, width, m, pitch, off in zip(
@@ -121,9 +123,12 @@ def on_cells(
     )
     total = in_x @ pixels @ in_y.T
     total = total + offset_x @ slopes[0] @ in_y.T + in_x @ slopes[1] @ offset_y.T
-    measured = in_x @ known @ in_y.T
-    enough = measured >= COVERED * cell[0] * cell[1]
-    found = np.divide(total, measured, out=np.full(shape, np.nan), where=enough)
+    in_holes = in_x @ binary_opening(~known, np.ones((3, 3))) @ in_y.T
+    enough = in_x @ known @ in_y.T >= COVERED * cell[0] * cell[1]
+    if not averaged:
+        enough &= in_holes <= HOLES * cell[0] * cell[1]
+    covered = in_x @ used @ in_y.T
+    found = np.divide(total, covered, out=np.full(shape, np.nan), where=enough)
     if not np.any(enough):
         raise CaseError(
             "it does not lie on the window: its middle is taken as the contact's; check pitch, "
