@@ -190,6 +190,17 @@ def test_maps_without_noise_are_not_taken_for_worn_all_over():
     assert found.volume == pytest.approx(np.sum(lost) * PITCH**2, rel=0.01, abs=0)
 
 
+def test_a_scar_that_the_edge_cuts_off_is_told(standard):
+    before, after, _, whole = standard
+    parts = (Heights(each.heights[36:].copy(), each.pitch) for each in (before, after))
+    with pytest.warns(TriboWarning, match="cut off by the edge"):
+        part = measured_scar(*parts, radius=RADIUS)
+    assert part.cut_off
+    assert part.inferred == ()
+    assert part.volume < 0.98 * whole.volume
+    assert not whole.cut_off
+
+
 def test_what_is_piled_up_beside_a_scar_is_told_apart(standard):
     before, after, lost, _ = standard
     x, y = after.grid.mesh

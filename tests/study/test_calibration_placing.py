@@ -44,9 +44,10 @@ def worn():
 def fitted(worn, tmp_path):
     """What is found from the ball's map with noise: shifted, lifted, of another pitch."""
 
-    def found(shift=(0.0, 0.0), level=0.0, pitch=1.0, noise=NOISE, seed=0):
+    def found(shift=(0.0, 0.0), level=0.0, pitch=1.0, noise=NOISE, seed=0, missing=False):
         depth = moved(worn, np.array(shift) / PITCH, order=1) + level
         depth += 4 * noise * np.random.default_rng(seed).standard_normal(depth.shape)
+        depth[np.broadcast_to(missing, depth.shape)] = np.nan
         np.save(tmp_path / "map.npy", depth)
         entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "map.npy")}
         entry |= {"pitch": pitch * PITCH, "uncertainty": noise}
@@ -89,6 +90,28 @@ def test_intervals_cover_the_coefficient_wherever_the_map_has_its_scar(fitted):
         covers(fitted(random.uniform(-60e-6, 60e-6, 2), noise=200e-9, seed=i)) for i in range(draws)
     )
     assert covered >= binom.ppf(0.002, draws, 0.95)
+
+
+def test_missing_pixels_change_neither_the_coefficient_nor_the_misfit(fitted):
+    whole, band = fitted(noise=3e-9), np.zeros((PIXELS, PIXELS), dtype=bool)
+    band[:, 50:57] = True
+    spots = np.random.default_rng(1).random(band.shape) < 0.2
+    for missing in (band, spots):
+        found = fitted(noise=3e-9, missing=missing)
+        assert covers(found)
+        assert found.chi_square < 1.5 * whole.chi_square
+
+
+def test_the_coefficient_that_is_not_fitted_and_wrong_is_named(worn, tmp_path):
+    depth = worn + 4 * NOISE * np.random.default_rng(0).standard_normal(worn.shape)
+    np.save(tmp_path / "map.npy", depth)
+    entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "map.npy")}
+    measured = {"measured": [{**entry, "pitch": PITCH, "uncertainty": NOISE}], "fit": [{"path": K}]}
+    wrong = calibrate(apply_settings(CASE, {DISK_K: 3 * TRUE}), measured)
+    (note,) = (note for note in wrong.notes if note.startswith(f"{DISK_K} is not fitted"))
+    right = calibrate(CASE, measured).chi_square
+    assert float(note.split()[-1]) == pytest.approx(right, rel=0.2)
+    assert not any("try grid.cells" in each for each in wrong.notes)
 
 
 @pytest.mark.parametrize(("level", "way"), [(1e-6, "above"), (-1e-7, "below")])

@@ -22,6 +22,8 @@ FAR = 10.0
 """Ratio of an interval's end to the value above which no percentage is printed."""
 BLIND = 0.2
 """Singular value of the Jacobian below which a combination of parameters is unknown."""
+TINY = 1e-6
+"""p-value below which only that is printed."""
 LONGEST_NAME = 30
 """Characters of a name that fit in a table of 80 columns."""
 
@@ -91,7 +93,7 @@ def _table(title: str, names: list[str], *columns: str) -> Table:
     width = None if whole else min(longest, LONGEST_NAME)
     table.add_column("", overflow="fold", no_wrap=whole, min_width=width)
     for column in columns:
-        is_interval = column == "" or column.endswith("interval")
+        is_interval = column == "relative" or column.endswith("interval")
         table.add_column(column, justify="right", overflow="fold", no_wrap=not is_interval)
     return table
 
@@ -99,7 +101,7 @@ def _table(title: str, names: list[str], *columns: str) -> Table:
 def estimates_table(found: Calibration) -> Table:
     """Return the parameters with their intervals."""
     names, level = list(found.parameters["path"]), f"{100 * found.level:g} % interval"
-    columns = ["estimate", level, "", "resolution"]
+    columns = ["estimate", level, "relative", "resolution"]
     if is_sampled := "sampled_lower" in found.parameters:
         columns.append("sampled interval")
     table = _table(f"Fitted in {found.runs} runs", names, *columns)
@@ -141,7 +143,7 @@ def predictions_table(found: Calibration) -> Table:
     """Return the predictions of the fitted case."""
     names = [_name(each) for each in found.predictions.itertuples()]
     level = f"{100 * found.level:g} % interval"
-    table = _table("Not measured, at the end", names, "computed", level, "")
+    table = _table("Not measured, at the end", names, "computed", level, "relative")
     for name, each in zip(names, found.predictions.itertuples(), strict=True):
         value, low, high = (
             in_words(each.quantity, value, digits_of(each.lower, each.upper))
@@ -157,7 +159,7 @@ def fit_sentences(found: Calibration) -> Iterator[str]:
         freedom = found.degrees_of_freedom
         yield (
             f"χ² {found.chi_square:.3g} with {freedom} degree{'s' * (freedom != 1)} of freedom, "
-            f"p = {found.p_value:.2g}."
+            f"p {f'= {found.p_value:.2g}' if found.p_value > TINY else f'< {TINY:g}'}."
         )
     if found.repeatability or found.repeatability_estimated:
         how = "estimated" if found.repeatability_estimated else "as stated"

@@ -58,6 +58,8 @@ class MeasuredScar:
     along, across : float
         Widths along and across the sliding direction, in m; infinite for a track, which reaches
         both edges of the map.
+    cut_off : bool
+        Whether it goes on beyond the map's edge, other than along a track.
     missing : float
         Part of the scar's pixels that are missing; their depth is interpolated.
     inferred : tuple of InferredVolume
@@ -74,6 +76,7 @@ class MeasuredScar:
     depth_uncertainty: float
     along: float
     across: float
+    cut_off: bool
     missing: float
     inferred: tuple[InferredVolume, ...]
 
@@ -107,6 +110,7 @@ class MeasuredScar:
             "along_m": self.along,
             "across_m": self.across,
             "is_track": self.is_track,
+            "cut_off": self.cut_off,
             "section_m2": self.section,
             "missing": self.missing,
             "noise_m": found.noise,
@@ -187,13 +191,25 @@ def measured_scar(
     volume = area * float(np.sum(depth[scar]))
     piled = _largest(-smooth, (-smooth > DEEP * noise) & ~scar) & ~scar
     widths = _widths(smooth, core, after.pitch)
+    cut_off = any(
+        np.any(np.moveaxis(core, axis, 0)[[0, -1]])
+        for axis, width in enumerate((widths.along, widths.across))
+        if math.isfinite(width)
+    )
+    if cut_off:
+        warnings.warn(
+            "the scar is cut off by the edge of the area that the maps share: volume, depth and "
+            "widths are those of the part within it; measure a larger area",
+            TriboWarning,
+            stacklevel=2,
+        )
     deepest, deepest_uncertainty = _deepest(found, smooth, core & known, noise)
-    if math.inf in widths:
+    formulas: list[InferredVolume] = []
+    # Of a scar that is cut off the width is not known.
+    if math.inf in widths and not cut_off:
         length = after.grid.size[0 if math.isinf(widths.along) else 1]
         formulas = _track_volumes(volume, min(widths), length, track_length or length, radius)
-    elif radius is None:
-        formulas = []
-    else:
+    elif radius is not None and not cut_off:
         _check_width(min(widths), radius)
         groove = _groove_radius(after, core)
         formulas = ball_volumes("ball", widths, radius, groove, volume)
@@ -208,6 +224,7 @@ def measured_scar(
         depth_uncertainty=deepest_uncertainty,
         along=widths.along,
         across=widths.across,
+        cut_off=cut_off,
         missing=float(np.mean(~known[scar])),
         inferred=tuple(formulas),
     )

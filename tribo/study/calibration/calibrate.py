@@ -22,7 +22,7 @@ from tribo.study.calibration.fit import ABOVE_ROUNDING, NO_EFFECT, fit, interval
 from tribo.study.calibration.linearised import Linearised, Weights, root_covariance
 from tribo.study.calibration.map_notes import map_notes
 from tribo.study.calibration.measured import Measurements
-from tribo.study.calibration.notes import notes
+from tribo.study.calibration.notes import disagrees, notes
 from tribo.study.calibration.parameters import Parameter
 from tribo.study.calibration.quantities import (
     DEPTH_MAP,
@@ -33,6 +33,7 @@ from tribo.study.calibration.quantities import (
     plain,
 )
 from tribo.study.calibration.sample import check_sampling, sampled
+from tribo.study.calibration.unfitted import unfitted
 
 REACHED, UNSETTLED = "reached the edge of the window", "have not settled"
 """Parts of the messages of errors that a wrong pitch or position may cause."""
@@ -302,6 +303,8 @@ def _outcome(fitted: Linearised, experiment: Experiment, level: float) -> Calibr
     moved = sum(bool(far) for each in experiment.shifts.values() for far in each.shift)
     freedom = max(int(np.sum(~problem.below)) - int(np.sum(determined & ~held)) - moved, 0)
     predictions = _predictions(fitted, experiment, estimates, level)
+    tested = None if problem.repeatability is None else freedom
+    explained = [*unfitted(fitted, experiment, freedom)] if disagrees(data, tested) else []
     return Calibration(
         level=level,
         runs=experiment.run_count,
@@ -324,8 +327,9 @@ def _outcome(fitted: Linearised, experiment: Experiment, level: float) -> Calibr
                 estimates,
                 data,
                 jacobian,
-                None if problem.repeatability is None else freedom,
+                tested,
                 min(setup.model.grid.cells[1] for setup in experiment.setups),
+                explained,
             ),
             *last.notices,
         ),

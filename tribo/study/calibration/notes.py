@@ -29,18 +29,23 @@ _CORRELATED = 3.0
 
 
 def notes(
-    estimates: pd.DataFrame, data: pd.DataFrame, jacobian: Array, freedom: int | None, cells: int
+    estimates: pd.DataFrame,
+    data: pd.DataFrame,
+    jacobian: Array,
+    freedom: int | None,
+    cells: int,
+    explained: Sequence[str],
 ) -> list[str]:
     """Return notes; the Jacobian is of the weighted residuals by the logarithms of the parameters.
 
     The column `alone` of the data has the weighted residuals, independent where tests scatter.
     `freedom` are the degrees of freedom of χ², None where the repeatability is estimated; `cells`
-    are those of the coarsest grid.
+    are those of the coarsest grid, and `explained` has what explains a misfit.
     """
     return [
         *_on_parameters(estimates, data, jacobian, freedom),
         *_on_collinearity(list(estimates["path"]), jacobian),
-        *_on_misfit(data, freedom, cells),
+        *_on_misfit(data, freedom, cells, explained),
         *_on_patterns(data),
         *_on_instruments(data),
     ]
@@ -106,7 +111,17 @@ def _on_collinearity(paths: Sequence[str], jacobian: Array) -> Iterator[str]:
         )
 
 
-def _on_misfit(data: pd.DataFrame, freedom: int | None, cells: int) -> Iterator[str]:
+def disagrees(data: pd.DataFrame, freedom: int | None) -> bool:
+    """Whether χ² is too large to be by chance."""
+    if not freedom:
+        return False
+    chi_square = np.sum(data.loc[~data["below"], "alone"] ** 2)
+    return bool(chdtrc(freedom, chi_square) < UNLIKELY)
+
+
+def _on_misfit(
+    data: pd.DataFrame, freedom: int | None, cells: int, explained: Sequence[str]
+) -> Iterator[str]:
     if freedom is None:
         return
     if freedom == 0:
@@ -116,11 +131,11 @@ def _on_misfit(data: pd.DataFrame, freedom: int | None, cells: int) -> Iterator[
         return
     read = data[~data["below"]]
     chi_square = float(np.sum(read["alone"] ** 2))
-    if chdtrc(freedom, chi_square) < UNLIKELY:
+    if disagrees(data, freedom):
         worst = read.loc[read["alone"].abs().idxmax()]
         of_grid = ""
         # Only where errors of the grid dominate is the grid the reason.
-        if worst.quantity in FIELDS and worst.sigma**2 > 2 * worst.stated**2:
+        if not explained and worst.quantity in FIELDS and worst.sigma**2 > 2 * worst.stated**2:
             of_grid = f", or the grid is too coarse: try grid.cells = {2 * cells}"
         yield (
             f"data and model disagree: χ² is {chi_square:.3g} where about {freedom} is expected; "
@@ -128,6 +143,7 @@ def _on_misfit(data: pd.DataFrame, freedom: int | None, cells: int) -> Iterator[
             "uncertainty. The model leaves something out, or uncertainties are larger than stated"
             f"{of_grid}; the intervals are then too narrow"
         )
+        yield from explained
 
 
 def _on_patterns(data: pd.DataFrame) -> Iterator[str]:
