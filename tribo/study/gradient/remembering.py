@@ -142,8 +142,8 @@ class Remembering:
         rates, moves = along.found, other.carriers is not self.stages.carriers
         if asks:
             places = [
-                others.in_layers(stage.states, stage.place._replace(over=longer * stage.place.over))
-                for stage, _ in along.rates
+                others.with_shares(s.states, s.place._replace(over=longer * s.place.over))
+                for s, _ in along.rates
             ]
             rates = others.rates(along.states, places)
         if moves:

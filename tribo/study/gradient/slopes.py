@@ -230,7 +230,7 @@ class Sloping(Stages):
             place._replace(shares=only(layer, bottoms, worn))
             for layer in range(1 + max(map(len, bottoms.values())))
         ]
-        of_layers = self._sloped(self.in_given_layers([states] * len(alone), alone), reach)
+        of_layers = self._sloped(self.at_shares([states] * len(alone), alone), reach)
         bodies, by_share = {}, {}
         for at, name in enumerate(self.model.laws):
             if name not in bottoms:

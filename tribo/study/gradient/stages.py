@@ -186,12 +186,10 @@ class Stages:
 
     def at(self, states: Sequence[Sequence[Array]], places: Sequence[Place]) -> list[Stage]:
         """Return the stages at some states, each at a place of its own."""
-        divided = [self.in_layers(*each) for each in zip(states, places, strict=True)]
-        return self.in_given_layers(states, divided)
+        divided = [self.with_shares(*each) for each in zip(states, places, strict=True)]
+        return self.at_shares(states, divided)
 
-    def in_given_layers(
-        self, states: Sequence[Sequence[Array]], places: Sequence[Place]
-    ) -> list[Stage]:
+    def at_shares(self, states: Sequence[Sequence[Array]], places: Sequence[Place]) -> list[Stage]:
         """Return the same where the places have the shares of the layers already."""
         held = [self.held(each) for each in states]
         rates = self.rates(together(held), places)
@@ -261,7 +259,7 @@ class Stages:
         """Return these states, and the depths in layers, as laws and effects know them."""
         return memory_with(self.slid.before, self.layered, states)
 
-    def in_layers(self, states: Sequence[Array], place: Place) -> Place:
+    def with_shares(self, states: Sequence[Array], place: Place) -> Place:
         """Return a place with the shares of the layers."""
         if not self.layered:
             return place
@@ -313,7 +311,7 @@ class Stages:
         laws = {n: {key: next(each) for key in of} for n, of in self.slid.before.laws.items()}
         worn = dict(zip(self.layered, each, strict=True))
         for name, law in model.laws.items():
-            own = {**laws.get(name, {}), **_in_layers(law.bottoms, name, worn, places)}
+            own = {**laws.get(name, {}), **_shares_told(law.bottoms, name, worn, places)}
             seen = {key: self.carriers[name].seen(of, self.box) for key, of in own.items()}
             found = [
                 self._pointwise(
@@ -383,7 +381,7 @@ def together(states: Sequence[Sequence[Array]]) -> Arrays:
     return [np.stack(each) for each in zip(*states, strict=True)]
 
 
-def _in_layers(
+def _shares_told(
     bottoms: Sequence[float], name: str, worn: Mapping[str, Array], places: Sequence[Place]
 ) -> dict[str, Array]:
     """Return what the law of a body in layers is told of them, shape (places, rows, ny)."""
