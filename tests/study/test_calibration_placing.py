@@ -102,6 +102,18 @@ def test_missing_pixels_change_neither_the_coefficient_nor_the_misfit(fitted):
         assert found.chi_square < 1.5 * whole.chi_square
 
 
+def test_swapped_axes_are_named(worn, tmp_path):
+    notes = {}
+    for name, depth in {"right": worn, "swapped": worn.T}.items():
+        noise = 4 * NOISE * np.random.default_rng(0).standard_normal(worn.shape)
+        np.save(tmp_path / "map.npy", depth + noise)
+        entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "map.npy")}
+        entry |= {"pitch": PITCH, "uncertainty": NOISE}
+        notes[name] = calibrate(CASE, {"measured": [entry], "fit": [{"path": K}]}).notes
+    assert notes["right"] == ()
+    assert any("has its axes swapped" in note for note in notes["swapped"])
+
+
 def test_the_coefficient_that_is_not_fitted_and_wrong_is_named(worn, tmp_path):
     depth = worn + 4 * NOISE * np.random.default_rng(0).standard_normal(worn.shape)
     np.save(tmp_path / "map.npy", depth)

@@ -32,7 +32,7 @@ MEDIAN_SIGMA = 1.25
 LEAST_STRETCH = 0.01
 """Relative error of a pitch that is reported."""
 EXPLAINED = 0.5
-"""Part of the excess of χ² that a wrong pitch must explain."""
+"""Part of the excess of χ² that a wrong pitch, or swapped axes, must explain."""
 LINEAR = 1.25
 """Stretch up to which the depths are taken as linear in it."""
 LEAST_EXPONENT = 0.9
@@ -40,7 +40,7 @@ LEAST_EXPONENT = 0.9
 
 
 def map_notes(fitted: Linearised, experiment: Experiment) -> Iterator[str]:
-    """Name maps that are off centre, not levelled, or of a wrong pitch, and shifted profiles."""
+    """Name maps off centre, not levelled, turned, or of a wrong pitch, and shifted profiles."""
     for reading, depth in experiment.run(np.exp(fitted.point)).maps.items():
         row, found = experiment.table.loc[reading], experiment.shifts[reading]
         name = f"the {named(row)}"
@@ -48,6 +48,7 @@ def map_notes(fitted: Linearised, experiment: Experiment) -> Iterator[str]:
         yield from off_middle(name, found)
         measured = experiment.on_cells(reading, found.shift)
         yield from off_level(name, measured, depth, row["sigma"])
+        yield from _off_axes(name, measured, depth, row["sigma"])
         yield from _off_pitch(name, fitted, experiment, reading, depth, spacing)
     yield from _off_profiles(fitted, experiment)
 
@@ -63,6 +64,18 @@ def off_middle(name: str, found: ScarShift) -> Iterator[str]:
         yield (
             f"the scar in {name} lies {' and '.join(words)} the sliding direction from the middle "
             "of the map"
+        )
+
+
+def _off_axes(name: str, measured: Array, depth: Array, sigma: float) -> Iterator[str]:
+    """Report a map that the model meets far better with its axes swapped."""
+    if depth.shape[0] != depth.shape[1]:
+        return
+    found, swapped = (np.nanmean((each - depth) ** 2) for each in (measured, measured.T))
+    if found > 2 * sigma**2 and found - swapped > EXPLAINED * (found - sigma**2):
+        yield (
+            f"{name} has its axes swapped, it seems: x, the sliding direction, goes from row to "
+            "row of the map, y along each"
         )
 
 
