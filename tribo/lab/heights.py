@@ -51,7 +51,7 @@ class Heights:
         if len(shape) != 2 or min(shape) < FEWEST:
             raise CaseError(
                 f"heights of shape {shape} are no map: {FEWEST} × {FEWEST} at least are needed, "
-                "in a CSV file with commas between them"
+                + ("in a CSV file with commas between them" if len(shape) < 3 else "one map a file")
             )
         if not np.any(np.isfinite(self.heights)):
             raise CaseError("every height of the map is missing; measure again, or mask less")

@@ -355,7 +355,7 @@ def _check_width(width: float, radius: float) -> None:
     if not 0 < width < 2 * radius:
         raise CaseError(
             f"a ball of {1e3 * radius:.4g} mm radius cannot have a scar {1e3 * width:.4g} mm wide; "
-            "correct radius",
+            "correct radius or pitch",
             "radius",
         )
 
