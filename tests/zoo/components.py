@@ -144,7 +144,8 @@ class Law(WearLaw):
     def rate(self, local):
         self._calls += 1
         k = np.full_like(local.pressure, 3e-16)
-        good = WearRate(k * local.pressure, k, {f.name: k for f in self.state_fields})
+        depth = k * local.pressure
+        good = WearRate(depth, k, {f.name: depth for f in self.state_fields})
         return self.spoilt(good, local) if self._calls > 20 else good
 
     def spoilt(self, good, local):
@@ -174,8 +175,11 @@ for name, words, spoilt in (
     ("state_is_7", "gave a int as rates of its state", rated(lambda r, _: {"state_rates": 7})),
 ):
     ZOO.bad(name, Law, words, saved=True, spoilt=spoilt)
-for name, words, rates in (("forgets_its_state", "no rate for its state field 'slid'", {}),):
-    spoilt = rated(lambda r, local, rates=rates: {"state_rates": rates})
+for name, words, spoilt in (
+    ("forgets_its_state", "no rate for its state field 'slid'", lambda r, local: {}),
+    ("ages", "a rate of 'slid' that is not 0 in", lambda r, local: {"slid": r.depth_slope}),
+):
+    spoilt = rated(lambda r, local, rates=spoilt: {"state_rates": rates(r, local)})
     ZOO.bad(name, Slides, words, saved=True, spoilt=spoilt)
 ZOO.bad("starts_nowhere", Slides, "but starts with {}", initial_state=lambda self: {})
 ZOO.bad("starts_nan", Slides, "an initial 'slid'", initial_state=lambda self: {"slid": np.nan})
