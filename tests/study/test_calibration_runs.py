@@ -334,6 +334,15 @@ def test_a_groove_that_ends_with_its_stroke_is_noticed():
     assert any(note.startswith("data and model disagree") for note in found.notes)
 
 
+def test_a_misfit_beside_a_body_that_does_not_wear_is_told():
+    data = [measured("ball", "volume", 1e-12, 0.01), measured("ball", "depth", 1e-6, 1e-3)]
+    found = calibrate(
+        apply_settings(CASE, {DISK_K: 0.0}), {"measured": data, "fit": [{"path": BALL_K}]}
+    )
+    assert any(note.startswith("data and model disagree") for note in found.notes)
+    assert not any("is not fitted" in note for note in found.notes)
+
+
 def test_a_failing_run_says_with_what_and_what_may_be_off():
     data = [measured("ball", "mass", 50 * mass(BALL))]
     with pytest.raises(NumericalError, match="reached the edge of the window") as caught:

@@ -11,8 +11,7 @@ import numpy as np
 from tribo.core.errors import CaseError, NumericalError
 from tribo.study.calibration.experiment import Experiment
 from tribo.study.calibration.linearised import Linearised
-from tribo.study.calibration.measured import FitEntry
-from tribo.study.calibration.parameters import find_parameters, is_number
+from tribo.study.calibration.parameters import find_parameters
 
 STEP = 1.2
 """Factor on a coefficient between two runs."""
@@ -32,23 +31,21 @@ def unfitted(fitted: Linearised, experiment: Experiment, freedom: int) -> Iterat
     cases = [setup.model.case for setup in experiment.setups]
     falls = {}
     for name in cases[0].bodies:
-        path = f"bodies.{name}.wear.k"
-        if path in fitted.problem.names or not all(is_number(case, path) for case in cases):
-            continue
-        more, *others = {find_parameters(case, [FitEntry(path=path)], [])[0] for case in cases}
-        if others:
-            # The tests have their own.
-            continue
-        wider = replace(experiment, parameters=[*experiment.parameters, more], runs={})
         try:
+            more, *others = {find_parameters(case, [], [name])[0] for case in cases}
+            if others or more.path in fitted.problem.names:
+                # The tests have their own, or it is fitted.
+                continue
+            wider = replace(experiment, parameters=[*experiment.parameters, more], runs={})
             responses = wider.run(np.append(values, STEP * more.start)).responses
         except (CaseError, NumericalError):
+            # It has no coefficient above 0, or cannot be run: the fit stands without a reason.
             continue
         moved = fitted.problem.residuals(responses, fitted.weights)
         effect = ((moved - residuals) / math.log(STEP))[rows]
         effect -= basis @ (basis.T @ effect)
         if (size := float(np.sum(effect**2))) > 0:
-            falls[path] = float(np.sum(effect * residuals[rows])) ** 2 / size
+            falls[more.path] = float(np.sum(effect * residuals[rows])) ** 2 / size
     path = max(falls, key=falls.__getitem__, default="")
     if path and falls[path] > EXPLAINED * (chi_square - freedom):
         yield (
