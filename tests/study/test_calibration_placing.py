@@ -44,14 +44,23 @@ def worn():
 def fitted(worn, tmp_path):
     """What is found from the ball's map with noise: shifted, lifted, of another pitch."""
 
-    def found(shift=(0.0, 0.0), level=0.0, pitch=1.0, noise=NOISE, seed=0, missing=False):
-        depth = moved(worn, np.array(shift) / PITCH, order=1) + level
+    def found(
+        shift=(0.0, 0.0),
+        level=0.0,
+        pitch=1.0,
+        noise=NOISE,
+        seed=0,
+        missing=False,
+        swapped=False,
+        case=CASE,
+    ):
+        depth = moved(worn.T if swapped else worn, np.array(shift) / PITCH, order=1) + level
         depth += 4 * noise * np.random.default_rng(seed).standard_normal(depth.shape)
         depth[np.broadcast_to(missing, depth.shape)] = np.nan
         np.save(tmp_path / "map.npy", depth)
         entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "map.npy")}
         entry |= {"pitch": pitch * PITCH, "uncertainty": noise}
-        return calibrate(CASE, {"measured": [entry], "fit": [{"path": K}]})
+        return calibrate(case, {"measured": [entry], "fit": [{"path": K}]})
 
     return found
 
@@ -102,27 +111,15 @@ def test_missing_pixels_change_neither_the_coefficient_nor_the_misfit(fitted):
         assert found.chi_square < 1.5 * whole.chi_square
 
 
-def test_swapped_axes_are_named(worn, tmp_path):
-    notes = {}
-    for name, depth in {"right": worn, "swapped": worn.T}.items():
-        noise = 4 * NOISE * np.random.default_rng(0).standard_normal(worn.shape)
-        np.save(tmp_path / "map.npy", depth + noise)
-        entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "map.npy")}
-        entry |= {"pitch": PITCH, "uncertainty": NOISE}
-        notes[name] = calibrate(CASE, {"measured": [entry], "fit": [{"path": K}]}).notes
-    assert notes["right"] == ()
-    assert any("has its axes swapped" in note for note in notes["swapped"])
+def test_swapped_axes_are_named(fitted):
+    assert fitted().notes == ()
+    assert any("has its axes swapped" in note for note in fitted(swapped=True).notes)
 
 
-def test_the_coefficient_that_is_not_fitted_and_wrong_is_named(worn, tmp_path):
-    depth = worn + 4 * NOISE * np.random.default_rng(0).standard_normal(worn.shape)
-    np.save(tmp_path / "map.npy", depth)
-    entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "map.npy")}
-    measured = {"measured": [{**entry, "pitch": PITCH, "uncertainty": NOISE}], "fit": [{"path": K}]}
-    wrong = calibrate(apply_settings(CASE, {DISK_K: 3 * TRUE}), measured)
+def test_the_coefficient_that_is_not_fitted_and_wrong_is_named(fitted):
+    wrong = fitted(case=apply_settings(CASE, {DISK_K: 3 * TRUE}))
     (note,) = (note for note in wrong.notes if note.startswith(f"{DISK_K} is not fitted"))
-    right = calibrate(CASE, measured).chi_square
-    assert float(note.split()[-1]) == pytest.approx(right, rel=0.2)
+    assert float(note.split()[-1]) == pytest.approx(fitted().chi_square, rel=0.2)
     assert not any("try grid.cells" in each for each in wrong.notes)
 
 
