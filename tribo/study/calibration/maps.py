@@ -21,7 +21,8 @@ from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.march import begin, march
 from tribo.simulation.model import Model
 from tribo.simulation.run import Simulation
-from tribo.study.calibration.cells import cell_means
+from tribo.study.calibration.cells import cell_means, surface_shape
+from tribo.study.calibration.lanczos import eigenpairs
 from tribo.study.calibration.notes import UNLIKELY
 from tribo.study.calibration.quantities import EDGE_CELL_SIGMA, edge_sigma
 from tribo.study.gradient.backwards import swept_back
@@ -32,10 +33,6 @@ from tribo.study.gradient.tape import Tape, recorded
 
 STEP = 1e-2
 """Largest change of a logarithm for the finite difference of all depths along a direction."""
-CHECK_INTERVAL = 10
-"""Products with the Fisher information between two checks of what they add."""
-LEAST_GAIN = 0.2
-"""Degrees of freedom per product below which the Krylov space is large enough."""
 FIRST_ITERATIONS = 10
 """Steps of L-BFGS before the information is computed."""
 ITERATIONS = 100
@@ -46,8 +43,6 @@ FALL = 0.05
 """Fall of −ln p that ends it."""
 FINE = 0.125
 """Cell size, in correlation lengths, below which the fit starts on a grid of half as many cells."""
-EXHAUSTED = 1e-9
-"""Relative length of a new Krylov vector that is rounding."""
 SILENT = 0.9
 """Posterior standard deviation over the prior's from which on the data say nothing."""
 
@@ -226,7 +221,7 @@ class _Posterior:
         tell: Callable[[float], None],
     ) -> None:
         self.model, self.depths, self.priors, self.tell = model, depths, priors, tell
-        self.shapes = {name: (model.exposures[name].rows, model.grid.cells[1]) for name in depths}
+        self.shapes = {name: surface_shape(model, name) for name in depths}
         self.amplitudes, self.scales, self.parts, self.size = {}, {}, {}, 0
         for name, shape in self.shapes.items():
             if depths[name][0].shape != shape:
@@ -252,7 +247,7 @@ class _Posterior:
         model = assemble(varied(case, grid=grid.model_copy(update={"cells": cells})))
         depths = {}
         for name, (depth, sigma) in self.depths.items():
-            shape = (model.exposures[name].rows, cells[1])
+            shape = surface_shape(model, name)
             blocks = [n // m for n, m in zip(depth.shape, shape, strict=True)]
             if depth.shape != (shape[0] * blocks[0], shape[1] * blocks[1]):
                 return None
@@ -278,7 +273,9 @@ class _Posterior:
             near = self.least(near, FIRST_ITERATIONS)
             self.weigh(near)
             with closing(Tape()) as tape:
-                basis, values = _krylov(self.products(self.logs(near), tape), self.size, products)
+                basis, values = eigenpairs(
+                    self.products(self.logs(near), tape), self.size, products
+                )
         else:
             near, basis, values = coarse.fitted(products)
             near = self.raised(coarse, near)
@@ -377,31 +374,3 @@ class _Posterior:
             return self.adjoint(np.concatenate([found.wear_rate[name].ravel() for name in seeds]))
 
         return product
-
-
-def _krylov(product: Callable[[Array], Array], size: int, most: int) -> tuple[Array, Array]:
-    """Return approximate eigenvectors, as rows, and eigenvalues, by Lanczos' method."""
-    vector = np.random.default_rng(0).standard_normal(size)
-    basis = images = np.empty((0, size))
-    projected, gained = np.empty((0, 0)), 0.0
-    while len(basis) < min(most, size):
-        whole = np.sum(vector**2)
-        for _ in range(2):
-            along = np.sum(basis * vector, axis=1)
-            vector = vector - np.sum(along[:, None] * basis, axis=0)
-        left = np.sum(vector**2)
-        if left <= EXHAUSTED**2 * whole:
-            break
-        basis = np.vstack([basis, vector / left**0.5])
-        vector = product(basis[-1])
-        images = np.vstack([images, vector])
-        projected = basis @ images.T
-        projected = 0.5 * (projected + projected.T)
-        if len(basis) % CHECK_INTERVAL == 0:
-            # Degrees of freedom Σ λ/(1 + λ) = n − tr (1 + H)⁻¹.
-            inverse = np.linalg.inv(np.eye(len(basis)) + projected)
-            former, gained = gained, len(basis) - float(np.trace(inverse))
-            if gained - former < LEAST_GAIN * CHECK_INTERVAL:
-                break
-    values, vectors = np.linalg.eigh(projected)
-    return vectors.T @ basis, np.maximum(values, 0.0)
