@@ -13,7 +13,8 @@ from tribo.config.overrides import apply_settings
 from tribo.lab.heights import Heights
 from tribo.simulation.run import Simulation
 from tribo.study.calibration import mapped
-from tribo.study.calibration.calibrate import calibrate, doubts
+from tribo.study.calibration.calibrate import calibrate
+from tribo.study.calibration.doubts import doubts
 from tribo.study.calibration.experiment import Experiment
 from tribo.study.calibration.mapped import calibrate_maps
 from tribo.study.calibration.maps import FittedMaps

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -17,26 +17,22 @@ from tribo.config.overrides import apply_settings
 from tribo.config.write import to_toml
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, NumericalError
+from tribo.study.calibration.doubts import doubts, far_off
 from tribo.study.calibration.experiment import Experiment
 from tribo.study.calibration.fit import ABOVE_ROUNDING, NO_EFFECT, fit, interval
 from tribo.study.calibration.linearised import Linearised, Weights, root_covariance
 from tribo.study.calibration.map_notes import map_notes
 from tribo.study.calibration.measured import Measurements
 from tribo.study.calibration.notes import disagrees, notes
-from tribo.study.calibration.parameters import Parameter
 from tribo.study.calibration.quantities import (
     DEPTH_MAP,
     FIELDS,
-    PROFILES,
     QUANTITIES,
-    in_si,
     plain,
 )
 from tribo.study.calibration.sample import check_sampling, sampled
 from tribo.study.calibration.unfitted import unfitted
 
-REACHED, UNSETTLED = "reached the edge of the window", "have not settled"
-"""Parts of the messages of errors that a wrong pitch or position may cause."""
 DATA = ["test", "body", "quantity", "time_s", "position_m", "place", "unit"]
 DATA += ["measured", "below", "sigma", "computed", "residual"]
 """Columns of a calibration's data."""
@@ -46,10 +42,6 @@ AT_BOUND = 1e-6
 """Relative distance below which an estimate counts as on its bound."""
 SIGMA_CHANGE = 0.05
 """Relative change of a standard deviation, by errors of the grid, up to which a fit is kept."""
-SUSPICIOUS = 5.0
-"""Factor between measured and computed values from which on it is mentioned if a fit fails."""
-REFUSED = 300.0
-"""Factor from which on values are refused: a wrong prefix of a unit makes 1000."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -229,54 +221,6 @@ def calibrate(
     return replace(
         found, runs=experiment.run_count, parameters=parameters, notes=(*found.notes, note)
     )
-
-
-def doubts(experiment: Experiment, error: str) -> Iterator[str]:
-    """Return other possible reasons of a failed fit."""
-    if any(setup.model.case.stop.depth is not None for setup in experiment.setups):
-        yield (
-            "or leave out stop.depth: it ends the run at different times for different coefficients"
-        )
-    if REACHED in error or UNSETTLED in error:
-        quantities = set(experiment.data["quantity"])
-        if DEPTH_MAP in quantities:
-            yield "or check pitch"
-        if quantities & {*PROFILES}:
-            yield "or check position"
-
-
-def far_off(data: pd.DataFrame, computed: Array, parameters: Sequence[Parameter]) -> list[str]:
-    """Return a sentence for each entry that differs from the first run by a factor above 5.
-
-    CaseError if the factor is above 300, with one line per entry.
-    """
-    given = ", ".join(f"{p.path} = {in_si(p.start, p.unit)}" for p in parameters)
-    sizes = data[["unit", "sigma", "below"]].assign(
-        value=data["measured"].abs(), own=np.abs(computed[: len(data)])
-    )
-    found, refused = [], []
-    for place, unit, sigma, below, value, own in (
-        sizes.groupby(data["place"], sort=False).max().itertuples()
-    ):
-        if own == 0:
-            continue
-        # A value below its uncertainty is only an upper limit.
-        factor = own / max(value, sigma)
-        if not below:
-            factor = max(factor, value / own)
-        text = (
-            f"{place} was read as {in_si(value, unit)}, and the case gives {in_si(own, unit)} "
-            f"with {given}"
-        )
-        if factor > REFUSED:
-            refused.append(
-                f"{text}: check the value and its unit, or give a start in fit that is nearer to it"
-            )
-        elif factor > SUSPICIOUS:
-            found.append(text)
-    if refused:
-        raise CaseError("\n".join(refused))
-    return found
 
 
 def _outcome(fitted: Linearised, experiment: Experiment, level: float) -> Calibration:
