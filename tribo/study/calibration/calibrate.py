@@ -236,26 +236,28 @@ def _outcome(fitted: Linearised, experiment: Experiment, level: float) -> Calibr
     effects = fitted.effects(fitted.point)
     scatter = fitted.repeatability * np.sqrt(np.sum(effects**2, axis=1))
     sigma = np.hypot(problem.sigma, scatter)
+    residuals = fitted.residuals(fitted.point)
+    chi_square = float(np.sum(residuals[~problem.below] ** 2))
     data = data.assign(
         stated=data["sigma"],
         sigma=sigma,
         computed=computed,
         residual=problem.residuals(computed, Weights.of(sigma)),
-        alone=fitted.residuals(fitted.point),
+        alone=residuals,
     )
     determined = np.max(np.abs(jacobian[~problem.below]), axis=0, initial=0.0) > NO_EFFECT
     moved = sum(bool(far) for each in experiment.shifts.values() for far in each.shift)
     freedom = max(int(np.sum(~problem.below)) - int(np.sum(determined & ~held)) - moved, 0)
     predictions = _predictions(fitted, experiment, estimates, level)
     tested = None if problem.repeatability is None else freedom
-    explained = [*unfitted(fitted, experiment, freedom)] if disagrees(data, tested) else []
+    explained = [*unfitted(fitted, experiment, freedom)] if disagrees(chi_square, tested) else []
     return Calibration(
         level=level,
         runs=experiment.run_count,
         parameters=estimates,
         data=data[DATA + PLACE if "x_m" in data else DATA],
         predictions=predictions,
-        chi_square=float(np.sum(fitted.residuals(fitted.point)[~problem.below] ** 2)),
+        chi_square=chi_square,
         degrees_of_freedom=freedom,
         repeatability=fitted.repeatability,
         repeatability_estimated=problem.repeatability is None,

@@ -111,12 +111,9 @@ def _on_collinearity(paths: Sequence[str], jacobian: Array) -> Iterator[str]:
         )
 
 
-def disagrees(data: pd.DataFrame, freedom: int | None) -> bool:
-    """Whether χ² is too large to be by chance."""
-    if not freedom:
-        return False
-    chi_square = np.sum(data.loc[~data["below"], "alone"] ** 2)
-    return bool(chdtrc(freedom, chi_square) < UNLIKELY)
+def disagrees(chi_square: float, freedom: int | None) -> bool:
+    """Whether χ² is too large to be by chance; not where nothing is left to test by."""
+    return bool(freedom and chdtrc(freedom, chi_square) < UNLIKELY)
 
 
 def _on_misfit(
@@ -131,7 +128,7 @@ def _on_misfit(
         return
     read = data[~data["below"]]
     chi_square = float(np.sum(read["alone"] ** 2))
-    if disagrees(data, freedom):
+    if disagrees(chi_square, freedom):
         worst = read.loc[read["alone"].abs().idxmax()]
         of_grid = ""
         # Only where errors of the grid dominate is the grid the reason.
