@@ -156,10 +156,11 @@ def predictions_table(found: Calibration) -> Table:
 def fit_sentences(found: Calibration) -> Iterator[str]:
     """Return sentences on the goodness of fit, the repeatability and the correlations."""
     if found.p_value is not None:
-        freedom = found.degrees_of_freedom
+        freedom, p = found.degrees_of_freedom, found.p_value
+        chance = f"p = {p:.2g}" if p > TINY else f"p < {TINY:g}"
         yield (
             f"χ² {found.chi_square:.3g} with {freedom} degree{'s' * (freedom != 1)} of freedom, "
-            f"p {f'= {found.p_value:.2g}' if found.p_value > TINY else f'< {TINY:g}'}."
+            f"{chance}."
         )
     if found.repeatability or found.repeatability_estimated:
         how = "estimated" if found.repeatability_estimated else "as stated"

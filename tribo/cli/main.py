@@ -125,7 +125,8 @@ def main() -> None:
             print(end="", flush=True)
     except click.exceptions.Abort as error:
         stopped = error.__cause__
-        _fail(str(stopped) if isinstance(stopped, Interrupted) else "interrupted", 130)
+        message = str(stopped) if isinstance(stopped, Interrupted) else "interrupted"
+        _fail(message, Interrupted.exit_code)
     except click.ClickException as error:
         if isinstance(error, click.NoSuchOption) and error.option_name in GLOBAL:
             what = f"'{error.option_name}' stands before the command."

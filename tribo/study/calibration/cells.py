@@ -123,9 +123,9 @@ def on_cells(
     )
     total = in_x @ pixels @ in_y.T
     total = total + offset_x @ slopes[0] @ in_y.T + in_x @ slopes[1] @ offset_y.T
-    in_holes = in_x @ binary_opening(~known, np.ones((3, 3))) @ in_y.T
     enough = in_x @ known @ in_y.T >= COVERED * cell[0] * cell[1]
     if not averaged:
+        in_holes = in_x @ binary_opening(~known, np.ones((3, 3))) @ in_y.T
         enough &= in_holes <= HOLES * cell[0] * cell[1]
     covered = in_x @ used @ in_y.T
     found = np.divide(total, covered, out=np.full(shape, np.nan), where=enough)
