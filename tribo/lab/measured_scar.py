@@ -34,7 +34,7 @@ ZEROS = 10
 """Ratio of the number of zeros to that of any other height above which zeros may be missing
 values."""
 MARGIN = 4
-"""Pixels added around the scar, where it is shallower than the noise."""
+"""Pixels added around the scar, by which smoothing widens it."""
 
 
 @dataclass(frozen=True)
@@ -180,7 +180,7 @@ def measured_scar(
             f"nothing is worn {1e9 * DEEP * noise:.3g} nm deep, {DEEP:g} times the noise of means "
             f"over some pixels; {why}"
         )
-    scar = ndimage.binary_dilation(core, iterations=MARGIN)
+    scar = ndimage.binary_dilation(core, iterations=MARGIN + _shallow(smooth, core, DEEP * noise))
     holes = interpolated(np.where(known, smooth, np.nan), ~known & scar)
     depth = np.where(known, found.depth, holes)
     area = after.grid.cell_area
@@ -230,8 +230,8 @@ def _deepest(found: Registration, smooth: Array, core: Mask, noise: float) -> tu
     """Return the largest depth of a scar and its standard uncertainty, in m.
 
     A paraboloid is fitted to the bottom, as smoothing would flatten it. The uncertainty combines
-    that of its coefficients, of the registration, and the larger of the noise and of the residuals
-    of the fit, both smoothed.
+    that of its coefficients, of the registration, and the smoothed residuals of the fit beyond
+    noise, as of the relief of a worn surface.
     """
     deepest = np.where(core, smooth, -np.inf)
     places, _ = ndimage.label(deepest >= BOTTOM * np.max(deepest))
@@ -242,8 +242,16 @@ def _deepest(found: Registration, smooth: Array, core: Mask, noise: float) -> tu
     rough = float(np.std(smoothed(residuals)[bottom]))
     of_registration = max(float(found.uncertainty[top] ** 2 - found.noise**2), 0.0)
     count = np.count_nonzero(np.isfinite(residuals))
-    of_coefficients = 6 * found.variance_inflation * found.noise**2 / count
-    return float(form[top]), math.sqrt(of_coefficients + of_registration + max(noise, rough) ** 2)
+    of_coefficients = min(6 * found.variance_inflation / count, 1.0) * found.noise**2
+    of_relief = max(rough**2 - noise**2, 0.0)
+    return float(form[top]), math.sqrt(of_coefficients + of_registration + of_relief)
+
+
+def _shallow(smooth: Array, core: Mask, level: float) -> int:
+    """Return how many pixels further than at a level a parabolic scar ends."""
+    reach = float(np.max(ndimage.distance_transform_edt(core)))
+    deep = 1 - level / float(np.max(smooth[core]))
+    return math.ceil(reach * (1 / math.sqrt(deep) - 1))
 
 
 def _sum_uncertainty(found: Registration, scar: Mask) -> float:

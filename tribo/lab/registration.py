@@ -33,8 +33,8 @@ DEEP = 4.0
 """Standard deviations of noise from which on a difference is a scar."""
 ROUNDING = 1e-4
 """Least noise, relative to the largest depth."""
-BLOCK = 8
-"""Edge of the blocks whose means give the correlation of noise, in pixels."""
+BLOCKS = 8
+"""Blocks along the shorter edge of the map, whose sums give the correlation of noise."""
 BLURS = 4.0, 2.0, 1.0
 """Widths of the Gaussian blur, from coarse to fine, in pixels."""
 ITERATIONS = 30
@@ -106,7 +106,8 @@ def register(before: Heights, after: Heights, form: int = 1) -> Registration:
     ----------
     Padfield, D. (2012), Masked object registration in the Fourier domain, IEEE Trans. Image
     Process. 21, 2706-2718. Baker, S., Matthews, I. (2004), Lucas-Kanade 20 years on, Int. J.
-    Comput. Vis. 56, 221-255.
+    Comput. Vis. 56, 221-255. White, H. (1980), A heteroskedasticity-consistent covariance matrix
+    estimator, Econometrica 48, 817-838.
     """
     if not np.allclose(before.pitch, after.pitch, rtol=SAME, atol=0):
         first, second = (
@@ -132,6 +133,8 @@ class _Fit:
     ) -> None:
         self.before, self.after, self.pitch = before, after, np.array(after.pitch)
         self.shift, self.angle = shift, angle
+        self.parted = [_parted(m.heights) for m in (before, after)]
+        """Form and relief of both maps."""
         self.places = np.stack(np.broadcast_arrays(*after.grid.mesh))
         self.lever = float(np.sqrt(np.mean(np.sum(self.places**2, axis=0))))
         x, y = self.places / np.max(np.abs(self.places))
@@ -152,16 +155,18 @@ class _Fit:
 
     def difference(self, blur: float) -> tuple[Array, Array]:
         """Return the depth, and its derivatives by shift, rotation times lever and form."""
-        before, after = (_filled(m.heights) for m in (self.before, self.after))
-        if blur:
-            before, after = (ndimage.gaussian_filter(each, blur) for each in (before, after))
+        # Blur is one-sided at the border, where it would bend the form.
+        before, after = (
+            form + (ndimage.gaussian_filter(relief, blur) if blur else relief)
+            for form, relief in self.parted
+        )
         x, y = rotated = np.einsum("ij,jxy->ixy", _rotation(self.angle), self.places)
         middle = 0.5 * (np.array(before.shape) - 1)
         at = (rotated + self.shift[:, None, None]) / self.pitch[:, None, None]
         at += middle[:, None, None]
         by_x, by_y = (
             ndimage.map_coordinates(slope, at, order=1, mode="nearest")
-            for slope in np.gradient(before, *self.pitch)
+            for slope in np.gradient(before, *self.pitch, edge_order=2)
         )
         slopes = np.stack([by_x, by_y, (by_y * x - by_x * y) / self.lever, *self.form])
         depth = ndimage.map_coordinates(before, at, order=3, mode="nearest")
@@ -203,9 +208,14 @@ class _Fit:
         inverse = np.linalg.pinv(normal[3:, 3:], hermitian=True)
         coupling = normal[:3, 3:] @ inverse
         values, vectors = np.linalg.eigh(normal[:3, :3] - coupling @ normal[3:, :3])
-        # Half of the noise is that of the map before, whose blurred slopes have this variance.
-        of_noise = np.sum(weights) * 0.25 * (scale / (blur * np.min(self.pitch))) ** 2
-        kept = values > TEXTURE * of_noise
+        # Half of the noise is that of the map before. Correlated noise has less steep slopes than
+        # white noise, which the residuals show once the maps are registered.
+        white = (scale / (blur * np.min(self.pitch))) ** 2 / 2
+        seen = (
+            _robust_deviation(slope[used & np.isfinite(slope)]) ** 2
+            for slope in np.gradient(depth, *self.pitch)
+        )
+        kept = values > TEXTURE * np.sum(weights) * 0.5 * min(white, max(seen))
         self.determined = vectors[:, kept]
         moves = np.zeros(3)
         if not still:
@@ -232,13 +242,13 @@ class _Fit:
         """Return the registration, with covariance and uncertainty."""
         blurred, slopes = self.difference(1.0)
         used = np.isfinite(blurred) & ~self.worn
-        columns = slopes[:, used]
+        columns = np.where(used, slopes, 0.0)
         basis = np.eye(len(slopes))
         basis[:3, :3] = self.determined @ self.determined.T
-        normal = basis @ np.einsum("kn,ln->kl", columns, columns) @ basis
-        variance = float(np.var(blurred[used]))
-        variance *= _variance_inflation(np.where(used, blurred, np.nan))
-        covariance = variance * np.linalg.pinv(normal, rcond=1e-12, hermitian=True)
+        normal = basis @ np.einsum("kxy,lxy->kl", columns, columns) @ basis
+        # White (1980): a covariance that holds for noise that is correlated.
+        bread = np.linalg.pinv(normal, rcond=1e-12, hermitian=True)
+        covariance = bread @ _sums(columns * np.where(used, blurred, 0.0)) @ bread
         depth, _ = self.difference(0.0)
         noise = _robust_deviation(depth[used])
         from_fit = np.einsum("kxy,kl,lxy->xy", slopes, covariance, slopes, optimize=True)
@@ -333,6 +343,15 @@ def _relief(heights: Array, factor: int) -> tuple[Array, Array]:
     return np.where(known, np.clip(relief, -most, most), 0.0), known.astype(float)
 
 
+def _parted(heights: Array) -> tuple[Array, Array]:
+    """Return the curved form of a map and its relief, of which none is missing."""
+    places = np.meshgrid(*(np.linspace(-1, 1, n) for n in heights.shape), indexing="ij")
+    terms = np.stack([places[0] ** i * places[1] ** j for i in range(3) for j in range(3 - i)], -1)
+    known = np.isfinite(heights)
+    form = terms @ np.linalg.lstsq(terms[known], heights[known], rcond=None)[0]
+    return form, _filled(heights - form)
+
+
 def _filled(heights: Array) -> Array:
     """Return heights with missing ones filled by the nearest known."""
     missing = np.isnan(heights)
@@ -348,16 +367,27 @@ def _robust_deviation(values: Array) -> float:
 
 
 def _variance_inflation(values: Array) -> float:
-    """Return the variance of means over blocks, relative to that of independent values."""
+    """Return the variance of a sum of values, relative to that of independent ones."""
     known = np.isfinite(values)
     centred = np.where(known, values - np.mean(values[known]), 0.0)
-    nx, ny = (n // BLOCK for n in values.shape)
-    sums, count = (
-        np.sum(each[: nx * BLOCK, : ny * BLOCK].reshape(nx, BLOCK, ny, BLOCK), axis=(1, 3))
-        for each in (centred, known)
+    return max(1.0, float(_sums(centred[None])[0, 0]) / max(float(np.sum(centred**2)), 1e-300))
+
+
+def _sums(scores: Array) -> Array:
+    """Return the covariance of the sums over the map of residuals' scores, shape (p, nx, ny).
+
+    It is that of sums over all blocks of a size, extrapolated from two sizes to large ones, where
+    neighbours of another block no longer count.
+    """
+    edge = max(BLOCKS, min(scores.shape[1:]) // BLOCKS)
+    padded = np.pad(scores, ((0, 0), (edge, edge), (edge, edge)))
+    half, whole = (
+        np.einsum("kxy,lxy->kl", each, each)
+        for n in (edge // 2, edge)
+        for each in [n * ndimage.uniform_filter(padded, (0, n, n), mode="constant")]
     )
-    full = 2 * count > BLOCK**2
-    own = float(np.mean(centred[known] ** 2))
-    if np.count_nonzero(full) < BLOCK or own == 0:
-        return 1.0
-    return max(1.0, float(np.mean(sums[full] ** 2 / count[full])) / own)
+    ratio = np.diag(half) / np.maximum(np.diag(whole), 1e-300)
+    more = np.sqrt(np.clip(2 - ratio, 1, 2))
+    # The fit takes one block's freedom for each of its parameters.
+    blocks = np.count_nonzero(np.any(scores, axis=0)) / edge**2
+    return np.asarray(whole * np.outer(more, more) / max(1 - len(scores) / max(blocks, 1), 0.25))
