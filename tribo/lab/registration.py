@@ -134,7 +134,7 @@ class _Fit:
         self.before, self.after, self.pitch = before, after, np.array(after.pitch)
         self.shift, self.angle = shift, angle
         self.parted = [_parted(m.heights) for m in (before, after)]
-        """Form and relief of both maps."""
+        """Form, half of its Laplacian in m per pixel², and relief of both maps."""
         self.places = np.stack(np.broadcast_arrays(*after.grid.mesh))
         self.lever = float(np.sqrt(np.mean(np.sum(self.places**2, axis=0))))
         x, y = self.places / np.max(np.abs(self.places))
@@ -157,8 +157,8 @@ class _Fit:
         """Return the depth, and its derivatives by shift, rotation times lever and form."""
         # Blur is one-sided at the border, where it would bend the form.
         before, after = (
-            form + (ndimage.gaussian_filter(relief, blur) if blur else relief)
-            for form, relief in self.parted
+            form + blur**2 * bend + (ndimage.gaussian_filter(relief, blur) if blur else relief)
+            for form, bend, relief in self.parted
         )
         x, y = rotated = np.einsum("ij,jxy->ixy", _rotation(self.angle), self.places)
         middle = 0.5 * (np.array(before.shape) - 1)
@@ -343,13 +343,14 @@ def _relief(heights: Array, factor: int) -> tuple[Array, Array]:
     return np.where(known, np.clip(relief, -most, most), 0.0), known.astype(float)
 
 
-def _parted(heights: Array) -> tuple[Array, Array]:
-    """Return the curved form of a map and its relief, of which none is missing."""
-    places = np.meshgrid(*(np.linspace(-1, 1, n) for n in heights.shape), indexing="ij")
-    terms = np.stack([places[0] ** i * places[1] ** j for i in range(3) for j in range(3 - i)], -1)
+def _parted(heights: Array) -> tuple[Array, float, Array]:
+    """Return a quadratic form of a map, half of its Laplacian, and the relief without holes."""
+    x, y = np.meshgrid(*(np.arange(n) - 0.5 * (n - 1) for n in heights.shape), indexing="ij")
+    terms = np.stack([x**2, y**2, x * y, x, y, np.ones_like(x)], -1)
     known = np.isfinite(heights)
-    form = terms @ np.linalg.lstsq(terms[known], heights[known], rcond=None)[0]
-    return form, _filled(heights - form)
+    factors = np.linalg.lstsq(terms[known], heights[known], rcond=None)[0]
+    form = terms @ factors
+    return form, float(factors[0] + factors[1]), _filled(heights - form)
 
 
 def _filled(heights: Array) -> Array:
