@@ -133,10 +133,15 @@ class _Fit:
     ) -> None:
         self.before, self.after, self.pitch = before, after, np.array(after.pitch)
         self.shift, self.angle = shift, angle
-        self.parted = [_parted(m.heights) for m in (before, after)]
-        """Form, half of its Laplacian in m per pixel², and relief of both maps."""
         self.places = np.stack(np.broadcast_arrays(*after.grid.mesh))
         self.lever = float(np.sqrt(np.mean(np.sum(self.places**2, axis=0))))
+        places = np.stack(np.broadcast_arrays(*before.grid.mesh))
+        terms, known = _quadratic(places, self.lever)[0], np.isfinite(before.heights)
+        self.quadratic = np.linalg.lstsq(terms[:, known].T, before.heights[known], rcond=None)[0]
+        """The form of the map before."""
+        self.relief = _filled(before.heights - np.tensordot(self.quadratic, terms, 1))
+        own = np.tensordot(self.quadratic, _quadratic(self.places, self.lever)[0], 1)
+        self.filled = own + _filled(after.heights - own)
         x, y = self.places / np.max(np.abs(self.places))
         self.form = np.stack([x**i * y**j for i in range(form + 1) for j in range(form + 1 - i)])
         self.factors = np.zeros(len(self.form))
@@ -155,22 +160,24 @@ class _Fit:
 
     def difference(self, blur: float) -> tuple[Array, Array]:
         """Return the depth, and its derivatives by shift, rotation times lever and form."""
-        # Blur is one-sided at the border, where it would bend the form.
-        before, after = (
-            form + blur**2 * bend + (ndimage.gaussian_filter(relief, blur) if blur else relief)
-            for form, bend, relief in self.parted
-        )
         x, y = rotated = np.einsum("ij,jxy->ixy", _rotation(self.angle), self.places)
-        middle = 0.5 * (np.array(before.shape) - 1)
-        at = (rotated + self.shift[:, None, None]) / self.pitch[:, None, None]
-        at += middle[:, None, None]
+        position = rotated + self.shift[:, None, None]
+        middle = 0.5 * (np.array(self.relief.shape) - 1)
+        at = position / self.pitch[:, None, None] + middle[:, None, None]
+        # Without form, as blur is one-sided at the border and would bend it.
+        form, *bends = (
+            np.tensordot(self.quadratic, each, 1) for each in _quadratic(position, self.lever)
+        )
+        relief = self.relief
+        rest = self.filled - form - np.tensordot(self.factors, self.form, 1)
+        if blur:
+            relief, rest = (ndimage.gaussian_filter(each, blur) for each in (relief, rest))
         by_x, by_y = (
-            ndimage.map_coordinates(slope, at, order=1, mode="nearest")
-            for slope in np.gradient(before, *self.pitch, edge_order=2)
+            bend + ndimage.map_coordinates(slope, at, order=1, mode="nearest")
+            for bend, slope in zip(bends, np.gradient(relief, *self.pitch), strict=True)
         )
         slopes = np.stack([by_x, by_y, (by_y * x - by_x * y) / self.lever, *self.form])
-        depth = ndimage.map_coordinates(before, at, order=3, mode="nearest")
-        depth += np.tensordot(self.factors, self.form, 1) - after
+        depth = ndimage.map_coordinates(relief, at, order=3, mode="nearest") - rest
         missing = np.isnan(self.before.heights).astype(float)
         missing = ndimage.map_coordinates(missing, at, order=1, mode="constant", cval=1.0)
         return np.where((missing > 1e-6) | np.isnan(self.after.heights), np.nan, depth), slopes
@@ -343,14 +350,13 @@ def _relief(heights: Array, factor: int) -> tuple[Array, Array]:
     return np.where(known, np.clip(relief, -most, most), 0.0), known.astype(float)
 
 
-def _parted(heights: Array) -> tuple[Array, float, Array]:
-    """Return a quadratic form of a map, half of its Laplacian, and the relief without holes."""
-    x, y = np.meshgrid(*(np.arange(n) - 0.5 * (n - 1) for n in heights.shape), indexing="ij")
-    terms = np.stack([x**2, y**2, x * y, x, y, np.ones_like(x)], -1)
-    known = np.isfinite(heights)
-    factors = np.linalg.lstsq(terms[known], heights[known], rcond=None)[0]
-    form = terms @ factors
-    return form, float(factors[0] + factors[1]), _filled(heights - form)
+def _quadratic(places: Array, scale: float) -> Array:
+    """Return the terms of a quadratic form at places, and their derivatives along x and y."""
+    x, y = places / scale
+    one, none = np.ones_like(x), np.zeros_like(x)
+    along, across = [none, one, none, 2 * x, y, none], [none, none, one, none, x, 2 * y]
+    value = [one, x, y, x**2, x * y, y**2]
+    return np.stack([value, np.array(along) / scale, np.array(across) / scale])
 
 
 def _filled(heights: Array) -> Array:
