@@ -119,15 +119,22 @@ def _print(found: MeasuredScar) -> None:
     for name, value, sure in rows:
         if value is not None:
             shown = "whole map" if math.isinf(value) else f"{value:.4g}"
+            shown = "cut off" if math.isnan(value) else shown
             table.add_row(name, shown, "" if sure is None else f"{sure:.2g}")
     console.print(table)
     if found.inferred:
         console.print(inferred_table(found.inferred))
-    shifts = ", ".join(
-        f"{1e6 * shift:.3g} µm along {axis}"
-        + (" (the maps do not tell)" if math.isinf(sure) else f" ± {1e6 * sure:.2g}")
+    moves = [
+        (f"shifted by {1e6 * shift:.3g} ± {1e6 * sure:.2g} µm along {axis}", sure)
         for axis, shift, sure in zip("xy", laid.shift, laid.shift_uncertainty, strict=True)
-    )
-    turned = f"{1e3 * laid.rotation:.3g} mrad"
-    console.print(f"Laid on each other by {shifts}, turned by {turned}.", markup=False)
+    ]
+    turn, sure = 1e3 * laid.rotation, 1e3 * laid.rotation_uncertainty
+    moves.append((f"turned by {turn:.3g} ± {sure:.2g} mrad", sure))
+    told = [words for words, sure in moves if math.isfinite(sure)]
+    names = ("shift along x", "shift along y", "rotation")
+    untold = [name for name, (_, sure) in zip(names, moves, strict=True) if math.isinf(sure)]
+    if told:
+        console.print(f"The map after is {', '.join(told)}, and levelled.", markup=False)
+    if untold:
+        console.print(f"The maps have too little relief to tell the {' and '.join(untold)}.")
     console.print(f"Noise of the unworn difference {1e9 * laid.noise:.3g} nm.", markup=False)

@@ -26,13 +26,17 @@ MOST = 0.65
 """Part of the map that a scar may cover, with its margin."""
 SPOT = 0.1
 """Part of the largest scar's volume below which a worn area is left out."""
-LEVELS = 0.2, 0.4
+LEVELS = 0.3, 0.5
 """Parts of the largest depth at which the width is read."""
 BOTTOM = 0.8
 """Part of the largest depth from which on a pixel is of the bottom of the scar."""
 ZEROS = 10
 """Ratio of the number of zeros to that of any other height above which zeros may be missing
 values."""
+EDGE = 0.05
+"""Part of the largest depth from which on a scar is cut off by the edge of the map."""
+ALONG = 0.1
+"""Part of its length that a track may run along the edge of the map."""
 MARGIN = 4
 """Pixels added around the scar, by which smoothing widens it."""
 
@@ -57,7 +61,9 @@ class MeasuredScar:
         Largest depth, of a paraboloid through the bottom of the scar, in m.
     along, across : float
         Widths along and across the sliding direction, in m; infinite for a track, which reaches
-        both edges of the map.
+        both edges of the map, and NaN for a scar that is cut off.
+    cut_off : bool
+        Whether the scar goes on beyond the edge of the map, other than at the ends of a track.
     missing : float
         Part of the scar's pixels that are missing; their depth is interpolated.
     inferred : tuple of InferredVolume
@@ -74,6 +80,7 @@ class MeasuredScar:
     depth_uncertainty: float
     along: float
     across: float
+    cut_off: bool
     missing: float
     inferred: tuple[InferredVolume, ...]
 
@@ -107,6 +114,7 @@ class MeasuredScar:
             "along_m": self.along,
             "across_m": self.across,
             "is_track": self.is_track,
+            "cut_off": self.cut_off,
             "section_m2": self.section,
             "missing": self.missing,
             "noise_m": found.noise,
@@ -161,6 +169,7 @@ def measured_scar(
         _warn_of_zeros(before, "before")
     _warn_of_zeros(after, "after")
     found = register(before, after, form)
+    shape = after.heights.shape
     after = Heights(after.heights[found.part], after.pitch)
     covered = float(np.mean(found.worn))
     if covered > MOST:
@@ -186,16 +195,30 @@ def measured_scar(
     area = after.grid.cell_area
     volume = area * float(np.sum(depth[scar]))
     piled = _largest(-smooth, (-smooth > DEEP * noise) & ~scar) & ~scar
-    widths = _widths(smooth, core, after.pitch)
+    is_open = [bool(np.all(np.any(core.take([0, -1], axis), axis=1 - axis))) for axis in (0, 1)]
+    cut_off = _is_cut_off(core & (smooth > EDGE * np.max(smooth[core])), known, is_open)
+    if cut_off:
+        whole = found.depth.shape == shape
+        warnings.warn(
+            f"the edge of {'the map' if whole else 'the area common to both maps'} cuts the scar "
+            "off: volume and depth are those of the part within, widths and formulas are left out; "
+            f"measure a larger area{'' if whole else ', the same before and after'}",
+            TriboWarning,
+            stacklevel=2,
+        )
+    widths = _widths(smooth, core, after.pitch, is_open)
     deepest, deepest_uncertainty = _deepest(found, smooth, core & known, noise)
-    if math.inf in widths:
+    if cut_off:
+        widths, formulas = Scar(math.nan, math.nan), []
+    elif math.inf in widths:
         length = after.grid.size[0 if math.isinf(widths.along) else 1]
         formulas = _track_volumes(volume, min(widths), length, track_length or length, radius)
     elif radius is None:
         formulas = []
     else:
         _check_width(min(widths), radius)
-        groove = _groove_radius(after, core)
+        # Smoothing widens the core beyond what is worn.
+        groove = _groove_radius(after, core & (smooth > LEVELS[0] * np.max(smooth[core])))
         formulas = ball_volumes("ball", widths, radius, groove, volume)
     return MeasuredScar(
         registration=found,
@@ -208,6 +231,7 @@ def measured_scar(
         depth_uncertainty=deepest_uncertainty,
         along=widths.along,
         across=widths.across,
+        cut_off=cut_off,
         missing=float(np.mean(~known[scar])),
         inferred=tuple(formulas),
     )
@@ -283,13 +307,27 @@ def _largest(depth: Array, marked: Mask) -> Mask:
     return filled
 
 
-def _widths(smooth: Array, core: Mask, pitch: tuple[float, float]) -> Scar:
+def _is_cut_off(scar: Mask, known: Mask, is_open: list[bool]) -> bool:
+    """Return whether the edge of what is known cuts off a scar, other than a track's ends."""
+    places, _ = ndimage.label(np.pad(~known, 1, constant_values=True))
+    outside, scar = places == places[0, 0], np.pad(scar, 1)
+    # Pixels outside that touch the scar along x, and along y.
+    touched = [
+        np.count_nonzero(ndimage.binary_dilation(scar, line) & outside)
+        for line in (np.ones((3, 1)), np.ones((1, 3)))
+    ]
+    if is_open[0] != is_open[1]:
+        axis = is_open.index(True)
+        return touched[1 - axis] > ALONG * known.shape[axis]
+    return sum(touched) > 2
+
+
+def _widths(smooth: Array, core: Mask, pitch: tuple[float, float], is_open: list[bool]) -> Scar:
     """Return the widths of a scar: where the parabola through two of its levels comes to 0.
 
     The depth of a ball worn flat, and of a groove, is a parabola. The profile is the mean along a
     track, in its own direction, or that of some lines through the middle of another scar.
     """
-    is_open = [np.any(core[[0, -1]], axis=1).all(), np.any(core[:, [0, -1]], axis=0).all()]
     low, high = LEVELS
     widths = []
     for axis in (0, 1):

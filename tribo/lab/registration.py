@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,7 +11,7 @@ import scipy.fft
 import scipy.ndimage as ndimage
 
 from tribo.core.arrays import Array, Mask
-from tribo.core.errors import CaseError
+from tribo.core.errors import CaseError, TriboWarning
 from tribo.lab.heights import Heights, smoothed
 
 SAME = 1e-3
@@ -24,6 +25,20 @@ OVERLAP = 0.2
 """Smallest overlap of the maps."""
 SIGNIFICANT = 8.0
 """Correlation, in standard deviations, that is not chance."""
+ALIKE = 0.5
+"""Correlation below which a map may be mirrored or turned."""
+BETTER = 1.5
+"""Ratio of correlations from which on a map is mirrored or turned."""
+ORIENTATIONS = {
+    "mirrored along x": "[::-1]",
+    "mirrored along y": "[:, ::-1]",
+    "turned by 180°": "[::-1, ::-1]",
+    "to have its axes swapped": ".T",
+    "turned by 90°": ".T[::-1]",
+    "turned by −90°": ".T[:, ::-1]",
+    "to have its axes swapped and mirrored": ".T[::-1, ::-1]",
+}
+"""What NumPy puts right a map with that looks so."""
 TEXTURE = 3.0
 """Eigenvalue of the normal matrix, relative to that of noise, above which a direction of shift and
 rotation is determined."""
@@ -113,11 +128,16 @@ def register(before: Heights, after: Heights, form: int = 1) -> Registration:
         first, second = (
             " × ".join(f"{1e6 * each:.6g}" for each in m.pitch) + " µm" for m in (before, after)
         )
+        swapped = np.allclose(before.pitch, after.pitch[::-1], rtol=SAME, atol=0)
         raise CaseError(
-            f"the map before has a pixel every {first}, and that after every {second}; measure or "
-            "resample them alike"
+            f"the map before has a pixel every {first}, and that after every {second}; "
+            + ("swap the axes of one, or " if swapped else "")
+            + "measure or resample them alike"
         )
-    fit = _Fit(before, after, form, *_cross_correlated(before, after))
+    score, *start = _cross_correlated(before, after)
+    if score < ALIKE:
+        _warn_of_orientation(before, after, score)
+    fit = _Fit(before, after, form, *start)
     fit.run()
     if not fit.determined.size:
         fit = _Fit(before, after, form, np.zeros(2), 0.0)
@@ -288,16 +308,52 @@ def _common_area(depth: Array) -> tuple[slice, slice]:
     return along, across
 
 
-def _cross_correlated(before: Heights, after: Heights) -> tuple[Array, float]:
-    """Return shift (m) and rotation of the largest correlation; 0 where none is significant."""
+def _warn_of_orientation(before: Heights, after: Heights, score: float) -> None:
+    """Warn if the relief of the maps correlates much better with one mirrored or turned."""
+    found = {}
+    for words, slices in ORIENTATIONS.items():
+        if "T" not in slices or np.isclose(*after.pitch, rtol=SAME, atol=0):
+            heights = after.heights.T if "T" in slices else after.heights
+            heights = heights[
+                :: -1 if "[::-1" in slices else 1, :: -1 if ", ::-1]" in slices else 1
+            ]
+            found[words] = _cross_correlated(before, Heights(heights, after.pitch), every=3)[0]
+    best = max(found, key=lambda words: found[words])
+    shapes = before.heights.shape, after.heights.shape
+    if found[best] > BETTER * score:
+        warnings.warn(
+            f"the map after looks {best} against that before: their relief correlates by "
+            f"{found[best]:.2f} then, and by {score:.2f} as it is; measure or save both alike, or "
+            f"take heights{ORIENTATIONS[best]} of it in NumPy",
+            TriboWarning,
+            stacklevel=4,
+        )
+    elif shapes[0] == shapes[1][::-1] != shapes[1]:
+        first, second = (" × ".join(map(str, shape)) for shape in shapes)
+        warnings.warn(
+            f"the map before has {first} pixels, that after {second}, and their relief does not "
+            "correlate; if the axes of one are swapped, swap them back",
+            TriboWarning,
+            stacklevel=4,
+        )
+
+
+def _cross_correlated(
+    before: Heights, after: Heights, every: int = 1
+) -> tuple[float, Array, float]:
+    """Return the largest correlation, with its shift (m) and rotation; 0 where it may be chance.
+
+    The correlation is that of the overlap, times the root of the overlap's part of the map.
+    """
     factor = max(1, math.ceil(max(*before.heights.shape, *after.heights.shape) / COARSE))
     (own, mask), (relief, there) = (_relief(m.heights, factor) for m in (before, after))
     shape = [scipy.fft.next_fast_len(n + m) for n, m in zip(own.shape, relief.shape, strict=True)]
     second = [np.conj(scipy.fft.rfft2(each, shape)) for each in (relief, there, relief**2)]
     step = 2.0 / max(own.shape)
     most = math.ceil(LARGEST_ROTATION / step)
-    best = (SIGNIFICANT, np.zeros(2), 0.0)
-    for steps in sorted(range(-most, most + 1), key=abs):
+    area = max(float(np.sum(there)), 1.0)
+    best = (SIGNIFICANT / math.sqrt(area), np.zeros(2), 0.0)
+    for steps in sorted(range(-(most // every) * every, most + 1, every), key=abs):
         angle = steps * step
         images = [_rotated(each, angle) for each in (own, mask)]
         first = [scipy.fft.rfft2(each, shape) for each in (*images, images[0] ** 2)]
@@ -306,16 +362,16 @@ def _cross_correlated(before: Heights, after: Heights) -> tuple[Array, float]:
             for i, j in ((0, 0), (1, 1), (2, 1), (1, 2))
         )
         norm = np.prod(np.maximum(squares, 0), axis=0) + 1e-300
-        score = together * np.sqrt(np.maximum(overlap, 0) / norm)
-        score[overlap <= OVERLAP * np.sum(there)] = 0.0
+        score = together * np.sqrt(np.maximum(overlap, 0) / norm / area)
+        score[overlap <= OVERLAP * area] = 0.0
         at = np.unravel_index(int(np.argmax(score)), score.shape)
         if score[at] > best[0]:
             lag = [k - n if k > n // 2 else k for k, n in zip(at, shape, strict=True)]
             off = np.array(lag) + 0.5 * (np.array(relief.shape) - own.shape)
             best = (float(score[at]), off, angle)
-    _, shift, angle = best
+    largest, shift, angle = best
     # The map before was rotated about its own middle.
-    return _rotation(angle) @ shift * factor * np.array(after.pitch), angle
+    return largest, _rotation(angle) @ shift * factor * np.array(after.pitch), angle
 
 
 def _rotation(angle: float) -> Array:
