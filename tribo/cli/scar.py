@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from tribo.lab.measured_scar import MeasuredScar
     from tribo.surfaces.surface import Surface
 
+LARGEST_PITCH = 1e-3
+
 
 @click.command()
 @click.argument("files", nargs=-1, required=True, type=PATH, metavar="[BEFORE] AFTER")
@@ -64,6 +66,12 @@ def scar(
     if len(pitch) > 2:
         raise CaseError("give one --pitch, or two, along x and along y")
     steps = [length("--pitch", text) or 0.0 for text in pitch]
+    if steps and max(steps) > LARGEST_PITCH:
+        raise CaseError(
+            f"{1e3 * max(steps):g} mm is too much between two pixels, 1 mm at most; give it as "
+            "'1 um'",
+            "--pitch",
+        )
     maps = [read_heights(path, (steps[0], steps[-1]) if steps else None) for path in files]
     found = measured_scar(
         _surface(ideal) if ideal else maps[0],

@@ -164,8 +164,15 @@ def measured_scar(
     if form not in (1, 2):
         raise CaseError(f"form is 1 (a tilt) or 2 (a curvature as well), not {form}", "form")
     if isinstance(before, Surface):
-        before = Heights(before.height(after.grid), after.pitch)
+        try:
+            before = Heights(before.height(after.grid), after.pitch)
+        except CaseError as error:
+            raise CaseError(
+                f"the shape before does not cover the map after ({error}); correct it, or the pitch"
+            ) from None
     else:
+        if np.array_equal(before.heights, after.heights, equal_nan=True):
+            raise CaseError("the maps before and after are the same; give two that differ")
         _warn_of_zeros(before, "before")
     _warn_of_zeros(after, "after")
     found = register(before, after, form)
@@ -241,6 +248,13 @@ def _warn_of_zeros(heights: Heights, which: str) -> None:
     """Warn of many heights of exactly 0, which may stand for missing values."""
     known = heights.heights[np.isfinite(heights.heights)]
     values, counts = np.unique(known, return_counts=True)
+    if values.size == 1:
+        words = f"every height of the map {which} is {known[0]:g} m"
+        if which == "after":
+            raise CaseError(f"{words}: nothing was measured; save it again")
+        warnings.warn(
+            f"{words}, an ideal flat; if it was measured, save it again", TriboWarning, stacklevel=3
+        )
     zeros, others = (int(np.max(counts[each], initial=0)) for each in (values == 0, values != 0))
     if zeros > ZEROS * others and 2 * zeros < known.size:
         warnings.warn(
@@ -384,7 +398,7 @@ def _check_width(width: float, radius: float) -> None:
     if not 0 < width < 2 * radius:
         raise CaseError(
             f"a ball of {1e3 * radius:.4g} mm radius cannot have a scar {1e3 * width:.4g} mm wide; "
-            "correct radius",
+            "correct radius or pitch",
             "radius",
         )
 
