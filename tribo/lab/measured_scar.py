@@ -323,8 +323,10 @@ def _largest(depth: Array, marked: Mask) -> Mask:
 
 def _is_cut_off(scar: Mask, known: Mask, is_open: list[bool]) -> bool:
     """Return whether the edge of what is known cuts off a scar, other than a track's ends."""
-    places, _ = ndimage.label(np.pad(~known, 1, constant_values=True))
-    outside, scar = places == places[0, 0], np.pad(scar, 1)
+    # Without the holes that missing pixels leave at the edge.
+    missing = ndimage.binary_opening(np.pad(~known, 8, constant_values=True), iterations=2)
+    places, _ = ndimage.label(missing)
+    outside, scar = places == places[4, 4], np.pad(scar, 8)
     # Pixels outside that touch the scar along x, and along y.
     touched = [
         np.count_nonzero(ndimage.binary_dilation(scar, line) & outside)
@@ -332,8 +334,8 @@ def _is_cut_off(scar: Mask, known: Mask, is_open: list[bool]) -> bool:
     ]
     if is_open[0] != is_open[1]:
         axis = is_open.index(True)
-        return touched[1 - axis] > ALONG * known.shape[axis]
-    return sum(touched) > 2
+        return bool(touched[1 - axis] > ALONG * known.shape[axis])
+    return bool(sum(touched) > 2)
 
 
 def _widths(smooth: Array, core: Mask, pitch: tuple[float, float], is_open: list[bool]) -> Scar:

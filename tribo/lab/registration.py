@@ -157,7 +157,10 @@ class _Fit:
         self.lever = float(np.sqrt(np.mean(np.sum(self.places**2, axis=0))))
         places = np.stack(np.broadcast_arrays(*before.grid.mesh))
         terms, known = _quadratic(places, self.lever)[0], np.isfinite(before.heights)
-        self.quadratic = np.linalg.lstsq(terms[:, known].T, before.heights[known], rcond=None)[0]
+        middle, terms_of = np.mean(before.heights[known]), terms[:, known]
+        inverse = np.linalg.pinv(np.einsum("kn,ln->kl", terms_of, terms_of), hermitian=True)
+        centred = np.einsum("kn,n->k", terms_of, before.heights[known] - middle)
+        self.quadratic = np.einsum("kl,l->k", inverse, centred)
         """The form of the map before."""
         self.relief = _filled(before.heights - np.tensordot(self.quadratic, terms, 1))
         own = np.tensordot(self.quadratic, _quadratic(self.places, self.lever)[0], 1)
