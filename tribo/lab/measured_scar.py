@@ -205,7 +205,7 @@ def measured_scar(
     is_open = [bool(np.all(np.any(core.take([0, -1], axis), axis=1 - axis))) for axis in (0, 1)]
     cut_off = _is_cut_off(core & (smooth > EDGE * np.max(smooth[core])), known, is_open)
     if cut_off:
-        whole = found.depth.shape == shape
+        whole = max(np.subtract(shape, found.depth.shape)) <= MARGIN
         warnings.warn(
             f"the edge of {'the map' if whole else 'the area common to both maps'} cuts the scar "
             "off: volume and depth are those of the part within, widths and formulas are left out; "
