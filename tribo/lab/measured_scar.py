@@ -329,13 +329,14 @@ def _is_cut_off(scar: Mask, known: Mask, is_open: list[bool]) -> bool:
     outside, scar = places == places[4, 4], np.pad(scar, 8)
     # Pixels outside that touch the scar along x, and along y.
     touched = [
-        np.count_nonzero(ndimage.binary_dilation(scar, line) & outside)
-        for line in (np.ones((3, 1)), np.ones((1, 3)))
+        ndimage.binary_dilation(scar, line) & outside for line in (np.ones((3, 1)), np.ones((1, 3)))
     ]
     if is_open[0] != is_open[1]:
         axis = is_open.index(True)
-        return bool(touched[1 - axis] > ALONG * known.shape[axis])
-    return bool(sum(touched) > 2)
+        # The common area is ragged at the ends of a track.
+        beside = np.moveaxis(touched[1 - axis], axis, 0)[16:-16]
+        return bool(np.count_nonzero(beside) > ALONG * known.shape[axis])
+    return bool(np.count_nonzero(touched) > 2)
 
 
 def _widths(smooth: Array, core: Mask, pitch: tuple[float, float], is_open: list[bool]) -> Scar:

@@ -134,10 +134,10 @@ def register(before: Heights, after: Heights, form: int = 1) -> Registration:
             + ("swap the axes of one, or " if swapped else "")
             + "measure or resample them alike"
         )
-    score, *start = _cross_correlated(before, after)
+    score, shift, angle = _cross_correlated(before, after)
     if score < ALIKE:
         _warn_of_orientation(before, after, score)
-    fit = _Fit(before, after, form, *start)
+    fit = _Fit(before, after, form, shift, angle)
     fit.run()
     if not fit.determined.size:
         fit = _Fit(before, after, form, np.zeros(2), 0.0)
@@ -243,7 +243,7 @@ class _Fit:
         white = (scale / (blur * np.min(self.pitch))) ** 2 / 2
         seen = (
             _robust_deviation(slope[used & np.isfinite(slope)]) ** 2
-            for slope in np.gradient(depth, *self.pitch)
+            for slope in np.stack(np.gradient(depth, *self.pitch))
         )
         kept = values > TEXTURE * np.sum(weights) * 0.5 * min(white, max(seen))
         self.determined = vectors[:, kept]
