@@ -243,7 +243,7 @@ class _Fit:
         white = (scale / (blur * np.min(self.pitch))) ** 2 / 2
         seen = (
             _robust_deviation(slope[used & np.isfinite(slope)]) ** 2
-            for slope in np.stack(np.gradient(depth, *self.pitch))
+            for slope in np.asarray(np.gradient(depth, *self.pitch))
         )
         kept = values > TEXTURE * np.sum(weights) * 0.5 * min(white, max(seen))
         self.determined = vectors[:, kept]
