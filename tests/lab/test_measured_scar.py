@@ -1,5 +1,8 @@
 """Scars measured before and after a test, of pairs of maps that are made up."""
 
+import json
+import warnings
+
 import numpy as np
 import pytest
 import scipy.ndimage as ndimage
@@ -18,7 +21,7 @@ from tribo import (
 )
 from tribo.cli.scar import scar as command
 from tribo.lab import heights
-from tribo.lab.registration import register
+from tribo.lab.registration import ORIENTATIONS, register
 from tribo.plotting.scar import measured_scar_map
 from tribo.registry.plugins import builtin
 
@@ -110,6 +113,116 @@ def test_the_largest_depth_of_a_curved_bottom_is_that_of_no_mean(pitch, noise):
     assert found.depth_uncertainty < 0.6 * noise + 1e-12
 
 
+def test_the_depth_from_an_ideal_ball_is_averaged_over_the_bottom():
+    grid, ball = Grid(128 * PITCH, 128), Sphere(radius=RADIUS)
+    x, y = grid.mesh
+    lost = np.maximum(3e-6 * (1 - (x**2 + y**2) / 40e-6**2), 0)
+    relief = ndimage.gaussian_filter(np.random.default_rng(1).normal(size=lost.shape), 2)
+    after = ball.height(grid) - lost + 85e-9 * relief / np.std(relief)
+    found = measured_scar(ball, Heights(after, (PITCH, PITCH)))
+    # The relief of 85 nm partly averages out.
+    assert abs(found.depth - 3e-6) < 2 * found.depth_uncertainty < 120e-9
+
+
+def test_shift_and_volume_are_known_as_well_as_they_say_in_correlated_noise():
+    before, after, lost = pair(noise=0)
+    random, off = np.random.default_rng(2), []
+    for _ in range(3):
+        maps = []
+        for each in (before, after):
+            noise = ndimage.gaussian_filter(random.normal(size=each.heights.shape), 1.5)
+            maps.append(Heights(each.heights + 20e-9 * noise / np.std(noise), each.pitch))
+        found = measured_scar(*maps)
+        laid, volume = found.registration, np.sum(lost) * PITCH**2
+        off += [(each / PITCH - sh) * PITCH for each, sh in zip(laid.shift, SHIFT, strict=True)]
+        off[-2:] = np.divide(off[-2:], laid.shift_uncertainty)
+        off.append((found.volume - volume) / found.volume_uncertainty)
+        assert found.volume_uncertainty < 0.02 * volume
+    assert np.max(np.abs(off)) < 3
+    assert np.std(off) < 1.5
+
+
+def test_a_shallow_scar_is_measured_out_to_its_edge():
+    before, after, lost = pair(depth=40e-9)
+    found = measured_scar(before, after)
+    assert found.volume == pytest.approx(np.sum(lost) * PITCH**2, rel=0.1, abs=0)
+
+
+def test_the_border_of_a_ball_tells_no_shift():
+    """Where blur is one-sided."""
+    grid, ball = Grid(128 * 4e-6, 128), Sphere(radius=RADIUS)
+    x, y = grid.mesh
+    lost = np.maximum(1e-6 * (1 - (x**2 + y**2) / 100e-6**2), 0)
+    noise = 10e-9 * np.random.default_rng(3).normal(size=lost.shape)
+    found = measured_scar(ball, Heights(ball.height(grid) - lost + noise, (4e-6, 4e-6)))
+    assert np.all(np.isinf(found.registration.shift_uncertainty))
+    assert abs(found.volume - np.sum(lost) * grid.cell_area) < 2 * found.volume_uncertainty
+
+
+def worn(shape, **changes):
+    """Return maps before and after, of which a part is worn 1 µm deep at most."""
+    before, after, _ = pair(depth=0, **changes)
+    lost = 1e-6 * np.maximum(shape(*(each / PITCH for each in after.grid.mesh)), 0)
+    return before, Heights(after.heights - lost, after.pitch)
+
+
+@pytest.mark.parametrize(
+    ("shape", "shift"),
+    [
+        (lambda x, y: 1 - ((x - 35) ** 2 + y**2) / 20**2, (0, 0)),
+        (lambda x, y: np.where(x < 0, 1 - y**2 / 15**2, 0), (0, 0)),
+        (lambda x, y: 1 - (x + y - 60) ** 2 / 15**2, (0, 0)),
+        (lambda x, y: 1 - (y - 40) ** 2 / 15**2 + 0 * x, (0, 0)),
+        (lambda x, y: 1 - ((x - 20) ** 2 + y**2) / 20**2, (16, 0)),
+    ],
+    ids=["an edge", "a track's end", "two adjacent edges", "along a track", "the common area"],
+)
+def test_a_scar_that_the_edge_cuts_off_is_told(shape, shift):
+    where = "area common to both maps" if any(shift) else "map"
+    with pytest.warns(TriboWarning, match=f"edge of the {where} cuts the scar off: .*larger area"):
+        found = measured_scar(*worn(shape, shift=shift, turn=0), radius=RADIUS)
+    assert found.as_json()["cut_off"] is True
+    assert (found.along, found.across) == (None, None)
+    assert found.section is None
+    assert found.inferred == ()
+
+
+def test_whole_scars_and_tracks_are_not_cut_off(standard):
+    assert not standard[3].cut_off
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        # Rotation leaves wedges along the edges of the common area.
+        for askew in (0, 0.1):
+            maps = worn(lambda x, y, slope=askew: 1 - (y - slope * x) ** 2 / 15**2, turn=0.03)
+            assert not measured_scar(*maps).cut_off
+
+
+@pytest.mark.parametrize("words", ORIENTATIONS)
+def test_a_map_that_is_mirrored_or_turned_is_told(standard, words):
+    before, after, *_ = standard
+    # What puts it right undoes this.
+    turned = eval(f"heights{ORIENTATIONS[words]}", {"heights": after.heights})
+    back = {"turned by 90°": "turned by −90°", "turned by −90°": "turned by 90°"}.get(words, words)
+    with pytest.warns(TriboWarning, match=f"map after looks {back} against .*take heights") as seen:
+        register(before, Heights(turned, after.pitch))
+    assert f"heights{ORIENTATIONS[back]} of it" in str(seen[0].message)
+    again = eval(f"heights{ORIENTATIONS[back]}", {"heights": turned})
+    np.testing.assert_array_equal(again, after.heights)
+
+
+def test_smooth_maps_tell_no_orientation_but_swapped_shapes_may():
+    random = np.random.default_rng(5)
+    first, second = (
+        Heights(1e-8 * ndimage.gaussian_filter(random.normal(size=(96, 80)), 2), (PITCH, PITCH))
+        for _ in range(2)
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        register(first, second)
+    with pytest.warns(TriboWarning, match=r"before has 96 × 80 pixels, .*after 80 × 96.*swap them"):
+        register(first, Heights(second.heights.T, second.pitch))
+
+
 def test_the_volume_of_a_hole_in_the_scar_is_interpolated_and_its_uncertainty_says_so(standard):
     before, after, lost, whole = standard
     x, y = after.grid.mesh
@@ -190,17 +303,6 @@ def test_maps_without_noise_are_not_taken_for_worn_all_over():
     assert found.volume == pytest.approx(np.sum(lost) * PITCH**2, rel=0.01, abs=0)
 
 
-def test_a_scar_that_the_edge_cuts_off_is_told(standard):
-    before, after, _, whole = standard
-    parts = (Heights(each.heights[36:].copy(), each.pitch) for each in (before, after))
-    with pytest.warns(TriboWarning, match="cut off by the edge"):
-        part = measured_scar(*parts, radius=RADIUS)
-    assert part.cut_off
-    assert part.inferred == ()
-    assert part.volume < 0.98 * whole.volume
-    assert not whole.cut_off
-
-
 def test_what_is_piled_up_beside_a_scar_is_told_apart(standard):
     before, after, lost, _ = standard
     x, y = after.grid.mesh
@@ -216,6 +318,19 @@ def test_maps_that_do_not_fit_are_refused(standard):
         CaseError, match=r"a pixel every 1 × 1 µm, and that after every 1\.1 × 1 µm"
     ):
         register(before, Heights(after.heights, (1.1e-6, 1e-6)))
+    with pytest.raises(CaseError, match="swap the axes of one, or measure or resample"):
+        register(Heights(before.heights, (2e-6, 1e-6)), Heights(after.heights, (1e-6, 2e-6)))
+    with pytest.raises(CaseError, match="before and after are the same"):
+        measured_scar(before, before)
+    flat = Heights(np.zeros((96, 96)), before.pitch)
+    with pytest.raises(CaseError, match="every height of the map after is 0 m: nothing was meas"):
+        measured_scar(before, flat)
+    with pytest.warns(TriboWarning, match="map before is 0 m, an ideal flat; if it was measured"):
+        measured_scar(flat, after)
+    with pytest.raises(
+        CaseError, match=r"shape before does not cover the map after .*or the pitch"
+    ):
+        measured_scar(Sphere(radius=1e-6), after)
     part = np.full(before.heights.shape, np.nan)
     part[:20] = before.heights[:20]
     rest = np.where(np.arange(96)[:, None] < 70, np.nan, after.heights)
@@ -225,13 +340,21 @@ def test_maps_that_do_not_fit_are_refused(standard):
         Heights(np.full((32, 32), np.nan), (PITCH, PITCH))
     with pytest.raises(CaseError, match=r"shape \(4, 32\) are no map: 16 × 16 at least"):
         Heights(np.zeros((4, 32)), (PITCH, PITCH))
+    with pytest.raises(
+        CaseError, match=r"shape \(3, 32, 32\) .* two dimensions; save one map alone"
+    ):
+        Heights(np.zeros((3, 32, 32)), (PITCH, PITCH))
+    with pytest.raises(CaseError, match="1 of its 1024 heights are infinite; put NaN where"):
+        Heights(np.where(np.arange(1024) == 5, np.inf, 0.0).reshape(32, 32), (PITCH, PITCH))
     with pytest.raises(CaseError, match=r"nothing is worn .* nm deep, 4 times .*it fills the map"):
         measured_scar(*pair(depth=0)[:2])
     with pytest.raises(CaseError, match=r"nothing is worn .*is the map after the test given first"):
         measured_scar(after, before)
     with pytest.raises(CaseError, match=r"% of the map differ|if there is a scar it fills the map"):
         measured_scar(*track(wide=29 * PITCH)[:2])
-    with pytest.raises(CaseError, match=r"radius: a ball of 0\.01 mm radius cannot have a scar"):
+    with pytest.raises(
+        CaseError, match=r"radius: a ball of 0\.01 mm radius cannot have .* radius or pitch"
+    ):
         measured_scar(before, after, radius=1e-5)
     with pytest.raises(CaseError, match="form: form is 1"):
         measured_scar(before, after, form=3)
@@ -250,21 +373,41 @@ def test_the_command_measures_and_draws(tmp_path):
     assert float(done.output.split("volume in the map, mm³")[1].split()[0]) == pytest.approx(
         volume, rel=0.01, abs=0
     )
-    for words in ("flat scar (ASTM G99)", "Laid on each other by 3.3", "Noise of the unworn"):
+    for words in ("flat scar (ASTM G99)", "The map after is shifted by 3.3", "Noise of the unworn"):
         assert words in done.output
     assert picture.stat().st_size > 10_000
     ideal = [files[1], *given[2:4], "--ideal", '{ type = "sphere", radius = "5 mm" }', "--json"]
     told = CliRunner().invoke(command, ideal, catch_exceptions=False)
     assert '"volume_uncertainty_m3"' in told.output
+    assert json.loads(told.output)["cut_off"] is False
     with pytest.raises(CaseError, match="has heights and no scale; give the distance"):
         CliRunner().invoke(command, files, catch_exceptions=False)
     with pytest.raises(CaseError, match=r"--pitch: .*no unit"):
         CliRunner().invoke(command, [*files, "--pitch", "5"], catch_exceptions=False)
+    with pytest.raises(CaseError, match="--pitch: 5 mm is too much between two pixels, 1 mm at"):
+        CliRunner().invoke(command, [*files, "--pitch", "5 mm"], catch_exceptions=False)
+    np.savetxt(tmp_path / "semicolons.csv", after.heights, delimiter=";")
+    with pytest.raises(CaseError, match="commas between them; a list of x, y, z is no map"):
+        read_heights(tmp_path / "semicolons.csv", (PITCH, PITCH))
     with pytest.raises(CaseError, match="1 files are given; give the maps before and after"):
         CliRunner().invoke(command, files[:1], catch_exceptions=False)
     ideal = [files[1], *given[2:4], "--ideal", "sphere"]
     with pytest.raises(CaseError, match="--ideal radius: missing"):
         CliRunner().invoke(command, ideal, catch_exceptions=False)
+
+
+def test_the_command_says_what_the_maps_do_not_tell_and_what_is_cut_off(tmp_path):
+    grid = Grid(96 * PITCH, 96)
+    x, y = grid.mesh
+    lost = 1e-6 * np.maximum(1 - ((x - 35e-6) ** 2 + y**2) / WIDE**2, 0)
+    np.save(tmp_path / "after.npy", 1e-9 * np.random.default_rng(1).normal(size=x.shape) - lost)
+    given = [str(tmp_path / "after.npy"), "--pitch", "1 um", "--ideal", "flat"]
+    with pytest.warns(TriboWarning, match="cuts the scar off"):
+        done = CliRunner().invoke(command, given, catch_exceptions=False)
+    assert "too little relief to tell the shift along x and shift along y" in done.output
+    assert "shifted by" not in done.output
+    assert "inf" not in done.output
+    assert done.output.count("cut off") == 2
 
 
 def test_heights_in_micrometres_and_fill_values_are_told_by_their_file(standard, tmp_path):

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from tribo.lab.measured_scar import MeasuredScar
     from tribo.surfaces.surface import Surface
 
+LARGEST_PITCH = 1e-3
+
 
 @click.command()
 @click.argument("files", nargs=-1, required=True, type=PATH, metavar="[BEFORE] AFTER")
@@ -64,6 +66,12 @@ def scar(
     if len(pitch) > 2:
         raise CaseError("give one --pitch, or two, along x and along y")
     steps = [length("--pitch", text) or 0.0 for text in pitch]
+    if steps and max(steps) > LARGEST_PITCH:
+        raise CaseError(
+            f"{1e3 * max(steps):g} mm is too much between two pixels, 1 mm at most; give it as "
+            "'1 um'",
+            "--pitch",
+        )
     maps = [read_heights(path, (steps[0], steps[-1]) if steps else None) for path in files]
     found = measured_scar(
         _surface(ideal) if ideal else maps[0],
@@ -101,33 +109,46 @@ def _surface(text: str) -> Surface:
     return surface
 
 
+def _width(width: float | None) -> float | str:
+    """Return a width of the table, in mm."""
+    if width is None:
+        return "cut off"
+    return "whole map" if math.isinf(width) else 1e3 * width
+
+
 def _print(found: MeasuredScar) -> None:
     from tribo.cli.console import Console, titled
     from tribo.cli.tables import inferred_table
 
     laid, console = found.registration, Console()
     table = titled("Scar, with standard uncertainties", "", "±")
-    rows = [
+    rows: list[tuple[str, float | str | None, float | None]] = [
         ("volume in the map, mm³", 1e9 * found.volume, 1e9 * found.volume_uncertainty),
         ("largest depth, µm", 1e6 * found.depth, 1e6 * found.depth_uncertainty),
-        ("along sliding, mm", 1e3 * found.along, None),
-        ("across, mm", 1e3 * found.across, None),
+        ("along sliding, mm", _width(found.along), None),
+        ("across, mm", _width(found.across), None),
         ("mean section, mm²", None if found.section is None else 1e6 * found.section, None),
         ("piled up, mm³", 1e9 * found.piled_up or None, None),
         ("missing in it, %", 100 * found.missing or None, None),
     ]
     for name, value, sure in rows:
         if value is not None:
-            shown = "whole map" if math.isinf(value) else f"{value:.4g}"
+            shown = value if isinstance(value, str) else f"{value:.4g}"
             table.add_row(name, shown, "" if sure is None else f"{sure:.2g}")
     console.print(table)
     if found.inferred:
         console.print(inferred_table(found.inferred))
-    shifts = ", ".join(
-        f"{1e6 * shift:.3g} µm along {axis}"
-        + (" (the maps do not tell)" if math.isinf(sure) else f" ± {1e6 * sure:.2g}")
+    moves = [
+        (f"shifted by {1e6 * shift:.3g} ± {1e6 * sure:.2g} µm along {axis}", sure)
         for axis, shift, sure in zip("xy", laid.shift, laid.shift_uncertainty, strict=True)
-    )
-    turned = f"{1e3 * laid.rotation:.3g} mrad"
-    console.print(f"Laid on each other by {shifts}, turned by {turned}.", markup=False)
+    ]
+    turn, sure = 1e3 * laid.rotation, 1e3 * laid.rotation_uncertainty
+    moves.append((f"turned by {turn:.3g} ± {sure:.2g} mrad", sure))
+    told = [words for words, sure in moves if math.isfinite(sure)]
+    names = ("shift along x", "shift along y", "rotation")
+    untold = [name for name, (_, sure) in zip(names, moves, strict=True) if math.isinf(sure)]
+    if told:
+        console.print(f"The map after is {', '.join(told)}, and levelled.", markup=False)
+    if untold:
+        console.print(f"The maps have too little relief to tell the {' and '.join(untold)}.")
     console.print(f"Noise of the unworn difference {1e9 * laid.noise:.3g} nm.", markup=False)

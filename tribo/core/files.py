@@ -113,7 +113,7 @@ def table_of_numbers(file: Path) -> Array:
                 numbers = numbers[1:]
     except (ValueError, OSError) as error:
         other = any(words in str(error) for words in ("magic string", "Object arrays"))
-        reason = "it is no NumPy array of numbers" if other else error
+        reason = "it is no NumPy array of numbers" if other else " ".join(str(error).split())
         raise ValueError(f"{file} cannot be read as a table of numbers: {reason}") from None
     if numbers.dtype.kind not in "fiu":
         raise ValueError(f"{file} has values that are not numbers, or are not finite")

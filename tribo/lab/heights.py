@@ -48,18 +48,26 @@ class Heights:
 
     def __post_init__(self) -> None:
         shape = np.shape(self.heights)
-        if len(shape) != 2 or min(shape) < FEWEST:
+        if len(shape) != 2:
             raise CaseError(
-                f"heights of shape {shape} are no map: {FEWEST} × {FEWEST} at least are needed, "
-                + ("in a CSV file with commas between them" if len(shape) < 3 else "one map a file")
+                f"heights of shape {shape} are no map, which has two dimensions; save one map alone"
+            )
+        if min(shape) < FEWEST:
+            raise CaseError(
+                f"heights of shape {shape} are no map: {FEWEST} × {FEWEST} at least are needed, a "
+                "row for each x with a height for each y"
+            )
+        if infinite := np.count_nonzero(np.isinf(self.heights)):
+            raise CaseError(
+                f"{infinite} of its {self.heights.size} heights are infinite; put NaN where "
+                "nothing was measured"
             )
         if not np.any(np.isfinite(self.heights)):
             raise CaseError("every height of the map is missing; measure again, or mask less")
         if not min(self.pitch) > 0:
             raise CaseError(f"a pitch of {self.pitch} m is none; give one above 0")
         known, width = self.heights[~np.isnan(self.heights)], max(self.grid.size)
-        middle = np.median(known[np.isfinite(known)])
-        absurd = known[np.abs(known - middle) > width]
+        absurd = known[np.abs(known - np.median(known)) > width]
         if len(absurd):
             raise CaseError(
                 f"{len(absurd)} of its {self.heights.size} heights lie further from their median "
@@ -118,7 +126,9 @@ def read_heights(path: str | Path, pitch: tuple[float, float] | None = None) -> 
     try:
         return Heights(heights, pitch)
     except CaseError as error:
-        raise CaseError(f"{path}: {error}") from None
+        text = path.suffix.lower() in (".csv", ".txt") and min(heights.shape) < FEWEST
+        hint = ". In a text file they have commas between them; a list of x, y, z is no map"
+        raise CaseError(f"{path}: {error}{hint if text else ''}") from None
 
 
 def _by_plugin(path: Path) -> Heights:

@@ -26,15 +26,19 @@ MOST = 0.65
 """Part of the map that a scar may cover, with its margin."""
 SPOT = 0.1
 """Part of the largest scar's volume below which a worn area is left out."""
-LEVELS = 0.2, 0.4
+LEVELS = 0.3, 0.5
 """Parts of the largest depth at which the width is read."""
 BOTTOM = 0.8
 """Part of the largest depth from which on a pixel is of the bottom of the scar."""
 ZEROS = 10
 """Ratio of the number of zeros to that of any other height above which zeros may be missing
 values."""
+EDGE = 0.05
+"""Part of the largest depth from which on a scar is cut off by the edge of the map."""
+ALONG = 0.1
+"""Part of its length that a track may run along the edge of the map."""
 MARGIN = 4
-"""Pixels added around the scar, where it is shallower than the noise."""
+"""Pixels added around the scar, by which smoothing widens it."""
 
 
 @dataclass(frozen=True)
@@ -57,9 +61,9 @@ class MeasuredScar:
         Largest depth, of a paraboloid through the bottom of the scar, in m.
     along, across : float
         Widths along and across the sliding direction, in m; infinite for a track, which reaches
-        both edges of the map.
+        both edges of the map, and None for a scar that is cut off.
     cut_off : bool
-        Whether it goes on beyond the map's edge, other than along a track.
+        Whether the scar goes on beyond the edge of the map, other than at the ends of a track.
     missing : float
         Part of the scar's pixels that are missing; their depth is interpolated.
     inferred : tuple of InferredVolume
@@ -74,8 +78,8 @@ class MeasuredScar:
     piled_up: float
     depth: float
     depth_uncertainty: float
-    along: float
-    across: float
+    along: float | None
+    across: float | None
     cut_off: bool
     missing: float
     inferred: tuple[InferredVolume, ...]
@@ -88,14 +92,14 @@ class MeasuredScar:
     @property
     def is_track(self) -> bool:
         """Whether it reaches two opposite edges of the map."""
-        return math.isinf(self.along) or math.isinf(self.across)
+        return math.inf in (self.along, self.across)
 
     @property
     def section(self) -> float | None:
         """Mean cross-section of a track, in m²; None for a scar that ends within the map."""
         if not self.is_track:
             return None
-        axis = 0 if math.isinf(self.along) else 1
+        axis = (self.along, self.across).index(math.inf)
         return self.volume / self.after.grid.size[axis]
 
     def as_json(self) -> dict[str, Any]:
@@ -160,11 +164,19 @@ def measured_scar(
     if form not in (1, 2):
         raise CaseError(f"form is 1 (a tilt) or 2 (a curvature as well), not {form}", "form")
     if isinstance(before, Surface):
-        before = Heights(before.height(after.grid), after.pitch)
+        try:
+            before = Heights(before.height(after.grid), after.pitch)
+        except CaseError as error:
+            raise CaseError(
+                f"the shape before does not cover the map after ({error}); correct it, or the pitch"
+            ) from None
     else:
+        if np.array_equal(before.heights, after.heights, equal_nan=True):
+            raise CaseError("the maps before and after are the same; give two that differ")
         _warn_of_zeros(before, "before")
     _warn_of_zeros(after, "after")
     found = register(before, after, form)
+    shape = after.heights.shape
     after = Heights(after.heights[found.part], after.pitch)
     covered = float(np.mean(found.worn))
     if covered > MOST:
@@ -184,34 +196,33 @@ def measured_scar(
             f"nothing is worn {1e9 * DEEP * noise:.3g} nm deep, {DEEP:g} times the noise of means "
             f"over some pixels; {why}"
         )
-    scar = ndimage.binary_dilation(core, iterations=MARGIN)
+    scar = ndimage.binary_dilation(core, iterations=MARGIN + _shallow(smooth, core, DEEP * noise))
     holes = interpolated(np.where(known, smooth, np.nan), ~known & scar)
     depth = np.where(known, found.depth, holes)
     area = after.grid.cell_area
     volume = area * float(np.sum(depth[scar]))
     piled = _largest(-smooth, (-smooth > DEEP * noise) & ~scar) & ~scar
-    widths = _widths(smooth, core, after.pitch)
-    cut_off = any(
-        np.any(np.moveaxis(core, axis, 0)[[0, -1]])
-        for axis, width in enumerate((widths.along, widths.across))
-        if math.isfinite(width)
-    )
+    is_open = [bool(np.all(np.any(core.take([0, -1], axis), axis=1 - axis))) for axis in (0, 1)]
+    cut_off = _is_cut_off(core & (smooth > EDGE * np.max(smooth[core])), known, is_open)
     if cut_off:
+        whole = max(np.subtract(shape, found.depth.shape)) <= MARGIN
         warnings.warn(
-            "the scar is cut off by the edge of the area that the maps share: volume, depth and "
-            "widths are those of the part within it; measure a larger area",
+            f"the edge of {'the map' if whole else 'the area common to both maps'} cuts the scar "
+            "off: volume and depth are those of the part within, widths and formulas are left out; "
+            f"measure a larger area{'' if whole else ', the same before and after'}",
             TriboWarning,
             stacklevel=2,
         )
+    widths = None if cut_off else _widths(smooth, core, after.pitch, is_open)
     deepest, deepest_uncertainty = _deepest(found, smooth, core & known, noise)
     formulas: list[InferredVolume] = []
-    # Of a scar that is cut off the width is not known.
-    if math.inf in widths and not cut_off:
-        length = after.grid.size[0 if math.isinf(widths.along) else 1]
+    if widths is not None and math.inf in widths:
+        length = after.grid.size[widths.index(math.inf)]
         formulas = _track_volumes(volume, min(widths), length, track_length or length, radius)
-    elif radius is not None and not cut_off:
+    elif widths is not None and radius is not None:
         _check_width(min(widths), radius)
-        groove = _groove_radius(after, core)
+        # Smoothing widens the core beyond what is worn.
+        groove = _groove_radius(after, core & (smooth > LEVELS[0] * np.max(smooth[core])))
         formulas = ball_volumes("ball", widths, radius, groove, volume)
     return MeasuredScar(
         registration=found,
@@ -222,8 +233,8 @@ def measured_scar(
         piled_up=-area * float(np.nansum(depth[piled])),
         depth=deepest,
         depth_uncertainty=deepest_uncertainty,
-        along=widths.along,
-        across=widths.across,
+        along=None if widths is None else widths.along,
+        across=None if widths is None else widths.across,
         cut_off=cut_off,
         missing=float(np.mean(~known[scar])),
         inferred=tuple(formulas),
@@ -234,6 +245,13 @@ def _warn_of_zeros(heights: Heights, which: str) -> None:
     """Warn of many heights of exactly 0, which may stand for missing values."""
     known = heights.heights[np.isfinite(heights.heights)]
     values, counts = np.unique(known, return_counts=True)
+    if values.size == 1:
+        words = f"every height of the map {which} is {known[0]:g} m"
+        if which == "after":
+            raise CaseError(f"{words}: nothing was measured; save it again")
+        warnings.warn(
+            f"{words}, an ideal flat; if it was measured, save it again", TriboWarning, stacklevel=3
+        )
     zeros, others = (int(np.max(counts[each], initial=0)) for each in (values == 0, values != 0))
     if zeros > ZEROS * others and 2 * zeros < known.size:
         warnings.warn(
@@ -247,8 +265,8 @@ def _deepest(found: Registration, smooth: Array, core: Mask, noise: float) -> tu
     """Return the largest depth of a scar and its standard uncertainty, in m.
 
     A paraboloid is fitted to the bottom, as smoothing would flatten it. The uncertainty combines
-    that of its coefficients, of the registration, and the larger of the noise and of the residuals
-    of the fit, both smoothed.
+    that of its coefficients, of the registration, and the smoothed residuals of the fit beyond
+    noise, as of the relief of a worn surface.
     """
     deepest = np.where(core, smooth, -np.inf)
     places, _ = ndimage.label(deepest >= BOTTOM * np.max(deepest))
@@ -259,8 +277,16 @@ def _deepest(found: Registration, smooth: Array, core: Mask, noise: float) -> tu
     rough = float(np.std(smoothed(residuals)[bottom]))
     of_registration = max(float(found.uncertainty[top] ** 2 - found.noise**2), 0.0)
     count = np.count_nonzero(np.isfinite(residuals))
-    of_coefficients = 6 * found.variance_inflation * found.noise**2 / count
-    return float(form[top]), math.sqrt(of_coefficients + of_registration + max(noise, rough) ** 2)
+    of_coefficients = min(6 * found.variance_inflation / count, 1.0) * found.noise**2
+    of_relief = max(rough**2 - noise**2, 0.0)
+    return float(form[top]), math.sqrt(of_coefficients + of_registration + of_relief)
+
+
+def _shallow(smooth: Array, core: Mask, level: float) -> int:
+    """Return how many pixels further than at a level a parabolic scar ends."""
+    reach = float(np.max(ndimage.distance_transform_edt(core)))
+    deep = 1 - level / float(np.max(smooth[core]))
+    return math.ceil(reach * (1 / math.sqrt(deep) - 1))
 
 
 def _sum_uncertainty(found: Registration, scar: Mask) -> float:
@@ -292,13 +318,30 @@ def _largest(depth: Array, marked: Mask) -> Mask:
     return filled
 
 
-def _widths(smooth: Array, core: Mask, pitch: tuple[float, float]) -> Scar:
+def _is_cut_off(scar: Mask, known: Mask, is_open: list[bool]) -> bool:
+    """Return whether the edge of what is known cuts off a scar, other than a track's ends."""
+    # Without the holes that missing pixels leave at the edge.
+    missing = ndimage.binary_opening(np.pad(~known, 8, constant_values=True), iterations=2)
+    places, _ = ndimage.label(missing)
+    outside, scar = places == places[4, 4], np.pad(scar, 8)
+    # Pixels outside that touch the scar along x, and along y.
+    touched = [
+        ndimage.binary_dilation(scar, line) & outside for line in (np.ones((3, 1)), np.ones((1, 3)))
+    ]
+    if is_open[0] != is_open[1]:
+        axis = is_open.index(True)
+        # The common area is ragged at the ends of a track.
+        beside = np.moveaxis(touched[1 - axis], axis, 0)[16:-16]
+        return bool(np.count_nonzero(beside) > ALONG * known.shape[axis])
+    return bool(np.count_nonzero(touched) > 2)
+
+
+def _widths(smooth: Array, core: Mask, pitch: tuple[float, float], is_open: list[bool]) -> Scar:
     """Return the widths of a scar: where the parabola through two of its levels comes to 0.
 
     The depth of a ball worn flat, and of a groove, is a parabola. The profile is the mean along a
     track, in its own direction, or that of some lines through the middle of another scar.
     """
-    is_open = [np.any(core[[0, -1]], axis=1).all(), np.any(core[:, [0, -1]], axis=0).all()]
     low, high = LEVELS
     widths = []
     for axis in (0, 1):

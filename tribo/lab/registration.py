@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,7 +11,7 @@ import scipy.fft
 import scipy.ndimage as ndimage
 
 from tribo.core.arrays import Array, Mask
-from tribo.core.errors import CaseError
+from tribo.core.errors import CaseError, TriboWarning
 from tribo.lab.heights import Heights, nearest_filled, smoothed
 
 SAME = 1e-3
@@ -24,6 +25,20 @@ OVERLAP = 0.2
 """Smallest overlap of the maps."""
 SIGNIFICANT = 8.0
 """Correlation, in standard deviations, that is not chance."""
+ALIKE = 0.5
+"""Correlation below which a map may be mirrored or turned."""
+BETTER = 1.5
+"""Ratio of correlations from which on a map is mirrored or turned."""
+ORIENTATIONS = {
+    "mirrored along x": "[::-1]",
+    "mirrored along y": "[:, ::-1]",
+    "turned by 180°": "[::-1, ::-1]",
+    "to have its axes swapped": ".T",
+    "turned by 90°": ".T[::-1]",
+    "turned by −90°": ".T[:, ::-1]",
+    "to have its axes swapped and mirrored": ".T[::-1, ::-1]",
+}
+"""What NumPy puts right a map with that looks so."""
 TEXTURE = 3.0
 """Eigenvalue of the normal matrix, relative to that of noise, above which a direction of shift and
 rotation is determined."""
@@ -33,8 +48,8 @@ DEEP = 4.0
 """Standard deviations of noise from which on a difference is a scar."""
 ROUNDING = 1e-4
 """Least noise, relative to the largest depth."""
-BLOCK = 8
-"""Edge of the blocks whose means give the correlation of noise, in pixels."""
+BLOCKS = 8
+"""Blocks along the shorter edge of the map, whose sums give the correlation of noise."""
 BLURS = 4.0, 2.0, 1.0
 """Widths of the Gaussian blur, from coarse to fine, in pixels."""
 ITERATIONS = 30
@@ -106,17 +121,23 @@ def register(before: Heights, after: Heights, form: int = 1) -> Registration:
     ----------
     Padfield, D. (2012), Masked object registration in the Fourier domain, IEEE Trans. Image
     Process. 21, 2706-2718. Baker, S., Matthews, I. (2004), Lucas-Kanade 20 years on, Int. J.
-    Comput. Vis. 56, 221-255.
+    Comput. Vis. 56, 221-255. White, H. (1980), A heteroskedasticity-consistent covariance matrix
+    estimator, Econometrica 48, 817-838.
     """
     if not np.allclose(before.pitch, after.pitch, rtol=SAME, atol=0):
         first, second = (
             " × ".join(f"{1e6 * each:.6g}" for each in m.pitch) + " µm" for m in (before, after)
         )
+        swapped = np.allclose(before.pitch, after.pitch[::-1], rtol=SAME, atol=0)
         raise CaseError(
-            f"the map before has a pixel every {first}, and that after every {second}; measure or "
-            "resample them alike"
+            f"the map before has a pixel every {first}, and that after every {second}; "
+            + ("swap the axes of one, or " if swapped else "")
+            + "measure or resample them alike"
         )
-    fit = _Fit(before, after, form, *_cross_correlated(before, after))
+    score, shift, angle = _cross_correlated(before, after)
+    if score < ALIKE:
+        _warn_of_orientation(before, after, score)
+    fit = _Fit(before, after, form, shift, angle)
     fit.run()
     if not fit.determined.size:
         fit = _Fit(before, after, form, np.zeros(2), 0.0)
@@ -134,6 +155,16 @@ class _Fit:
         self.shift, self.angle = shift, angle
         self.places = np.stack(np.broadcast_arrays(*after.grid.mesh))
         self.lever = float(np.sqrt(np.mean(np.sum(self.places**2, axis=0))))
+        places = np.stack(np.broadcast_arrays(*before.grid.mesh))
+        terms, known = _quadratic(places, self.lever)[0], np.isfinite(before.heights)
+        middle, terms_of = np.mean(before.heights[known]), terms[:, known]
+        inverse = np.linalg.pinv(np.einsum("kn,ln->kl", terms_of, terms_of), hermitian=True)
+        centred = np.einsum("kn,n->k", terms_of, before.heights[known] - middle)
+        self.quadratic = np.einsum("kl,l->k", inverse, centred)
+        """The form of the map before."""
+        self.relief = nearest_filled(before.heights - np.tensordot(self.quadratic, terms, 1))
+        own = np.tensordot(self.quadratic, _quadratic(self.places, self.lever)[0], 1)
+        self.filled = own + nearest_filled(after.heights - own)
         x, y = self.places / np.max(np.abs(self.places))
         self.form = np.stack([x**i * y**j for i in range(form + 1) for j in range(form + 1 - i)])
         self.factors = np.zeros(len(self.form))
@@ -152,20 +183,24 @@ class _Fit:
 
     def difference(self, blur: float) -> tuple[Array, Array]:
         """Return the depth, and its derivatives by shift, rotation times lever and form."""
-        before, after = (nearest_filled(m.heights) for m in (self.before, self.after))
-        if blur:
-            before, after = (ndimage.gaussian_filter(each, blur) for each in (before, after))
         x, y = rotated = np.einsum("ij,jxy->ixy", _rotation(self.angle), self.places)
-        middle = 0.5 * (np.array(before.shape) - 1)
-        at = (rotated + self.shift[:, None, None]) / self.pitch[:, None, None]
-        at += middle[:, None, None]
+        position = rotated + self.shift[:, None, None]
+        middle = 0.5 * (np.array(self.relief.shape) - 1)
+        at = position / self.pitch[:, None, None] + middle[:, None, None]
+        # Without form, as blur is one-sided at the border and would bend it.
+        form, *bends = (
+            np.tensordot(self.quadratic, each, 1) for each in _quadratic(position, self.lever)
+        )
+        relief = self.relief
+        rest = self.filled - form - np.tensordot(self.factors, self.form, 1)
+        if blur:
+            relief, rest = (ndimage.gaussian_filter(each, blur) for each in (relief, rest))
         by_x, by_y = (
-            ndimage.map_coordinates(slope, at, order=1, mode="nearest")
-            for slope in np.gradient(before, *self.pitch)
+            bend + ndimage.map_coordinates(slope, at, order=1, mode="nearest")
+            for bend, slope in zip(bends, np.gradient(relief, *self.pitch), strict=True)
         )
         slopes = np.stack([by_x, by_y, (by_y * x - by_x * y) / self.lever, *self.form])
-        depth = ndimage.map_coordinates(before, at, order=3, mode="nearest")
-        depth += np.tensordot(self.factors, self.form, 1) - after
+        depth = ndimage.map_coordinates(relief, at, order=3, mode="nearest") - rest
         missing = np.isnan(self.before.heights).astype(float)
         missing = ndimage.map_coordinates(missing, at, order=1, mode="constant", cval=1.0)
         return np.where((missing > 1e-6) | np.isnan(self.after.heights), np.nan, depth), slopes
@@ -203,9 +238,14 @@ class _Fit:
         inverse = np.linalg.pinv(normal[3:, 3:], hermitian=True)
         coupling = normal[:3, 3:] @ inverse
         values, vectors = np.linalg.eigh(normal[:3, :3] - coupling @ normal[3:, :3])
-        # Half of the noise is that of the map before, whose blurred slopes have this variance.
-        of_noise = np.sum(weights) * 0.25 * (scale / (blur * np.min(self.pitch))) ** 2
-        kept = values > TEXTURE * of_noise
+        # Half of the noise is that of the map before. Correlated noise has less steep slopes than
+        # white noise, which the residuals show once the maps are registered.
+        white = (scale / (blur * np.min(self.pitch))) ** 2 / 2
+        seen = (
+            _robust_deviation(slope[used & np.isfinite(slope)]) ** 2
+            for slope in np.asarray(np.gradient(depth, *self.pitch))
+        )
+        kept = values > TEXTURE * np.sum(weights) * 0.5 * min(white, max(seen))
         self.determined = vectors[:, kept]
         moves = np.zeros(3)
         if not still:
@@ -232,13 +272,13 @@ class _Fit:
         """Return the registration, with covariance and uncertainty."""
         blurred, slopes = self.difference(1.0)
         used = np.isfinite(blurred) & ~self.worn
-        columns = slopes[:, used]
+        columns = np.where(used, slopes, 0.0)
         basis = np.eye(len(slopes))
         basis[:3, :3] = self.determined @ self.determined.T
-        normal = basis @ np.einsum("kn,ln->kl", columns, columns) @ basis
-        variance = float(np.var(blurred[used]))
-        variance *= _variance_inflation(np.where(used, blurred, np.nan))
-        covariance = variance * np.linalg.pinv(normal, rcond=1e-12, hermitian=True)
+        normal = basis @ np.einsum("kxy,lxy->kl", columns, columns) @ basis
+        # White (1980): a covariance that holds for noise that is correlated.
+        bread = np.linalg.pinv(normal, rcond=1e-12, hermitian=True)
+        covariance = bread @ _sums(columns * np.where(used, blurred, 0.0)) @ bread
         depth, _ = self.difference(0.0)
         noise = _robust_deviation(depth[used])
         from_fit = np.einsum("kxy,kl,lxy->xy", slopes, covariance, slopes, optimize=True)
@@ -271,16 +311,52 @@ def _common_area(depth: Array) -> tuple[slice, slice]:
     return along, across
 
 
-def _cross_correlated(before: Heights, after: Heights) -> tuple[Array, float]:
-    """Return shift (m) and rotation of the largest correlation; 0 where none is significant."""
+def _warn_of_orientation(before: Heights, after: Heights, score: float) -> None:
+    """Warn if the relief of the maps correlates much better with one mirrored or turned."""
+    found = {}
+    for words, slices in ORIENTATIONS.items():
+        if "T" not in slices or np.isclose(*after.pitch, rtol=SAME, atol=0):
+            heights = after.heights.T if "T" in slices else after.heights
+            heights = heights[
+                :: -1 if "[::-1" in slices else 1, :: -1 if ", ::-1]" in slices else 1
+            ]
+            found[words] = _cross_correlated(before, Heights(heights, after.pitch), every=3)[0]
+    best = max(found, key=lambda words: found[words])
+    shapes = before.heights.shape, after.heights.shape
+    if found[best] > BETTER * score:
+        warnings.warn(
+            f"the map after looks {best} against that before: their relief correlates by "
+            f"{found[best]:.2f} then, and by {score:.2f} as it is; measure or save both alike, or "
+            f"take heights{ORIENTATIONS[best]} of it in NumPy",
+            TriboWarning,
+            stacklevel=4,
+        )
+    elif shapes[0] == shapes[1][::-1] != shapes[1]:
+        first, second = (" × ".join(map(str, shape)) for shape in shapes)
+        warnings.warn(
+            f"the map before has {first} pixels, that after {second}, and their relief does not "
+            "correlate; if the axes of one are swapped, swap them back",
+            TriboWarning,
+            stacklevel=4,
+        )
+
+
+def _cross_correlated(
+    before: Heights, after: Heights, every: int = 1
+) -> tuple[float, Array, float]:
+    """Return the largest correlation, with its shift (m) and rotation; 0 where it may be chance.
+
+    The correlation is that of the overlap, times the root of the overlap's part of the map.
+    """
     factor = max(1, math.ceil(max(*before.heights.shape, *after.heights.shape) / COARSE))
     (own, mask), (relief, there) = (_relief(m.heights, factor) for m in (before, after))
     shape = [scipy.fft.next_fast_len(n + m) for n, m in zip(own.shape, relief.shape, strict=True)]
     second = [np.conj(scipy.fft.rfft2(each, shape)) for each in (relief, there, relief**2)]
     step = 2.0 / max(own.shape)
     most = math.ceil(LARGEST_ROTATION / step)
-    best = (SIGNIFICANT, np.zeros(2), 0.0)
-    for steps in sorted(range(-most, most + 1), key=abs):
+    area = max(float(np.sum(there)), 1.0)
+    best = (SIGNIFICANT / math.sqrt(area), np.zeros(2), 0.0)
+    for steps in sorted(range(-(most // every) * every, most + 1, every), key=abs):
         angle = steps * step
         images = [_rotated(each, angle) for each in (own, mask)]
         first = [scipy.fft.rfft2(each, shape) for each in (*images, images[0] ** 2)]
@@ -289,16 +365,16 @@ def _cross_correlated(before: Heights, after: Heights) -> tuple[Array, float]:
             for i, j in ((0, 0), (1, 1), (2, 1), (1, 2))
         )
         norm = np.prod(np.maximum(squares, 0), axis=0) + 1e-300
-        score = together * np.sqrt(np.maximum(overlap, 0) / norm)
-        score[overlap <= OVERLAP * np.sum(there)] = 0.0
+        score = together * np.sqrt(np.maximum(overlap, 0) / norm / area)
+        score[overlap <= OVERLAP * area] = 0.0
         at = np.unravel_index(int(np.argmax(score)), score.shape)
         if score[at] > best[0]:
             lag = [k - n if k > n // 2 else k for k, n in zip(at, shape, strict=True)]
             off = np.array(lag) + 0.5 * (np.array(relief.shape) - own.shape)
             best = (float(score[at]), off, angle)
-    _, shift, angle = best
+    largest, shift, angle = best
     # The map before was rotated about its own middle.
-    return _rotation(angle) @ shift * factor * np.array(after.pitch), angle
+    return largest, _rotation(angle) @ shift * factor * np.array(after.pitch), angle
 
 
 def _rotation(angle: float) -> Array:
@@ -333,6 +409,15 @@ def _relief(heights: Array, factor: int) -> tuple[Array, Array]:
     return np.where(known, np.clip(relief, -most, most), 0.0), known.astype(float)
 
 
+def _quadratic(places: Array, scale: float) -> Array:
+    """Return the terms of a quadratic form at places, and their derivatives along x and y."""
+    x, y = places / scale
+    one, none = np.ones_like(x), np.zeros_like(x)
+    along, across = [none, one, none, 2 * x, y, none], [none, none, one, none, x, 2 * y]
+    value = [one, x, y, x**2, x * y, y**2]
+    return np.stack([value, np.array(along) / scale, np.array(across) / scale])
+
+
 def _robust_deviation(values: Array) -> float:
     """Return the standard deviation by the median absolute deviation."""
     if values.size == 0:
@@ -341,16 +426,27 @@ def _robust_deviation(values: Array) -> float:
 
 
 def _variance_inflation(values: Array) -> float:
-    """Return the variance of means over blocks, relative to that of independent values."""
+    """Return the variance of a sum of values, relative to that of independent ones."""
     known = np.isfinite(values)
     centred = np.where(known, values - np.mean(values[known]), 0.0)
-    nx, ny = (n // BLOCK for n in values.shape)
-    sums, count = (
-        np.sum(each[: nx * BLOCK, : ny * BLOCK].reshape(nx, BLOCK, ny, BLOCK), axis=(1, 3))
-        for each in (centred, known)
+    return max(1.0, float(_sums(centred[None])[0, 0]) / max(float(np.sum(centred**2)), 1e-300))
+
+
+def _sums(scores: Array) -> Array:
+    """Return the covariance of the sums over the map of residuals' scores, shape (p, nx, ny).
+
+    It is that of sums over all blocks of a size, extrapolated from two sizes to large ones, where
+    neighbours of another block no longer count.
+    """
+    edge = max(BLOCKS, min(scores.shape[1:]) // BLOCKS)
+    padded = np.pad(scores, ((0, 0), (edge, edge), (edge, edge)))
+    half, whole = (
+        np.einsum("kxy,lxy->kl", each, each)
+        for n in (edge // 2, edge)
+        for each in [n * ndimage.uniform_filter(padded, (0, n, n), mode="constant")]
     )
-    full = 2 * count > BLOCK**2
-    own = float(np.mean(centred[known] ** 2))
-    if np.count_nonzero(full) < BLOCK or own == 0:
-        return 1.0
-    return max(1.0, float(np.mean(sums[full] ** 2 / count[full])) / own)
+    ratio = np.diag(half) / np.maximum(np.diag(whole), 1e-300)
+    more = np.sqrt(np.clip(2 - ratio, 1, 2))
+    # The fit takes one block's freedom for each of its parameters.
+    blocks = np.count_nonzero(np.any(scores, axis=0)) / edge**2
+    return np.asarray(whole * np.outer(more, more) / max(1 - len(scores) / max(blocks, 1), 0.25))
