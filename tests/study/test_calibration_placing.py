@@ -55,6 +55,20 @@ def fitted(worn, tmp_path):
     return found
 
 
+def test_missing_pixels_leave_coefficient_and_misfit_as_they_are(worn, tmp_path):
+    fits, random = [], np.random.default_rng(0)
+    noisy = worn + 4 * 5e-9 * random.standard_normal(worn.shape)
+    for missing in (np.zeros_like(worn), random.random(worn.shape) < 0.2):
+        np.save(tmp_path / "map.npy", np.where(missing, np.nan, noisy))
+        entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "map.npy")}
+        entry |= {"pitch": PITCH, "uncertainty": 5e-9}
+        fits.append(calibrate(CASE, {"measured": [entry], "fit": [{"path": K}]}))
+    whole, partly = fits
+    assert covers(partly)
+    assert partly.settings[K] == pytest.approx(whole.settings[K], rel=1e-3, abs=0)
+    assert partly.chi_square < 1.5 * whole.chi_square
+
+
 def covers(found):
     (each,) = found.parameters.itertuples()
     return each.lower < TRUE < each.upper

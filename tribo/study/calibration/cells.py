@@ -17,6 +17,8 @@ ROUNDING = 1e-6
 """Relative rounding of pixel pitch and cell size."""
 COVERED = 0.5 - 1e-6
 """Part of a cell that must be measured."""
+CENTRINGS = 4
+"""Iterations for the slopes of partly measured cells, which depend on their corrected means."""
 MOST_BLOCKS = 600
 """Blocks that a map is averaged over where a few parameters are fitted to it."""
 SWAPPED = 3.0
@@ -35,11 +37,11 @@ def surface_shape(model: Model, body: str) -> tuple[int, int]:
     return model.exposures[body].rows, model.grid.cells[1]
 
 
-def block_means(depth: Array, spacing: tuple[float, float]) -> pd.DataFrame:
+def block_means(depth: Array, noise: Array, spacing: tuple[float, float]) -> pd.DataFrame:
     """Return the mean of a map over equal blocks of cells, 600 at most, one row each.
 
-    `measured` is the mean, `x_m` and `y_m` its position, and `cells` the flat indices of the cells
-    that were measured.
+    `measured` is the mean, `x_m` and `y_m` its position, `cells` the flat indices of the cells
+    that were measured, and `noise` its standard deviation; for depths and noise of `on_cells`.
     """
     side = 1
     while np.prod(-(-np.array(depth.shape) // side)) > MOST_BLOCKS:
@@ -49,6 +51,7 @@ def block_means(depth: Array, spacing: tuple[float, float]) -> pd.DataFrame:
     known = pd.DataFrame(
         {
             "measured": depth.ravel(),
+            "noise": noise.ravel() ** 2,
             "x_m": spacing[0] * (i - 0.5 * (rows - 1)),
             "y_m": spacing[1] * (j - 0.5 * (ny - 1)),
             "cells": cells,
@@ -56,7 +59,8 @@ def block_means(depth: Array, spacing: tuple[float, float]) -> pd.DataFrame:
         }
     ).dropna()
     blocks = known.groupby("block")
-    means = blocks[["measured", "x_m", "y_m"]].mean()
+    means = blocks[["measured", "noise", "x_m", "y_m"]].mean()
+    means["noise"] = (means["noise"] / blocks.size()) ** 0.5
     return means.assign(cells=blocks["cells"].agg(tuple)).reset_index(drop=True)
 
 
@@ -82,11 +86,13 @@ def on_cells(
     shape: tuple[int, int],
     spacing: tuple[float, float],
     shift: tuple[float, float] = (0.0, 0.0),
-) -> Array:
+) -> tuple[Array, Array]:
     """Return the mean of a map over each cell of a surface, weighted by shared area.
 
-    The point at `shift` from the middle of the map, in m, lies on the middle of the surface. NaN
-    where less than half of a cell was measured.
+    Also its noise relative to that of a cell without missing pixels. The point at `shift` from the
+    middle of the map, in m, lies on the middle of the surface. The mean over the measured part of
+    a cell is corrected for the distance of its centroid from the cell's middle by the slope of the
+    map; NaN where less than half of a cell was measured.
     """
     averaged = shape[0] == 1
     cell = heights.heights.shape[0] * heights.pitch[0] if averaged else spacing[0], spacing[1]
@@ -108,7 +114,7 @@ def on_cells(
         np.where(known, np.nan_to_num(np.gradient(heights.heights, axis=axis)), 0.0)
         for axis in (0, 1)
     ]
-    (in_x, offset_x), (in_y, offset_y) = (
+    (in_x, offset_x, lever_x), (in_y, offset_y, lever_y) = (
         _overlaps(n, width, m, pitch, off)
         for n, width, m, pitch, off in zip(
             shape,
@@ -123,13 +129,25 @@ def on_cells(
     total = total + offset_x @ slopes[0] @ in_y.T + in_x @ slopes[1] @ offset_y.T
     measured = in_x @ known @ in_y.T
     enough = measured >= COVERED * cell[0] * cell[1]
-    found = np.divide(total, measured, out=np.full(shape, np.nan), where=enough)
     if not np.any(enough):
         raise CaseError(
             "it does not lie on the window: its middle is taken as the contact's; check pitch, "
             f"{1e6 * heights.pitch[0]:g} × {1e6 * heights.pitch[1]:g} µm"
         )
-    return np.asarray(found)
+    measured = np.where(enough, measured, np.nan)
+    centroids = lever_x @ known @ in_y.T / measured, in_x @ known @ lever_y.T / measured
+    means = found = total / measured
+    for _ in range(CENTRINGS):
+        found = means - sum(_slope(found, axis) * centroids[axis] for axis in (0, 1))
+    return found, np.asarray(np.nan_to_num(cell[0] * cell[1] / measured, nan=1.0) ** 0.5)
+
+
+def _slope(depth: Array, axis: int) -> Array:
+    """Return the mean difference from neighbours along an axis, of those that are known."""
+    step = np.diff(depth, axis=axis, prepend=np.nan, append=np.nan)
+    n = depth.shape[axis]
+    sides = np.stack([step.take(range(n), axis), step.take(range(1, n + 1), axis)])
+    return np.asarray(np.nansum(sides, axis=0) / np.maximum(np.sum(np.isfinite(sides), axis=0), 1))
 
 
 def _has_swapped_axes(depth: Array, known: Mask) -> bool:
@@ -152,14 +170,17 @@ def _has_swapped_axes(depth: Array, known: Mask) -> bool:
 
 def _overlaps(
     cells: int, width: float, pixels: int, pitch: float, shift: float
-) -> tuple[Array, Array]:
+) -> tuple[Array, Array, Array]:
     """Return the lengths shared by cells and pixels, shape (cells, pixels), at a shift.
 
-    Also each length times the offset of its middle from that of the pixel, in pixels.
+    Also each length times the offset of its middle from that of the pixel, in pixels, and from
+    that of the cell, in cells.
     """
     to_cell = width * (np.arange(cells + 1)[:, None] - 0.5 * cells)
     to_pixel = pitch * (np.arange(pixels + 1) - 0.5 * pixels) - shift
     begin = np.maximum(to_cell[:-1], to_pixel[:-1])
     end = np.minimum(to_cell[1:], to_pixel[1:])
     shared = np.maximum(end - begin, 0.0)
-    return shared, 0.5 * shared * (begin + end - to_pixel[:-1] - to_pixel[1:]) / pitch
+    middle = begin + end
+    of_pixel = 0.5 * shared * (middle - to_pixel[:-1] - to_pixel[1:]) / pitch
+    return shared, of_pixel, 0.5 * shared * (middle - to_cell[:-1] - to_cell[1:]) / width

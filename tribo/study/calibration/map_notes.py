@@ -46,7 +46,7 @@ def map_notes(fitted: Linearised, experiment: Experiment) -> Iterator[str]:
         name = f"the {named(row)}"
         spacing = experiment.setups[row["setup"]].model.grid.spacing
         yield from off_middle(name, found)
-        measured = experiment.on_cells(reading, found.shift)
+        measured, _ = experiment.on_cells(reading, found.shift)
         yield from off_level(name, measured, depth, row["sigma"])
         yield from _off_pitch(name, fitted, experiment, reading, depth, spacing)
     yield from _off_profiles(fitted, experiment)
