@@ -10,11 +10,13 @@ from scipy.stats import binom
 from tribo.cli.fitted import data_table
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
+from tribo.core.errors import NumericalError
 from tribo.lab.heights import Heights
 from tribo.simulation.run import Simulation
 from tribo.study.calibration import mapped
 from tribo.study.calibration.calibrate import calibrate, doubts
 from tribo.study.calibration.experiment import Experiment
+from tribo.study.calibration.map_notes import off_turn
 from tribo.study.calibration.mapped import calibrate_maps
 from tribo.study.calibration.maps import FittedMaps
 from tribo.study.calibration.measured import MapEntry
@@ -120,6 +122,55 @@ def test_a_wrong_pitch_is_named(fitted, pitch):
     assert float(note.split(" times")[0].split()[-1]) == pytest.approx(pitch, abs=off)
 
 
+def test_the_pitch_comes_first_where_it_fails_a_fit(worn, tmp_path):
+    np.save(tmp_path / "map.npy", 6 * worn)
+    entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "map.npy")}
+    entry |= {"pitch": 3 * PITCH, "uncertainty": NOISE}
+    with pytest.raises(NumericalError, match=r"^check pitch; run .* reached the edge of the win"):
+        calibrate(CASE, {"measured": [entry], "fit": [{"path": K}]})
+
+
+@pytest.mark.parametrize(
+    ("turned", "way"),
+    [(np.transpose, "with its axes swapped"), (np.flipud, "mirrored along"), (None, "")],
+)
+def test_a_map_whose_axes_are_swapped_or_mirrored_is_named(worn, turned, way):
+    """A scar longer on one side, as of a tilted pin."""
+    depth = worn.reshape(32, 4, 32, 4).mean(axis=(1, 3))
+    depth[:16] *= 0.8
+    noisy = depth + NOISE * np.random.default_rng(0).standard_normal(depth.shape)
+    told = "".join(off_turn("it", noisy if turned is None else turned(noisy), depth))
+    assert told.startswith(f"it fits far better {way}" if way else "")
+    assert bool(told) == bool(way)
+
+
+def test_swapped_axes_of_a_map_are_named(worn, tmp_path):
+    noise = 4 * NOISE * np.random.default_rng(0).standard_normal(worn.shape)
+    np.save(tmp_path / "map.npy", worn.T + noise)
+    entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "map.npy")}
+    entry |= {"pitch": PITCH, "uncertainty": NOISE}
+    found = calibrate(CASE, {"measured": [entry], "fit": [{"path": K}]})
+    assert found.notes[0].startswith(
+        "the depth_map of 'ball' fits far better with its axes swapped (x goes from row to row"
+    )
+    assert not any("too would lower" in note for note in found.notes)
+
+
+@pytest.mark.parametrize("factor", [1, 5])
+@pytest.mark.parametrize("cells", [16, 32])
+def test_uncertainties_that_are_too_large_are_told(worn, tmp_path, cells, factor):
+    """But not what the grid adds to them."""
+    noise = 4 * NOISE * np.random.default_rng(0).standard_normal(worn.shape)
+    np.save(tmp_path / "map.npy", worn + noise)
+    entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "map.npy")}
+    entry |= {"pitch": PITCH, "uncertainty": factor * NOISE * cells / 32}
+    coarse = apply_settings(CASE, {"grid.cells": cells})
+    found = calibrate(coarse, {"measured": [entry], "fit": [{"path": K}]})
+    assert found.p_value > 0.999
+    told = any("the uncertainties are too large" in note for note in found.notes)
+    assert told == (factor > 1)
+
+
 def profile_fitted(worn, cells, shift=0.0, seed=None):
     """What is found from a line across the ball's scar."""
     at = np.arange(-0.36e-3, 0.37e-3, 30e-6)
@@ -206,8 +257,8 @@ def test_where_the_scar_outgrows_the_window_the_pitch_is_doubted(worn, tmp_path)
     entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "map.npy")}
     experiment = Experiment.of(CASE, {"measured": [entry | {"pitch": PITCH, "uncertainty": NOISE}]})
     edge = "the contact reached the edge of the window of 1 × 1 mm; make grid.size larger"
-    assert list(doubts(experiment, edge)) == ["or check pitch"]
-    assert list(doubts(experiment, "the estimates have not settled")) == ["or check pitch"]
+    assert list(doubts(experiment, edge)) == ["check pitch"]
+    assert list(doubts(experiment, "the estimates have not settled")) == ["check pitch"]
     assert list(doubts(experiment, "another reason")) == []
 
 

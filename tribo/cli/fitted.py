@@ -16,7 +16,7 @@ from tribo.core.words import signed
 from tribo.study.calibration.calibrate import Calibration
 from tribo.study.calibration.choice import Choice
 from tribo.study.calibration.plan import Plan
-from tribo.study.calibration.quantities import digits_of, in_si, in_words, percent
+from tribo.study.calibration.quantities import digits_of, in_si, in_words, p_words, percent
 
 FAR = 10.0
 """Ratio of an interval's end to the value above which no percentage is printed."""
@@ -91,7 +91,7 @@ def _table(title: str, names: list[str], *columns: str) -> Table:
     width = None if whole else min(longest, LONGEST_NAME)
     table.add_column("", overflow="fold", no_wrap=whole, min_width=width)
     for column in columns:
-        is_interval = column == "" or column.endswith("interval")
+        is_interval = column.endswith("interval")
         table.add_column(column, justify="right", overflow="fold", no_wrap=not is_interval)
     return table
 
@@ -99,7 +99,9 @@ def _table(title: str, names: list[str], *columns: str) -> Table:
 def estimates_table(found: Calibration) -> Table:
     """Return the parameters with their intervals."""
     names, level = list(found.parameters["path"]), f"{100 * found.level:g} % interval"
-    columns = ["estimate", level, "", "resolution"]
+    columns = ["estimate", level, "relative"]
+    if np.any(found.parameters["resolution_limit"] > 0):
+        columns.append("resolution")
     if is_sampled := "sampled_lower" in found.parameters:
         columns.append("sampled interval")
     table = _table(f"Fitted in {found.runs} runs", names, *columns)
@@ -117,7 +119,9 @@ def estimates_table(found: Calibration) -> Table:
         more = []
         if is_sampled:
             more = [f"{each.sampled_lower:.{digits}g} to {each.sampled_upper:.{digits}g}"]
-        table.add_row(each.path, value, ends, relative, resolution, *more)
+        if "resolution" in columns:
+            more.insert(0, resolution)
+        table.add_row(each.path, value, ends, relative, *more)
     return table
 
 
@@ -141,7 +145,7 @@ def predictions_table(found: Calibration) -> Table:
     """Return the predictions of the fitted case."""
     names = [_name(each) for each in found.predictions.itertuples()]
     level = f"{100 * found.level:g} % interval"
-    table = _table("Not measured, at the end", names, "computed", level, "")
+    table = _table("Not measured, at the end", names, "computed", level, "relative")
     for name, each in zip(names, found.predictions.itertuples(), strict=True):
         value, low, high = (
             in_words(each.quantity, value, digits_of(each.lower, each.upper))
@@ -157,7 +161,7 @@ def fit_sentences(found: Calibration) -> Iterator[str]:
         freedom = found.degrees_of_freedom
         yield (
             f"χ² {found.chi_square:.3g} with {freedom} degree{'s' * (freedom != 1)} of freedom, "
-            f"p = {found.p_value:.2g}."
+            f"{p_words(found.p_value)}."
         )
     if found.repeatability or found.repeatability_estimated:
         how = "estimated" if found.repeatability_estimated else "as stated"
@@ -203,6 +207,8 @@ def _name(row: Any) -> str:
 
 def _interval(row: Any, low: str, high: str) -> tuple[str, str]:
     """Return the interval of a row, and the same relative to the value unless it is open."""
+    if row.lower == row.upper:
+        return "not fitted", ""
     if math.isinf(row.upper):
         return f"{low} to open" if row.lower else "open", ""
     if row.upper > FAR * row.value:

@@ -15,6 +15,7 @@ from tribo.cli.console import Console, titled
 from tribo.core.errors import CaseError
 from tribo.core.files import check_folder
 from tribo.study.calibration.maps import SILENT, FittedMaps, LocalMap
+from tribo.study.calibration.quantities import p_words
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -83,7 +84,7 @@ def fit_words(found: FittedMaps) -> str:
     """Return the goodness of fit in a sentence."""
     return (
         f"χ² {found.chi_square:.4g} with {found.degrees_of_freedom:.4g} degrees of freedom, "
-        f"p = {found.p_value:.2g}. A cell is told where less than {SILENT:g} of the prior's "
+        f"{p_words(found.p_value)}. A cell is told where less than {SILENT:g} of the prior's "
         "standard deviation is left."
     )
 

@@ -17,7 +17,7 @@ from tribo.lab.heights import Heights
 from tribo.simulation.march import begin, march
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.cells import on_cells, read_map, surface_shape
-from tribo.study.calibration.map_notes import off_level, off_middle
+from tribo.study.calibration.map_notes import off_level, off_middle, off_turn
 from tribo.study.calibration.maps import FittedMaps, Prior, fit_maps
 from tribo.study.calibration.measured import MapEntry
 from tribo.study.calibration.scar_shift import find_shift
@@ -67,3 +67,4 @@ def _remarks(
         for note in off_middle(name, found):
             yield f"{note}: centre it, unless the coefficient is higher on that side"
     yield from off_level(name, depth, model, entry.uncertainty)
+    yield from off_turn(name, depth, model)

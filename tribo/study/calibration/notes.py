@@ -11,10 +11,13 @@ import pandas as pd
 from scipy.special import chdtrc
 
 from tribo.core.arrays import Array
+from tribo.study.calibration.parameters import Parameter
 from tribo.study.calibration.quantities import FIELDS, in_si, in_words, percent
 
 UNLIKELY = 0.01
 """p-value below which data and model disagree."""
+TOO_SMALL = 0.001
+"""1 − p above which the data agree with the model better than they may."""
 NEARLY_COLLINEAR = 0.2
 """Singular value of the Jacobian with normalised columns below which parameters are hardly told
 apart: 1 if their effects are orthogonal, 0 if they are the same."""
@@ -29,18 +32,23 @@ _CORRELATED = 3.0
 
 
 def notes(
-    estimates: pd.DataFrame, data: pd.DataFrame, jacobian: Array, freedom: int | None, cells: int
+    estimates: pd.DataFrame,
+    data: pd.DataFrame,
+    jacobian: Array,
+    freedom: int | None,
+    cells: int,
+    explained: Sequence[tuple[float, Parameter, float]],
 ) -> list[str]:
     """Return notes; the Jacobian is of the weighted residuals by the logarithms of the parameters.
 
     The column `alone` of the data has the weighted residuals, independent where tests scatter.
     `freedom` are the degrees of freedom of χ², None where the repeatability is estimated; `cells`
-    are those of the coarsest grid.
+    are those of the coarsest grid, `explained` the answer of `explanations`.
     """
     return [
         *_on_parameters(estimates, data, jacobian, freedom),
         *_on_collinearity(list(estimates["path"]), jacobian),
-        *_on_misfit(data, freedom, cells),
+        *_on_misfit(data, freedom, cells, explained),
         *_on_patterns(data),
         *_on_instruments(data),
     ]
@@ -106,7 +114,12 @@ def _on_collinearity(paths: Sequence[str], jacobian: Array) -> Iterator[str]:
         )
 
 
-def _on_misfit(data: pd.DataFrame, freedom: int | None, cells: int) -> Iterator[str]:
+def _on_misfit(
+    data: pd.DataFrame,
+    freedom: int | None,
+    cells: int,
+    explained: Sequence[tuple[float, Parameter, float]],
+) -> Iterator[str]:
     if freedom is None:
         return
     if freedom == 0:
@@ -116,6 +129,13 @@ def _on_misfit(data: pd.DataFrame, freedom: int | None, cells: int) -> Iterator[
         return
     read = data[~data["below"]]
     chi_square = float(np.sum(read["alone"] ** 2))
+    stated = float(np.sum((read["residual"] * read["sigma"] / read["stated"]) ** 2))
+    if chdtrc(freedom, stated) > 1 - TOO_SMALL:
+        yield (
+            f"data and model differ by less than the stated uncertainties: χ² with those alone is "
+            f"{stated:.2g} where about {freedom} is expected; the uncertainties are too large, or "
+            "the data not independent"
+        )
     if chdtrc(freedom, chi_square) < UNLIKELY:
         worst = read.loc[read["alone"].abs().idxmax()]
         of_grid = ""
@@ -125,8 +145,18 @@ def _on_misfit(data: pd.DataFrame, freedom: int | None, cells: int) -> Iterator[
         yield (
             f"data and model disagree: χ² is {chi_square:.3g} where about {freedom} is expected; "
             f"the {named(worst)} is off by {abs(worst.alone):.3g} times its "
-            "uncertainty. The model leaves something out, or uncertainties are larger than stated"
-            f"{of_grid}; the intervals are then too narrow"
+            f"uncertainty. {''.join(_on_cause(explained))}The model leaves something out, or "
+            f"uncertainties are larger than stated{'' if explained else of_grid}; the intervals "
+            "are then too narrow"
+        )
+
+
+def _on_cause(explained: Sequence[tuple[float, Parameter, float]]) -> Iterator[str]:
+    """Name the numbers that would explain a misfit if they were fitted."""
+    for chi_square, each, value in explained:
+        yield (
+            f"Fitting {each.path} too would lower χ² to about {chi_square:.2g}, with "
+            f"{in_si(value, each.unit, 2)} instead of {in_si(each.start, each.unit)}. "
         )
 
 

@@ -114,6 +114,11 @@ def digits_of(lower: float, upper: float) -> int:
     return max(3, 2 + math.floor(math.log10(upper)) - math.floor(math.log10((upper - lower) / 2)))
 
 
+def p_words(p_value: float) -> str:
+    """Return a p-value in words, as ``"p = 0.05"``."""
+    return "p < 1e-6" if p_value < 1e-6 else f"p = {p_value:.2g}"
+
+
 def percent(part: float) -> str:
     """Return a part in percent, rounded, without the sign."""
     if ROUNDING < part < 0.00095:

@@ -1,0 +1,67 @@
+"""Numbers of a case that are not fitted and would explain a misfit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from tribo.core.errors import CaseError, NumericalError
+from tribo.study.calibration.experiment import Experiment
+from tribo.study.calibration.fit import STEP
+from tribo.study.calibration.linearised import Linearised
+from tribo.study.calibration.measured import FitEntry
+from tribo.study.calibration.parameters import Parameter, find_parameters, is_number
+
+EXPLAINED = 0.9
+"""Part of the excess of χ² that a number must explain."""
+ALIKE = 6.0
+"""Difference of χ² below which numbers explain the data alike."""
+
+
+def explanations(
+    fitted: Linearised, experiment: Experiment, freedom: int
+) -> tuple[int, list[tuple[float, Parameter, float]]]:
+    """Return the numbers that would explain the misfit if fitted too, and how many runs tell so.
+
+    Of each number χ², itself and its estimate, by the model linearised about the fit.
+    """
+    before = float(np.sum(fitted.residuals(fitted.point) ** 2))
+    found, runs = [], 0
+    for candidate in _candidates(experiment):
+        more = replace(experiment, parameters=[*experiment.parameters, candidate], runs={})
+        point = np.append(fitted.point, np.log(candidate.start))
+        moved = np.exp(point + STEP * (np.arange(len(point)) == len(point) - 1))
+        try:
+            change = fitted.problem.scaled(more.run(moved).responses)
+        except (CaseError, NumericalError):
+            continue
+        runs += more.run_count
+        slopes = (change - fitted.problem.scaled(fitted.responses)) / STEP
+        problem = replace(
+            fitted.problem,
+            lower=np.append(fitted.problem.lower, -np.inf),
+            upper=np.append(fitted.problem.upper, np.log(candidate.upper)),
+        )
+        both = replace(fitted, problem=problem, point=point, slopes=np.c_[fitted.slopes, slopes])
+        best = both.least(point)
+        found.append((float(np.sum(both.residuals(best) ** 2)), candidate, float(np.exp(best[-1]))))
+    found = [each for each in found if each[0] - freedom < (1 - EXPLAINED) * (before - freedom)]
+    return runs, sorted(each for each in found if each[0] < min(found)[0] + ALIKE)
+
+
+def _candidates(experiment: Experiment) -> Iterator[Parameter]:
+    """Return the wear coefficients and the load, unless fitted or different between tests."""
+    cases = [setup.model.case for setup in experiment.setups]
+    paths = [*(f"bodies.{name}.wear.k" for name in cases[0].bodies), "load.normal"]
+    for path in paths:
+        if path in (each.path for each in experiment.parameters):
+            continue
+        if all(is_number(case, path) for case in cases):
+            try:
+                numbers = {find_parameters(case, [FitEntry(path=path)], ())[0] for case in cases}
+            except CaseError:
+                continue
+            if len(numbers) == 1:
+                yield numbers.pop()
