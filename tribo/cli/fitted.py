@@ -100,27 +100,22 @@ def estimates_table(found: Calibration) -> Table:
     """Return the parameters with their intervals."""
     names, level = list(found.parameters["path"]), f"{100 * found.level:g} % interval"
     columns = ["estimate", level, "relative"]
-    if np.any(found.parameters["resolution_limit"] > 0):
-        columns.append("resolution")
     if is_sampled := "sampled_lower" in found.parameters:
         columns.append("sampled interval")
     table = _table(f"Fitted in {found.runs} runs", names, *columns)
     for each in found.parameters.itertuples():
         digits = digits_of(each.lower, each.upper)
         ends, relative = _interval(each, f"{each.lower:.{digits}g}", f"{each.upper:.{digits}g}")
-        resolution = f"±{percent(each.resolution_limit)} %" if each.resolution_limit else ""
         if each.held:
             ends = "held by its bound"
         value = in_si(each.value, each.unit, digits)
         if each.limited:
             value, ends = f"below {in_si(each.upper, each.unit)}", "upper bound"
         if each.held or each.limited or math.isinf(each.upper):
-            relative = resolution = ""
+            relative = ""
         more = []
         if is_sampled:
             more = [f"{each.sampled_lower:.{digits}g} to {each.sampled_upper:.{digits}g}"]
-        if "resolution" in columns:
-            more.insert(0, resolution)
         table.add_row(each.path, value, ends, relative, *more)
     return table
 
