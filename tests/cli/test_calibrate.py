@@ -72,7 +72,7 @@ def test_narrow_intervals_stay_on_a_line_at_80_columns(capsys):
     found = SimpleNamespace(level=0.95, runs=5, parameters=pd.DataFrame([estimate]))
     Console(width=80).print(estimates_table(found))
     *_, row = (line for line in capsys.readouterr().out.splitlines() if line.strip())
-    assert row.split(maxsplit=3)[3].split() == "1.8092e-16 to 1.8251e-16 ±0.4 %".split()
+    assert row.split(maxsplit=3)[3].split() == ["1.8092e-16", "to", "1.8251e-16", "±0.4", "%"]
 
 
 @pytest.mark.parametrize(("p_value", "words"), [(0.0, "p < 1e-6"), (0.0123, "p = 0.012")])

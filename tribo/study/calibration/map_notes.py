@@ -96,22 +96,20 @@ def off_level(name: str, measured: Array, depth: Array, sigma: float) -> Iterato
 
 def off_turn(name: str, measured: Array, depth: Array) -> Iterator[str]:
     """Report a map that fits far better with its axes swapped, or mirrored; of whatever scale."""
-
-    def misfit(turned: Array) -> float:
-        known = np.isfinite(turned) & np.isfinite(measured)
-        model, read = cell_means(depth)[known], turned[known]
-        return float(read @ read - (model @ read) ** 2 / (model @ model))
-
+    model = cell_means(depth)
     ways = {
         "mirrored along the sliding direction": measured[::-1],
         "mirrored across the sliding direction": measured[:, ::-1],
-        "turned by half a turn": measured[::-1, ::-1],
     }
     if measured.shape[0] == measured.shape[1]:
         ways["with its axes swapped (x goes from row to row, y along each)"] = measured.T
-    way = min(ways, key=lambda each: misfit(ways[each]))
-    if misfit(ways[way]) < TURNED * misfit(measured):
-        yield f"{name} fits far better {way}: turn it"
+    for way, turned in ways.items():
+        known = np.isfinite(turned) & np.isfinite(measured)
+        if np.any(model[known] > 0) and 2 * np.sum(known) > np.sum(np.isfinite(measured)):
+            here = model[known] / np.linalg.norm(model[known])
+            own, other = (m @ m - (here @ m) ** 2 for m in (measured[known], turned[known]))
+            if other < TURNED * own:
+                yield f"{name} fits far better {way}: turn it"
 
 
 def _off_profiles(fitted: Linearised, experiment: Experiment) -> Iterator[str]:

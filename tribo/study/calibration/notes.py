@@ -155,8 +155,8 @@ def _on_cause(explained: Sequence[tuple[float, Parameter, float]]) -> Iterator[s
     """Name the numbers that would explain a misfit if they were fitted."""
     for chi_square, each, value in explained:
         yield (
-            f"Fitting {each.path} too would lower χ² to about {chi_square:.2g}, with "
-            f"{in_si(value, each.unit, 2)} instead of {in_si(each.start, each.unit)}. "
+            f"Fitting {each.path} too would lower χ² to about {chi_square:.3g}, with "
+            f"{in_si(value, each.unit, 2)} or so instead of {in_si(each.start, each.unit)}. "
         )
 
 

@@ -12,7 +12,7 @@ from tribo.study.calibration.experiment import Experiment
 from tribo.study.calibration.fit import STEP
 from tribo.study.calibration.linearised import Linearised
 from tribo.study.calibration.measured import FitEntry
-from tribo.study.calibration.parameters import Parameter, find_parameters, is_number
+from tribo.study.calibration.parameters import Parameter, find_parameters
 
 EXPLAINED = 0.9
 """Part of the excess of χ² that a number must explain."""
@@ -58,10 +58,10 @@ def _candidates(experiment: Experiment) -> Iterator[Parameter]:
     for path in paths:
         if path in (each.path for each in experiment.parameters):
             continue
-        if all(is_number(case, path) for case in cases):
-            try:
-                numbers = {find_parameters(case, [FitEntry(path=path)], ())[0] for case in cases}
-            except CaseError:
-                continue
-            if len(numbers) == 1:
-                yield numbers.pop()
+        try:
+            numbers = {find_parameters(case, [FitEntry(path=path)], ())[0] for case in cases}
+        except CaseError:
+            # There is no such number, or it is 0.
+            continue
+        if len(numbers) == 1:
+            yield numbers.pop()
