@@ -311,7 +311,7 @@ def _outcome(fitted: Linearised, experiment: Experiment, level: float) -> Calibr
     chi_square = float(np.sum(fitted.residuals(fitted.point)[~problem.below] ** 2))
     scatters = problem.repeatability is None
     disagree = bool(freedom) and not scatters and chdtrc(freedom, chi_square) < UNLIKELY
-    tried, explained = explanations(fitted, experiment, freedom) if disagree else (0, [])
+    tried, explained = explanations(fitted, experiment, freedom) if disagree else (0, "")
     return Calibration(
         level=level,
         runs=experiment.run_count + tried,
@@ -367,7 +367,7 @@ def _predictions(
         value, ends = float(fitted.responses[i]), (0.0, math.inf)
         follows = np.abs(fitted.slopes[i]) > ABOVE_ROUNDING
         slopes = np.where(limited | ~follows, 0.0, fitted.slopes[i])
-        if not np.any(follows & held & ~limited):
+        if not np.any(follows & held):
             known = value * np.expm1(interval(fitted, slopes, level))
             to_bounds = [float(found[i]) - value for found in at_bounds]
             ends = _ends(value, (*known, -by_grid[i], by_grid[i], *to_bounds))

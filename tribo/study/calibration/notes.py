@@ -11,7 +11,6 @@ import pandas as pd
 from scipy.special import chdtrc
 
 from tribo.core.arrays import Array
-from tribo.study.calibration.parameters import Parameter
 from tribo.study.calibration.quantities import FIELDS, in_si, in_words, percent
 
 UNLIKELY = 0.01
@@ -37,7 +36,7 @@ def notes(
     jacobian: Array,
     freedom: int | None,
     cells: int,
-    explained: Sequence[tuple[float, Parameter, float]],
+    explained: str,
 ) -> list[str]:
     """Return notes; the Jacobian is of the weighted residuals by the logarithms of the parameters.
 
@@ -115,10 +114,7 @@ def _on_collinearity(paths: Sequence[str], jacobian: Array) -> Iterator[str]:
 
 
 def _on_misfit(
-    data: pd.DataFrame,
-    freedom: int | None,
-    cells: int,
-    explained: Sequence[tuple[float, Parameter, float]],
+    data: pd.DataFrame, freedom: int | None, cells: int, explained: str
 ) -> Iterator[str]:
     if freedom is None:
         return
@@ -145,18 +141,8 @@ def _on_misfit(
         yield (
             f"data and model disagree: χ² is {chi_square:.3g} where about {freedom} is expected; "
             f"the {named(worst)} is off by {abs(worst.alone):.3g} times its "
-            f"uncertainty. {''.join(_on_cause(explained))}The model leaves something out, or "
-            f"uncertainties are larger than stated{'' if explained else of_grid}; the intervals "
-            "are then too narrow"
-        )
-
-
-def _on_cause(explained: Sequence[tuple[float, Parameter, float]]) -> Iterator[str]:
-    """Name the numbers that would explain a misfit if they were fitted."""
-    for chi_square, each, value in explained:
-        yield (
-            f"Fitting {each.path} too would lower χ² to about {chi_square:.3g}, with "
-            f"{in_si(value, each.unit, 2)} or so instead of {in_si(each.start, each.unit)}. "
+            f"uncertainty. {explained}The model leaves something out, or uncertainties are larger "
+            f"than stated{'' if explained else of_grid}; the intervals are then too narrow"
         )
 
 

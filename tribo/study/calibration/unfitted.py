@@ -13,6 +13,7 @@ from tribo.study.calibration.fit import STEP
 from tribo.study.calibration.linearised import Linearised
 from tribo.study.calibration.measured import FitEntry
 from tribo.study.calibration.parameters import Parameter, find_parameters
+from tribo.study.calibration.quantities import in_si
 
 EXPLAINED = 0.9
 """Part of the excess of χ² that a number must explain."""
@@ -20,14 +21,12 @@ ALIKE = 6.0
 """Difference of χ² below which numbers explain the data alike."""
 
 
-def explanations(
-    fitted: Linearised, experiment: Experiment, freedom: int
-) -> tuple[int, list[tuple[float, Parameter, float]]]:
-    """Return the numbers that would explain the misfit if fitted too, and how many runs tell so.
+def explanations(fitted: Linearised, experiment: Experiment, freedom: int) -> tuple[int, str]:
+    """Return the runs made, and sentences on the numbers that would explain a misfit if fitted.
 
-    Of each number χ², itself and its estimate, by the model linearised about the fit.
+    One run for each number; the estimates are those of the model linearised about the fit.
     """
-    before = float(np.sum(fitted.residuals(fitted.point) ** 2))
+    excess = float(np.sum(fitted.residuals(fitted.point) ** 2)) - freedom
     found, runs = [], 0
     for candidate in _candidates(experiment):
         more = replace(experiment, parameters=[*experiment.parameters, candidate], runs={})
@@ -46,9 +45,16 @@ def explanations(
         )
         both = replace(fitted, problem=problem, point=point, slopes=np.c_[fitted.slopes, slopes])
         best = both.least(point)
-        found.append((float(np.sum(both.residuals(best) ** 2)), candidate, float(np.exp(best[-1]))))
-    found = [each for each in found if each[0] - freedom < (1 - EXPLAINED) * (before - freedom)]
-    return runs, sorted(each for each in found if each[0] < min(found)[0] + ALIKE)
+        left, value = float(np.sum(both.residuals(best) ** 2)), float(np.exp(best[-1]))
+        if left - freedom < (1 - EXPLAINED) * excess:
+            found.append((left, candidate, value))
+    return runs, "".join(
+        f"Fitting {candidate.path} too would lower χ² to about {left:.3g}, with "
+        f"{in_si(value, candidate.unit, 2)} or so instead of "
+        f"{in_si(candidate.start, candidate.unit)}. "
+        for left, candidate, value in sorted(found)
+        if left < min(found)[0] + ALIKE
+    )
 
 
 def _candidates(experiment: Experiment) -> Iterator[Parameter]:
