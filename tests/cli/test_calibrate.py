@@ -19,6 +19,7 @@ from tribo.cli.main import tribo as main
 from tribo.config.load import load_case
 from tribo.core.errors import CaseError
 from tribo.study.calibration.measured import read_measurements
+from tribo.study.calibration.quantities import p_words
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 QUICK = ["--set", "grid.cells=24", "--set", "contact.type=winkler"]
@@ -47,9 +48,9 @@ def test_it_prints_estimates_with_intervals_and_what_to_run(done):
     lines = done.stdout.splitlines()
     # Its tables break neither names nor numbers.
     (row,) = (line.split() for line in lines if line.startswith(" bodies.disk.wear.k"))
-    assert " ".join(row) == "bodies.disk.wear.k 7.08e-16 1/Pa 4.25e-16 to 9.91e-16 ±40 % ±50 %"
+    assert " ".join(row) == "bodies.disk.wear.k 7.08e-16 1/Pa 4.25e-16 to 9.91e-16 ±40 %"
     assert max(len(line) for line in lines if line.startswith(" ")) <= 80
-    for words in ("95 % interval", "ball, crown", "balance's resolution dominates"):
+    for words in ("95 % interval", "relative", "ball, crown", "leaves ±50 % open"):
         assert words in done.stdout
     assert lines[-1].startswith("Run it: tribo run weighed_split.toml --set grid.cells=24")
     assert lines[-1].endswith(
@@ -57,20 +58,37 @@ def test_it_prints_estimates_with_intervals_and_what_to_run(done):
     )
 
 
-def test_it_tells_of_each_run_on_stderr(done):
-    assert [line.split(":")[0] for line in done.stderr.splitlines()[:2]] == ["run 1", "run 2"]
+def test_it_tells_of_each_run_on_stderr_and_of_a_misfit_that_falls(done):
+    lines = done.stderr.splitlines()
+    assert [line.split(":")[0] for line in lines[:2]] == ["run 1", "run 2"]
+    misfits = [float(line.split("χ² ")[1].split(",")[0]) for line in lines if "χ²" in line]
+    assert misfits == sorted(misfits, reverse=True)
+    assert len(misfits) < len(lines)
+
+
+def test_narrow_intervals_stay_on_a_line_at_80_columns(capsys):
+    estimate = {"path": "bodies.ball.wear.k", "unit": "1/Pa", "value": 1.8171e-16}
+    estimate |= {"lower": 1.8092e-16, "upper": 1.8251e-16, "held": False, "limited": False}
+    found = SimpleNamespace(level=0.95, runs=5, parameters=pd.DataFrame([estimate]))
+    Console(width=80).print(estimates_table(found))
+    *_, row = (line for line in capsys.readouterr().out.splitlines() if line.strip())
+    assert row.split(maxsplit=3)[3].split() == ["1.8092e-16", "to", "1.8251e-16", "±0.4", "%"]
+
+
+@pytest.mark.parametrize(("p_value", "words"), [(0.0, "p < 1e-6"), (0.0123, "p = 0.012")])
+def test_a_vanishing_p_value_is_a_bound(p_value, words):
+    assert p_words(p_value) == words
 
 
 def test_wide_tables_break_no_value_at_80_columns(capsys):
     """Intervals are broken around "to"."""
     estimate = {"path": "bodies.second_ball.wear.factor", "unit": "1/Pa", "value": 1.234e-15}
-    estimate |= {"lower": 1.111e-16, "upper": 1.357e-14, "resolution_limit": 1.34}
-    estimate |= {"held": False, "limited": False}
+    estimate |= {"lower": 1.111e-16, "upper": 1.357e-14, "held": False, "limited": False}
     found = SimpleNamespace(level=0.95, runs=5, parameters=pd.DataFrame([estimate]))
     Console(width=80).print(estimates_table(found))
     text = capsys.readouterr().out
     assert max(map(len, text.splitlines())) <= 80
-    for whole in (estimate["path"], "1.23e-15 1/Pa", "1.36e-14", "±134 %", "resolution"):
+    for whole in (estimate["path"], "1.23e-15 1/Pa", "1.36e-14", "relative"):
         assert whole in text
 
 

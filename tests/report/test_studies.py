@@ -113,6 +113,14 @@ def test_a_calibration_tells_its_estimates(tmp_path):
     assert (tmp_path / "fit-report.html").stat().st_size < 200_000
 
 
+def test_a_narrow_interval_is_told_with_digits_enough(tmp_path):
+    narrow = ESTIMATE | {"lower": 7.0795e-15, "upper": 7.0805e-15}
+    (tmp_path / "fit.json").write_text(json.dumps(FIT | {"parameters": [narrow]}))
+    tribo.write_report(tmp_path / "fit.json", tmp_path / "report.html")
+    (told,) = answers(tmp_path / "report.html")
+    assert "between 7.0795e-15 and 7.0805e-15 with" in told
+
+
 def test_another_json_file_is_refused(tmp_path):
     (tmp_path / "other.json").write_text("{}")
     with pytest.raises(tribo.CaseError, match="is not what 'tribo calibrate --json' prints"):

@@ -229,7 +229,7 @@ def test_intervals_cover_the_coefficient_as_often_as_they_say(tmp_path):
     random, draws, covered, squares = np.random.default_rng(5), 60, np.zeros(2, int), []
     for _ in range(draws):
         noisy_map = clean + noise * random.standard_normal(clean.shape)
-        observed = block_means(noisy_map, spacing)["measured"].to_numpy()
+        observed = block_means(noisy_map, np.ones(clean.shape), spacing)["measured"].to_numpy()
         drawn = problem.__class__(**{**vars(problem), "observed": observed})
         found = fit(lambda values: here.at(np.log(values)), drawn, experiment.start)
         for i in range(2):
@@ -271,15 +271,17 @@ def test_blocks_leave_out_what_was_not_measured():
     depth = np.arange(50.0 * 50).reshape(50, 50)
     depth[:3, :2] = np.nan
     depth[0, 4] = np.nan
-    blocks = block_means(depth, (2e-6, 1e-6))
+    noise = np.ones(depth.shape)
+    blocks = block_means(depth, noise, (2e-6, 1e-6))
     # Three by three, the last ones two wide.
     assert len(blocks) == 17 * 17
     assert blocks["cells"][0] == (2, 52, 102)
     assert blocks["measured"][0] == pytest.approx(np.mean([2, 52, 102]))
     assert len(blocks["cells"][1]) == 8
+    assert blocks["noise"][1] == pytest.approx(8**-0.5)
     assert blocks[["x_m", "y_m"]].iloc[-1].to_list() == pytest.approx([48e-6, 24e-6])
     assert sum(map(len, blocks["cells"])) == np.isfinite(depth).sum()
-    assert len(block_means(depth[:1], (2e-6, 1e-6))) == 47
+    assert len(block_means(depth[:1], noise[:1], (2e-6, 1e-6))) == 47
 
 
 @pytest.mark.slow

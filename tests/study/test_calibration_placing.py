@@ -10,12 +10,14 @@ from scipy.stats import binom
 from tribo.cli.fitted import data_table
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
+from tribo.core.errors import NumericalError
 from tribo.lab.heights import Heights
 from tribo.simulation.run import Simulation
 from tribo.study.calibration import mapped
 from tribo.study.calibration.calibrate import calibrate
 from tribo.study.calibration.doubts import doubts
 from tribo.study.calibration.experiment import Experiment
+from tribo.study.calibration.map_notes import off_turn
 from tribo.study.calibration.mapped import calibrate_maps
 from tribo.study.calibration.maps import FittedMaps
 from tribo.study.calibration.measured import MapEntry
@@ -114,13 +116,16 @@ def test_missing_pixels_change_neither_the_coefficient_nor_the_misfit(fitted):
 
 def test_swapped_axes_are_named(fitted):
     assert fitted().notes == ()
-    assert any("has its axes swapped" in note for note in fitted(swapped=True).notes)
+    notes = fitted(swapped=True).notes
+    assert notes[0].startswith("the depth_map of 'ball' fits far better with its axes swapped (x g")
+    assert not any("too would lower" in note for note in notes)
 
 
 def test_the_coefficient_that_is_not_fitted_and_wrong_is_named(fitted):
     wrong = fitted(case=apply_settings(CASE, {DISK_K: 3 * TRUE}))
-    (note,) = (note for note in wrong.notes if note.startswith(f"{DISK_K} is not fitted"))
-    assert float(note.split()[-1]) == pytest.approx(fitted().chi_square, rel=0.2)
+    (note,) = (note for note in wrong.notes if f"Fitting {DISK_K} too would lower" in note)
+    left = float(note.split("χ² to about ")[1].split(",")[0])
+    assert left == pytest.approx(fitted().chi_square, rel=0.2)
     assert not any("try grid.cells" in each for each in wrong.notes)
 
 
@@ -137,6 +142,46 @@ def test_a_wrong_pitch_is_named(fitted, pitch):
     (note,) = (note for note in fitted(pitch=pitch).notes if "check pitch" in note)
     off = 0.015 if abs(pitch - 1) < 0.1 else 0.2
     assert float(note.split(" times")[0].split()[-1]) == pytest.approx(pitch, abs=off)
+
+
+def test_the_pitch_comes_first_where_it_fails_a_fit(worn, tmp_path):
+    np.save(tmp_path / "map.npy", 6 * worn)
+    entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "map.npy")}
+    entry |= {"pitch": 3 * PITCH, "uncertainty": NOISE}
+    with pytest.raises(NumericalError, match=r"^check pitch; run .* reached the edge of the win"):
+        calibrate(CASE, {"measured": [entry], "fit": [{"path": K}]})
+
+
+@pytest.mark.parametrize(
+    ("turned", "way"),
+    [(np.transpose, "with its axes swapped"), (np.flipud, "mirrored along"), (None, "")],
+)
+def test_a_map_whose_axes_are_swapped_or_mirrored_is_named(worn, turned, way):
+    """A scar longer on one side, as of a tilted pin."""
+    depth = worn.reshape(32, 4, 32, 4).mean(axis=(1, 3))
+    depth[:16] *= 0.8
+    noisy = depth + NOISE * np.random.default_rng(0).standard_normal(depth.shape)
+    # Where half of it is missing, the other half tells nothing of how it is turned.
+    half = np.where(np.indices(noisy.shape)[0] < 16, np.nan, noisy)
+    assert not [*off_turn("it", half, depth)]
+    told = "".join(off_turn("it", noisy if turned is None else turned(noisy), depth))
+    assert told.startswith(f"it fits far better {way}" if way else "")
+    assert bool(told) == bool(way)
+
+
+@pytest.mark.parametrize("factor", [1, 5])
+@pytest.mark.parametrize("cells", [16, 32])
+def test_uncertainties_that_are_too_large_are_told(worn, tmp_path, cells, factor):
+    """But not what the grid adds to them."""
+    noise = 4 * NOISE * np.random.default_rng(0).standard_normal(worn.shape)
+    np.save(tmp_path / "map.npy", worn + noise)
+    entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "map.npy")}
+    entry |= {"pitch": PITCH, "uncertainty": factor * NOISE * cells / 32}
+    coarse = apply_settings(CASE, {"grid.cells": cells})
+    found = calibrate(coarse, {"measured": [entry], "fit": [{"path": K}]})
+    assert found.p_value > 0.999
+    told = any("the uncertainties are too large" in note for note in found.notes)
+    assert told == (factor > 1)
 
 
 def profile_fitted(worn, cells, shift=0.0, seed=None):
@@ -225,8 +270,8 @@ def test_where_the_scar_outgrows_the_window_the_pitch_is_doubted(worn, tmp_path)
     entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "map.npy")}
     experiment = Experiment.of(CASE, {"measured": [entry | {"pitch": PITCH, "uncertainty": NOISE}]})
     edge = "the contact reached the edge of the window of 1 × 1 mm; make grid.size larger"
-    assert list(doubts(experiment, edge)) == ["or check pitch"]
-    assert list(doubts(experiment, "the estimates have not settled")) == ["or check pitch"]
+    assert list(doubts(experiment, edge)) == ["check pitch"]
+    assert list(doubts(experiment, "the estimates have not settled")) == ["check pitch"]
     assert list(doubts(experiment, "another reason")) == []
 
 

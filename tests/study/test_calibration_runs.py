@@ -7,8 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from calibrations import cheap, kept_runs, on_springs
+from rich.console import Console
 from scipy.stats import norm
 
+from tribo.cli.fitted import predictions_table
 from tribo.closed_forms.ball_on_track import ball_on_track
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
@@ -343,6 +345,27 @@ def test_a_misfit_beside_a_body_that_does_not_wear_is_told():
     assert not any("is not fitted" in note for note in found.notes)
 
 
+def test_a_wrong_number_that_is_not_fitted_is_named():
+    """The disk's coefficient, a third of the case's, which changes the ball's shape a little."""
+    at = np.linspace(-0.3e-3, 0.3e-3, 21)
+    with run_with(**{DISK_K: DISK / 3, "grid.cells": 64}) as other:
+        depths = np.interp(at, other.grid.y, profile(other.body("ball").wear_depth[-1], 1))
+    entry = {"body": "ball", "quantity": "profile_across", "uncertainty": "5 nm"}
+    entry |= {"position": at.tolist(), "value": depths.tolist()}
+    found = calibrate(CASE, {"measured": [entry]})
+    (note,) = (note for note in found.notes if "data and model disagree" in note)
+    assert f"Fitting {DISK_K} too would lower χ² to about" in note
+    assert "try grid.cells" not in note
+    # The disk's loss is that of its coefficient, which is the case's.
+    loss = found.predictions.query("body == 'disk' and quantity == 'mass'").iloc[0]
+    assert loss["lower"] == loss["value"] == loss["upper"]
+    console = Console(width=80, record=True)
+    console.print(predictions_table(found))
+    assert "disk, mass" in (text := console.export_text())
+    assert "not fitted" in text
+    assert "±0.0 %" not in text
+
+
 def test_a_failing_run_says_with_what_and_what_may_be_off():
     data = [measured("ball", "mass", 50 * mass(BALL))]
     with pytest.raises(NumericalError, match="reached the edge of the window") as caught:
@@ -354,7 +377,7 @@ def test_a_failing_run_says_with_what_and_what_may_be_off():
 def test_a_stop_by_depth_is_named_where_a_fit_fails():
     """The ball's loss at that depth is the same whatever its coefficient."""
     stopped = apply_settings(CASE, {"stop.depth": "0.1 um", "stop.body": "ball"})
-    with pytest.raises((CaseError, NumericalError), match=r"; or leave out stop\.depth: it ends"):
+    with pytest.raises((CaseError, NumericalError), match=r"^leave out stop\.depth: it ends"):
         calibrate(stopped, {"measured": [measured("ball", "depth", 2e-7)], "fit": fitting(BALL_K)})
 
 

@@ -16,14 +16,12 @@ from tribo.core.words import signed
 from tribo.study.calibration.calibrate import Calibration
 from tribo.study.calibration.choice import Choice
 from tribo.study.calibration.plan import Plan
-from tribo.study.calibration.quantities import digits_of, in_si, in_words, percent
+from tribo.study.calibration.quantities import digits_of, in_si, in_words, p_words, percent
 
 FAR = 10.0
 """Ratio of an interval's end to the value above which no percentage is printed."""
 BLIND = 0.2
 """Singular value of the Jacobian below which a combination of parameters is unknown."""
-TINY = 1e-6
-"""p-value below which only that is printed."""
 LONGEST_NAME = 30
 """Characters of a name that fit in a table of 80 columns."""
 
@@ -101,25 +99,24 @@ def _table(title: str, names: list[str], *columns: str) -> Table:
 def estimates_table(found: Calibration) -> Table:
     """Return the parameters with their intervals."""
     names, level = list(found.parameters["path"]), f"{100 * found.level:g} % interval"
-    columns = ["estimate", level, "relative", "resolution"]
+    columns = ["estimate", level, "relative"]
     if is_sampled := "sampled_lower" in found.parameters:
         columns.append("sampled interval")
     table = _table(f"Fitted in {found.runs} runs", names, *columns)
     for each in found.parameters.itertuples():
         digits = digits_of(each.lower, each.upper)
         ends, relative = _interval(each, f"{each.lower:.{digits}g}", f"{each.upper:.{digits}g}")
-        resolution = f"±{percent(each.resolution_limit)} %" if each.resolution_limit else ""
         if each.held:
             ends = "held by its bound"
         value = in_si(each.value, each.unit, digits)
         if each.limited:
             value, ends = f"below {in_si(each.upper, each.unit)}", "upper bound"
         if each.held or each.limited or math.isinf(each.upper):
-            relative = resolution = ""
+            relative = ""
         more = []
         if is_sampled:
             more = [f"{each.sampled_lower:.{digits}g} to {each.sampled_upper:.{digits}g}"]
-        table.add_row(each.path, value, ends, relative, resolution, *more)
+        table.add_row(each.path, value, ends, relative, *more)
     return table
 
 
@@ -156,11 +153,10 @@ def predictions_table(found: Calibration) -> Table:
 def fit_sentences(found: Calibration) -> Iterator[str]:
     """Return sentences on the goodness of fit, the repeatability and the correlations."""
     if found.p_value is not None:
-        freedom, p = found.degrees_of_freedom, found.p_value
-        chance = f"p = {p:.2g}" if p > TINY else f"p < {TINY:g}"
+        freedom = found.degrees_of_freedom
         yield (
             f"χ² {found.chi_square:.3g} with {freedom} degree{'s' * (freedom != 1)} of freedom, "
-            f"{chance}."
+            f"{p_words(found.p_value)}."
         )
     if found.repeatability or found.repeatability_estimated:
         how = "estimated" if found.repeatability_estimated else "as stated"
@@ -206,6 +202,8 @@ def _name(row: Any) -> str:
 
 def _interval(row: Any, low: str, high: str) -> tuple[str, str]:
     """Return the interval of a row, and the same relative to the value unless it is open."""
+    if row.lower == row.upper:
+        return "not fitted", ""
     if math.isinf(row.upper):
         return f"{low} to open" if row.lower else "open", ""
     if row.upper > FAR * row.value:

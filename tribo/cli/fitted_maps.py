@@ -15,6 +15,7 @@ from tribo.cli.console import Console, titled
 from tribo.core.errors import CaseError
 from tribo.core.files import check_folder
 from tribo.study.calibration.maps import SILENT, FittedMaps, LocalMap
+from tribo.study.calibration.quantities import p_words
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -75,7 +76,12 @@ def maps_table(found: FittedMaps, level: float) -> Table:
     for column in ("told", "factor there", f"below 1 at {100 * level:g} %", "above 1"):
         table.add_column(column, justify="right")
     for name, each in found.maps.items():
-        _row(table, name, each, level)
+        told, (lower, upper) = each.told, each.interval(level)
+        ends = each.factor[told] if np.any(told) else np.ones(1)
+        counts = told, told & (upper < 1), told & (lower > 1)
+        cells, *differ = (f"{np.sum(count)} cells" for count in counts)
+        there = f"{ends.min():.2f} to {ends.max():.2f}"
+        table.add_row(name, f"{cells} of {told.size}", there, *differ)
     return table
 
 
@@ -83,7 +89,7 @@ def fit_words(found: FittedMaps) -> str:
     """Return the goodness of fit in a sentence."""
     return (
         f"χ² {found.chi_square:.4g} with {found.degrees_of_freedom:.4g} degrees of freedom, "
-        f"p = {found.p_value:.2g}. A cell is told where less than {SILENT:g} of the prior's "
+        f"{p_words(found.p_value)}. A cell is told where less than {SILENT:g} of the prior's "
         "standard deviation is left."
     )
 
@@ -95,16 +101,6 @@ def print_maps(found: FittedMaps, level: float) -> None:
     console.print(fit_words(found), markup=False)
     for note in found.notes:
         console.print(f"Note: {note}", markup=False)
-
-
-def _row(table: Table, name: str, each: LocalMap, level: float) -> None:
-    told, (lower, upper) = each.told, each.interval(level)
-    ends = each.factor[told] if np.any(told) else np.ones(1)
-    counts = [np.sum(told), np.sum(told & (upper < 1)), np.sum(told & (lower > 1))]
-    cells = [f"{count} cells" for count in counts]
-    table.add_row(
-        name, f"{cells[0]} of {told.size}", f"{ends.min():.2f} to {ends.max():.2f}", *cells[1:]
-    )
 
 
 def map_pictures(found: FittedMaps) -> dict[str, Callable[[], Figure]]:
@@ -123,12 +119,13 @@ def map_pictures(found: FittedMaps) -> dict[str, Callable[[], Figure]]:
 
 def check_free(output: Path | None, force: bool) -> None:
     """Check that an output is a new NumPy archive; CaseError if it is not."""
-    if output is not None and output.suffix != ".npz":
+    if output is None:
+        return
+    if output.suffix != ".npz":
         raise CaseError(f"{output}: maps are written as a NumPy archive; name it {output.stem}.npz")
-    if output is not None and output.exists() and not force:
+    if output.exists() and not force:
         raise CaseError(f"{output} exists; choose another name, or replace it with --force")
-    if output is not None:
-        check_folder(output)
+    check_folder(output)
 
 
 def write_maps(found: FittedMaps, level: float, output: Path) -> None:

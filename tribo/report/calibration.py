@@ -27,7 +27,7 @@ from tribo.report.result import CITATION, facts
 from tribo.report.tables import for_page
 from tribo.result.provenance import environment
 from tribo.study.calibration.calibrate import DATA, Calibration
-from tribo.study.calibration.quantities import in_si
+from tribo.study.calibration.quantities import digits_of, in_si
 
 
 def calibration_file_page(path: Path) -> str:
@@ -108,8 +108,10 @@ def _answers(found: Calibration) -> Iterator[str]:
         elif math.isinf(each.upper):
             yield f"{words}; the data do not bound it."
         else:
+            digits = digits_of(each.lower, each.upper)
             yield (
-                f"{words}, between {each.lower:.3g} and {each.upper:.3g} with a probability of "
+                f"{each.path} is {in_si(each.value, each.unit, digits)}, between "
+                f"{each.lower:.{digits}g} and {each.upper:.{digits}g} with a probability of "
                 f"{100 * found.level:g} %."
             )
 

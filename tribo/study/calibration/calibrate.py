@@ -31,7 +31,7 @@ from tribo.study.calibration.quantities import (
     plain,
 )
 from tribo.study.calibration.sample import check_sampling, sampled
-from tribo.study.calibration.unfitted import unfitted
+from tribo.study.calibration.unfitted import explanations
 
 DATA = ["test", "body", "quantity", "time_s", "position_m", "place", "unit"]
 DATA += ["measured", "below", "sigma", "computed", "residual"]
@@ -70,9 +70,9 @@ class Calibration:
     the map, `shift_x_m` and `shift_y_m`."""
     predictions: pd.DataFrame
     """Other quantities of the fitted case at the end of each test: `test`, `body`, `quantity`,
-    `unit`, `value`, `lower`, `upper`; 0 and infinite if it depends on a parameter held by a bound.
-    For a parameter that is `limited` the case is run at its upper bound. Where tests scatter, the
-    interval is that of the mean."""
+    `unit`, `value`, `lower`, `upper`; these equal where nothing fitted changes it, 0 and infinite
+    if it depends on a parameter held by a bound. For a parameter that is `limited` the case is run
+    at its upper bound. Where tests scatter, the interval is that of the mean."""
     chi_square: float
     """Sum of squared weighted residuals, without limits of detection."""
     degrees_of_freedom: int
@@ -157,7 +157,8 @@ def calibrate(
     on_fit : callable, optional
         Called with the fit before sampling, which takes long and may be interrupted.
     on_run : callable, optional
-        Called after each round of runs with the number of runs and their χ².
+        Called after each round of runs with the number of runs and their χ²; NaN where it is not
+        the least so far.
 
     Returns
     -------
@@ -192,10 +193,14 @@ def calibrate(
     # Correlated errors of a map scale with its depth, which is known near the estimate only.
     problem = experiment.problem(experiment.start).without_common()
 
+    least = math.inf
+
     def responses(values: Array) -> Array:
         found = experiment.run(values).responses
-        misfit = problem.residuals(found, problem.weights())
-        on_run(experiment.run_count, float(np.sum(misfit**2)))
+        misfit = float(np.sum(problem.residuals(found, problem.weights()) ** 2))
+        nonlocal least
+        on_run(experiment.run_count, misfit if misfit < least else math.nan)
+        least = min(least, misfit)
         return found
 
     try:
@@ -207,7 +212,7 @@ def calibrate(
             estimate = np.where(fitted.limited(), experiment.start, estimate)
             fitted = fit(responses, problem, estimate)
     except (CaseError, NumericalError) as error:
-        words = [str(error), *doubts(experiment, str(error))]
+        words = [*doubts(experiment, str(error)), str(error)]
         if far:
             words.append(f"or is a measured value off? {'; '.join(far)}")
         if len(words) == 1:
@@ -249,23 +254,23 @@ def _outcome(fitted: Linearised, experiment: Experiment, level: float) -> Calibr
     moved = sum(bool(far) for each in experiment.shifts.values() for far in each.shift)
     freedom = max(int(np.sum(~problem.below)) - int(np.sum(determined & ~held)) - moved, 0)
     predictions = _predictions(fitted, experiment, estimates, level)
-    tested = None if problem.repeatability is None else freedom
-    explained = [*unfitted(fitted, experiment, freedom)] if disagrees(chi_square, tested) else []
+    scatters = problem.repeatability is None
+    disagree = not scatters and disagrees(chi_square, freedom)
+    tried, explained = explanations(fitted, experiment, freedom) if disagree else (0, "")
     return Calibration(
         level=level,
-        runs=experiment.run_count,
+        runs=experiment.run_count + tried,
         parameters=estimates,
         data=data[DATA + PLACE if "x_m" in data else DATA],
         predictions=predictions,
         chi_square=chi_square,
         degrees_of_freedom=freedom,
         repeatability=fitted.repeatability,
-        repeatability_estimated=problem.repeatability is None,
+        repeatability_estimated=scatters,
         fitted={each.name: apply_settings(each.case, settled) for each in experiment.setups},
         correlation=root @ root.T / np.outer(deviations, deviations),
         singular_values=np.asarray(np.linalg.svd(jacobian, compute_uv=False), dtype=np.float64),
-        bic=fitted.deviance(fitted.point)
-        + (len(held) + (problem.repeatability is None)) * math.log(len(data)),
+        bic=fitted.deviance(fitted.point) + (len(held) + scatters) * math.log(len(data)),
         left_out=fitted.left_out(),
         notes=(
             *map_notes(fitted, experiment),
@@ -273,7 +278,7 @@ def _outcome(fitted: Linearised, experiment: Experiment, level: float) -> Calibr
                 estimates,
                 data,
                 jacobian,
-                tested,
+                None if scatters else freedom,
                 min(setup.model.grid.cells[1] for setup in experiment.setups),
                 explained,
             ),
@@ -305,8 +310,9 @@ def _predictions(
         if not positive[i]:
             continue
         value, ends = float(fitted.responses[i]), (0.0, math.inf)
-        slopes = np.where(limited, 0.0, fitted.slopes[i])
-        if not np.any(np.abs(slopes[held]) > ABOVE_ROUNDING):
+        follows = np.abs(fitted.slopes[i]) > ABOVE_ROUNDING
+        slopes = np.where(limited | ~follows, 0.0, fitted.slopes[i])
+        if not np.any(follows & held):
             known = value * np.expm1(interval(fitted, slopes, level))
             to_bounds = [float(found[i]) - value for found in at_bounds]
             ends = _ends(value, (*known, -by_grid[i], by_grid[i], *to_bounds))

@@ -37,11 +37,11 @@ def surface_shape(model: Model, body: str) -> tuple[int, int]:
     return model.exposures[body].rows, model.grid.cells[1]
 
 
-def block_means(depth: Array, spacing: tuple[float, float]) -> pd.DataFrame:
+def block_means(depth: Array, noise: Array, spacing: tuple[float, float]) -> pd.DataFrame:
     """Return the mean of a map over equal blocks of cells, 600 at most, one row each.
 
-    `measured` is the mean, `x_m` and `y_m` its position, and `cells` the flat indices of the cells
-    that were measured.
+    `measured` is the mean, `x_m` and `y_m` its position, `cells` the flat indices of the cells
+    that were measured, and `noise` its standard deviation; for depths and noise of `on_cells`.
     """
     side = 1
     while np.prod(-(-np.array(depth.shape) // side)) > MOST_BLOCKS:
@@ -51,6 +51,7 @@ def block_means(depth: Array, spacing: tuple[float, float]) -> pd.DataFrame:
     known = pd.DataFrame(
         {
             "measured": depth.ravel(),
+            "noise": noise.ravel() ** 2,
             "x_m": spacing[0] * (i - 0.5 * (rows - 1)),
             "y_m": spacing[1] * (j - 0.5 * (ny - 1)),
             "cells": cells,
@@ -58,7 +59,8 @@ def block_means(depth: Array, spacing: tuple[float, float]) -> pd.DataFrame:
         }
     ).dropna()
     blocks = known.groupby("block")
-    means = blocks[["measured", "x_m", "y_m"]].mean()
+    means = blocks[["measured", "noise", "x_m", "y_m"]].mean()
+    means["noise"] = (means["noise"] / blocks.size()) ** 0.5
     return means.assign(cells=blocks["cells"].agg(tuple)).reset_index(drop=True)
 
 
@@ -84,12 +86,13 @@ def on_cells(
     shape: tuple[int, int],
     spacing: tuple[float, float],
     shift: tuple[float, float] = (0.0, 0.0),
-) -> Array:
+) -> tuple[Array, Array]:
     """Return the mean of a map over each cell of a surface, weighted by shared area.
 
     The point at `shift` from the middle of the map, in m, lies on the middle of the surface.
     Missing pixels are interpolated, but for a track. NaN in cells of which less than half was
-    measured, or that have a part in a larger hole.
+    measured, or that have a part in a larger hole. Also the noise of each relative to that of a
+    cell without missing pixels, 1 where NaN.
     """
     averaged = shape[0] == 1
     cell = heights.heights.shape[0] * heights.pitch[0] if averaged else spacing[0], spacing[1]
@@ -123,7 +126,8 @@ def on_cells(
     )
     total = in_x @ pixels @ in_y.T
     total = total + offset_x @ slopes[0] @ in_y.T + in_x @ slopes[1] @ offset_y.T
-    enough = in_x @ known @ in_y.T >= COVERED * cell[0] * cell[1]
+    measured = in_x @ known @ in_y.T
+    enough = measured >= COVERED * cell[0] * cell[1]
     if not averaged:
         in_holes = in_x @ binary_opening(~known, np.ones((3, 3))) @ in_y.T
         enough &= in_holes <= HOLES * cell[0] * cell[1]
@@ -134,7 +138,7 @@ def on_cells(
             "it does not lie on the window: its middle is taken as the contact's; check pitch, "
             f"{1e6 * heights.pitch[0]:g} × {1e6 * heights.pitch[1]:g} µm"
         )
-    return np.asarray(found)
+    return found, np.sqrt(cell[0] * cell[1] / np.where(enough, measured, cell[0] * cell[1]))
 
 
 def _has_swapped_axes(depth: Array, known: Mask) -> bool:

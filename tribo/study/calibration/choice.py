@@ -18,7 +18,7 @@ from tribo.study.calibration.calibrate import Calibration, calibrate
 from tribo.study.calibration.measured import Measurements, read_measurements
 from tribo.study.calibration.notes import UNLIKELY
 from tribo.study.calibration.parameters import is_number
-from tribo.study.calibration.quantities import in_words
+from tribo.study.calibration.quantities import in_words, p_words
 
 STRONG = 6.0
 """Difference of the criterion from which on evidence is strong (Kass & Raftery)."""
@@ -135,7 +135,7 @@ def _verdict(rows: pd.DataFrame, found: Mapping[str, Calibration]) -> str:
         )
         p_value = found[best.case].p_value
         if p_value is not None and p_value < UNLIKELY:
-            verdict += f"; yet {best.case} does not describe them either (p = {p_value:.1g})"
+            verdict += f"; yet {best.case} does not describe them either ({p_words(p_value)})"
         return verdict
     names = " and ".join([best.case, *(name for name, _ in doubts)])
     differs = ", ".join(f"{by:.2g}" for _, by in doubts)

@@ -22,17 +22,17 @@ REFUSED = 300.0
 
 
 def doubts(experiment: Experiment, error: str) -> Iterator[str]:
-    """Return other possible reasons of a failed fit."""
+    """Return likely reasons of a failed fit."""
     if any(setup.model.case.stop.depth is not None for setup in experiment.setups):
         yield (
-            "or leave out stop.depth: it ends the run at different times for different coefficients"
+            "leave out stop.depth: it ends the run at different times for different coefficients"
         )
     if REACHED in error or UNSETTLED in error:
         quantities = set(experiment.data["quantity"])
         if DEPTH_MAP in quantities:
-            yield "or check pitch"
+            yield "check pitch"
         if quantities & {*PROFILES}:
-            yield "or check position"
+            yield "check position"
 
 
 def far_off(data: pd.DataFrame, computed: Array, parameters: Sequence[Parameter]) -> list[str]:

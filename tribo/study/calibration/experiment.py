@@ -137,29 +137,32 @@ class Experiment:
             parts.append(rows)
         return replace(self, data=pd.concat(parts, ignore_index=True), shifts=shifts)
 
-    def on_cells(self, reading: int, shift: tuple[float, float]) -> Array:
-        """Return a map on the cells of its surface, in m; 0 for one that is not measured yet."""
+    def on_cells(self, reading: int, shift: tuple[float, float]) -> tuple[Array, Array]:
+        """Return a map on the cells of its surface, in m, and its noise; see `cells.on_cells`.
+
+        0 for one that is not measured yet.
+        """
         row = self.table.loc[reading]
         model = self.setups[row["setup"]].model
         shape = surface_shape(model, row["body"])
         if reading not in self.heights:
-            return np.zeros(shape)
+            return np.zeros(shape), np.ones(shape)
         with located(f"{row['place']}.depth"):
             return on_cells(self.heights[reading], shape, model.grid.spacing, shift)
 
     def _of_map(self, row: pd.DataFrame, shift: tuple[float, float]) -> pd.DataFrame:
         """Return a row of the table for each block of cells of a map."""
         (each,) = row.itertuples()
-        depth = self.on_cells(each.Index, shift)
+        depth, noise = self.on_cells(each.Index, shift)
         if error := data_error(each.entry, depth[np.isfinite(depth)]):
             raise CaseError(error, f"{each.place}.depth")
-        blocks = block_means(depth, self.setups[each.setup].model.grid.spacing)
+        blocks = block_means(depth, noise, self.setups[each.setup].model.grid.spacing)
         if each.entry.depth is None:
             blocks["measured"] = math.nan
         blocks[["shift_x_m", "shift_y_m"]] = shift
         rows = row.loc[row.index.repeat(len(blocks))].reset_index(drop=True).assign(**blocks)
         for name in ("sigma", "step_sigma"):
-            rows[name] /= rows["cells"].map(len) ** 0.5
+            rows[name] *= rows["noise"]
         return rows
 
     def centred(self, values: Array) -> Experiment:

@@ -10,7 +10,7 @@ from scipy.ndimage import affine_transform, binary_dilation
 
 from tribo.core.arrays import Array
 from tribo.core.words import signed
-from tribo.study.calibration.cells import means_over
+from tribo.study.calibration.cells import cell_means, means_over
 from tribo.study.calibration.notes import named
 from tribo.study.calibration.quantities import AXES, DEPTH_SIGMA, PROFILES, WORN
 from tribo.study.calibration.scar_shift import ScarShift, slopes
@@ -29,6 +29,8 @@ FEWEST = 4
 """Values of a median or of a profile's slope."""
 MEDIAN_SIGMA = 1.25
 """Standard deviation of a median, relative to that of a mean."""
+TURNED = 0.25
+"""Squared residuals of a turned map, relative to those of the map, below which it is named."""
 LEAST_STRETCH = 0.01
 """Relative error of a pitch that is reported."""
 EXPLAINED = 0.5
@@ -46,10 +48,11 @@ def map_notes(fitted: Linearised, experiment: Experiment) -> Iterator[str]:
         name = f"the {named(row)}"
         spacing = experiment.setups[row["setup"]].model.grid.spacing
         yield from off_middle(name, found)
-        measured = experiment.on_cells(reading, found.shift)
-        yield from off_level(name, measured, depth, row["sigma"])
-        yield from _off_axes(name, measured, depth, row["sigma"])
-        yield from _off_pitch(name, fitted, experiment, reading, depth, spacing)
+        measured, _ = experiment.on_cells(reading, found.shift)
+        yield from off_turn(name, measured, depth)
+        # A scar of another width reaches beyond the model's.
+        off_pitch = list(_off_pitch(name, fitted, experiment, reading, depth, spacing))
+        yield from off_pitch or off_level(name, measured, depth, row["sigma"])
     yield from _off_profiles(fitted, experiment)
 
 
@@ -64,18 +67,6 @@ def off_middle(name: str, found: ScarShift) -> Iterator[str]:
         yield (
             f"the scar in {name} lies {' and '.join(words)} the sliding direction from the middle "
             "of the map"
-        )
-
-
-def _off_axes(name: str, measured: Array, depth: Array, sigma: float) -> Iterator[str]:
-    """Report a map that the model meets far better with its axes swapped."""
-    if depth.shape[0] != depth.shape[1]:
-        return
-    found, swapped = (np.nanmean((each - depth) ** 2) for each in (measured, measured.T))
-    if found > 2 * sigma**2 and found - swapped > EXPLAINED * (found - sigma**2):
-        yield (
-            f"{name} has its axes swapped, it seems: x, the sliding direction, goes from row to "
-            "row of the map, y along each"
         )
 
 
@@ -101,6 +92,24 @@ def off_level(name: str, measured: Array, depth: Array, sigma: float) -> Iterato
             f"outside the scar {name} lies {1e6 * abs(worst):.2g} µm "
             f"{'above' if worst > 0 else 'below'} 0{where}: level it first, as tribo scar does"
         )
+
+
+def off_turn(name: str, measured: Array, depth: Array) -> Iterator[str]:
+    """Report a map that fits far better with its axes swapped, or mirrored; of whatever scale."""
+    model = cell_means(depth)
+    ways = {
+        "mirrored along the sliding direction": measured[::-1],
+        "mirrored across the sliding direction": measured[:, ::-1],
+    }
+    if measured.shape[0] == measured.shape[1]:
+        ways["with its axes swapped (x goes from row to row, y along each)"] = measured.T
+    for way, turned in ways.items():
+        known = np.isfinite(turned) & np.isfinite(measured)
+        if np.any(model[known] > 0) and 2 * np.sum(known) > np.sum(np.isfinite(measured)):
+            here = model[known] / np.linalg.norm(model[known])
+            own, other = (m @ m - (here @ m) ** 2 for m in (measured[known], turned[known]))
+            if other < TURNED * own:
+                yield f"{name} fits far better {way}: turn it"
 
 
 def _off_profiles(fitted: Linearised, experiment: Experiment) -> Iterator[str]:

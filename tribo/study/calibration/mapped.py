@@ -17,7 +17,7 @@ from tribo.lab.heights import Heights
 from tribo.simulation.march import begin, march
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.cells import on_cells, read_map, surface_shape
-from tribo.study.calibration.map_notes import off_level, off_middle
+from tribo.study.calibration.map_notes import off_level, off_middle, off_turn
 from tribo.study.calibration.maps import FittedMaps, Prior, fit_maps
 from tribo.study.calibration.measured import MapEntry
 from tribo.study.calibration.scar_shift import find_shift
@@ -35,7 +35,7 @@ def calibrate_maps(
     model = Simulation(
         validate_case(case_tables(case)).model_copy(update={"observers": ()}),
     ).model
-    depths: dict[str, tuple[Array, float]] = {}
+    depths: dict[str, tuple[Array, Array | float]] = {}
     priors, remarks = {}, list[str]()
     *_, last = march(model, begin(model))
     clean = View(model, last.state)
@@ -49,9 +49,9 @@ def calibrate_maps(
         heights = read_map(entry.depth, entry.pitch, place)
         shape = surface_shape(model, entry.body)
         with located(f"{place}.depth"):
-            depth = on_cells(heights, shape, model.grid.spacing)
+            depth, noise = on_cells(heights, shape, model.grid.spacing)
         remarks += _remarks(entry, heights, depth, clean.wear(entry.body), model.grid.spacing)
-        depths[entry.body] = depth, entry.uncertainty
+        depths[entry.body] = depth, entry.uncertainty * noise
         priors[entry.body] = Prior(entry.spread, entry.length)
     return replace(fit_maps(model, depths, priors, on_run=on_run), remarks=tuple(remarks))
 
@@ -67,3 +67,4 @@ def _remarks(
         for note in off_middle(name, found):
             yield f"{note}: centre it, unless the coefficient is higher on that side"
     yield from off_level(name, depth, model, entry.uncertainty)
+    yield from off_turn(name, depth, model)

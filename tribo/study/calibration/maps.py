@@ -150,7 +150,7 @@ class FittedMaps:
 
 def fit_maps(
     case: Case | Mapping[str, Any] | str | Path | Model,
-    depths: Mapping[str, tuple[Array, float]],
+    depths: Mapping[str, tuple[Array, Array | float]],
     priors: Mapping[str, Prior],
     *,
     products: int = 60,
@@ -167,8 +167,8 @@ def fit_maps(
     on a coarser grid.
 
     `depths` has, by the name of the body, the mean depth of each cell at the end, in m, of the
-    shape of `View.wear`, NaN where missing, and its standard deviation, to which `edge_sigma` is
-    added. `on_run` is called after each gradient or product with their number and χ², NaN for a
+    shape of `View.wear`, NaN where missing, and their standard deviations, to which `edge_sigma`
+    is added. `on_run` is called after each gradient or product with their number and χ², NaN for a
     product.
     """
     misfits: list[float] = []
@@ -216,7 +216,7 @@ class _Posterior:
     def __init__(
         self,
         model: Model,
-        depths: Mapping[str, tuple[Array, float]],
+        depths: Mapping[str, tuple[Array, Array | float]],
         priors: Mapping[str, Prior],
         tell: Callable[[float], None],
     ) -> None:
@@ -251,8 +251,10 @@ class _Posterior:
             blocks = [n // m for n, m in zip(depth.shape, shape, strict=True)]
             if depth.shape != (shape[0] * blocks[0], shape[1] * blocks[1]):
                 return None
-            split = depth.reshape(shape[0], blocks[0], shape[1], blocks[1])
-            depths[name] = split.mean(axis=(1, 3)), sigma / (blocks[0] * blocks[1]) ** 0.5
+            both = np.array([depth, np.broadcast_to(sigma, depth.shape) ** 2])
+            split = both.reshape(2, shape[0], blocks[0], shape[1], blocks[1])
+            means, variances = split.mean(axis=(2, 4))
+            depths[name] = means, (variances / (blocks[0] * blocks[1])) ** 0.5
         return _Posterior(model, depths, self.priors, self.tell)
 
     def raised(self, coarse: _Posterior, z: Array) -> Array:

@@ -15,6 +15,8 @@ from tribo.study.calibration.quantities import FIELDS, in_si, in_words, percent
 
 UNLIKELY = 0.01
 """p-value below which data and model disagree."""
+TOO_SMALL = 0.001
+"""1 − p above which the data agree with the model better than they may."""
 NEARLY_COLLINEAR = 0.2
 """Singular value of the Jacobian with normalised columns below which parameters are hardly told
 apart: 1 if their effects are orthogonal, 0 if they are the same."""
@@ -34,13 +36,13 @@ def notes(
     jacobian: Array,
     freedom: int | None,
     cells: int,
-    explained: Sequence[str],
+    explained: str,
 ) -> list[str]:
     """Return notes; the Jacobian is of the weighted residuals by the logarithms of the parameters.
 
     The column `alone` of the data has the weighted residuals, independent where tests scatter.
     `freedom` are the degrees of freedom of χ², None where the repeatability is estimated; `cells`
-    are those of the coarsest grid, and `explained` has what explains a misfit.
+    are those of the coarsest grid, `explained` the answer of `explanations`.
     """
     return [
         *_on_parameters(estimates, data, jacobian, freedom),
@@ -111,13 +113,13 @@ def _on_collinearity(paths: Sequence[str], jacobian: Array) -> Iterator[str]:
         )
 
 
-def disagrees(chi_square: float, freedom: int | None) -> bool:
+def disagrees(chi_square: float, freedom: int) -> bool:
     """Whether χ² is too large to be by chance; not where nothing is left to test by."""
-    return bool(freedom and chdtrc(freedom, chi_square) < UNLIKELY)
+    return freedom > 0 and bool(chdtrc(freedom, chi_square) < UNLIKELY)
 
 
 def _on_misfit(
-    data: pd.DataFrame, freedom: int | None, cells: int, explained: Sequence[str]
+    data: pd.DataFrame, freedom: int | None, cells: int, explained: str
 ) -> Iterator[str]:
     if freedom is None:
         return
@@ -128,6 +130,13 @@ def _on_misfit(
         return
     read = data[~data["below"]]
     chi_square = float(np.sum(read["alone"] ** 2))
+    stated = float(np.sum((read["residual"] * read["sigma"] / read["stated"]) ** 2))
+    if chdtrc(freedom, stated) > 1 - TOO_SMALL:
+        yield (
+            f"data and model differ by less than the stated uncertainties: χ² with those alone is "
+            f"{stated:.2g} where about {freedom} is expected; the uncertainties are too large, or "
+            "the data not independent"
+        )
     if disagrees(chi_square, freedom):
         worst = read.loc[read["alone"].abs().idxmax()]
         of_grid = ""
@@ -137,10 +146,9 @@ def _on_misfit(
         yield (
             f"data and model disagree: χ² is {chi_square:.3g} where about {freedom} is expected; "
             f"the {named(worst)} is off by {abs(worst.alone):.3g} times its "
-            "uncertainty. The model leaves something out, or uncertainties are larger than stated"
-            f"{of_grid}; the intervals are then too narrow"
+            f"uncertainty. {explained}The model leaves something out, or uncertainties are larger "
+            f"than stated{of_grid}; the intervals are then too narrow"
         )
-        yield from explained
 
 
 def _on_patterns(data: pd.DataFrame) -> Iterator[str]:

@@ -33,8 +33,6 @@ WORN = 1e-3
 """Part of the largest depth from which on a cell counts as worn."""
 ROUNDING = 1e-9
 """Relative number that is printed as 0 %."""
-POINT = 1e-7
-"""Relative width of an interval below which its ends count as equal."""
 
 
 class WornQuantity(NamedTuple):
@@ -109,9 +107,12 @@ def digits_of(lower: float, upper: float) -> int:
     """Return how many digits of its ends show an interval's half-width to two digits; 3 or more."""
     if not 0 < upper - lower < math.inf:
         return 3
-    if upper - lower < POINT * upper:
-        return 4
     return max(3, 2 + math.floor(math.log10(upper)) - math.floor(math.log10((upper - lower) / 2)))
+
+
+def p_words(p_value: float) -> str:
+    """Return a p-value in words, as ``"p = 0.05"``."""
+    return "p < 1e-6" if p_value < 1e-6 else f"p = {p_value:.2g}"
 
 
 def percent(part: float) -> str:

@@ -63,11 +63,11 @@ def find_shift(
     columns = np.stack([depth, *along.values(), np.ones_like(depth), *ramps], axis=-1)
     shift, cell = np.zeros(2), np.array(spacing)
     axes = list(along)
-    start = _cross_correlated(on_cells(heights, depth.shape, spacing), depth, spacing)
+    start = _cross_correlated(on_cells(heights, depth.shape, spacing)[0], depth, spacing)
     shift[axes] = start[axes]
     for _ in range(_ITERATIONS):
         try:
-            measured = on_cells(heights, depth.shape, spacing, (shift[0], shift[1]))
+            measured, _ = on_cells(heights, depth.shape, spacing, (shift[0], shift[1]))
         except CaseError:
             return ScarShift()
         known = np.isfinite(measured)

@@ -1,8 +1,7 @@
-"""Which wear coefficient that is not fitted would explain a misfit."""
+"""Numbers of a case that are not fitted and would explain a misfit."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -10,45 +9,65 @@ import numpy as np
 
 from tribo.core.errors import CaseError, NumericalError
 from tribo.study.calibration.experiment import Experiment
+from tribo.study.calibration.fit import STEP
 from tribo.study.calibration.linearised import Linearised
-from tribo.study.calibration.parameters import find_parameters
+from tribo.study.calibration.measured import FitEntry
+from tribo.study.calibration.parameters import Parameter, find_parameters
+from tribo.study.calibration.quantities import in_si
 
-STEP = 1.2
-"""Factor on a coefficient between two runs."""
-EXPLAINED = 0.5
-"""Part of the excess of χ² that it must explain."""
+EXPLAINED = 0.9
+"""Part of the excess of χ² that a number must explain."""
+ALIKE = 6.0
+"""Difference of χ² below which numbers explain the data alike."""
 
 
-def unfitted(fitted: Linearised, experiment: Experiment, freedom: int) -> Iterator[str]:
-    """Name the coefficient by which χ² would fall most, if that is half of what is too much.
+def explanations(fitted: Linearised, experiment: Experiment, freedom: int) -> tuple[int, str]:
+    """Return the runs made, and sentences on the numbers that would explain a misfit if fitted.
 
-    By the score test (Rao 1948), with one run for each body whose coefficient is not fitted.
+    One run for each number; the estimates are those of the model linearised about the fit.
     """
-    rows = ~fitted.problem.below
-    residuals, values = fitted.residuals(fitted.point), np.exp(fitted.point)
-    chi_square = float(np.sum(residuals[rows] ** 2))
-    basis = np.linalg.qr(fitted.sensitivity()[rows])[0]
-    cases = [setup.model.case for setup in experiment.setups]
-    falls = {}
-    for name in cases[0].bodies:
+    excess = float(np.sum(fitted.residuals(fitted.point) ** 2)) - freedom
+    found, runs = [], 0
+    for candidate in _candidates(experiment):
+        more = replace(experiment, parameters=[*experiment.parameters, candidate], runs={})
+        point = np.append(fitted.point, np.log(candidate.start))
+        moved = np.exp(point + STEP * (np.arange(len(point)) == len(point) - 1))
         try:
-            more, *others = {find_parameters(case, [], [name])[0] for case in cases}
-            if others or more.path in fitted.problem.names:
-                # The tests have their own, or it is fitted.
-                continue
-            wider = replace(experiment, parameters=[*experiment.parameters, more], runs={})
-            responses = wider.run(np.append(values, STEP * more.start)).responses
+            change = fitted.problem.scaled(more.run(moved).responses)
         except (CaseError, NumericalError):
-            # It has no coefficient above 0, or cannot be run: the fit stands without a reason.
             continue
-        moved = fitted.problem.residuals(responses, fitted.weights)
-        effect = ((moved - residuals) / math.log(STEP))[rows]
-        effect -= basis @ (basis.T @ effect)
-        if (size := float(np.sum(effect**2))) > 0:
-            falls[more.path] = float(np.sum(effect * residuals[rows])) ** 2 / size
-    path = max(falls, key=falls.__getitem__, default="")
-    if path and falls[path] > EXPLAINED * (chi_square - freedom):
-        yield (
-            f"{path} is not fitted, and may be wrong in the case: fitting it too would lower χ² "
-            f"from {chi_square:.3g} to about {max(chi_square - falls[path], 0):.2g}"
+        runs += more.run_count
+        slopes = (change - fitted.problem.scaled(fitted.responses)) / STEP
+        problem = replace(
+            fitted.problem,
+            lower=np.append(fitted.problem.lower, -np.inf),
+            upper=np.append(fitted.problem.upper, np.log(candidate.upper)),
         )
+        both = replace(fitted, problem=problem, point=point, slopes=np.c_[fitted.slopes, slopes])
+        best = both.least(point)
+        left, value = float(np.sum(both.residuals(best) ** 2)), float(np.exp(best[-1]))
+        if left - freedom < (1 - EXPLAINED) * excess:
+            found.append((left, candidate, value))
+    return runs, "".join(
+        f"Fitting {candidate.path} too would lower χ² to about {left:.3g}, with "
+        f"{in_si(value, candidate.unit, 2)} or so instead of "
+        f"{in_si(candidate.start, candidate.unit)}. "
+        for left, candidate, value in sorted(found, key=lambda each: each[0])
+        if left < min(each[0] for each in found) + ALIKE
+    )
+
+
+def _candidates(experiment: Experiment) -> Iterator[Parameter]:
+    """Return the wear coefficients and the load, unless fitted or different between tests."""
+    cases = [setup.model.case for setup in experiment.setups]
+    paths = [*(f"bodies.{name}.wear.k" for name in cases[0].bodies), "load.normal"]
+    for path in paths:
+        if path in (each.path for each in experiment.parameters):
+            continue
+        try:
+            numbers = {find_parameters(case, [FitEntry(path=path)], ())[0] for case in cases}
+        except CaseError:
+            # There is no such number, or it is 0.
+            continue
+        if len(numbers) == 1:
+            yield numbers.pop()
