@@ -40,7 +40,7 @@ def asked(folder, *args):
     for kept in (
         default_registry,
         provenance._code,
-        provenance._distribution,
+        provenance._installed,
         provenance._named_modules,
     ):
         kept.cache_clear()

@@ -49,24 +49,29 @@ def read_variables(file: h5py.File, bodies: tuple[str, ...]) -> dict[str, Variab
     if not {"track_x", TRACK} & file.keys():
         lacking |= {"track_x", TRACK}
     table = {name: variable for name, variable in FIXED.items() if name not in lacking}
-    for name, values in file.items():
+    # Each is looked up in the file once, as that takes long.
+    kept = dict(file.items())
+    for name, values in kept.items():
         if not isinstance(values, h5py.Dataset):
             raise ValueError(f"{name!r} is no variable")
         if "kind" in values.attrs:
             table[name] = _field_of_model(name, values, bodies)
-    named = tuple(file["body"].asstr()[:].tolist())
+    named = tuple(kept["body"].asstr()[:].tolist())
     if named != bodies:
         raise ValueError(
             f"it holds the bodies {', '.join(named)}, but its 'case' has {', '.join(bodies)}"
         )
-    sizes = {dim: file[dim].size for variable in table.values() for dim in variable.dims}
+    dims = {dim for variable in table.values() for dim in variable.dims}
+    sizes = {dim: kept[dim].size for dim in dims}
     if not sizes["x"] * sizes["y"]:
         raise ValueError("it has no cells")
     for name, variable in table.items():
         shape = tuple(sizes[dim] for dim in variable.dims)
-        if file[name].shape != shape or file[name].dtype.kind not in "fiu":
-            kept = f"{file[name].dtype} of shape {file[name].shape}"
-            raise ValueError(f"{name!r} is {kept} instead of real numbers of shape {shape}")
+        has = kept[name].shape, kept[name].dtype
+        if has[0] != shape or has[1].kind not in "fiu":
+            raise ValueError(
+                f"{name!r} is {has[1]} of shape {has[0]} instead of real numbers of shape {shape}"
+            )
     return table
 
 

@@ -88,26 +88,31 @@ def _words(origin: Mapping[str, Any], differing: Sequence[str]) -> str:
 def origin(component: Component) -> dict[str, object]:
     """Return where a component came from and how it is configured, as plain data."""
     cls = type(component)
-    distribution = _distribution(cls.__module__)
-    made: dict[str, object] = {
+    return {
         "type": cls.type,
         "class": f"{cls.__module__}.{cls.__qualname__}",
-        "distribution": "",
-        "version": "",
-        "editable": False,
+        **_installed(cls.__module__),
         # The version says nothing of what is edited in place.
         "code": _code(cls.__module__.split(".")[0]),
         "config": component.model_dump(mode="json"),
         "facts": stated_facts(component),
     }
-    if distribution is not None:
-        source = json.loads(distribution.read_text("direct_url.json") or "{}")
-        made["distribution"] = distribution.name
-        made["version"] = distribution.version
-        made["editable"] = bool(source.get("dir_info", {}).get("editable"))
-        if "vcs_info" in source:
-            made["commit"] = source["vcs_info"].get("commit_id", "")
-    return made
+
+
+@cache
+def _installed(module: str) -> Mapping[str, object]:
+    """Return the distribution that a module came with, its version, and how it was installed."""
+    distribution = _distribution(module)
+    if distribution is None:
+        return {"distribution": "", "version": "", "editable": False}
+    source = json.loads(distribution.read_text("direct_url.json") or "{}")
+    commit = {"commit": source["vcs_info"].get("commit_id", "")} if "vcs_info" in source else {}
+    return {
+        "distribution": distribution.name,
+        "version": distribution.version,
+        "editable": bool(source.get("dir_info", {}).get("editable")),
+        **commit,
+    }
 
 
 @cache
@@ -144,7 +149,6 @@ def _named_modules() -> tuple[tuple[list[str], metadata.Distribution], ...]:
     )
 
 
-@cache
 def _distribution(module: str) -> metadata.Distribution | None:
     """Return the distribution that a module came with."""
     # An editable installation lists no packages, but its entry points name modules. Of
@@ -158,6 +162,7 @@ def _distribution(module: str) -> metadata.Distribution | None:
     return metadata.distribution(names[0]) if names else None
 
 
+@cache
 def _version(distribution: str) -> str:
     try:
         return metadata.version(distribution)
