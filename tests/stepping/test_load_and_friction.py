@@ -294,7 +294,7 @@ class Square(Effect):
         return {"covered": (1 - contact.state["covered"]) * contact.speed / 0.5}
 
     def fields(self, contact):
-        friction = 0.3 + 0.2 * np.sign(np.sin(40 * np.pi * contact.state["covered"]))
+        friction = 0.3 + 0.2 * np.sign(np.sin(12 * np.pi * contact.state["covered"]))
         return {"friction_coefficient": dict.fromkeys(contact.materials, friction)}
 
 
@@ -303,7 +303,7 @@ def test_friction_that_jumps_often_shortens_steps():
     with run(effects=[Square()], **pin(archard())) as result:
         work = result.saves()[-1]["friction_energy_J"]
     slid = np.linspace(0, 2, 2_000_001)
-    friction = 0.3 + 0.2 * np.sign(np.sin(40 * np.pi * -np.expm1(-slid / 0.5)))
+    friction = 0.3 + 0.2 * np.sign(np.sin(12 * np.pi * -np.expm1(-slid / 0.5)))
     assert work == pytest.approx(100 * 2 * np.mean(friction), rel=1e-2)
 
 

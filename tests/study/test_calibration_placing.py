@@ -97,7 +97,7 @@ def test_a_map_in_its_middle_is_left_there(fitted):
 @pytest.mark.slow
 def test_intervals_cover_the_coefficient_wherever_the_map_has_its_scar(fitted):
     """The noise puts the coefficient off by as much as the grid does."""
-    random, draws = np.random.default_rng(1), 12
+    random, draws = np.random.default_rng(1), 6
     covered = sum(
         covers(fitted(random.uniform(-60e-6, 60e-6, 2), noise=200e-9, seed=i)) for i in range(draws)
     )
@@ -208,7 +208,7 @@ def test_a_shifted_profile_is_named(worn, shift):
 
 @pytest.mark.slow
 def test_a_profile_in_its_place_is_not_named(worn):
-    found = [profile_fitted(worn, 32, seed=seed) for seed in range(12)]
+    found = [profile_fitted(worn, 32, seed=seed) for seed in range(4)]
     assert not any("position 0" in note for each in found for note in each.notes)
 
 
@@ -237,7 +237,7 @@ def test_a_profile_is_met_on_a_coarse_grid(worn, cells):
     assert found.settings[K] == pytest.approx(TRUE, rel=0.005, abs=0)
 
 
-@pytest.mark.parametrize("cells", [16, 20, 24])
+@pytest.mark.parametrize("cells", [16, 24])
 def test_an_exact_map_is_met_on_coarse_grids(cells, tmp_path):
     """Of another test, on a half-space, made on 160 cells across the window."""
     case = on_springs("pin_on_disk", {"grid": {"size": "1.4 mm", "cells": cells}})
