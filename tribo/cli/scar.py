@@ -109,11 +109,11 @@ def _surface(text: str) -> Surface:
     return surface
 
 
-def _width(width: float | None) -> float | str:
-    """Return a width of the table, in mm."""
-    if width is None:
-        return "cut off"
-    return "whole map" if math.isinf(width) else 1e3 * width
+def _width(width: float | None, uncertainty: float | None) -> tuple[float | str, float | None]:
+    """Return a width and its uncertainty as the table has them, in mm."""
+    if width is None or uncertainty is None:
+        return "cut off", None
+    return ("whole map", None) if math.isinf(width) else (1e3 * width, 1e3 * uncertainty)
 
 
 def _print(found: MeasuredScar) -> None:
@@ -125,8 +125,8 @@ def _print(found: MeasuredScar) -> None:
     rows: list[tuple[str, float | str | None, float | None]] = [
         ("volume in the map, mm³", 1e9 * found.volume, 1e9 * found.volume_uncertainty),
         ("largest depth, µm", 1e6 * found.depth, 1e6 * found.depth_uncertainty),
-        ("along sliding, mm", _width(found.along), None),
-        ("across, mm", _width(found.across), None),
+        ("along sliding, mm", *_width(found.along, found.along_uncertainty)),
+        ("across, mm", *_width(found.across, found.across_uncertainty)),
         ("mean section, mm²", None if found.section is None else 1e6 * found.section, None),
         ("piled up, mm³", 1e9 * found.piled_up or None, None),
         ("missing in it, %", 100 * found.missing or None, None),
@@ -139,16 +139,16 @@ def _print(found: MeasuredScar) -> None:
     if found.inferred:
         console.print(inferred_table(found.inferred))
     moves = [
-        (f"shifted by {1e6 * shift:.3g} ± {1e6 * sure:.2g} µm along {axis}", sure)
+        (f"{-1e6 * shift:+.3g} ± {1e6 * sure:.2g} µm along {axis}", sure)
         for axis, shift, sure in zip("xy", laid.shift, laid.shift_uncertainty, strict=True)
     ]
-    turn, sure = 1e3 * laid.rotation, 1e3 * laid.rotation_uncertainty
-    moves.append((f"turned by {turn:.3g} ± {sure:.2g} mrad", sure))
+    turn, sure = -1e3 * laid.rotation, 1e3 * laid.rotation_uncertainty
+    moves.append((f"turned by {turn:+.3g} ± {sure:.2g} mrad", sure))
     told = [words for words, sure in moves if math.isfinite(sure)]
     names = ("shift along x", "shift along y", "rotation")
     untold = [name for name, (_, sure) in zip(names, moves, strict=True) if math.isinf(sure)]
     if told:
-        console.print(f"The map after is {', '.join(told)}, and levelled.", markup=False)
+        console.print(f"In the map after all lies {', '.join(told)}.", markup=False)
     if untold:
-        console.print(f"The maps have too little relief to tell the {' and '.join(untold)}.")
+        console.print(f"The unworn surface does not tell the {' and '.join(untold)}.")
     console.print(f"Noise of the unworn difference {1e9 * laid.noise:.3g} nm.", markup=False)

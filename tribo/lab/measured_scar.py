@@ -18,6 +18,7 @@ from tribo.lab.registration import Registration, register
 from tribo.lab.roughness import without_form
 from tribo.lab.scar import Scar
 from tribo.lab.track import circular_groove_area, planimetric_volume, reciprocating_track_volume
+from tribo.lab.widths import Width, scar_width, track_across
 from tribo.surfaces.surface import Surface
 
 DEEP = 4.0
@@ -26,8 +27,10 @@ MOST = 0.65
 """Part of the map that a scar may cover, with its margin."""
 SPOT = 0.1
 """Part of the largest scar's volume below which a worn area is left out."""
-LEVELS = 0.3, 0.5
-"""Parts of the largest depth at which the width is read."""
+SURE = 0.3
+"""Part of the largest depth from which on a pixel tells the shape of the worn surface."""
+FEWEST_OF_BOTTOM = 12
+"""Pixels that a paraboloid is fitted to at least."""
 BOTTOM = 0.8
 """Part of the largest depth from which on a pixel is of the bottom of the scar."""
 ZEROS = 10
@@ -37,6 +40,10 @@ EDGE = 0.05
 """Part of the largest depth from which on a scar is cut off by the edge of the map."""
 ALONG = 0.1
 """Part of its length that a track may run along the edge of the map."""
+CURVED = 20.0
+"""Sag of the map, relative to its relief, from which on the radius of its surface is known."""
+RADIUS_OFF = 0.05
+"""Relative difference of a radius that is told."""
 MARGIN = 4
 """Pixels added around the scar, by which smoothing widens it."""
 
@@ -62,10 +69,15 @@ class MeasuredScar:
     along, across : float
         Widths along and across the sliding direction, in m; infinite for a track, which reaches
         both edges of the map, and None for a scar that is cut off.
+    along_uncertainty, across_uncertainty : float
+        Standard uncertainties of these, by noise and by how far the edge is from a parabola.
     cut_off : bool
         Whether the scar goes on beyond the edge of the map, other than at the ends of a track.
     missing : float
         Part of the scar's pixels that are missing; their depth is interpolated.
+    track_volume : float or None
+        Of the whole track, its mean section times its length (ASTM G133, D7755), in m³; None for a
+        scar that ends within the map.
     inferred : tuple of InferredVolume
         Volumes by formulas, and their difference from the measured one.
     """
@@ -79,9 +91,12 @@ class MeasuredScar:
     depth: float
     depth_uncertainty: float
     along: float | None
+    along_uncertainty: float | None
     across: float | None
+    across_uncertainty: float | None
     cut_off: bool
     missing: float
+    track_volume: float | None
     inferred: tuple[InferredVolume, ...]
 
     @property
@@ -112,13 +127,19 @@ class MeasuredScar:
             "depth_m": self.depth,
             "depth_uncertainty_m": self.depth_uncertainty,
             "along_m": self.along,
+            "along_uncertainty_m": self.along_uncertainty,
             "across_m": self.across,
+            "across_uncertainty_m": self.across_uncertainty,
             "is_track": self.is_track,
             "cut_off": self.cut_off,
             "section_m2": self.section,
+            "track_volume_m3": self.track_volume,
             "missing": self.missing,
             "noise_m": found.noise,
-            "shift_m": list(found.shift),
+            "shift_m": [
+                shift if math.isfinite(sure) else None
+                for shift, sure in zip(found.shift, found.shift_uncertainty, strict=True)
+            ],
             "shift_uncertainty_m": list(found.shift_uncertainty),
             "rotation_rad": found.rotation,
             "rotation_uncertainty_rad": found.rotation_uncertainty,
@@ -163,6 +184,7 @@ def measured_scar(
     """
     if form not in (1, 2):
         raise CaseError(f"form is 1 (a tilt) or 2 (a curvature as well), not {form}", "form")
+    ideal = isinstance(before, Surface)
     if isinstance(before, Surface):
         try:
             before = Heights(before.height(after.grid), after.pitch)
@@ -189,21 +211,36 @@ def measured_scar(
     noise = max(float(np.std(smooth[sides])), 1e-300) if sides.any() else found.noise
     core = _largest(smooth, smooth > DEEP * noise)
     if not core.any():
-        why = "if there is a scar it fills the map, or the map before is another's"
+        shape_before = "the shape given" if ideal else "the map before"
+        why = f"if over half of the map is worn, measure a larger area; or check {shape_before}"
         if _largest(-smooth, -smooth > DEEP * noise).any():
             why = "but some of it stands up; is the map after the test given first?"
         raise CaseError(
-            f"nothing is worn {1e9 * DEEP * noise:.3g} nm deep, {DEEP:g} times the noise of means "
-            f"over some pixels; {why}"
+            f"no scar was found: nothing is worn deeper than {1e9 * DEEP * noise:.3g} nm, {DEEP:g} "
+            f"times what else differs; {why}"
         )
-    scar = ndimage.binary_dilation(core, iterations=MARGIN + _shallow(smooth, core, DEEP * noise))
+    if form == 1:
+        _warn_of_curvature(np.where(sides, found.depth, np.nan), ideal=ideal)
+    is_open = [
+        all(bool(np.any(core.take(end, axis))) for end in (range(MARGIN), range(-MARGIN, 0)))
+        for axis in (0, 1)
+    ]
+    cut_off = _is_cut_off(core & (smooth > EDGE * np.max(smooth[core])), known, is_open)
+    # Not into what is piled up beside it.
+    piled = _largest(-smooth, -smooth > DEEP * noise)
+    further = MARGIN + _shallow(smooth, core, DEEP * noise)
+    scar = ndimage.binary_dilation(core, iterations=further, mask=core | ~piled)
+    track = None
+    if is_open[0] != is_open[1]:
+        axis = is_open.index(True)
+        filled = np.where(known, found.depth, smooth)
+        band, track = track_across(filled, core, found.worn, noise, axis, after.pitch)
+        scar = ndimage.binary_dilation(band, iterations=MARGIN, mask=band | ~piled)
     holes = interpolated(np.where(known, smooth, np.nan), ~known & scar)
     depth = np.where(known, found.depth, holes)
     area = after.grid.cell_area
     volume = area * float(np.sum(depth[scar]))
-    piled = _largest(-smooth, (-smooth > DEEP * noise) & ~scar) & ~scar
-    is_open = [bool(np.all(np.any(core.take([0, -1], axis), axis=1 - axis))) for axis in (0, 1)]
-    cut_off = _is_cut_off(core & (smooth > EDGE * np.max(smooth[core])), known, is_open)
+    piled = ndimage.binary_dilation(piled, iterations=MARGIN) & ~scar
     if cut_off:
         whole = max(np.subtract(shape, found.depth.shape)) <= MARGIN
         warnings.warn(
@@ -213,17 +250,35 @@ def measured_scar(
             TriboWarning,
             stacklevel=2,
         )
-    widths = None if cut_off else _widths(smooth, core, after.pitch, is_open)
-    deepest, deepest_uncertainty = _deepest(found, smooth, core & known, noise)
-    formulas: list[InferredVolume] = []
-    if widths is not None and math.inf in widths:
-        length = after.grid.size[widths.index(math.inf)]
-        formulas = _track_volumes(volume, min(widths), length, track_length or length, radius)
-    elif widths is not None and radius is not None:
-        _check_width(min(widths), radius)
-        # Smoothing widens the core beyond what is worn.
-        groove = _groove_radius(after, core & (smooth > LEVELS[0] * np.max(smooth[core])))
-        formulas = ball_volumes("ball", widths, radius, groove, volume)
+    deepest, deepest_uncertainty = _deepest(found, smooth, core, noise)
+    widths, track_volume, formulas = None, None, list[InferredVolume]()
+    several = ndimage.label(scar)[1] if track is None else 1
+    if several > 1:
+        warnings.warn(
+            f"{several} areas are worn: volume is that of all, depth that of the deepest, and "
+            "widths and formulas are left out; cut the maps to one of them for these",
+            TriboWarning,
+            stacklevel=2,
+        )
+    elif not cut_off:
+        endless = Width(math.inf, 0.0)
+        widths = [
+            (endless if is_open[axis] else track)
+            or scar_width(smooth, scar, noise, axis, after.pitch[axis])
+            for axis in (0, 1)
+        ]
+        sizes = Scar(*(each.value for each in widths))
+        if track:
+            length = after.grid.size[is_open.index(True)]
+            whole = track_length or length
+            track_volume = planimetric_volume(volume / length, whole)
+            formulas = _track_volumes(track_volume, track.value, whole, radius)
+        elif radius is not None:
+            _check_width(min(sizes), radius)
+            _warn_of_radius(after, scar, radius)
+            # Smoothing widens the core beyond what is worn.
+            groove = _groove_radius(after, core & (smooth > SURE * np.max(smooth[core])))
+            formulas = ball_volumes("ball", sizes, radius, groove, volume)
     return MeasuredScar(
         registration=found,
         after=after,
@@ -233,10 +288,13 @@ def measured_scar(
         piled_up=-area * float(np.nansum(depth[piled])),
         depth=deepest,
         depth_uncertainty=deepest_uncertainty,
-        along=None if widths is None else widths.along,
-        across=None if widths is None else widths.across,
+        along=None if widths is None else widths[0].value,
+        along_uncertainty=None if widths is None else widths[0].uncertainty,
+        across=None if widths is None else widths[1].value,
+        across_uncertainty=None if widths is None else widths[1].uncertainty,
         cut_off=cut_off,
         missing=float(np.mean(~known[scar])),
+        track_volume=track_volume,
         inferred=tuple(formulas),
     )
 
@@ -269,8 +327,20 @@ def _deepest(found: Registration, smooth: Array, core: Mask, noise: float) -> tu
     noise, as of the relief of a worn surface.
     """
     deepest = np.where(core, smooth, -np.inf)
-    places, _ = ndimage.label(deepest >= BOTTOM * np.max(deepest))
+    places, _ = ndimage.label(deepest >= BOTTOM * np.max(deepest), np.ones((3, 3)))
     bottom = places == places[np.unravel_index(int(np.argmax(deepest)), core.shape)]
+    missing = bottom & np.isnan(found.depth)
+    if np.any(ndimage.binary_opening(missing, np.ones((3, 3)))):
+        warnings.warn(
+            "pixels are missing where the scar is deepest: the largest depth is that of the others",
+            TriboWarning,
+            stacklevel=3,
+        )
+    if np.count_nonzero(bottom & ~missing) < FEWEST_OF_BOTTOM:
+        raise CaseError(
+            "hardly any pixel of the bottom of the scar was measured; measure again, with fewer "
+            "missing pixels"
+        )
     residuals = without_form(np.where(bottom, found.depth, np.nan))
     form = found.depth - residuals
     top = np.unravel_index(int(np.nanargmax(form)), core.shape)
@@ -336,61 +406,16 @@ def _is_cut_off(scar: Mask, known: Mask, is_open: list[bool]) -> bool:
     return bool(np.count_nonzero(touched) > 2)
 
 
-def _widths(smooth: Array, core: Mask, pitch: tuple[float, float], is_open: list[bool]) -> Scar:
-    """Return the widths of a scar: where the parabola through two of its levels comes to 0.
-
-    The depth of a ball worn flat, and of a groove, is a parabola. The profile is the mean along a
-    track, in its own direction, or that of some lines through the middle of another scar.
-    """
-    low, high = LEVELS
-    widths = []
-    for axis in (0, 1):
-        lines = np.moveaxis(np.where(core, smooth, np.minimum(smooth, 0.0)), axis, 0)
-        step = pitch[axis]
-        if is_open[1 - axis]:
-            lines, slope = _straightened(lines)
-            step *= math.cos(math.atan(slope * pitch[axis] / pitch[1 - axis]))
-        else:
-            middle = round(float(np.average(np.arange(lines.shape[1]), weights=np.sum(lines, 0))))
-            lines = lines[:, max(middle - 2, 0) : middle + 3]
-        profile = np.mean(lines, axis=1)
-        at_low, at_high = (_crossed(profile, level * float(np.max(profile))) for level in LEVELS)
-        square = (high * at_low**2 - low * at_high**2) / (high - low)
-        widths.append(math.inf if is_open[axis] else step * math.sqrt(max(square, 0.0)))
-    return Scar(*widths)
-
-
-def _straightened(lines: Array) -> tuple[Array, float]:
-    """Return a track's lines moved to a common middle, and its slope in pixels per line."""
-    deep = np.maximum(lines, 0.0)
-    middles = np.arange(len(lines)) @ deep / np.maximum(np.sum(deep, axis=0), 1e-300)
-    places = np.arange(lines.shape[1]) - 0.5 * (lines.shape[1] - 1)
-    slope = float(np.polyfit(places, middles, 1, w=np.sum(deep, axis=0))[0])
-    shear, offset = np.array([[1.0, slope], [0.0, 1.0]]), [slope * places[0], 0.0]
-    return ndimage.affine_transform(lines, shear, offset, order=1, mode="nearest"), slope
-
-
-def _crossed(profile: Array, level: float) -> float:
-    """Return the distance between the first and last crossing of a level, in pixels."""
-    ends = []
-    for line in (profile, profile[::-1]):
-        first = int(np.argmax(line >= level))
-        outer = max(first - 1, 0)
-        ends.append(float(np.interp(level, line[[outer, first]], [outer, first])))
-    return profile.size - 1 - sum(ends)
-
-
 def _track_volumes(
-    volume: float, width: float, length_in_map: float, length: float, radius: float | None
+    measured: float, width: float, length: float, radius: float | None
 ) -> list[InferredVolume]:
-    """Return the volumes of a track by formulas."""
-    measured = planimetric_volume(volume / length_in_map, length)
-    found = [("mean section times length", "ASTM G133, D7755", measured)]
-    if radius is not None:
-        _check_width(width, radius)
-        area = circular_groove_area(width, radius)
-        ends = reciprocating_track_volume(width, radius, length)
-        found += [(UNWORN, "ASTM G99", area * length), ("the same, with ends", "ASTM G133", ends)]
+    """Return the volumes of a track by formulas, for the ball that made it."""
+    if radius is None:
+        return []
+    _check_width(width, radius)
+    area = circular_groove_area(width, radius)
+    ends = reciprocating_track_volume(width, radius, length)
+    found = [(UNWORN, "ASTM G99", area * length), ("the same, with ends", "ASTM G133", ends)]
     return [inferred("track", *each, measured) for each in found]
 
 
@@ -400,6 +425,35 @@ def _check_width(width: float, radius: float) -> None:
             f"a ball of {1e3 * radius:.4g} mm radius cannot have a scar {1e3 * width:.4g} mm wide; "
             "correct radius or pitch",
             "radius",
+        )
+
+
+def _warn_of_curvature(unworn: Array, *, ideal: bool) -> None:
+    """Warn if what is unworn differs by a curvature more than by all else."""
+    if np.nanvar(without_form(unworn)) < 0.5 * np.nanvar(unworn):
+        doubt = (
+            "check the shape given and the pitch"
+            if ideal
+            else "check that the maps belong together"
+        )
+        warnings.warn(
+            f"the unworn surfaces differ by a curvature: {doubt}, or take it off with form 2",
+            TriboWarning,
+            stacklevel=3,
+        )
+
+
+def _warn_of_radius(after: Heights, scar: Mask, radius: float) -> None:
+    """Warn if the unworn surface has another radius than the ball."""
+    found = _groove_radius(after, ~scar)
+    noise = float(np.nanstd(without_form(np.where(scar, np.nan, after.heights))))
+    sag = after.grid.size[1] ** 2 / (8 * radius)
+    if sag > CURVED * noise and abs(math.log(min(found / radius, 100.0))) > RADIUS_OFF:
+        warnings.warn(
+            f"the unworn surface has a radius of {1e3 * found:.4g} mm, and the ball one of "
+            f"{1e3 * radius:.4g} mm: check radius and pitch",
+            TriboWarning,
+            stacklevel=3,
         )
 
 

@@ -1,0 +1,135 @@
+"""Widths of a measured scar, and the band that a track covers."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+import scipy.ndimage as ndimage
+
+from tribo.core.arrays import Array, Mask
+
+LOWEST, HIGHEST = 0.05, 0.3
+"""Parts of the largest depth between which a width is read: as low as noise and blur allow."""
+DEEP = 4.0
+"""Standard deviations of noise from which on a width is read."""
+BLUR = 2.0
+"""Width of the Gaussian that depths are smoothed by, in pixels."""
+LINES = 5
+"""Lines through the middle of a scar whose mean is its profile."""
+BESIDE = 0.1
+"""Part of a line along a track that may be worn where it tells the noise."""
+
+
+class Width(NamedTuple):
+    """A width and its standard uncertainty, in m; infinite along a track."""
+
+    value: float
+    uncertainty: float
+
+
+def scar_width(smooth: Array, scar: Mask, noise: float, axis: int, pitch: float) -> Width:
+    """Return the width along an axis of a scar that ends within the map.
+
+    Parameters
+    ----------
+    smooth : ndarray, shape (nx, ny)
+        Smoothed depths, in m.
+    scar : ndarray of bool, shape (nx, ny)
+        The pixels of the scar.
+    noise : float
+        Standard deviation of the smoothed depths beside it, in m.
+    axis : int
+        Along which the width is.
+    pitch : float
+        Distance between pixels along it, in m.
+    """
+    lines = np.moveaxis(np.where(scar, smooth, np.minimum(smooth, 0.0)), axis, 0)
+    weights = np.sum(np.maximum(lines, 0.0), axis=0)
+    middle = round(float(np.average(np.arange(lines.shape[1]), weights=weights)))
+    profile = np.mean(lines[:, max(middle - LINES // 2, 0) : middle + LINES // 2 + 1], axis=1)
+    return _read(profile, noise, BLUR, pitch)
+
+
+def track_across(
+    depth: Array,
+    core: Mask,
+    worn: Mask,
+    noise: float,
+    axis: int,
+    pitch: tuple[float, float],
+) -> tuple[Mask, Width]:
+    """Return the band of a track that runs along an axis, and its width across its direction.
+
+    The mean profile along the track has less noise than single depths, and shows how far it is
+    worn beyond the pixels that do by themselves.
+
+    Parameters
+    ----------
+    depth : ndarray, shape (nx, ny)
+        Depths, in m.
+    core : ndarray of bool, shape (nx, ny)
+        Pixels that are worn beyond doubt.
+    worn : ndarray of bool, shape (nx, ny)
+        Pixels beside which noise is looked for.
+    noise : float
+        Standard deviation of smoothed depths, in m, where hardly any line is beside the track.
+    axis : int
+        Along which it runs.
+    pitch : tuple of float
+        Distance between pixels along x and y, in m.
+    """
+    lines, inside, touched = (np.moveaxis(each, 1 - axis, 0) for each in (depth, core, worn))
+    deep = np.where(inside, np.maximum(lines, 0.0), 0.0)
+    places = np.arange(len(lines))[:, None]
+    middles = np.sum(places * deep, axis=0) / np.maximum(np.sum(deep, axis=0), 1e-300)
+    along = np.arange(lines.shape[1]) - 0.5 * (lines.shape[1] - 1)
+    slope = float(np.polyfit(along, middles, 1, w=np.sum(deep, axis=0))[0])
+    shear, offset = np.array([[1.0, slope], [0.0, 1.0]]), [slope * along[0], 0.0]
+    straight, core_part, worn_part = (
+        ndimage.affine_transform(each.astype(float), shear, offset, order=1, mode="nearest")
+        for each in (lines, inside, touched)
+    )
+    profile, beside = np.mean(straight, axis=1), np.mean(worn_part, axis=1) < BESIDE
+    if np.count_nonzero(beside) > LINES:
+        noise = float(np.std(profile[beside]))
+    first, last = np.flatnonzero(np.mean(core_part, axis=1) > BESIDE)[[0, -1]]
+    shallow = np.flatnonzero(profile <= noise)
+    first = int(np.max(shallow[shallow < first], initial=-1)) + 1
+    last = int(np.min(shallow[shallow > last], initial=len(profile))) - 1
+    across = places - slope * along
+    band = np.moveaxis((across >= first) & (across <= last), 0, 1 - axis)
+    within = np.where((places[:, 0] >= first) & (places[:, 0] <= last), profile, 0.0)
+    askew = math.cos(math.atan(slope * pitch[1 - axis] / pitch[axis]))
+    return band, _read(within, noise, 0.0, askew * pitch[1 - axis])
+
+
+def _read(profile: Array, noise: float, blur: float, pitch: float) -> Width:
+    """Return the width of a profile: where the parabola through two of its levels comes to 0.
+
+    The depth of a ball worn flat is a parabola. How far another scar is from it shows in the
+    parabola through higher levels.
+    """
+    peak = float(np.max(profile))
+    half = _crossed(profile, 0.5 * peak) / math.sqrt(2)
+    low = min(max(LOWEST, DEEP * noise / peak, 3 * blur / half), HIGHEST)
+    levels = (low, 2 * low, min(4 * low, 0.9))
+    squares = [_crossed(profile, level * peak) ** 2 for level in levels]
+    width, other = (
+        math.sqrt(max((high * wide - low * narrow) / (high - low), 0.0))
+        for low, high, wide, narrow in zip(levels, levels[1:], squares, squares[1:], strict=False)
+    )
+    # Noise moves the edge by about half of its part of the peak, and the parabola doubles it.
+    of_noise = width * noise / peak
+    return Width(pitch * width, pitch * math.hypot(width - other, of_noise, 0.5))
+
+
+def _crossed(profile: Array, level: float) -> float:
+    """Return the distance between the first and last crossing of a level, in pixels."""
+    ends = []
+    for line in (profile, profile[::-1]):
+        first = int(np.argmax(line >= level))
+        outer = max(first - 1, 0)
+        ends.append(float(np.interp(level, line[[outer, first]], [outer, first])))
+    return profile.size - 1 - sum(ends)
