@@ -289,10 +289,13 @@ def test_the_map_of_a_local_coefficient_is_told_as_well(worn, tmp_path, monkeypa
         return FittedMaps({}, 0, 0, 1.0, 1.0)
 
     monkeypatch.setattr(mapped, "fit_maps", unfitted)
-    np.save(tmp_path / "map.npy", moved(worn, (52e-6 / PITCH, 0), order=1) + 3e-7)
     entry = {"body": "ball", "depth": str(tmp_path / "map.npy"), "pitch": PITCH}
     entry = MapEntry(**entry, uncertainty=NOISE, length=1e-4)
-    place, level = calibrate_maps(CASE, {"map.0": entry}).notes
-    assert "lies +52.0 ± " in place
-    assert place.endswith("centre it, unless the coefficient is higher on that side")
-    assert "the map of 'ball' lies 0.3 µm above 0" in level
+    for shift in (52, 4):
+        np.save(tmp_path / "map.npy", moved(worn, (1e-6 * shift / PITCH, 0), order=1) + 3e-7)
+        place, level = calibrate_maps(CASE, {"map.0": entry}).notes
+        assert f"lies +{shift}.0 ± " in place
+        assert place.endswith("centre it, unless the coefficient is higher on that side")
+        assert "the map of 'ball' lies 0.3 µm above 0" in level
+    np.save(tmp_path / "map.npy", worn)
+    assert not calibrate_maps(CASE, {"map.0": entry}).notes

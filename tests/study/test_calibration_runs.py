@@ -366,6 +366,14 @@ def test_a_wrong_number_that_is_not_fitted_is_named():
     assert "±0.0 %" not in text
 
 
+def test_readings_in_coarse_steps_are_not_taken_for_too_good():
+    alike = {"body": "ball", "quantity": "mass", "value": mass(BALL)}
+    alike |= {"uncertainty": 0.01 * mass(BALL), "resolution": 0.2 * mass(BALL)}
+    found = calibrate(CASE, {"measured": [alike] * 4, "fit": fitting(BALL_K)})
+    assert found.p_value > 0.999
+    assert not any("uncertainties are too large" in note for note in found.notes)
+
+
 def test_a_failing_run_says_with_what_and_what_may_be_off():
     data = [measured("ball", "mass", 50 * mass(BALL))]
     with pytest.raises(NumericalError, match="reached the edge of the window") as caught:

@@ -34,7 +34,7 @@ TURNED = 0.25
 LEAST_STRETCH = 0.01
 """Relative error of a pitch that is reported."""
 EXPLAINED = 0.5
-"""Part of the excess of χ² that a wrong pitch, or swapped axes, must explain."""
+"""Part of the excess of χ² that a wrong pitch must explain."""
 LINEAR = 1.25
 """Stretch up to which the depths are taken as linear in it."""
 LEAST_EXPONENT = 0.9

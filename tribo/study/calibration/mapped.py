@@ -20,7 +20,7 @@ from tribo.study.calibration.cells import on_cells, read_map, surface_shape
 from tribo.study.calibration.map_notes import off_level, off_middle, off_turn
 from tribo.study.calibration.maps import FittedMaps, Prior, fit_maps
 from tribo.study.calibration.measured import MapEntry
-from tribo.study.calibration.scar_shift import find_shift
+from tribo.study.calibration.scar_shift import find_shift, slopes
 from tribo.study.gradient.objective import View
 from tribo.study.variation import unknown_body
 
@@ -61,9 +61,9 @@ def _remarks(
 ) -> Iterator[str]:
     """Name a map that is off the middle of the case's scar, or not levelled."""
     name = f"the map of {entry.body!r}"
-    found = find_shift(heights, model, spacing, entry.uncertainty)
-    # A smaller shift may be due to the coefficient.
-    if np.any(np.abs(found.shift) > 0.5 * np.array(spacing)):
+    found = find_shift(heights, model, spacing, entry.uncertainty, 0.0)
+    moved = sum(found.shift[axis] * slope for axis, slope in slopes(model, spacing).items())
+    if np.std(np.asarray(moved)[model > 0]) > entry.uncertainty:
         for note in off_middle(name, found):
             yield f"{note}: centre it, unless the coefficient is higher on that side"
     yield from off_level(name, depth, model, entry.uncertainty)

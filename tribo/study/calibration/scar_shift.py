@@ -43,7 +43,11 @@ def slopes(depth: Array, spacing: tuple[float, float]) -> dict[int, Array]:
 
 
 def find_shift(
-    heights: Heights, depth: Array, spacing: tuple[float, float], sigma: float
+    heights: Heights,
+    depth: Array,
+    spacing: tuple[float, float],
+    sigma: float,
+    least: float = LEAST_SHIFT,
 ) -> ScarShift:
     """Find the shift of a map's scar, by least squares with the model's; also its level and tilt.
 
@@ -57,6 +61,8 @@ def find_shift(
         Edge lengths of a cell, in m.
     sigma : float
         Standard deviation of a measured cell, in m; that of the residuals if larger.
+    least : float
+        Shift that counts, in cells, if it is significant too.
     """
     along = slopes(depth, spacing)
     ramps = [np.indices(depth.shape)[axis] / depth.shape[axis] - 0.5 for axis in along]
@@ -86,8 +92,7 @@ def find_shift(
     inverse = np.linalg.inv(columns[known].T @ columns[known])
     sigmas = np.full(2, np.inf)
     sigmas[axes] = max(sigma, residual) * np.sqrt(np.diag(inverse))[1 : 1 + len(axes)] / parts[0]
-    least = np.maximum(SIGNIFICANT * sigmas, LEAST_SHIFT * cell)
-    found = np.where(np.abs(shift) > least, shift, 0.0)
+    found = np.where(np.abs(shift) > np.maximum(SIGNIFICANT * sigmas, least * cell), shift, 0.0)
     return ScarShift((found[0], found[1]), (sigmas[0], sigmas[1]))
 
 

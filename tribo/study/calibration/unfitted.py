@@ -26,7 +26,8 @@ def explanations(fitted: Linearised, experiment: Experiment, freedom: int) -> tu
 
     One run for each number; the estimates are those of the model linearised about the fit.
     """
-    excess = float(np.sum(fitted.residuals(fitted.point) ** 2)) - freedom
+    rows = ~fitted.problem.below
+    excess = float(np.sum(fitted.residuals(fitted.point)[rows] ** 2)) - freedom
     found, runs = [], 0
     for candidate in _candidates(experiment):
         more = replace(experiment, parameters=[*experiment.parameters, candidate], runs={})
@@ -45,7 +46,7 @@ def explanations(fitted: Linearised, experiment: Experiment, freedom: int) -> tu
         )
         both = replace(fitted, problem=problem, point=point, slopes=np.c_[fitted.slopes, slopes])
         best = both.least(point)
-        left, value = float(np.sum(both.residuals(best) ** 2)), float(np.exp(best[-1]))
+        left, value = float(np.sum(both.residuals(best)[rows] ** 2)), float(np.exp(best[-1]))
         if left - freedom < (1 - EXPLAINED) * excess:
             found.append((left, candidate, value))
     return runs, "".join(
