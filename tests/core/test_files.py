@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tribo.core.errors import OutputError
-from tribo.core.files import table_of_numbers, write_whole
+from tribo.core.files import read_numbers, table_of_numbers, write_whole
 
 
 def test_what_cannot_be_written_leaves_the_old_file_alone(tmp_path):
@@ -66,3 +66,23 @@ def test_what_is_wrong_in_a_csv_file_is_told_with_its_line(text, words, tmp_path
     (tmp_path / "a.csv").write_text(text)
     with pytest.raises(ValueError, match=rf"a\.csv cannot be read .*: {words}"):
         table_of_numbers(tmp_path / "a.csv")
+
+
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ([1j], r"complex numbers, not real numbers; save a\.real"),
+        (["1"], r"text, not real numbers; save a\.astype\(float\)"),
+        ([True], "values of type bool, not real"),
+    ],
+)
+def test_an_array_of_other_than_real_numbers_is_told(values, words, tmp_path):
+    np.save(tmp_path / "a.npy", np.array(values))
+    with pytest.raises(ValueError, match=rf"a\.npy has {words}"):
+        read_numbers(tmp_path / "a.npy")
+
+
+def test_where_a_number_is_missing_is_told(tmp_path):
+    np.save(tmp_path / "a.npy", [[1.0, 2.0], [3.0, np.nan]])
+    with pytest.raises(ValueError, match=r"1 of the 4 values of .* at index \(1, 1\) from 0; put"):
+        read_numbers(tmp_path / "a.npy")

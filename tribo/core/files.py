@@ -81,8 +81,12 @@ def read_numbers(file: Path) -> Array:
     ValueError if there is no such file, or something else in it; the message says so.
     """
     numbers = table_of_numbers(file)
-    if not np.all(np.isfinite(numbers)):
-        raise ValueError(f"{file} has values that are not numbers, or are not finite")
+    bad = np.argwhere(~np.isfinite(numbers))
+    if len(bad):
+        raise ValueError(
+            f"{len(bad)} of the {numbers.size} values of {file} are missing or infinite, the first "
+            f"at index {tuple(bad[0].tolist())} from 0; put finite numbers there"
+        )
     return numbers
 
 
@@ -117,7 +121,10 @@ def table_of_numbers(file: Path) -> Array:
         reason = "it is no NumPy array of numbers" if other else " ".join(str(error).split())
         raise ValueError(f"{file} cannot be read as a table of numbers: {reason}") from None
     if numbers.dtype.kind not in "fiu":
-        raise ValueError(f"{file} has values that are not numbers, or are not finite")
+        words = {"c": "complex numbers", "U": "text", "S": "text"}
+        what = words.get(numbers.dtype.kind, f"values of type {numbers.dtype}")
+        how = "real" if numbers.dtype.kind == "c" else "astype(float)"
+        raise ValueError(f"{file} has {what}, not real numbers; save a.{how} of its array a")
     return np.asarray(numbers, dtype=np.float64)
 
 
