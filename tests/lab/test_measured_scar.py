@@ -389,11 +389,22 @@ def test_the_command_measures_and_draws(tmp_path):
     np.savetxt(tmp_path / "semicolons.csv", after.heights, delimiter=";")
     with pytest.raises(CaseError, match=r"semicolons\.csv .* line 2, .* by commas"):
         read_heights(tmp_path / "semicolons.csv", (PITCH, PITCH))
-    with pytest.raises(CaseError, match="1 files are given; give the maps before and after"):
-        CliRunner().invoke(command, files[:1], catch_exceptions=False)
-    ideal = [files[1], *given[2:4], "--ideal", "sphere"]
-    with pytest.raises(CaseError, match="--ideal radius: missing"):
-        CliRunner().invoke(command, ideal, catch_exceptions=False)
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ([], "1 file is given; give the maps before and after"),
+        (["a.npy", "a.npy"], "3 files are given"),
+        (["--radius", "5", "mm"], r"^'mm' is no file: quote a length, as --radius '5 mm'$"),
+        (["--ideal", "sphere"], "--ideal radius: missing"),
+    ],
+)
+def test_wrong_words_of_the_command_are_told(given, words, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    np.save("a.npy", np.zeros((32, 32)))
+    with pytest.raises(CaseError, match=words):
+        CliRunner().invoke(command, ["a.npy", "--pitch", "1 um", *given], catch_exceptions=False)
 
 
 def test_the_command_says_what_the_maps_do_not_tell_and_what_is_cut_off(tmp_path):

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from tribo.surfaces.surface import Surface
 
 LARGEST_PITCH = 1e-3
+UNITS = ("m", "mm", "um", "µm", "nm")
+"""Words that are parts of a length without quotes."""
 
 
 @click.command()
@@ -58,9 +60,13 @@ def scar(
         with located(option):
             return None if text is None else Quantity("m", above=0).read(text)
 
+    for path in files:
+        if str(path) in UNITS and not path.exists():
+            raise CaseError(f"'{path}' is no file: quote a length, as --radius '5 {path}'")
     if len(files) != (1 if ideal else 2):
+        count = "1 file is" if len(files) == 1 else f"{len(files)} files are"
         raise CaseError(
-            f"{len(files)} files are given; give the maps before and after, or the one after with "
+            f"{count} given; give the maps before and after, or the one after with "
             "the shape before as --ideal"
         )
     if len(pitch) > 2:
