@@ -102,12 +102,23 @@ def scar(
 
 def _surface(text: str) -> Surface:
     """Return the surface that an option gives as a case does."""
+    import tomllib
+
     from pydantic import TypeAdapter, ValidationError
 
     from tribo.config.overrides import parse_value
     from tribo.core.explain import case_error
     from tribo.surfaces.surface import Surface
 
+    if text.lstrip().startswith("{"):
+        try:
+            tomllib.loads(f"ideal = {text}")
+        except ValueError as error:
+            reason = str(error).partition(" (at")[0]
+            raise CaseError(
+                f"--ideal {text} is no TOML: {reason}; quote texts, and put commas between "
+                'entries, as in \'{ type = "sphere", radius = "5 mm" }\''
+            ) from None
     try:
         surface: Surface = TypeAdapter(Surface).validate_python(parse_value(text))
     except ValidationError as error:
