@@ -63,6 +63,17 @@ def test_every_quantity_can_be_asked_for():
         ({"boddy": "ball"}, ".0.boddy", "did you mean 'body'?"),
         ({"body": "bal"}, ".0.body", "did you mean 'ball'?"),
         ({"uncertainty": None}, ".0", "uncertainty"),
+        ({"value": "> 0.02 mg"}, ".0.value", "only '<' marks a limit of detection"),
+        (
+            {"value": ["1 mg", "nan mg"]},
+            ".0.value",
+            "entry 2 of 2 is nan mg; leave that test out of each list",
+        ),
+        (
+            {**PROFILE, "value": ["1 um", "2 um"], "position": ["nan um", "2 mm"]},
+            ".0.position",
+            "entry 1 of 2 is nan um; leave that point out",
+        ),
         ({"value": None}, ".0", "give value, or before and after"),
         ({"value": None, "before": "27 g"}, ".0", "give value, or before and after"),
         ({"value": None, "before": "27.1 g", "after": "27.2 g"}, ".0", "no loss was weighed"),
