@@ -178,7 +178,8 @@ def calibrate(
             "mass": "value, or before and after",
             DEPTH_MAP: "depth, the file of a height map",
         }
-        raise CaseError(f"give {others.get(each.quantity, 'value')}", each.place)
+        needed = others.get(each.quantity, "value")
+        raise CaseError(f"give {needed}; only with --plan it may be left out", each.place)
     if (count := len(experiment.data)) < len(experiment.parameters):
         raise CaseError(
             f"{len(experiment.parameters)} parameters cannot be fitted to {count} measured "
