@@ -6,7 +6,7 @@ from typing import get_args
 import pytest
 
 from tribo.config.overrides import apply_settings
-from tribo.core.errors import CaseError
+from tribo.core.errors import CaseError, NumericalError
 from tribo.study.calibration.calibrate import calibrate
 from tribo.study.calibration.measured import MeasuredEntry, read_measurements
 from tribo.study.calibration.quantities import QUANTITIES
@@ -243,3 +243,10 @@ def test_a_profile_that_noise_makes_negative_is_taken():
 def test_the_standard_deviation_of_a_value(changes, sigma):
     (entry,) = read_measurements({"measured": [changed(**changes)]}).measured
     assert entry.sigma == pytest.approx(sigma, rel=1e-6, abs=0)
+
+
+def test_a_start_at_which_the_scar_outgrows_the_window_is_told():
+    far = {"measured": [GOOD], "fit": [{"path": K, "start": 1e-11}]}
+    words = rf"^give a start of {K} in fit that is nearer; run 1, .* reached the edge"
+    with pytest.raises(NumericalError, match=words):
+        calibrate(CASE, far)
