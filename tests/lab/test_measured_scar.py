@@ -398,6 +398,7 @@ def test_the_command_measures_and_draws(tmp_path):
         (["a.npy", "a.npy"], "3 files are given"),
         (["--radius", "5", "mm"], r"^'mm' is no file: quote a length, as --radius '5 mm'$"),
         (["--ideal", "sphere"], "--ideal radius: missing"),
+        (["-o", "none/scar.png"], "there is no folder none; make it first"),
         (["--ideal", '{ type = "sphere" r'], r'sphere" r is no TOML: Unclosed .*; .* put commas'),
     ],
 )

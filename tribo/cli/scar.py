@@ -10,6 +10,7 @@ import click
 
 from tribo.cli.options import JSON, PATH, echo_json
 from tribo.core.errors import CaseError, located
+from tribo.core.files import check_folder
 
 if TYPE_CHECKING:
     from tribo.lab.measured_scar import MeasuredScar
@@ -63,6 +64,8 @@ def scar(
     for path in files:
         if str(path) in UNITS and not path.exists():
             raise CaseError(f"'{path}' is no file: quote a length, as --radius '5 {path}'")
+    if output is not None:
+        check_folder(output)
     if len(files) != (1 if ideal else 2):
         count = "1 file is" if len(files) == 1 else f"{len(files)} files are"
         raise CaseError(
