@@ -459,5 +459,8 @@ def test_a_file_of_a_format_that_nothing_reads_is_refused(tmp_path, monkeypatch)
         CaseError, match=r"map\.x3p is no NumPy, CSV or HDF5 file .* install tribo-t"
     ):
         read_heights(tmp_path / "map.x3p")
+    (tmp_path / "list.csv").write_text("1,2,3\n4,5,6\n")
+    with pytest.raises(CaseError, match=r"list\.csv: .* a list of x, y, z is no map"):
+        read_heights(tmp_path / "list.csv", (PITCH, PITCH))
     with pytest.raises(CaseError, match=r"there is no file .*map\.npy"):
         read_heights(tmp_path / "map.npy")
