@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tribo.core.errors import OutputError
-from tribo.core.files import table_of_numbers, write_whole
+from tribo.core.files import read_numbers, table_of_numbers, write_whole
 
 
 def test_what_cannot_be_written_leaves_the_old_file_alone(tmp_path):
@@ -36,3 +36,53 @@ def test_what_is_named_as_an_array_and_is_none_is_told(tmp_path):
         path.write_bytes(content)
         with pytest.raises(ValueError, match=r"a\.npy cannot .*: it is no NumPy array of numbers"):
             table_of_numbers(path)
+
+
+TWO = "1,2\n3,4\n"
+
+
+def test_a_csv_file_may_have_a_header_and_missing_values(tmp_path):
+    path = tmp_path / "a.csv"
+    for head in ("", "x,y\n", "\ufeffheights in m\n", "# heights\n\n"):
+        path.write_text(head + "nan,\n" + TWO, encoding="utf-8")
+        found = table_of_numbers(path)
+        np.testing.assert_array_equal(found, [[np.nan, np.nan], [1, 2], [3, 4]])
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("1,2\n3,hello\n", r"line 2, column 2 has 'hello', which is no number; leave a missing"),
+        ("1,hello\n3,4\n", r"line 1, column 2 has 'hello'"),
+        ("scan 5\nx,y\n" + TWO, r"line 2, column 1 has 'x', .* keep one header line at most"),
+        ("1.5;2\n3;4\n", r"line 2, column 1 has '3;4', .* by commas, .* decimal points, as 1\.5"),
+        ("1,5;2,5\n", r"line 1, column 2 has '5;2', .* by commas"),
+        ("1 2\n3 4\n", r"line 2, column 1 has '3 4', .* by commas"),
+        (TWO + "5,6,7\n8\n", "line 3 has 3 values, and those before it have 2; give as many"),
+        ("x,y\n", "it has no line of numbers, separated by commas"),
+    ],
+)
+def test_what_is_wrong_in_a_csv_file_is_told_with_its_line(text, words, tmp_path):
+    (tmp_path / "a.csv").write_text(text)
+    with pytest.raises(ValueError, match=rf"a\.csv cannot be read .*: {words}"):
+        table_of_numbers(tmp_path / "a.csv")
+
+
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ([1j], r"complex numbers, not real numbers; save a\.real"),
+        (["1"], r"text, not real numbers; save a\.astype\(float\)"),
+        ([True], "values of type bool, not real"),
+    ],
+)
+def test_an_array_of_other_than_real_numbers_is_told(values, words, tmp_path):
+    np.save(tmp_path / "a.npy", np.array(values))
+    with pytest.raises(ValueError, match=rf"a\.npy has {words}"):
+        read_numbers(tmp_path / "a.npy")
+
+
+def test_where_a_number_is_missing_is_told(tmp_path):
+    np.save(tmp_path / "a.npy", [[1.0, 2.0], [3.0, np.nan]])
+    with pytest.raises(ValueError, match=r"1 of the 4 values of .* at index \(1, 1\) from 0; put"):
+        read_numbers(tmp_path / "a.npy")

@@ -447,13 +447,26 @@ def test_the_command_measures_and_draws(tmp_path):
     with pytest.raises(CaseError, match="--pitch: 5 mm is too much between two pixels, 1 mm at"):
         CliRunner().invoke(command, [*files, "--pitch", "5 mm"], catch_exceptions=False)
     np.savetxt(tmp_path / "semicolons.csv", after.heights, delimiter=";")
-    with pytest.raises(CaseError, match="commas between them; a list of x, y, z is no map"):
+    with pytest.raises(CaseError, match=r"semicolons\.csv .* line 2, .* by commas"):
         read_heights(tmp_path / "semicolons.csv", (PITCH, PITCH))
-    with pytest.raises(CaseError, match="1 files are given; give the maps before and after"):
-        CliRunner().invoke(command, files[:1], catch_exceptions=False)
-    ideal = [files[1], *given[2:4], "--ideal", "sphere"]
-    with pytest.raises(CaseError, match="--ideal radius: missing"):
-        CliRunner().invoke(command, ideal, catch_exceptions=False)
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ([], "1 file is given; give the maps before and after"),
+        (["a.npy", "a.npy"], "3 files are given"),
+        (["--radius", "5", "mm"], r"^'mm' is no file: quote a length, as --radius '5 mm'$"),
+        (["--ideal", "sphere"], "--ideal radius: missing"),
+        (["-o", "none/scar.png"], "there is no folder none; make it first"),
+        (["--ideal", '{ type = "sphere" r'], r'sphere" r is no TOML: Unclosed .*; .* put commas'),
+    ],
+)
+def test_wrong_words_of_the_command_are_told(given, words, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    np.save("a.npy", np.zeros((32, 32)))
+    with pytest.raises(CaseError, match=words):
+        CliRunner().invoke(command, ["a.npy", "--pitch", "1 um", *given], catch_exceptions=False)
 
 
 def test_the_command_says_what_the_maps_do_not_tell_and_what_is_cut_off(tmp_path):
@@ -506,5 +519,8 @@ def test_a_file_of_a_format_that_nothing_reads_is_refused(tmp_path, monkeypatch)
         CaseError, match=r"map\.x3p is no NumPy, CSV or HDF5 file .* install tribo-t"
     ):
         read_heights(tmp_path / "map.x3p")
+    (tmp_path / "list.csv").write_text("1,2,3\n4,5,6\n")
+    with pytest.raises(CaseError, match=r"list\.csv: .* a list of x, y, z is no map"):
+        read_heights(tmp_path / "list.csv", (PITCH, PITCH))
     with pytest.raises(CaseError, match=r"there is no file .*map\.npy"):
         read_heights(tmp_path / "map.npy")

@@ -6,7 +6,7 @@ from typing import get_args
 import pytest
 
 from tribo.config.overrides import apply_settings
-from tribo.core.errors import CaseError
+from tribo.core.errors import CaseError, NumericalError
 from tribo.study.calibration.calibrate import calibrate
 from tribo.study.calibration.measured import MeasuredEntry, read_measurements
 from tribo.study.calibration.quantities import QUANTITIES
@@ -63,6 +63,17 @@ def test_every_quantity_can_be_asked_for():
         ({"boddy": "ball"}, ".0.boddy", "did you mean 'body'?"),
         ({"body": "bal"}, ".0.body", "did you mean 'ball'?"),
         ({"uncertainty": None}, ".0", "uncertainty"),
+        ({"value": "> 0.02 mg"}, ".0.value", "only '<' marks a limit of detection"),
+        (
+            {"value": ["1 mg", "nan mg"]},
+            ".0.value",
+            "entry 2 of 2 is nan mg; leave that test out of each list",
+        ),
+        (
+            {**PROFILE, "value": ["1 um", "2 um"], "position": ["nan um", "2 mm"]},
+            ".0.position",
+            "entry 1 of 2 is nan um; leave that point out",
+        ),
         ({"value": None}, ".0", "give value, or before and after"),
         ({"value": None, "before": "27 g"}, ".0", "give value, or before and after"),
         ({"value": None, "before": "27.1 g", "after": "27.2 g"}, ".0", "no loss was weighed"),
@@ -232,3 +243,10 @@ def test_a_profile_that_noise_makes_negative_is_taken():
 def test_the_standard_deviation_of_a_value(changes, sigma):
     (entry,) = read_measurements({"measured": [changed(**changes)]}).measured
     assert entry.sigma == pytest.approx(sigma, rel=1e-6, abs=0)
+
+
+def test_a_start_at_which_the_scar_outgrows_the_window_is_told():
+    far = {"measured": [GOOD], "fit": [{"path": K, "start": 1e-11}]}
+    words = rf"^give a start of {K} in fit that is nearer; run 1, .* reached the edge"
+    with pytest.raises(NumericalError, match=words):
+        calibrate(CASE, far)

@@ -10,12 +10,15 @@ import click
 
 from tribo.cli.options import JSON, PATH, echo_json
 from tribo.core.errors import CaseError, located
+from tribo.core.files import check_folder
 
 if TYPE_CHECKING:
     from tribo.lab.measured_scar import MeasuredScar
     from tribo.surfaces.surface import Surface
 
 LARGEST_PITCH = 1e-3
+UNITS = ("m", "mm", "um", "µm", "nm")
+"""Words that are parts of a length without quotes."""
 
 
 @click.command()
@@ -58,9 +61,15 @@ def scar(
         with located(option):
             return None if text is None else Quantity("m", above=0).read(text)
 
+    for path in files:
+        if str(path) in UNITS and not path.exists():
+            raise CaseError(f"'{path}' is no file: quote a length, as --radius '5 {path}'")
+    if output is not None:
+        check_folder(output)
     if len(files) != (1 if ideal else 2):
+        count = "1 file is" if len(files) == 1 else f"{len(files)} files are"
         raise CaseError(
-            f"{len(files)} files are given; give the maps before and after, or the one after with "
+            f"{count} given; give the maps before and after, or the one after with "
             "the shape before as --ideal"
         )
     if len(pitch) > 2:
@@ -96,12 +105,23 @@ def scar(
 
 def _surface(text: str) -> Surface:
     """Return the surface that an option gives as a case does."""
+    import tomllib
+
     from pydantic import TypeAdapter, ValidationError
 
     from tribo.config.overrides import parse_value
     from tribo.core.explain import case_error
     from tribo.surfaces.surface import Surface
 
+    if text.lstrip().startswith("{"):
+        try:
+            tomllib.loads(f"ideal = {text}")
+        except ValueError as error:
+            reason = str(error).partition(" (at")[0]
+            raise CaseError(
+                f"--ideal {text} is no TOML: {reason}; quote texts, and put commas between "
+                'entries, as in \'{ type = "sphere", radius = "5 mm" }\''
+            ) from None
     try:
         surface: Surface = TypeAdapter(Surface).validate_python(parse_value(text))
     except ValidationError as error:

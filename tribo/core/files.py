@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -15,6 +16,8 @@ from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, OutputError
 
 HDF5 = (".h5", ".hdf5")
+_SEPARATED = re.compile(r"\d[;\s]+[-+.\d]")
+"""Numbers of a text that are separated by something else than commas."""
 
 
 @contextmanager
@@ -78,8 +81,12 @@ def read_numbers(file: Path) -> Array:
     ValueError if there is no such file, or something else in it; the message says so.
     """
     numbers = table_of_numbers(file)
-    if not np.all(np.isfinite(numbers)):
-        raise ValueError(f"{file} has values that are not numbers, or are not finite")
+    bad = np.argwhere(~np.isfinite(numbers))
+    if len(bad):
+        raise ValueError(
+            f"{len(bad)} of the {numbers.size} values of {file} are missing or infinite, the first "
+            f"at index {tuple(bad[0].tolist())} from 0; put finite numbers there"
+        )
     return numbers
 
 
@@ -108,16 +115,60 @@ def table_of_numbers(file: Path) -> Array:
         elif file.suffix in HDF5:
             numbers = _only_table(file)
         else:
-            numbers = np.genfromtxt(file, delimiter=",", ndmin=2, encoding="utf-8-sig")
-            if np.all(np.isnan(numbers[:1])):
-                numbers = numbers[1:]
+            numbers = _table_of_text(file.read_text("utf-8-sig"))
     except (ValueError, OSError) as error:
         other = any(words in str(error) for words in ("magic string", "Object arrays"))
         reason = "it is no NumPy array of numbers" if other else " ".join(str(error).split())
         raise ValueError(f"{file} cannot be read as a table of numbers: {reason}") from None
     if numbers.dtype.kind not in "fiu":
-        raise ValueError(f"{file} has values that are not numbers, or are not finite")
+        words = {"c": "complex numbers", "U": "text", "S": "text"}
+        what = words.get(numbers.dtype.kind, f"values of type {numbers.dtype}")
+        how = "real" if numbers.dtype.kind == "c" else "astype(float)"
+        raise ValueError(f"{file} has {what}, not real numbers; save a.{how} of its array a")
     return np.asarray(numbers, dtype=np.float64)
+
+
+def _table_of_text(text: str) -> Array:
+    """Return the numbers of a CSV text, below one line of words at most; NaN where missing."""
+    rows: list[list[float]] = []
+    header = ""
+    for place, line in enumerate(text.splitlines(), 1):
+        cells = [cell.strip() for cell in line.partition("#")[0].split(",")]
+        if cells == [""]:
+            continue
+        try:
+            row = [float(cell or "nan") for cell in cells]
+        except ValueError:
+            if not (rows or header or any(map(_is_number, cells))):
+                header = line
+                continue
+            raise ValueError(f"line {place}, {_first_words(cells)}") from None
+        if rows and len(row) != len(rows[0]):
+            raise ValueError(
+                f"line {place} has {len(row)} values, and those before it have {len(rows[0])}; "
+                "give as many in each, separated by commas, with decimal points"
+            )
+        rows.append(row)
+    if not rows:
+        raise ValueError("it has no line of numbers, separated by commas, with decimal points")
+    return np.array(rows)
+
+
+def _first_words(cells: list[str]) -> str:
+    """Return which cell of a line is no number, and what to do."""
+    column = next(i for i, cell in enumerate(cells) if cell and not _is_number(cell))
+    hint = "leave a missing value empty or put nan, and keep one header line at most"
+    if _SEPARATED.search(cells[column]):
+        hint = "separate values by commas, and write them with decimal points, as 1.5"
+    return f"column {column + 1} has {cells[column][:40]!r}, which is no number; {hint}"
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True
 
 
 def _only_table(file: Path) -> NDArray[Any]:

@@ -127,7 +127,7 @@ def read_heights(path: str | Path, pitch: tuple[float, float] | None = None) -> 
         return Heights(heights, pitch)
     except CaseError as error:
         text = path.suffix.lower() in (".csv", ".txt") and min(heights.shape) < FEWEST
-        hint = ". In a text file they have commas between them; a list of x, y, z is no map"
+        hint = "; a list of x, y, z is no map"
         raise CaseError(f"{path}: {error}{hint if text else ''}") from None
 
 

@@ -17,7 +17,7 @@ from tribo.config.overrides import apply_settings
 from tribo.config.write import to_toml
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, NumericalError
-from tribo.study.calibration.doubts import doubts, far_off
+from tribo.study.calibration.doubts import REACHED, doubts, far_off
 from tribo.study.calibration.experiment import Experiment
 from tribo.study.calibration.fit import ABOVE_ROUNDING, NO_EFFECT, fit, interval
 from tribo.study.calibration.linearised import Linearised, Weights, root_covariance
@@ -178,7 +178,8 @@ def calibrate(
             "mass": "value, or before and after",
             DEPTH_MAP: "depth, the file of a height map",
         }
-        raise CaseError(f"give {others.get(each.quantity, 'value')}", each.place)
+        needed = others.get(each.quantity, "value")
+        raise CaseError(f"give {needed}; only with --plan it may be left out", each.place)
     if (count := len(experiment.data)) < len(experiment.parameters):
         raise CaseError(
             f"{len(experiment.parameters)} parameters cannot be fitted to {count} measured "
@@ -186,10 +187,15 @@ def calibrate(
         )
     if sample:
         check_sampling(sample, len(experiment.parameters))
-    experiment = experiment.centred(experiment.start)
-    far = far_off(
-        experiment.data, experiment.run(experiment.start).responses, experiment.parameters
-    )
+    try:
+        experiment = experiment.centred(experiment.start)
+        first = experiment.run(experiment.start).responses
+    except NumericalError as error:
+        if REACHED not in str(error):
+            raise
+        paths = " and ".join(p.path for p in experiment.parameters)
+        raise NumericalError(f"give a start of {paths} in fit that is nearer; {error}") from error
+    far = far_off(experiment.data, first, experiment.parameters)
     # Correlated errors of a map scale with its depth, which is known near the estimate only.
     problem = experiment.problem(experiment.start).without_common()
 

@@ -84,16 +84,26 @@ class MeasuredEntry(Table):
         mark = Quantity(QUANTITIES[name].unit, above=above, remedy=UNSEEN if is_value else None)
 
         def read(part: object) -> float:
+            if is_value and isinstance(part, str) and part.lstrip().startswith(">"):
+                raise CaseError(f"{part!r}: only '<' marks a limit of detection, as '< 0.1 mg'")
             is_limit = isinstance(part, str) and part.lstrip().startswith("<")
             if is_limit and is_value and not is_profile:
                 return Below(mark.read(str(part).lstrip()[1:].strip()))
             return part if isinstance(part, Below) else mark.read(part)
 
         is_list = is_value and isinstance(value, list | tuple)
+        if is_list:
+            _check_gaps(value, "point" if is_profile else "test")
         try:
             return tuple(map(read, value)) if is_list else read(value)
         except CaseError as error:
             raise ValueError(str(error)) from None
+
+    @field_validator("position", mode="before")
+    @classmethod
+    def _without_gaps(cls, value: Any) -> Any:
+        _check_gaps(value, "point")
+        return value
 
     @model_validator(mode="after")
     def _has_its_file(self) -> Self:
@@ -192,6 +202,15 @@ class MeasuredEntry(Table):
     def sigma(self) -> float:
         """Standard deviation of each value, from uncertainty and resolution."""
         return float(np.hypot(self.uncertainty or 0.0, self.from_resolution[0]))
+
+
+def _check_gaps(values: Any, what: str) -> None:
+    """Raise ValueError if an entry of a list is NaN; `what` is to be left out instead."""
+    for number, each in enumerate(values if isinstance(values, list | tuple) else (), 1):
+        if str(each).strip().lower().startswith("nan"):
+            raise ValueError(
+                f"entry {number} of {len(values)} is {each}; leave that {what} out of each list"
+            )
 
 
 def data_error(entry: MeasuredEntry, values: Array) -> str:

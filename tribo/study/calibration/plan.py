@@ -80,11 +80,10 @@ def plan_tests(
     CaseError, NumericalError
         If the case or the tests are wrong, 1000 are not enough, or a run fails.
     """
-    if not 0 < level < 1 or not 0 < within < 1:
-        raise CaseError(
-            f"the level, {level:g}, and the half-width of the interval, {within:g}, must lie "
-            "between 0 and 1, as 0.95 and 0.1 do"
-        )
+    asked = (("level", level, 0.95), ("half-width of the interval", within, 0.1))
+    for what, part, example in asked:
+        if not 0 < part < 1:
+            raise CaseError(f"the {what}, {part:g}, must lie between 0 and 1, as {example} does")
     measurements = read_measurements(measured)
     if measurements.repeatability is None:
         raise CaseError(
