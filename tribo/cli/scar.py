@@ -27,7 +27,7 @@ UNITS = ("m", "mm", "um", "µm", "nm")
 @click.option("--pitch", multiple=True, metavar="LENGTH", help="Of pixels; twice for x and y.")
 @click.option("--radius", metavar="LENGTH", help="Of the ball, for a lab's formulas.")
 @click.option("--track-length", metavar="LENGTH", help="Of the whole track; the map's.")
-@click.option("--form", type=click.IntRange(1, 2), default=1, help="2 takes a curvature off too.")
+@click.option("--form", type=int, default=1, help="2 takes a curvature off too.")
 @click.option("-o", "--output", type=PATH, help="Picture to write, as scar.png.")
 @JSON
 def scar(

@@ -18,15 +18,12 @@ from tribo.lab.registration import Registration, register
 from tribo.lab.roughness import without_form
 from tribo.lab.scar import Scar
 from tribo.lab.track import circular_groove_area, planimetric_volume, reciprocating_track_volume
-from tribo.lab.widths import Width, scar_width, track_across
+from tribo.lab.widths import Width, scar_width
+from tribo.lab.worn_area import MARGIN, worn_area
 from tribo.surfaces.surface import Surface
 
-DEEP = 4.0
-"""Standard deviations of noise from which on a depth is a scar."""
 MOST = 0.65
 """Part of the map that a scar may cover, with its margin."""
-SPOT = 0.1
-"""Part of the largest scar's volume below which a worn area is left out."""
 SURE = 0.3
 """Part of the largest depth from which on a pixel tells the shape of the worn surface."""
 FEWEST_OF_BOTTOM = 12
@@ -36,16 +33,10 @@ BOTTOM = 0.8
 ZEROS = 10
 """Ratio of the number of zeros to that of any other height above which zeros may be missing
 values."""
-EDGE = 0.05
-"""Part of the largest depth from which on a scar is cut off by the edge of the map."""
-ALONG = 0.1
-"""Part of its length that a track may run along the edge of the map."""
 CURVED = 20.0
 """Sag of the map, relative to its relief, from which on the radius of its surface is known."""
 RADIUS_OFF = 0.05
 """Relative difference of a radius that is told."""
-MARGIN = 4
-"""Pixels added around the scar, by which smoothing widens it."""
 
 
 @dataclass(frozen=True)
@@ -206,42 +197,16 @@ def measured_scar(
             f"{100 * covered:.0f} % of the map differ, too much to register the maps by the rest; "
             "measure a larger area, half of it unworn"
         )
-    smooth, known = smoothed(found.depth), np.isfinite(found.depth)
-    sides = known & ~found.worn
-    noise = max(float(np.std(smooth[sides])), 1e-300) if sides.any() else found.noise
-    core = _largest(smooth, smooth > DEEP * noise)
-    if not core.any():
-        shape_before = "the shape given" if ideal else "the map before"
-        why = f"if over half of the map is worn, measure a larger area; or check {shape_before}"
-        if _largest(-smooth, -smooth > DEEP * noise).any():
-            why = "but some of it stands up; is the map after the test given first?"
-        raise CaseError(
-            f"no scar was found: nothing is worn deeper than {1e9 * DEEP * noise:.3g} nm, {DEEP:g} "
-            f"times what else differs; {why}"
-        )
+    worn = worn_area(found, after.pitch, ideal=ideal)
+    smooth, known, core, scar = worn.smooth, worn.known, worn.core, worn.scar
     if form == 1:
-        _warn_of_curvature(np.where(sides, found.depth, np.nan), ideal=ideal)
-    is_open = [
-        all(bool(np.any(core.take(end, axis))) for end in (range(MARGIN), range(-MARGIN, 0)))
-        for axis in (0, 1)
-    ]
-    cut_off = _is_cut_off(core & (smooth > EDGE * np.max(smooth[core])), known, is_open)
-    # Not into what is piled up beside it.
-    piled = _largest(-smooth, -smooth > DEEP * noise)
-    further = MARGIN + _shallow(smooth, core, DEEP * noise)
-    scar = ndimage.binary_dilation(core, iterations=further, mask=core | ~piled)
-    track = None
-    if is_open[0] != is_open[1]:
-        axis = is_open.index(True)
-        filled = np.where(known, found.depth, smooth)
-        band, track = track_across(filled, core, found.worn, noise, axis, after.pitch)
-        scar = ndimage.binary_dilation(band, iterations=MARGIN, mask=band | ~piled)
+        unworn = known & ~found.worn
+        _warn_of_curvature(np.where(unworn, found.depth, np.nan), ideal=ideal)
     holes = interpolated(np.where(known, smooth, np.nan), ~known & scar)
     depth = np.where(known, found.depth, holes)
     area = after.grid.cell_area
     volume = area * float(np.sum(depth[scar]))
-    piled = ndimage.binary_dilation(piled, iterations=MARGIN) & ~scar
-    if cut_off:
+    if worn.cut_off:
         whole = max(np.subtract(shape, found.depth.shape)) <= MARGIN
         warnings.warn(
             f"the edge of {'the map' if whole else 'the area common to both maps'} cuts the scar "
@@ -250,9 +215,9 @@ def measured_scar(
             TriboWarning,
             stacklevel=2,
         )
-    deepest, deepest_uncertainty = _deepest(found, smooth, core, noise)
+    deepest, deepest_uncertainty = _deepest(found, smooth, core, worn.noise)
     widths, track_volume, formulas = None, None, list[InferredVolume]()
-    several = ndimage.label(scar)[1] if track is None else 1
+    several = 1 if worn.track else ndimage.label(scar)[1]
     if several > 1:
         warnings.warn(
             f"{several} areas are worn: volume is that of all, depth that of the deepest, and "
@@ -260,19 +225,19 @@ def measured_scar(
             TriboWarning,
             stacklevel=2,
         )
-    elif not cut_off:
+    elif not worn.cut_off:
         endless = Width(math.inf, 0.0)
         widths = [
-            (endless if is_open[axis] else track)
-            or scar_width(smooth, scar, noise, axis, after.pitch[axis])
+            (endless if worn.is_open[axis] else worn.track)
+            or scar_width(smooth, scar, worn.noise, axis, after.pitch[axis])
             for axis in (0, 1)
         ]
         sizes = Scar(*(each.value for each in widths))
-        if track:
-            length = after.grid.size[is_open.index(True)]
+        if worn.track:
+            length = after.grid.size[worn.is_open.index(True)]
             whole = track_length or length
             track_volume = planimetric_volume(volume / length, whole)
-            formulas = _track_volumes(track_volume, track.value, whole, radius)
+            formulas = _track_volumes(track_volume, worn.track.value, whole, radius)
         elif radius is not None:
             _check_width(min(sizes), radius)
             _warn_of_radius(after, scar, radius)
@@ -285,14 +250,14 @@ def measured_scar(
         scar=scar,
         volume=volume,
         volume_uncertainty=area * _sum_uncertainty(found, scar),
-        piled_up=-area * float(np.nansum(depth[piled])),
+        piled_up=-area * float(np.nansum(depth[worn.piled])),
         depth=deepest,
         depth_uncertainty=deepest_uncertainty,
         along=None if widths is None else widths[0].value,
         along_uncertainty=None if widths is None else widths[0].uncertainty,
         across=None if widths is None else widths[1].value,
         across_uncertainty=None if widths is None else widths[1].uncertainty,
-        cut_off=cut_off,
+        cut_off=worn.cut_off,
         missing=float(np.mean(~known[scar])),
         track_volume=track_volume,
         inferred=tuple(formulas),
@@ -352,13 +317,6 @@ def _deepest(found: Registration, smooth: Array, core: Mask, noise: float) -> tu
     return float(form[top]), math.sqrt(of_coefficients + of_registration + of_relief)
 
 
-def _shallow(smooth: Array, core: Mask, level: float) -> int:
-    """Return how many pixels further than at a level a parabolic scar ends."""
-    reach = float(np.max(ndimage.distance_transform_edt(core)))
-    deep = 1 - level / float(np.max(smooth[core]))
-    return math.ceil(reach * (1 / math.sqrt(deep) - 1))
-
-
 def _sum_uncertainty(found: Registration, scar: Mask) -> float:
     """Return the standard uncertainty of the sum of depths in a scar, in m.
 
@@ -377,33 +335,6 @@ def _sum_uncertainty(found: Registration, scar: Mask) -> float:
     holes, count = ndimage.label(missing)
     each = ndimage.sum(sigma, holes, np.arange(1, count + 1))
     return math.sqrt(max(of_fit, 0.0) + of_noise + float(np.sum(np.square(each))))
-
-
-def _largest(depth: Array, marked: Mask) -> Mask:
-    """Return the connected areas whose volume is at least a tenth of the largest's."""
-    places, count = ndimage.label(ndimage.binary_opening(marked, iterations=2))
-    volumes = np.array(ndimage.sum(depth, places, np.arange(1, count + 1)))
-    kept = 1 + np.flatnonzero(volumes >= SPOT * np.max(volumes, initial=0.0))
-    filled: Mask = ndimage.binary_fill_holes(np.isin(places, kept))
-    return filled
-
-
-def _is_cut_off(scar: Mask, known: Mask, is_open: list[bool]) -> bool:
-    """Return whether the edge of what is known cuts off a scar, other than a track's ends."""
-    # Without the holes that missing pixels leave at the edge.
-    missing = ndimage.binary_opening(np.pad(~known, 8, constant_values=True), iterations=2)
-    places, _ = ndimage.label(missing)
-    outside, scar = places == places[4, 4], np.pad(scar, 8)
-    # Pixels outside that touch the scar along x, and along y.
-    touched = [
-        ndimage.binary_dilation(scar, line) & outside for line in (np.ones((3, 1)), np.ones((1, 3)))
-    ]
-    if is_open[0] != is_open[1]:
-        axis = is_open.index(True)
-        # The common area is ragged at the ends of a track.
-        beside = np.moveaxis(touched[1 - axis], axis, 0)[16:-16]
-        return bool(np.count_nonzero(beside) > ALONG * known.shape[axis])
-    return bool(np.count_nonzero(touched) > 2)
 
 
 def _track_volumes(

@@ -1,0 +1,133 @@
+"""What of a depth map is a scar, and what is piled up beside it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.ndimage as ndimage
+
+from tribo.core.arrays import Array, Mask
+from tribo.core.errors import CaseError
+from tribo.lab.heights import smoothed
+from tribo.lab.registration import Registration
+from tribo.lab.widths import Width, track_across
+
+DEEP = 4.0
+"""Standard deviations of noise from which on a depth is a scar."""
+SPOT = 0.1
+"""Part of the largest scar's volume below which a worn area is left out."""
+EDGE = 0.05
+"""Part of the largest depth from which on a scar is cut off by the edge of the map."""
+ALONG = 0.1
+"""Part of its length that a track may run along the edge of the map."""
+MARGIN = 4
+"""Pixels added around the scar, by which smoothing widens it."""
+
+
+@dataclass(frozen=True)
+class WornArea:
+    """The scar of a registered pair of maps.
+
+    Parameters
+    ----------
+    smooth : ndarray, shape (nx, ny)
+        Smoothed depths, in m.
+    known, core, scar, piled : ndarray of bool, shape (nx, ny)
+        Pixels that were measured; that are worn beyond doubt; the whole scar; what stands up.
+    noise : float
+        Standard deviation of the smoothed depths of what is unworn, in m.
+    is_open : list of bool
+        Whether it reaches both edges of the map, along x and along y.
+    cut_off : bool
+        Whether it goes on beyond the edge, other than at the ends of a track.
+    track : Width or None
+        The width of a track, across its direction; None for a scar that ends within the map.
+    """
+
+    smooth: Array
+    known: Mask
+    core: Mask
+    scar: Mask
+    piled: Mask
+    noise: float
+    is_open: list[bool]
+    cut_off: bool
+    track: Width | None
+
+
+def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -> WornArea:
+    """Return what is worn; `CaseError` if nothing is. The map before may be an ideal shape."""
+    smooth, known = smoothed(found.depth), np.isfinite(found.depth)
+    unworn = known & ~found.worn
+    noise = max(float(np.std(smooth[unworn])), 1e-300) if unworn.any() else found.noise
+    core = _largest(smooth, smooth > DEEP * noise)
+    piled = _largest(-smooth, -smooth > DEEP * noise)
+    if not core.any():
+        before = "the shape given" if ideal else "the map before"
+        why = f"if over half of the map is worn, measure a larger area; or check {before}"
+        if piled.any():
+            why = "but some of it stands up; is the map after the test given first?"
+        raise CaseError(
+            f"no scar was found: nothing is worn deeper than {1e9 * DEEP * noise:.3g} nm, {DEEP:g} "
+            f"times what else differs; {why}"
+        )
+    is_open = [
+        all(bool(np.any(core.take(end, axis))) for end in (range(MARGIN), range(-MARGIN, 0)))
+        for axis in (0, 1)
+    ]
+    # Not into what is piled up beside it.
+    further = MARGIN + _shallow(smooth, core, DEEP * noise)
+    scar = ndimage.binary_dilation(core, iterations=further, mask=core | ~piled)
+    track = None
+    if is_open[0] != is_open[1]:
+        axis = is_open.index(True)
+        depth = np.where(known, found.depth, smooth)
+        band, track = track_across(depth, core, found.worn, noise, axis, pitch)
+        scar = ndimage.binary_dilation(band, iterations=MARGIN, mask=band | ~piled)
+    return WornArea(
+        smooth=smooth,
+        known=known,
+        core=core,
+        scar=scar,
+        piled=ndimage.binary_dilation(piled, iterations=MARGIN) & ~scar,
+        noise=noise,
+        is_open=is_open,
+        cut_off=_is_cut_off(core & (smooth > EDGE * np.max(smooth[core])), known, is_open),
+        track=track,
+    )
+
+
+def _largest(depth: Array, marked: Mask) -> Mask:
+    """Return the connected areas whose volume is at least a tenth of the largest's."""
+    places, count = ndimage.label(ndimage.binary_opening(marked, iterations=2))
+    volumes = np.array(ndimage.sum(depth, places, np.arange(1, count + 1)))
+    kept = 1 + np.flatnonzero(volumes >= SPOT * np.max(volumes, initial=0.0))
+    filled: Mask = ndimage.binary_fill_holes(np.isin(places, kept))
+    return filled
+
+
+def _shallow(smooth: Array, core: Mask, level: float) -> int:
+    """Return how many pixels further than at a level a parabolic scar ends."""
+    reach = float(np.max(ndimage.distance_transform_edt(core)))
+    deep = 1 - level / float(np.max(smooth[core]))
+    return math.ceil(reach * (1 / math.sqrt(deep) - 1))
+
+
+def _is_cut_off(scar: Mask, known: Mask, is_open: list[bool]) -> bool:
+    """Return whether the edge of what is known cuts off a scar, other than a track's ends."""
+    # Without the holes that missing pixels leave at the edge.
+    missing = ndimage.binary_opening(np.pad(~known, 8, constant_values=True), iterations=2)
+    places, _ = ndimage.label(missing)
+    outside, scar = places == places[4, 4], np.pad(scar, 8)
+    # Pixels outside that touch the scar along x, and along y.
+    touched = [
+        ndimage.binary_dilation(scar, line) & outside for line in (np.ones((3, 1)), np.ones((1, 3)))
+    ]
+    if is_open[0] != is_open[1]:
+        axis = is_open.index(True)
+        # The common area is ragged at the ends of a track.
+        beside = np.moveaxis(touched[1 - axis], axis, 0)[16:-16]
+        return bool(np.count_nonzero(beside) > ALONG * known.shape[axis])
+    return bool(np.count_nonzero(touched) > 2)
