@@ -18,7 +18,7 @@ from tribo.study.calibration.calibrate import Calibration, calibrate
 from tribo.study.calibration.measured import Measurements, read_measurements
 from tribo.study.calibration.notes import UNLIKELY
 from tribo.study.calibration.parameters import is_number
-from tribo.study.calibration.quantities import in_words, p_words
+from tribo.study.calibration.quantities import in_words, p_words, percent
 
 STRONG = 6.0
 """Difference of the criterion from which on evidence is strong (Kass & Raftery)."""
@@ -166,5 +166,5 @@ def _next_quantity(found: Mapping[str, Calibration], first: str, second: str) ->
     values = [in_words(each.quantity, value) for value in (each.value_x, each.value_y)]
     return (
         f"; of what was not measured they differ most in the {each.quantity} of {each.body!r}"
-        f"{where}: {values[0]} and {values[1]}"
+        f"{where}: {values[0]} and {values[1]}, {percent(abs(each.ratio - 1))} % apart"
     )

@@ -24,6 +24,9 @@ from tribo.study.gradient.objective import Objective, View, is_finite, looked
 from tribo.study.gradient.parameters import Chain, chain
 from tribo.study.gradient.tape import Tape, recorded
 
+FURTHEST = 30.0
+"""Change of the logarithm of a number beyond which no case is asked for."""
+
 
 @dataclass(frozen=True)
 class Gradient:
@@ -232,6 +235,13 @@ class ValueAndGradient:
             raise CaseError(f"{np.size(unknowns)} unknowns were given; start has {self.start.size}")
         case, at = self._model.case, len(self._numbers)
         for (path, places, value), log in zip(self._numbers, unknowns[:at], strict=True):
+            if abs(log) > FURTHEST:
+                raise CaseError(
+                    f"was asked for {log:+.3g} away in its logarithm: a step of the optimiser went "
+                    "too far; give it bounds, as method='L-BFGS-B', "
+                    "bounds=[(-2, 2)] * len(fit.start)",
+                    path,
+                )
             number = float(value * np.exp(log))
             try:
                 for place in places:
