@@ -366,6 +366,21 @@ def test_a_wrong_number_that_is_not_fitted_is_named():
     assert "±0.0 %" not in text
 
 
+def test_numbers_that_the_data_cannot_tell_apart_stay_near_their_start(true_run):
+    """The scar's width is off, which no combination of them explains."""
+    width = measured("ball", "scar_across", 0.97 * computed(true_run, "ball", "scar_across"))
+    paths = [BALL_K, DISK_K, "load.normal"]
+    data = {"measured": [BALL_LOSS, DISK_LOSS, width], "fit": fitting(*paths)}
+    found = calibrate(CASE, data)
+    (note,) = (note for note in found.notes if "cannot tell" in note)
+    assert f"raising {BALL_K} and {DISK_K} and lowering load.normal changes none" in note
+    assert np.all(found.parameters["upper"] > 100 * found.parameters["value"])
+    held = calibrate(
+        CASE, data | {"fit": [*fitting(*paths[:2]), {"path": paths[2], "lower": 90.0}]}
+    )
+    assert not any("would be met better" in note for note in held.notes)
+
+
 def test_readings_in_coarse_steps_are_not_taken_for_too_good():
     alike = {"body": "ball", "quantity": "mass", "value": mass(BALL)}
     alike |= {"uncertainty": 0.01 * mass(BALL), "resolution": 0.2 * mass(BALL)}

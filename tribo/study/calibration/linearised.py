@@ -15,6 +15,8 @@ LONGEST_STEP = np.log(100.0)
 """Largest change of a logarithm between two runs."""
 LONGEST_STEP_OF_DEPTHS = np.log(4.0)
 """The same where profiles or depth maps, which are linearised, are among the data."""
+DAMPING = np.log(20.0)
+"""Change of a logarithm that costs as much as a change of the data by a standard deviation."""
 REPEATABILITY_RANGE = (1e-3, 3.0)
 """Smallest and largest repeatability that is estimated."""
 INSENSITIVE = 0.1
@@ -212,13 +214,18 @@ class Linearised:
         return lower, np.minimum(self.problem.upper, self.point + reach)
 
     def least(self, start: Array, rows: Mask | slice = slice(None)) -> Array:
-        """Return the least-squares point of rows of the data, within bounds and a longest step."""
+        """Return the least-squares point of rows of the data, within bounds and a longest step.
+
+        A step costs as if the parameters were known to a factor of 20 from the run: it does not
+        go far where the data do not say where to.
+        """
         has_depths = np.any(self.problem.small > 0)
         ends = self.bounds(LONGEST_STEP_OF_DEPTHS if has_depths else LONGEST_STEP)
+        damping = np.eye(len(start)) / DAMPING
         found = least_squares(
-            lambda point: self.residuals(point)[rows],
+            lambda point: np.append(self.residuals(point)[rows], damping @ (point - self.point)),
             np.clip(start, *ends),
-            lambda point: self.jacobian(point)[rows],
+            lambda point: np.concatenate([self.jacobian(point)[rows], damping]),
             ends,
             xtol=1e-10,
             ftol=1e-10,

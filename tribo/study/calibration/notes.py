@@ -17,6 +17,8 @@ UNLIKELY = 0.01
 """p-value below which data and model disagree."""
 TOO_SMALL = 0.001
 """1 − p above which the data agree with the model better than they may."""
+STEEP = 0.3
+"""Square root of the fall of χ² beyond a bound from which on the bound matters."""
 NEARLY_COLLINEAR = 0.2
 """Singular value of the Jacobian with normalised columns below which parameters are hardly told
 apart: 1 if their effects are orthogonal, 0 if they are the same."""
@@ -58,14 +60,17 @@ def _on_parameters(
 ) -> Iterator[str]:
     """Name parameters on a bound or not bounded, and the instrument that dominates each."""
     parts = (data["step_sigma"] / data["sigma"]).to_numpy()
-    for each, effect in zip(estimates.itertuples(), np.linalg.pinv(jacobian), strict=True):
+    effects = np.linalg.pinv(jacobian)
+    for each, effect, column in zip(estimates.itertuples(), effects, jacobian.T, strict=True):
         is_open = {"below": each.lower == 0, "above": math.isinf(each.upper)}
         if each.held:
             below = each.value - each.lower < each.upper - each.value
+            steep = abs(float(np.sum(column * data["alone"]))) / float(np.sqrt(np.sum(column**2)))
+            met = "without the bound the data would be met better"
             yield (
                 f"{each.path}: the estimate lies on its {'lower' if below else 'upper'} bound, "
                 f"{in_si(each.lower if below else each.upper, each.unit)}, and has no interval; "
-                "without the bound the data would be met better"
+                f"{met if steep > STEEP else 'the data hardly tell it'}"
             )
         elif each.limited:
             yield (
@@ -101,16 +106,21 @@ def _on_collinearity(paths: Sequence[str], jacobian: Array) -> Iterator[str]:
             continue
         taking = [i for i in range(len(paths)) if abs(direction[i]) > _PARTICIPATES]
         names = [paths[i] for i in taking]
-        how = "changing them together"
-        if len(taking) == 2:
-            opposed = direction[taking[0]] * direction[taking[1]] < 0
-            how = "raising one and lowering the other" if opposed else "raising both"
+        raised = [i for i in taking if direction[i] * direction[taking[0]] > 0]
+        how = f"raising {_listed([paths[i] for i in raised])}"
+        if lowered := [paths[i] for i in taking if i not in raised]:
+            how += f" and lowering {_listed(lowered)}"
         cannot = angle <= COLLINEAR
         yield (
-            f"the data {'cannot' if cannot else 'can hardly'} tell {', '.join(names[:-1])} and "
-            f"{names[-1]} apart: {how} changes {'none' if cannot else 'little'} of the computed "
+            f"the data {'cannot' if cannot else 'can hardly'} tell {_listed(names)} "
+            f"apart: {how} changes {'none' if cannot else 'little'} of the computed "
             "values; measure something that only one of them changes, or leave one out of fit"
         )
+
+
+def _listed(names: Sequence[str]) -> str:
+    """Return names as "a, b and c"."""
+    return " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
 
 
 def disagrees(chi_square: float, freedom: int) -> bool:
