@@ -216,12 +216,12 @@ class Linearised:
     def least(self, start: Array, rows: Mask | slice = slice(None)) -> Array:
         """Return the least-squares point of rows of the data, within bounds and a longest step.
 
-        A step costs as if the parameters were known to a factor of 20 from the run: it does not
-        go far where the data do not say where to.
+        In directions of which the data say hardly anything a step costs as if the parameters were
+        known from the run to a factor of 20, so that it does not go far.
         """
         has_depths = np.any(self.problem.small > 0)
         ends = self.bounds(LONGEST_STEP_OF_DEPTHS if has_depths else LONGEST_STEP)
-        damping = np.eye(len(start)) / DAMPING
+        damping = self._undetermined() / DAMPING
         found = least_squares(
             lambda point: np.append(self.residuals(point)[rows], damping @ (point - self.point)),
             np.clip(start, *ends),
@@ -232,6 +232,12 @@ class Linearised:
             gtol=1e-10,
         )
         return np.asarray(found.x)
+
+    def _undetermined(self) -> Array:
+        """Return directions that the data do not determine to a factor e, shape (k, p)."""
+        jacobian = self.jacobian(self.point)
+        information, directions = np.linalg.eigh(np.einsum("nk,nl->kl", jacobian, jacobian))
+        return np.asarray(directions.T[information < 1.0])
 
     def best(self) -> tuple[Linearised, Array]:
         """Return the model with the weights of its least-squares point, and that point."""
