@@ -227,7 +227,9 @@ class Backwards:
             fixed = self._gave(record, yielded)[here] * full / weights
         free = (pressure > JUST * np.max(pressure)) & ~full
         bodies = [(own, steep[here]) for each in increments for own, steep in each.bodies]
-        shared = [each for each in increments if isinstance(each, Together)]
+        shared = [
+            each for each in increments if isinstance(each, Together) and not each.is_pointwise
+        ]
         wear = partial(self._of_wear, shared[0], box) if shared else None
         system = StepSystem(operator, box, self.shares, bodies, free, wear)
 

@@ -38,12 +38,15 @@ class LocalLaw(GuardedLaw):
     def __init__(self, law: GuardedLaw, factor: Array, spacing: tuple[float, float]) -> None:
         vars(self).update(vars(law))
         self._law = law
-        self.requires = tuple(dict.fromkeys((*law.requires, PLACE_X.name, PLACE_Y.name)))
-        self._factor = factor
+        self._factor, self._is_even = factor, bool(np.ptp(factor) == 0)
+        if not self._is_even:
+            self.requires = tuple(dict.fromkeys((*law.requires, PLACE_X.name, PLACE_Y.name)))
         self._spacing = spacing
 
     def rate(self, local: LocalConditions, over: Array | float = 0.0) -> WearRate:
         """Return the law's rate and its derivative, times the factor of the place."""
+        if self._is_even:
+            return times(self._factor[0, 0], self._law.rate(local, over))
         cells = tuple(
             np.rint(local.fields[place.name] / spacing + 0.5 * (count - 1)).astype(int)
             for place, spacing, count in zip(

@@ -15,7 +15,7 @@ from tribo.study.gradient.course import Before, Other
 from tribo.study.gradient.linear import Carrier
 from tribo.study.gradient.passing import lowered, with_bottoms
 from tribo.study.gradient.replay import Part, replayed, weight
-from tribo.study.gradient.response import Arrays, Field
+from tribo.study.gradient.response import ALONE, Arrays, Field
 from tribo.study.gradient.slopes import Slopes, Sloping
 from tribo.study.gradient.stages import together
 
@@ -228,11 +228,33 @@ class Together(Remembering):
         return self._before(wear, states, found, lambda: found.along)
 
     @cached_property
-    def bodies(self) -> Sequence[tuple[Carrier, Array]]:
-        """Of each body its carrier and about what its depth follows pressures by.
+    def is_pointwise(self) -> bool:
+        """Whether a point's depth follows the pressures of its own cells alone.
 
-        That of the pressures of its own cells as the increment begins, to precondition with.
+        Then `bodies` say all that the wear adds to the system of a step.
         """
+        model, (_, reach) = self.stages.model, self.stages.first
+        return (
+            len(model.cycle) == 1
+            and not (self.stages.layered or model.filling)
+            and all(each == ALONE for each in (reach.pressure, *reach.states))
+            and all(kept.weights is None for kept in self.stages.kept)
+        )
+
+    @cached_property
+    def bodies(self) -> Sequence[tuple[Carrier, Array]]:
+        """Of each body its carrier and the derivative of a point's depth in its cells' pressures.
+
+        Where more follows those, that as the increment begins, to precondition with.
+        """
+        if self.is_pointwise:
+            shape, none = self.stages.pressure.shape, [0.0] * len(self.stages.begin)
+            ones = np.eye(len(self.stages.own))[:, :, None, None]
+            by = [self._back([*each], none).pressure for each in ones]
+            return [
+                (own, self.stages.embedded(np.broadcast_to(each, shape)))
+                for own, each in zip(self.stages.own, by, strict=True)
+            ]
         start, window = self._parts[0].rows[0][0], np.ones(self.stages.pressure.shape)
         return [
             (own, self.stages.slid.increment * own.part(self.stages.box) * by.own * window)
