@@ -61,6 +61,13 @@ class Grains(Effect):
         return {"grains": contact.speed * (caught - leaves)}
 
 
+class Dust(Grains):
+    """Such grains that are too few to lift the bodies, so that each point follows its own cells."""
+
+    type = "dust"
+    state_fields = (Field("grains", "m", "Height of grains.", at_least=0),)
+
+
 class Heat(Effect):
     """A temperature after the load and the area of the contact, and of a bulk that warms."""
 
@@ -174,6 +181,17 @@ KINDS = {
         run(effects=[Grains()], kinematics=motion(duration=4), stepping=SLOW),
         Depth("disk"),
         [*BASE, *SHAPE, *OF_GRAINS],
+        1e-5,
+    ),
+    "dust": Kind(
+        run(
+            bodies=pair(FRESH, archard()),
+            effects=[Dust()],
+            kinematics=motion(duration=4),
+            stepping=SLOW,
+        ),
+        Depth("disk"),
+        ["load.normal", "bodies.ball.wear.over", "bodies.disk.wear.k", *SHAPE, *OF_GRAINS],
         1e-5,
     ),
     "grains, positions": Kind(
@@ -375,6 +393,7 @@ MUTANTS = [
     ("heat", slopes.Sloping, "_by_pressure", unfelt("load")),
     ("heat", slopes.Sloping, "_by_pressure", unfelt("square")),
     ("heat", linear.Uniform, "gathered", zero),
+    ("heat", remembering.Together, "is_pointwise", lambda _: property(lambda self: True)),
     ("layers", slopes.Sloping, "_by_share", of_depths),
     ("layers, pressure beside", slopes.Sloping, "_passing", nothing),
 ]
