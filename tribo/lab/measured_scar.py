@@ -26,6 +26,8 @@ MOST = 0.65
 """Part of the map that a scar may cover, with its margin."""
 SURE = 0.3
 """Part of the largest depth from which on a pixel tells the shape of the worn surface."""
+MISSED = 0.2
+"""Part of the bottom of the scar that may lie in holes."""
 FEWEST_OF_BOTTOM = 12
 """Pixels that a paraboloid is fitted to at least."""
 BOTTOM = 0.8
@@ -295,7 +297,8 @@ def _deepest(found: Registration, smooth: Array, core: Mask, noise: float) -> tu
     places, _ = ndimage.label(deepest >= BOTTOM * np.max(deepest), np.ones((3, 3)))
     bottom = places == places[np.unravel_index(int(np.argmax(deepest)), core.shape)]
     missing = bottom & np.isnan(found.depth)
-    if np.any(ndimage.binary_opening(missing, np.ones((3, 3)))):
+    holes = ndimage.binary_opening(missing, np.ones((3, 3)))
+    if np.count_nonzero(holes) > MISSED * np.count_nonzero(bottom):
         warnings.warn(
             "pixels are missing where the scar is deepest: the largest depth is that of the others",
             TriboWarning,
