@@ -11,7 +11,13 @@ from scipy.special import chdtri, stdtrit
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, NumericalError
-from tribo.study.calibration.linearised import Linearised, Problem, root_covariance
+from tribo.study.calibration.linearised import (
+    COLLINEAR,
+    Linearised,
+    Problem,
+    normalised,
+    root_covariance,
+)
 
 STEP = 0.2
 """Change of a logarithm for a finite difference; large, since computed scars are rounded."""
@@ -108,7 +114,10 @@ def interval(here: Linearised, direction: Array, level: float) -> tuple[float, f
     spread = float(np.sqrt(np.sum(gradient**2)))
     if spread == 0:
         return 0.0, 0.0
-    if spread > OPEN or freedom < FEWEST_DEGREES_OF_FREEDOM:
+    size, angles, directions = normalised(here.sensitivity())
+    moves = directions[angles <= COLLINEAR] / size
+    follows = np.abs(moves @ direction) > ABOVE_ROUNDING * np.linalg.norm(moves, axis=1)
+    if spread > OPEN or freedom < FEWEST_DEGREES_OF_FREEDOM or np.any(follows):
         return -np.inf, np.inf
     lower, upper = here.bounds(2 * OPEN / np.clip(np.max(np.abs(direction)), 0.05, 1.0))
 

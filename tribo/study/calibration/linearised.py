@@ -15,13 +15,16 @@ LONGEST_STEP = np.log(100.0)
 """Largest change of a logarithm between two runs."""
 LONGEST_STEP_OF_DEPTHS = np.log(4.0)
 """The same where profiles or depth maps, which are linearised, are among the data."""
-DAMPING = np.log(20.0)
-"""Change of a logarithm that costs as much as a change of the data by a standard deviation."""
 REPEATABILITY_RANGE = (1e-3, 3.0)
 """Smallest and largest repeatability that is estimated."""
 INSENSITIVE = 0.1
 """Change of all data together, in standard deviations, per change of a parameter by a factor e,
 below which the data are taken as insensitive to it."""
+COLLINEAR = 0.01
+"""Singular value of the Jacobian with normalised columns, 1 if the effects of parameters are
+orthogonal, up to which the data do not tell them apart: a step does not go that way."""
+_STAY = 0.1
+"""Weight of a move that way, relative to the effects of the parameters on the data."""
 _ITERATIONS, _CONVERGED, _RIDGE = 30, 1e-5, 1e-12
 _UNDETERMINED = 10.0
 """Standard deviation of a logarithm from which on a parameter counts as undetermined."""
@@ -216,28 +219,22 @@ class Linearised:
     def least(self, start: Array, rows: Mask | slice = slice(None)) -> Array:
         """Return the least-squares point of rows of the data, within bounds and a longest step.
 
-        In directions of which the data say hardly anything a step costs as if the parameters were
-        known from the run to a factor of 20, so that it does not go far.
+        It stays where it is along directions that the data do not determine.
         """
         has_depths = np.any(self.problem.small > 0)
         ends = self.bounds(LONGEST_STEP_OF_DEPTHS if has_depths else LONGEST_STEP)
-        damping = self._undetermined() / DAMPING
+        size, angles, directions = normalised(self.sensitivity())
+        stay = _STAY * directions[angles <= COLLINEAR] * size
         found = least_squares(
-            lambda point: np.append(self.residuals(point)[rows], damping @ (point - self.point)),
+            lambda point: np.append(self.residuals(point)[rows], stay @ (point - self.point)),
             np.clip(start, *ends),
-            lambda point: np.concatenate([self.jacobian(point)[rows], damping]),
+            lambda point: np.concatenate([self.jacobian(point)[rows], stay]),
             ends,
             xtol=1e-10,
             ftol=1e-10,
             gtol=1e-10,
         )
         return np.asarray(found.x)
-
-    def _undetermined(self) -> Array:
-        """Return directions that the data do not determine to a factor e, shape (k, p)."""
-        jacobian = self.jacobian(self.point)
-        information, directions = np.linalg.eigh(np.einsum("nk,nl->kl", jacobian, jacobian))
-        return np.asarray(directions.T[information < 1.0])
 
     def best(self) -> tuple[Linearised, Array]:
         """Return the model with the weights of its least-squares point, and that point."""
@@ -334,8 +331,14 @@ class Linearised:
         return float(np.exp(found.x)) if found.fun < criterion(0.0) else 0.0
 
 
-def root_covariance(jacobian: Array) -> Array:
-    """Return a root B of the covariance (JᵀJ)⁻¹ = B Bᵀ, shape (p, p); finite for a singular J."""
+def normalised(jacobian: Array) -> tuple[Array, Array, Array]:
+    """Return the norms of columns; and the singular values and directions with these as units."""
     size = np.sqrt(np.sum(jacobian**2, axis=0)) + _RIDGE
     _, values, directions = np.linalg.svd(jacobian / size, full_matrices=False)
+    return size, values, directions
+
+
+def root_covariance(jacobian: Array) -> Array:
+    """Return a root B of the covariance (JᵀJ)⁻¹ = B Bᵀ, shape (p, p); finite for a singular J."""
+    size, values, directions = normalised(jacobian)
     return np.asarray(directions.T / np.sqrt(values**2 + _RIDGE) / size[:, None])

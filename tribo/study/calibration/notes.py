@@ -11,6 +11,7 @@ import pandas as pd
 from scipy.special import chdtrc
 
 from tribo.core.arrays import Array
+from tribo.study.calibration.linearised import COLLINEAR, normalised
 from tribo.study.calibration.quantities import FIELDS, in_si, in_words, percent
 
 UNLIKELY = 0.01
@@ -21,9 +22,7 @@ STEEP = 0.3
 """Square root of the fall of χ² beyond a bound from which on the bound matters."""
 NEARLY_COLLINEAR = 0.2
 """Singular value of the Jacobian with normalised columns below which parameters are hardly told
-apart: 1 if their effects are orthogonal, 0 if they are the same."""
-COLLINEAR = 0.01
-"""Singular value below which they are not told apart at all."""
+apart; not at all below `COLLINEAR`."""
 _PARTICIPATES = 0.3
 """Component of a singular vector from which on a parameter is named."""
 _DOMINATES = 0.5
@@ -99,8 +98,7 @@ def _on_parameters(
 
 def _on_collinearity(paths: Sequence[str], jacobian: Array) -> Iterator[str]:
     """Name parameters whose effects on the data are nearly collinear."""
-    scaled = jacobian / np.sqrt(np.sum(jacobian**2, axis=0))
-    _, angles, directions = np.linalg.svd(scaled, full_matrices=False)
+    _, angles, directions = normalised(jacobian)
     for angle, direction in zip(angles, directions, strict=True):
         if angle > NEARLY_COLLINEAR:
             continue
