@@ -129,10 +129,12 @@ def _surface(text: str) -> Surface:
     return surface
 
 
-def _width(width: float | None, uncertainty: float | None) -> tuple[float | str, float | None]:
+def _width(
+    found: MeasuredScar, width: float | None, uncertainty: float | None
+) -> tuple[float | str, float | None]:
     """Return a width and its uncertainty as the table has them, in mm."""
     if width is None or uncertainty is None:
-        return "cut off", None
+        return "cut off" if found.cut_off else "several scars", None
     return ("whole map", None) if math.isinf(width) else (1e3 * width, 1e3 * uncertainty)
 
 
@@ -145,8 +147,8 @@ def _print(found: MeasuredScar) -> None:
     rows: list[tuple[str, float | str | None, float | None]] = [
         ("volume in the map, mm³", 1e9 * found.volume, 1e9 * found.volume_uncertainty),
         ("largest depth, µm", 1e6 * found.depth, 1e6 * found.depth_uncertainty),
-        ("along sliding, mm", *_width(found.along, found.along_uncertainty)),
-        ("across, mm", *_width(found.across, found.across_uncertainty)),
+        ("along sliding, mm", *_width(found, found.along, found.along_uncertainty)),
+        ("across, mm", *_width(found, found.across, found.across_uncertainty)),
         ("mean section, mm²", None if found.section is None else 1e6 * found.section, None),
         ("piled up, mm³", 1e9 * found.piled_up or None, None),
         ("missing in it, %", 100 * found.missing or None, None),
