@@ -21,6 +21,8 @@ OWN = (".npy", ".csv", ".txt", ".h5", ".hdf5")
 FEWEST = 16
 AROUND = np.array([[0, 1, 0], [1, 0, 1], [0, 1, 0]]) / 4
 """Weights of the neighbours of a pixel."""
+BLUR = 2.0
+"""Width of the Gaussian that maps are smoothed by, in pixels."""
 SWEEPS = 20
 """Of averages over neighbours, which fill holes of a few pixels."""
 
@@ -151,7 +153,7 @@ def nearest_filled(heights: Array) -> Array:
     return np.asarray(heights[tuple(nearest)])
 
 
-def smoothed(heights: Array, width: float = 2.0) -> Array:
+def smoothed(heights: Array, width: float = BLUR) -> Array:
     """Return the mean of what is known around each pixel, weighted by a Gaussian; 0 far from it."""
     known = np.isfinite(heights)
     total, weight = (

@@ -61,7 +61,7 @@ class MeasuredScar:
         Largest depth, of a paraboloid through the bottom of the scar, in m.
     along, across : float
         Widths along and across the sliding direction, in m; infinite for a track, which reaches
-        both edges of the map, and None for a scar that is cut off.
+        both edges of the map, and None for one that is cut off and for several.
     along_uncertainty, across_uncertainty : float
         Standard uncertainties of these, by noise and by how far the edge is from a parabola.
     cut_off : bool
@@ -202,8 +202,7 @@ def measured_scar(
     worn = worn_area(found, after.pitch, ideal=ideal)
     smooth, known, core, scar = worn.smooth, worn.known, worn.core, worn.scar
     if form == 1:
-        unworn = known & ~found.worn
-        _warn_of_curvature(np.where(unworn, found.depth, np.nan), ideal=ideal)
+        _warn_of_curvature(np.where(found.unworn, found.depth, np.nan), ideal=ideal)
     holes = interpolated(np.where(known, smooth, np.nan), ~known & scar)
     depth = np.where(known, found.depth, holes)
     area = after.grid.cell_area
@@ -244,7 +243,9 @@ def measured_scar(
             _check_width(min(sizes), radius)
             _warn_of_radius(after, scar, radius)
             # Smoothing widens the core beyond what is worn.
-            groove = _groove_radius(after, core & (smooth > SURE * np.max(smooth[core])))
+            sure = core & (smooth > SURE * np.max(smooth[core]))
+            bottom = np.where(sure, after.heights, np.nan)
+            groove = _radius_across(bottom - without_form(bottom), after.pitch)
             formulas = ball_volumes("ball", sizes, radius, groove, volume)
     return MeasuredScar(
         registration=found,
@@ -379,8 +380,9 @@ def _warn_of_curvature(unworn: Array, *, ideal: bool) -> None:
 
 def _warn_of_radius(after: Heights, scar: Mask, radius: float) -> None:
     """Warn if the unworn surface has another radius than the ball."""
-    found = _groove_radius(after, ~scar)
-    noise = float(np.nanstd(without_form(np.where(scar, np.nan, after.heights))))
+    unworn = np.where(scar, np.nan, after.heights)
+    rest = without_form(unworn)
+    found, noise = _radius_across(unworn - rest, after.pitch), float(np.nanstd(rest))
     sag = after.grid.size[1] ** 2 / (8 * radius)
     if sag > CURVED * noise and abs(math.log(min(found / radius, 100.0))) > RADIUS_OFF:
         warnings.warn(
@@ -391,9 +393,7 @@ def _warn_of_radius(after: Heights, scar: Mask, radius: float) -> None:
         )
 
 
-def _groove_radius(after: Heights, core: Mask) -> float:
-    """Return the radius of the worn surface across the sliding direction, in m."""
-    heights = np.where(core, after.heights, np.nan)
-    form = heights - without_form(heights)
-    bend = float(np.nanmean(np.diff(form, 2, axis=1))) / after.pitch[1] ** 2
+def _radius_across(form: Array, pitch: tuple[float, float]) -> float:
+    """Return the radius of the form of a surface across the sliding direction, in m."""
+    bend = float(np.nanmean(np.diff(form, 2, axis=1))) / pitch[1] ** 2
     return math.inf if bend >= 0 else -1 / bend

@@ -103,6 +103,12 @@ class Registration:
     covariance: Array
     variance_inflation: float
 
+    @property
+    def unworn(self) -> Mask:
+        """The pixels in common that are not left out, shape (nx, ny)."""
+        unworn: Mask = np.isfinite(self.depth) & ~self.worn
+        return unworn
+
 
 def register(before: Heights, after: Heights, form: int = 1) -> Registration:
     """Register a map measured after a test with one measured before it.

@@ -9,13 +9,11 @@ import numpy as np
 import scipy.ndimage as ndimage
 
 from tribo.core.arrays import Array, Mask
+from tribo.lab.heights import BLUR
+from tribo.lab.registration import DEEP
 
 LOWEST, HIGHEST = 0.05, 0.3
 """Parts of the largest depth between which a width is read: as low as noise and blur allow."""
-DEEP = 4.0
-"""Standard deviations of noise from which on a width is read."""
-BLUR = 2.0
-"""Width of the Gaussian that depths are smoothed by, in pixels."""
 LINES = 5
 """Lines through the middle of a scar whose mean is its profile."""
 BESIDE = 0.1

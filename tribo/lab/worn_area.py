@@ -11,11 +11,9 @@ import scipy.ndimage as ndimage
 from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError
 from tribo.lab.heights import smoothed
-from tribo.lab.registration import Registration
+from tribo.lab.registration import DEEP, Registration
 from tribo.lab.widths import Width, track_across
 
-DEEP = 4.0
-"""Standard deviations of noise from which on a depth is a scar."""
 SPOT = 0.1
 """Part of the largest scar's volume below which a worn area is left out."""
 EDGE = 0.05
@@ -60,8 +58,8 @@ class WornArea:
 def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -> WornArea:
     """Return what is worn; `CaseError` if nothing is. The map before may be an ideal shape."""
     smooth, known = smoothed(found.depth), np.isfinite(found.depth)
-    unworn = known & ~found.worn
-    noise = max(float(np.std(smooth[unworn])), 1e-300) if unworn.any() else found.noise
+    unworn = smooth[found.unworn]
+    noise = max(float(np.std(unworn)), 1e-300) if unworn.size else found.noise
     core = _largest(smooth, smooth > DEEP * noise)
     piled = _largest(-smooth, -smooth > DEEP * noise)
     if not core.any():
