@@ -1,6 +1,7 @@
 """Scars measured before and after a test, of pairs of maps that are made up."""
 
 import json
+import re
 import warnings
 
 import numpy as np
@@ -21,7 +22,8 @@ from tribo import (
 )
 from tribo.cli.scar import scar as command
 from tribo.lab import heights
-from tribo.lab.registration import ORIENTATIONS, register
+from tribo.lab.alignment import ORIENTATIONS
+from tribo.lab.registration import register
 from tribo.plotting.scar import measured_scar_map
 from tribo.registry.plugins import builtin
 
@@ -197,17 +199,17 @@ def test_whole_scars_and_tracks_are_not_cut_off(standard):
             assert not measured_scar(*maps).cut_off
 
 
-@pytest.mark.parametrize("words", ORIENTATIONS)
-def test_a_map_that_is_mirrored_or_turned_is_told(standard, words):
+@pytest.mark.parametrize("turn", ORIENTATIONS, ids=lambda turn: turn.words)
+def test_a_map_that_is_mirrored_or_turned_is_told(standard, turn):
     before, after, *_ = standard
-    # What puts it right undoes this.
-    turned = eval(f"heights{ORIENTATIONS[words]}", {"heights": after.heights})
-    back = {"turned by 90°": "turned by −90°", "turned by −90°": "turned by 90°"}.get(words, words)
-    with pytest.warns(TriboWarning, match=f"map after looks {back} against .*take heights") as seen:
+    turned = turn.of(after.heights)
+    right = after.heights
+    (back,) = (t for t in ORIENTATIONS if np.array_equal(t.of(turned), right, equal_nan=True))
+    words = f"map after looks {back.words} against .*take heights"
+    with pytest.warns(TriboWarning, match=words) as seen:
         register(before, Heights(turned, after.pitch))
-    assert f"heights{ORIENTATIONS[back]} of it" in str(seen[0].message)
-    again = eval(f"heights{ORIENTATIONS[back]}", {"heights": turned})
-    np.testing.assert_array_equal(again, after.heights)
+    told = re.search("take (heights.*) of it", str(seen[0].message))[1]
+    np.testing.assert_array_equal(eval(told, {"heights": turned}), after.heights)
 
 
 def test_smooth_maps_tell_no_orientation_but_swapped_shapes_may():

@@ -2,43 +2,16 @@
 
 from __future__ import annotations
 
-import math
-import warnings
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.fft
 import scipy.ndimage as ndimage
 
 from tribo.core.arrays import Array, Mask
-from tribo.core.errors import CaseError, TriboWarning
+from tribo.core.errors import CaseError
+from tribo.lab.alignment import OVERLAP, SAME, align, robust_deviation, rotation
 from tribo.lab.heights import Heights, nearest_filled, smoothed
 
-SAME = 1e-3
-"""Relative difference up to which two pitches are the same."""
-COARSE = 192
-"""Pixels along an edge of the maps for the cross-correlation."""
-FINE = 4.0
-"""Width of the high-pass filter that leaves the fine relief, in pixels."""
-LARGEST_ROTATION = math.radians(3.0)
-OVERLAP = 0.2
-"""Smallest overlap of the maps."""
-SIGNIFICANT = 8.0
-"""Correlation, in standard deviations, that is not chance."""
-ALIKE = 0.5
-"""Correlation below which a map may be mirrored or turned."""
-BETTER = 1.5
-"""Ratio of correlations from which on a map is mirrored or turned."""
-ORIENTATIONS = {
-    "mirrored along x": "[::-1]",
-    "mirrored along y": "[:, ::-1]",
-    "turned by 180°": "[::-1, ::-1]",
-    "to have its axes swapped": ".T",
-    "turned by 90°": ".T[::-1]",
-    "turned by −90°": ".T[:, ::-1]",
-    "to have its axes swapped and mirrored": ".T[::-1, ::-1]",
-}
-"""What NumPy puts right a map with that looks so."""
 TEXTURE = 3.0
 """Eigenvalue of the normal matrix, relative to that of noise, above which a direction of shift and
 rotation is determined."""
@@ -115,7 +88,7 @@ def register(before: Heights, after: Heights, form: int = 1) -> Registration:
 
     Fits a shift, a rotation about z and a polynomial form of order `form` in x and y to the unworn
     surface, by least squares with Tukey's weights. The scar is detected and left out. The fit
-    starts from the largest masked cross-correlation of the fine relief. Directions of shift and
+    starts from `align`. Directions of shift and
     rotation that the relief does not determine, as on smooth bodies, are not fitted.
 
     Raises
@@ -125,8 +98,7 @@ def register(before: Heights, after: Heights, form: int = 1) -> Registration:
 
     References
     ----------
-    Padfield, D. (2012), Masked object registration in the Fourier domain, IEEE Trans. Image
-    Process. 21, 2706-2718. Baker, S., Matthews, I. (2004), Lucas-Kanade 20 years on, Int. J.
+    Baker, S., Matthews, I. (2004), Lucas-Kanade 20 years on, Int. J.
     Comput. Vis. 56, 221-255. White, H. (1980), A heteroskedasticity-consistent covariance matrix
     estimator, Econometrica 48, 817-838.
     """
@@ -140,10 +112,8 @@ def register(before: Heights, after: Heights, form: int = 1) -> Registration:
             + ("swap the axes of one, or " if swapped else "")
             + "measure or resample them alike"
         )
-    score, shift, angle = _cross_correlated(before, after)
-    if score < ALIKE:
-        _warn_of_orientation(before, after, score)
-    fit = _Fit(before, after, form, shift, angle)
+    start = align(before, after)
+    fit = _Fit(before, after, form, start.shift, start.rotation)
     fit.run()
     if not fit.determined.size:
         fit = _Fit(before, after, form, np.zeros(2), 0.0)
@@ -189,7 +159,7 @@ class _Fit:
 
     def difference(self, blur: float) -> tuple[Array, Array]:
         """Return the depth, and its derivatives by shift, rotation times lever and form."""
-        x, y = rotated = np.einsum("ij,jxy->ixy", _rotation(self.angle), self.places)
+        x, y = rotated = np.einsum("ij,jxy->ixy", rotation(self.angle), self.places)
         position = rotated + self.shift[:, None, None]
         middle = 0.5 * (np.array(self.relief.shape) - 1)
         at = position / self.pitch[:, None, None] + middle[:, None, None]
@@ -228,7 +198,7 @@ class _Fit:
                 "hardly any unworn surface is left to register the maps by; measure a larger area"
             )
         residuals, columns = depth[used], slopes[:, used]
-        scale = _robust_deviation(residuals)
+        scale = robust_deviation(residuals)
         if first:
             # Quantile regression, which a scar affects least.
             weights = np.where(residuals > 0, QUANTILE, 1 - QUANTILE)
@@ -248,7 +218,7 @@ class _Fit:
         # white noise, which the residuals show once the maps are registered.
         white = (scale / (blur * np.min(self.pitch))) ** 2 / 2
         seen = (
-            _robust_deviation(slope[used & np.isfinite(slope)]) ** 2
+            robust_deviation(slope[used & np.isfinite(slope)]) ** 2
             for slope in np.asarray(np.gradient(depth, *self.pitch))
         )
         kept = values > TEXTURE * np.sum(weights) * 0.5 * min(white, max(seen))
@@ -286,7 +256,7 @@ class _Fit:
         bread = np.linalg.pinv(normal, rcond=1e-12, hermitian=True)
         covariance = bread @ _sums(columns * np.where(used, blurred, 0.0)) @ bread
         depth, _ = self.difference(0.0)
-        noise = _robust_deviation(depth[used])
+        noise = robust_deviation(depth[used])
         from_fit = np.einsum("kxy,kl,lxy->xy", slopes, covariance, slopes, optimize=True)
         uncertainty = np.sqrt(noise**2 + np.maximum(from_fit, 0))
         sigmas = np.sqrt(np.maximum(np.diag(covariance)[:3], 0))
@@ -317,104 +287,6 @@ def _common_area(depth: Array) -> tuple[slice, slice]:
     return along, across
 
 
-def _warn_of_orientation(before: Heights, after: Heights, score: float) -> None:
-    """Warn if the relief of the maps correlates much better with one mirrored or turned."""
-    found = {}
-    for words, slices in ORIENTATIONS.items():
-        if "T" not in slices or np.isclose(*after.pitch, rtol=SAME, atol=0):
-            heights = after.heights.T if "T" in slices else after.heights
-            heights = heights[
-                :: -1 if "[::-1" in slices else 1, :: -1 if ", ::-1]" in slices else 1
-            ]
-            found[words] = _cross_correlated(before, Heights(heights, after.pitch), every=3)[0]
-    best = max(found, key=lambda words: found[words])
-    shapes = before.heights.shape, after.heights.shape
-    if found[best] > BETTER * score:
-        warnings.warn(
-            f"the map after looks {best} against that before: their relief correlates by "
-            f"{found[best]:.2f} then, and by {score:.2f} as it is; measure or save both alike, or "
-            f"take heights{ORIENTATIONS[best]} of it in NumPy",
-            TriboWarning,
-            stacklevel=4,
-        )
-    elif shapes[0] == shapes[1][::-1] != shapes[1]:
-        first, second = (" × ".join(map(str, shape)) for shape in shapes)
-        warnings.warn(
-            f"the map before has {first} pixels, that after {second}, and their relief does not "
-            "correlate; if the axes of one are swapped, swap them back",
-            TriboWarning,
-            stacklevel=4,
-        )
-
-
-def _cross_correlated(
-    before: Heights, after: Heights, every: int = 1
-) -> tuple[float, Array, float]:
-    """Return the largest correlation, with its shift (m) and rotation; 0 where it may be chance.
-
-    The correlation is that of the overlap, times the root of the overlap's part of the map.
-    """
-    factor = max(1, math.ceil(max(*before.heights.shape, *after.heights.shape) / COARSE))
-    (own, mask), (relief, there) = (_relief(m.heights, factor) for m in (before, after))
-    shape = [scipy.fft.next_fast_len(n + m) for n, m in zip(own.shape, relief.shape, strict=True)]
-    second = [np.conj(scipy.fft.rfft2(each, shape)) for each in (relief, there, relief**2)]
-    step = 2.0 / max(own.shape)
-    most = math.ceil(LARGEST_ROTATION / step)
-    area = max(float(np.sum(there)), 1.0)
-    best = (SIGNIFICANT / math.sqrt(area), np.zeros(2), 0.0)
-    for steps in sorted(range(-(most // every) * every, most + 1, every), key=abs):
-        angle = steps * step
-        images = [_rotated(each, angle) for each in (own, mask)]
-        first = [scipy.fft.rfft2(each, shape) for each in (*images, images[0] ** 2)]
-        together, overlap, *squares = (
-            scipy.fft.irfft2(first[i] * second[j], shape)
-            for i, j in ((0, 0), (1, 1), (2, 1), (1, 2))
-        )
-        norm = np.prod(np.maximum(squares, 0), axis=0) + 1e-300
-        score = together * np.sqrt(np.maximum(overlap, 0) / norm / area)
-        score[overlap <= OVERLAP * area] = 0.0
-        at = np.unravel_index(int(np.argmax(score)), score.shape)
-        if score[at] > best[0]:
-            lag = [k - n if k > n // 2 else k for k, n in zip(at, shape, strict=True)]
-            off = np.array(lag) + 0.5 * (np.array(relief.shape) - own.shape)
-            best = (float(score[at]), off, angle)
-    largest, shift, angle = best
-    # The map before was rotated about its own middle.
-    return largest, _rotation(angle) @ shift * factor * np.array(after.pitch), angle
-
-
-def _rotation(angle: float) -> Array:
-    c, s = math.cos(angle), math.sin(angle)
-    return np.array([[c, -s], [s, c]])
-
-
-def _rotated(image: Array, angle: float) -> Array:
-    """Return an image sampled at positions rotated about its middle by an angle."""
-    middle = 0.5 * (np.array(image.shape) - 1)
-    matrix = _rotation(angle)
-    return np.asarray(ndimage.affine_transform(image, matrix, middle - matrix @ middle, order=1))
-
-
-def _relief(heights: Array, factor: int) -> tuple[Array, Array]:
-    """Return the fine relief of every `factor`-th pixel, clipped, and where it is known."""
-    if factor > 1:
-        # Centred on the middle to half a pixel.
-        lines = tuple(slice(n % factor // 2 + factor // 2, None, factor) for n in heights.shape)
-        around = smoothed(np.isfinite(heights).astype(float), 0.5 * factor)[lines]
-        heights = np.where(around > 0.5, smoothed(heights, 0.5 * factor)[lines], np.nan)
-    known = np.isfinite(heights)
-    filled = nearest_filled(heights)
-    relief = filled - ndimage.gaussian_filter(filled, FINE)
-    # At the border the filter is one-sided, and leaves the slope of the form.
-    border = min(int(2 * FINE), min(heights.shape) // 8)
-    inside = np.zeros(heights.shape, dtype=bool)
-    inside[border:-border, border:-border] = True
-    known &= inside
-    relief -= np.median(relief[known]) if known.any() else 0.0
-    most = 3 * _robust_deviation(relief[known])
-    return np.where(known, np.clip(relief, -most, most), 0.0), known.astype(float)
-
-
 def _quadratic(places: Array, scale: float) -> Array:
     """Return the terms of a quadratic form at places, and their derivatives along x and y."""
     x, y = places / scale
@@ -422,13 +294,6 @@ def _quadratic(places: Array, scale: float) -> Array:
     along, across = [none, one, none, 2 * x, y, none], [none, none, one, none, x, 2 * y]
     value = [one, x, y, x**2, x * y, y**2]
     return np.stack([value, np.array(along) / scale, np.array(across) / scale])
-
-
-def _robust_deviation(values: Array) -> float:
-    """Return the standard deviation by the median absolute deviation."""
-    if values.size == 0:
-        return 0.0
-    return 1.4826 * float(np.median(np.abs(values - np.median(values))))
 
 
 def _variance_inflation(values: Array) -> float:
