@@ -19,12 +19,8 @@ from tribo.registry.registry import default_registry
 OWN = (".npy", ".csv", ".txt", ".h5", ".hdf5")
 """Files that are read without a plugin; they state no scale."""
 FEWEST = 16
-AROUND = np.array([[0, 1, 0], [1, 0, 1], [0, 1, 0]]) / 4
-"""Weights of the neighbours of a pixel."""
 BLUR = 2.0
 """Width of the Gaussian that maps are smoothed by, in pixels."""
-SWEEPS = 20
-"""Of averages over neighbours, which fill holes of a few pixels."""
 
 
 @dataclass(frozen=True)
@@ -80,12 +76,8 @@ class Heights:
 
     @cached_property
     def filled(self) -> Array:
-        """The heights, with missing ones that of a soap film over the hole, if it is small."""
-        missing, found = np.isnan(self.heights), nearest_filled(self.heights)
-        for _ in range(SWEEPS if missing.any() else 0):
-            around = ndimage.convolve(found, AROUND, mode="nearest")
-            found = np.where(missing, around, found)
-        return found
+        """The heights, with missing ones interpolated."""
+        return interpolated(self.heights, np.isnan(self.heights))
 
     @property
     def grid(self) -> Grid:
