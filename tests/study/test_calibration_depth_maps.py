@@ -13,6 +13,7 @@ from scipy.stats import binom
 from tribo.cli.fitted import data_table
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
+from tribo.config.write import to_toml
 from tribo.core.errors import CaseError, NumericalError, TriboWarning
 from tribo.plotting.curves import fit_picture
 from tribo.simulation.run import Simulation
@@ -21,6 +22,7 @@ from tribo.study.calibration.cells import block_means, cell_means
 from tribo.study.calibration.choice import choose_case
 from tribo.study.calibration.experiment import Experiment
 from tribo.study.calibration.fit import differenced, fit, interval
+from tribo.study.calibration.measured import read_measurements
 from tribo.study.calibration.plan import plan_tests
 
 K, N = "bodies.ball.wear.k", "bodies.ball.wear.p_exponent"
@@ -353,3 +355,15 @@ def test_a_wrong_map_is_told(changes, place, words, tmp_path, monkeypatch):
     assert str(caught.value).startswith(f"measured{place}: ")
     assert words in str(caught.value)
     assert len(str(caught.value).splitlines()) == 1
+
+
+@pytest.mark.parametrize("kind", ["measured", "map"])
+def test_a_map_is_looked_for_beside_the_file_that_names_it(kind, tmp_path):
+    entry = {"body": "ball", "depth": "worn.npy", "uncertainty": "10 nm"}
+    entry |= {"quantity": "depth_map"} if kind == "measured" else {"length": "0.1 mm"}
+    file = tmp_path / "lab.toml"
+    file.write_text(to_toml({kind: [entry]}))
+    (read,) = getattr(read_measurements(file), kind)
+    assert Path(read.depth) == tmp_path / "worn.npy"
+    (given,) = getattr(read_measurements({kind: [entry]}), kind)
+    assert given.depth == "worn.npy"

@@ -9,7 +9,13 @@ from typing import Annotated, Any, Literal, Self
 
 import numpy as np
 import pandas as pd
-from pydantic import ValidationError, ValidationInfo, field_validator, model_validator
+from pydantic import (
+    AfterValidator,
+    ValidationError,
+    ValidationInfo,
+    field_validator,
+    model_validator,
+)
 
 from tribo.config.load import read_toml
 from tribo.core.arrays import Array, Mask
@@ -24,6 +30,14 @@ from tribo.study.sweeping.study_file import by_path
 class Below(float):
     """A limit that a value is below, as ``"< 0.1 mg"``."""
 
+
+def _beside(name: str, info: ValidationInfo) -> str:
+    """Return the name of a file from the folder of the file of measured values, if there is one."""
+    return str(Path(info.context or "", name))
+
+
+BesideFile = Annotated[str, AfterValidator(_beside)]
+"""Name of a file; a relative one starts at the folder of the file of measured values."""
 
 LOCAL = "local coefficients are fitted to maps of one test: give [[map]] in a file of its own"
 UNSEEN = "what was too little to be seen is given as a limit, '< 0.1 mg' say"
@@ -62,7 +76,7 @@ class MeasuredEntry(Table):
     """The reading after it."""
     position: tuple[Annotated[float, Quantity("m")], ...] | None = None
     """Where a profile's depths were measured, from the centre of the contact."""
-    depth: str | None = None
+    depth: BesideFile | None = None
     """File of a depth map, instead of a value."""
     pitch: Annotated[float, Quantity("m", above=0)] | None = None
     """Pixel pitch of a depth map."""
@@ -274,7 +288,7 @@ class MapEntry(Table):
 
     body: str
     """Name of the body in the case."""
-    depth: str
+    depth: BesideFile
     """File of a height map: depths in m, positive where material is gone, NaN where missing."""
     pitch: Annotated[float, Quantity("m", above=0)] | None = None
     """Distance between its pixels; that of the file if left out."""
@@ -349,13 +363,14 @@ def read_measurements(source: Measurements | Mapping[str, Any] | str | Path) -> 
         return source
     data: Mapping[str, Any]
     if isinstance(source, Mapping):
-        data = source
+        data, folder = source, None
     else:
         data = read_toml(source, "measured values", "those are entries [[measured]]")
+        folder = Path(source).parent
     if "bodies" in data and not {"measured", "test"} & data.keys():
         name = "this" if isinstance(source, Mapping) else f"{source}"
         raise CaseError(f"{name} is a case, not measured values; those are entries [[measured]]")
     try:
-        return Measurements.model_validate(data)
+        return Measurements.model_validate(data, context=folder)
     except ValidationError as error:
         raise case_error(error) from None
