@@ -447,6 +447,7 @@ def test_an_estimate_held_by_its_bound_has_no_interval_and_data_and_model_disagr
     assert (ball.held, disk.held) == (True, False)
     assert (ball.lower, ball.upper) == (0, 1.2 * BALL)
     assert held.chi_square == pytest.approx(64)
+    assert held.brief["residual"].iloc[0] == pytest.approx(-8)
     assert held.degrees_of_freedom == 1
     assert held.p_value < 1e-14
     notes = [note.split(",")[0].split(":")[0] for note in held.notes]

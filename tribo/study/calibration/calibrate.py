@@ -110,10 +110,12 @@ class Calibration:
         """
         parts, is_field = [], self.data["quantity"].isin(FIELDS)
         for _, rows in self.data.groupby(self.data["place"].where(is_field, self.data.index)):
-            means = rows[["measured", "computed"]].mean()
-            squares = (rows[["sigma", "residual"]] ** 2).mean() ** 0.5
-            part = rows[:1].assign(depths=len(rows), **means, **squares)
-            parts.append(part if len(rows) == 1 else part.assign(position_m=math.nan))
+            part = rows[:1].assign(depths=len(rows))
+            if len(rows) > 1:
+                means = rows[["measured", "computed"]].mean()
+                squares = (rows[["sigma", "residual"]] ** 2).mean() ** 0.5
+                part = part.assign(**means, **squares, position_m=math.nan)
+            parts.append(part)
         return pd.concat(parts).sort_index()
 
     @property
