@@ -479,10 +479,23 @@ def test_the_command_says_what_the_maps_do_not_tell_and_what_is_cut_off(tmp_path
     given = [str(tmp_path / "after.npy"), "--pitch", "1 um", "--ideal", "flat"]
     with pytest.warns(TriboWarning, match="cuts the scar off"):
         done = CliRunner().invoke(command, given, catch_exceptions=False)
-    assert "does not tell the shift along x and shift along y" in done.output
+    assert "does not tell the shift along x, the shift along y" in done.output
     assert "all lies" not in done.output
     assert "inf" not in done.output
     assert done.output.count("cut off") == 2
+
+
+def test_the_command_gives_the_volume_of_a_whole_track(tmp_path):
+    _, y = Grid(96 * PITCH, 96).mesh
+    lost = 1e-6 * np.maximum(1 - np.broadcast_to(y, (96, 96)) ** 2 / WIDE**2, 0)
+    np.save(tmp_path / "after.npy", 1e-8 * np.random.default_rng(1).normal(size=lost.shape) - lost)
+    given = [str(tmp_path / "after.npy"), "--pitch", "1 um", "--ideal", "flat"]
+    given += ["--track-length", "2 mm"]
+    done = CliRunner().invoke(command, given, catch_exceptions=False)
+    volume, sure = map(float, done.output.split("volume of the track, mm³")[1].split()[:2])
+    assert volume == pytest.approx(1e9 * np.sum(lost[0]) * PITCH * 2e-3, rel=0.01, abs=0)
+    assert 0 < sure < 0.02 * volume
+    assert "whole map" in done.output
 
 
 def test_heights_in_micrometres_and_fill_values_are_told_by_their_file(standard, tmp_path):

@@ -53,6 +53,7 @@ def scar(
       tribo scar before.x3p after.x3p --radius '5 mm' -o scar.png
       tribo scar after.npy --pitch '1 um' --ideal '{ type = "sphere", radius = "5 mm" }'
     """
+    from tribo.cli.console import Console
     from tribo.core.units import Quantity
     from tribo.lab.heights import read_heights
     from tribo.lab.measured_scar import measured_scar
@@ -82,13 +83,10 @@ def scar(
             "--pitch",
         )
     maps = [read_heights(path, (steps[0], steps[-1]) if steps else None) for path in files]
-    found = measured_scar(
-        _surface(ideal) if ideal else maps[0],
-        maps[-1],
-        radius=length("--radius", radius),
-        track_length=length("--track-length", track_length),
-        form=form,
-    )
+    before, lengths = _surface(ideal) if ideal else maps[0], (radius, track_length)
+    ball, track = map(length, ("--radius", "--track-length"), lengths)
+    with Console(stderr=True).status("Laying the maps on each other, and measuring the scar"):
+        found = measured_scar(before, maps[-1], radius=ball, track_length=track, form=form)
     if output is not None:
         from tribo.plotting.figures import write_figures
         from tribo.plotting.scar import measured_scar_map
@@ -138,25 +136,40 @@ def _width(
     return ("whole map", None) if math.isinf(width) else (1e3 * width, 1e3 * uncertainty)
 
 
+def _rounded(value: float, uncertainty: float) -> str:
+    """Return a value to the second digit of its uncertainty."""
+    digits = math.floor(math.log10(abs(value))) - math.floor(math.log10(uncertainty)) + 2
+    return f"{value:#.{min(max(digits, 2), 8)}g}"
+
+
 def _print(found: MeasuredScar) -> None:
     from tribo.cli.console import Console, titled
     from tribo.cli.tables import inferred_table
 
     laid, console = found.registration, Console()
     table = titled("Scar, with standard uncertainties", "", "±")
+    sure = found.volume_uncertainty / found.volume
     rows: list[tuple[str, float | str | None, float | None]] = [
         ("volume in the map, mm³", 1e9 * found.volume, 1e9 * found.volume_uncertainty),
         ("largest depth, µm", 1e6 * found.depth, 1e6 * found.depth_uncertainty),
         ("along sliding, mm", *_width(found, found.along, found.along_uncertainty)),
         ("across, mm", *_width(found, found.across, found.across_uncertainty)),
-        ("mean section, mm²", None if found.section is None else 1e6 * found.section, None),
+        *(
+            (name, size * value, sure * size * value)
+            for name, size, value in (
+                ("mean section, mm²", 1e6, found.section),
+                ("volume of the track, mm³", 1e9, found.track_volume),
+            )
+            if value is not None
+        ),
         ("piled up, mm³", 1e9 * found.piled_up or None, None),
         ("missing in it, %", 100 * found.missing or None, None),
     ]
-    for name, value, sure in rows:
-        if value is not None:
-            shown = value if isinstance(value, str) else f"{value:.4g}"
-            table.add_row(name, shown, "" if sure is None else f"{sure:.2g}")
+    for name, value, error in rows:
+        if isinstance(value, float) and error is not None:
+            table.add_row(name, _rounded(value, error), f"{error:#.2g}")
+        elif value is not None:
+            table.add_row(name, value if isinstance(value, str) else f"{value:.3g}", "")
     console.print(table)
     if found.inferred:
         console.print(inferred_table(found.inferred))
@@ -167,10 +180,10 @@ def _print(found: MeasuredScar) -> None:
     turn, sure = -1e3 * laid.rotation, 1e3 * laid.rotation_uncertainty
     moves.append((f"turned by {turn:+.3g} ± {sure:.2g} mrad", sure))
     told = [words for words, sure in moves if math.isfinite(sure)]
-    names = ("shift along x", "shift along y", "rotation")
+    names = ("the shift along x", "the shift along y", "the rotation")
     untold = [name for name, (_, sure) in zip(names, moves, strict=True) if math.isinf(sure)]
     if told:
         console.print(f"In the map after all lies {', '.join(told)}.", markup=False)
     if untold:
-        console.print(f"The unworn surface does not tell the {' and '.join(untold)}.")
+        console.print(f"The unworn surface does not tell {', '.join(untold)}.")
     console.print(f"Noise of the unworn difference {1e9 * laid.noise:.3g} nm.", markup=False)

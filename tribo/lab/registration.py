@@ -27,6 +27,9 @@ BLURS = 4.0, 2.0, 1.0
 """Widths of the Gaussian blur, from coarse to fine, in pixels."""
 ITERATIONS = 30
 """Gauss-Newton steps per blur."""
+SETTLED = 1e-3
+"""Change in a step that ends the last blur, of the map's place in pixels and of its form in
+standard deviations of noise."""
 FORM_ITERATIONS = 6
 """First steps, which fit the form alone."""
 QUANTILE = 0.3
@@ -150,11 +153,11 @@ class _Fit:
 
     def run(self, *, moves: bool = True) -> None:
         """Fit maps from coarse to fine; the form alone unless the map `moves`."""
+        for _ in range(FORM_ITERATIONS):
+            self._improve(BLURS[0], first=True, still=True)
         for blur in BLURS:
-            for step in range(ITERATIONS):
-                first = step < FORM_ITERATIONS and blur == BLURS[0]
-                moved = self._improve(blur, first=first, still=first or not moves)
-                if moved < 1e-3 * np.min(self.pitch) and step > FORM_ITERATIONS:
+            for _ in range(ITERATIONS):
+                if self._improve(blur, still=not moves) < SETTLED * blur**2:
                     break
 
     def difference(self, blur: float) -> tuple[Array, Array]:
@@ -181,8 +184,8 @@ class _Fit:
         missing = ndimage.map_coordinates(missing, at, order=1, mode="constant", cval=1.0)
         return np.where((missing > 1e-6) | np.isnan(self.after.heights), np.nan, depth), slopes
 
-    def _improve(self, blur: float, *, first: bool, still: bool) -> float:
-        """Take a Gauss-Newton step, and return how far the map has moved, in m."""
+    def _improve(self, blur: float, *, first: bool = False, still: bool = False) -> float:
+        """Take a Gauss-Newton step, and return its change as `SETTLED` has it."""
         depth, slopes = self.difference(blur)
         known = np.isfinite(depth)
         if np.count_nonzero(known) < OVERLAP * known.size:
@@ -227,10 +230,12 @@ class _Fit:
         if not still:
             along = self.determined.T @ (descent[:3] - coupling @ descent[3:])
             moves = self.determined @ (along / values[kept])
-        self.factors += inverse @ (descent[3:] - normal[3:, :3] @ moves)
+        bends = inverse @ (descent[3:] - normal[3:, :3] @ moves)
+        self.factors += bends
         self.shift = self.shift + moves[:2]
         self.angle += moves[2] / self.lever
-        return float(np.max(np.abs(moves)))
+        steps = *np.abs(moves) / np.min(self.pitch), *np.abs(bends) / (scale + 1e-30)
+        return float(np.max(steps))
 
     def _find_scar(self, depth: Array) -> None:
         smooth = smoothed(depth)
