@@ -89,8 +89,8 @@ from tribo.study.calibration.plan import plan_tests as plan_tests
 from tribo.study.comparison import Comparison as Comparison
 from tribo.study.comparison import compare as compare
 from tribo.study.gradient.gradient import Gradient as Gradient
-from tribo.study.gradient.gradient import ValueAndGradient as ValueAndGradient
 from tribo.study.gradient.gradient import gradient as gradient
+from tribo.study.gradient.gradient import value_and_gradient as value_and_gradient
 from tribo.study.gradient.objective import Deepest as Deepest
 from tribo.study.gradient.objective import Depth as Depth
 from tribo.study.gradient.objective import EndDistance as EndDistance

@@ -20,7 +20,7 @@ from tribo.effects.effect import Effect
 from tribo.simulation import march
 from tribo.simulation.positions import composed
 from tribo.study.gradient import tape
-from tribo.study.gradient.gradient import ValueAndGradient, gradient
+from tribo.study.gradient.gradient import gradient, value_and_gradient
 from tribo.study.gradient.linear import Carrier, StepSystem
 from tribo.study.gradient.numbers import find
 from tribo.study.gradient.objective import (
@@ -198,9 +198,9 @@ def test_one_name_in_place_of_a_list_is_refused():
     with pytest.raises(CaseError, match=r"a list of names is needed, 'load.normal' was given"):
         gradient(run(), Volume("ball"), "load.normal")
     with pytest.raises(CaseError, match=r"give \['ball'\]"):
-        ValueAndGradient(run(), Volume("ball"), wear_rate="ball")
+        value_and_gradient(run(), Volume("ball"), wear_rate="ball")
     with pytest.raises(CaseError, match="there is no body 'ring' that wears: ball, disk"):
-        ValueAndGradient(run(), Volume("ball"), wear_rate=["ring"])
+        value_and_gradient(run(), Volume("ball"), wear_rate=["ring"])
 
 
 @pytest.mark.parametrize(
@@ -214,13 +214,13 @@ def test_one_name_in_place_of_a_list_is_refused():
     ],
 )
 def test_unknowns_that_the_case_may_not_have_are_refused(path, unknowns, message):
-    fit = ValueAndGradient(run(), Volume("ball"), [path])
+    fit = value_and_gradient(run(), Volume("ball"), [path])
     with pytest.raises(CaseError, match=message):
         fit(np.array(unknowns))
 
 
 def test_factors_that_are_no_factors_are_refused():
-    fit = ValueAndGradient(run(), Volume("ball"), wear_rate=["ball"])
+    fit = value_and_gradient(run(), Volume("ball"), wear_rate=["ball"])
     for log in (NAN, INF):
         with pytest.raises(CaseError, match="wear rate of ball is negative, NaN or infinite"):
             fit(fit.start + log)
@@ -389,7 +389,7 @@ def test_scipy_finds_what_made_a_scar():
     last = states(composed(made))[-1]
     looks = Misfit("disk", last.bodies["disk"].wear, 1e-8)
     paths = ["bodies.ball.wear.k", "bodies.disk.wear.k"]
-    fit = ValueAndGradient(run(stepping=made.stepping), looks, paths)
+    fit = value_and_gradient(run(stepping=made.stepping), looks, paths)
     value, slope = fit(fit.start)
     ahead = fit(fit.start + 1e-5)[0]
     assert (ahead - value) / 1e-5 == pytest.approx(sum(slope), rel=1e-2)
@@ -399,7 +399,7 @@ def test_scipy_finds_what_made_a_scar():
 
 def test_factors_on_the_wear_rate_are_unknowns_too():
     case, factor = run(), 1.7
-    fit = ValueAndGradient(case, Volume("ball"), (), ["ball"])
+    fit = value_and_gradient(case, Volume("ball"), (), ["ball"])
     value, slope = fit(fit.start + np.log(factor))
     assert value == pytest.approx(
         factor * gradient(case, Volume("ball"), []).value, rel=1e-9, abs=0

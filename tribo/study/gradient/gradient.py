@@ -184,8 +184,13 @@ def _looks(
     return looks
 
 
-class ValueAndGradient:
-    """An objective and its gradient, for ``scipy.optimize.minimize(…, jac=True)``.
+def value_and_gradient(
+    case: Case | Mapping[str, Any] | str | Path | Model,
+    objective: Objective | Mapping[float, Objective],
+    wrt: Sequence[str] = (),
+    wear_rate: Sequence[str] = (),
+) -> ValueAndGradient:
+    """Return an objective with its gradient, for ``scipy.optimize.minimize(…, jac=True)``.
 
     Unknown are the logarithms of numbers of the case, relative to what they are there, and of
     factors on wear rates at each cell of bodies: one vector, which begins with `start`, all 0.
@@ -201,19 +206,29 @@ class ValueAndGradient:
     wear_rate : sequence of str, optional
         Bodies whose wear rate has a factor at each cell.
 
+    Raises
+    ------
+    CaseError
+        If a path leads to no number, or a body does not wear.
+
     Examples
     --------
-    >>> from tribo import ValueAndGradient, Volume
-    >>> fit = ValueAndGradient("case.toml", Volume("ball"), ["load.normal"])  # doctest: +SKIP
+    >>> from tribo import Volume, value_and_gradient
+    >>> fit = value_and_gradient("case.toml", Volume("ball"), ["load.normal"])  # doctest: +SKIP
     >>> value, slope = fit(fit.start)  # doctest: +SKIP
     """
+    return ValueAndGradient(case, objective, wrt, wear_rate)
+
+
+class ValueAndGradient:
+    """An objective with its gradient, a function of one vector; see `value_and_gradient`."""
 
     def __init__(
         self,
         case: Case | Mapping[str, Any] | str | Path | Model,
         objective: Objective | Mapping[float, Objective],
-        wrt: Sequence[str] = (),
-        wear_rate: Sequence[str] = (),
+        wrt: Sequence[str],
+        wear_rate: Sequence[str],
     ) -> None:
         self._model = Simulation(case).model
         self._objective = objective
