@@ -118,7 +118,7 @@ def test_another_law_is_noticed_and_not_chosen(two_loads, found):
     wrong = choice.calibrations["archard"]
     assert wrong.p_value < 1e-3
     assert any("data and model disagree" in note for note in wrong.notes)
-    assert any("the depth_map of 'ball' in heavy follow a pattern" in note for note in wrong.notes)
+    assert any("the depth_map of 'ball' in light follow a pattern" in note for note in wrong.notes)
     assert not any("follow a pattern" in note for note in found.notes)
 
 
@@ -136,6 +136,16 @@ def test_a_weighed_mass_goes_with_a_map(noisy):
     # Every point of the track is the same, so that each line across it is a number.
     assert len(found.data) == 1 + 16
     assert list(found.brief["quantity"]) == ["mass", "depth_map"]
+
+
+@pytest.mark.slow
+def test_a_map_that_a_wrong_weight_makes_too_shallow_has_no_other_shape(noisy):
+    wrong = 1.5 * 3e-16 * 100 * 6 * 7850
+    mass = {"body": "ball", "quantity": "mass", "value": wrong, "uncertainty": 0.005 * wrong}
+    found = calibrate(ARCHARD, {"measured": [mass, noisy(ARCHARD)], "fit": [{"path": K}]})
+    assert found.p_value < 1e-6
+    assert found.data["residual"].abs().max() > 5
+    assert not any("pattern" in note for note in found.notes)
 
 
 @pytest.mark.slow

@@ -20,6 +20,7 @@ from tribo.result.export import profile
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.calibrate import calibrate
 from tribo.study.calibration.measured import read_measurements
+from tribo.study.calibration.notes import on_repeats
 from tribo.study.calibration.parameters import find_parameters
 from tribo.study.calibration.quantities import Reading, read
 from tribo.study.calibration.setups import Run, make_run
@@ -217,6 +218,28 @@ def test_profiles_are_fitted_where_they_were_measured(true_run):
     _, panel = fit_picture(found.brief, found.data).axes
     np.testing.assert_allclose(panel.lines[-1].get_ydata(), 1e6 * found.data["computed"])
     assert np.array(panel.get_xlim()) == pytest.approx([-0.44, 0.44])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("wrong", "said"), [(1.0, False), (3.0, True)])
+def test_a_repeat_unlike_the_others_is_named(wrong, said):
+    losses = [part * mass(BALL) for part in (0.99, wrong, 1.0)]
+    data = measured("ball", "mass", mass(BALL), 0.01) | {"value": losses}
+    found = calibrate(CASE, {"measured": [data], "fit": fitting(BALL_K)})
+    words = f"mass of 'ball' of {1e6 * losses[1]:.3g} mg is not as in the other 2 tests, which scat"
+    assert any(words in note for note in found.notes) == said
+
+
+def test_repeats_that_scatter_evenly_are_rarely_called_unlike():
+    random, count = np.random.default_rng(0), 0
+    for n in (3, 6):
+        for _ in range(200):
+            values = np.exp(random.normal(0, 0.2, n))
+            entry = {"body": "ball", "quantity": "mass"}
+            entry |= {"value": [f"{each} kg" for each in values], "uncertainty": "0.1 kg"}
+            data = read_measurements({"measured": [entry]}).table()
+            count += len([*on_repeats(data.assign(setup=0, stated=data["sigma"]))])
+    assert 0 < count < 0.07 * 400
 
 
 @pytest.mark.slow

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from scipy.special import chdtrc
+from scipy.special import chdtrc, ndtr, stdtr
 
 from tribo.core.arrays import Array
 from tribo.study.calibration.linearised import COLLINEAR, normalised
@@ -27,6 +27,10 @@ _PARTICIPATES = 0.3
 """Component of a singular vector from which on a parameter is named."""
 _DOMINATES = 0.5
 """Part of a variance."""
+_FEWEST_REPEATS = 3
+"""Tests of which one may be called unlike the others."""
+_OUTLYING = 0.05
+"""Probability, for all repeats together, below which one is not of the others."""
 _CORRELATED = 3.0
 """Standard deviations above which the correlation of neighbouring residuals is significant."""
 
@@ -49,6 +53,7 @@ def notes(
         *_on_parameters(estimates, data, jacobian, freedom),
         *_on_collinearity(list(estimates["path"]), jacobian),
         *_on_misfit(data, freedom, cells, explained),
+        *(on_repeats(data) if freedom is None else ()),
         *_on_patterns(data),
         *_on_instruments(data),
     ]
@@ -161,11 +166,40 @@ def _on_misfit(
         )
 
 
+def on_repeats(data: pd.DataFrame) -> Iterator[str]:
+    """Name a value far from those of repeated tests, which are fitted with their scatter."""
+    numbers = data[~data["below"] & ~data["quantity"].isin(FIELDS)]
+    alike = ["setup", "body", "quantity", "time_s"]
+    for _, rows in numbers.groupby(alike, dropna=False, sort=False):
+        n, logs = len(rows), np.log(rows["measured"].to_numpy())
+        if n < _FEWEST_REPEATS:
+            continue
+        others = [np.delete(logs, i) for i in range(n)]
+        far = np.array([abs(own - np.mean(rest)) for own, rest in zip(logs, others, strict=True)])
+        far /= math.sqrt(1 + 1 / (n - 1))
+        scatter = np.array([np.std(rest, ddof=1) for rest in others])
+        # Neither the scatter of the others nor the instrument makes it so.
+        by_scatter = 2 * stdtr(n - 2, -far / np.maximum(scatter, 1e-12))
+        by_instrument = 2 * ndtr(-far * (rows["measured"] / rows["stated"]).to_numpy())
+        chance = n * np.maximum(by_scatter, by_instrument)
+        worst = int(np.argmin(chance))
+        if chance[worst] < _OUTLYING:
+            each = rows.iloc[worst]
+            yield (
+                f"the {named(each)} of {in_words(each.quantity, each.measured)} is not as in the "
+                f"other {n - 1} tests, which scatter by {percent(float(scatter[worst]))} % about "
+                f"{in_words(each.quantity, float(np.exp(np.mean(others[worst]))))}: check it; the "
+                "repeatability, and with it all intervals, are as large for it alone"
+            )
+
+
 def _on_patterns(data: pd.DataFrame) -> Iterator[str]:
-    """Name profiles and maps whose neighbouring residuals are correlated."""
+    """Name profiles and maps whose neighbouring residuals are correlated, but for their scale."""
     along = data[data["quantity"].isin(FIELDS)].sort_values("position_m", kind="stable")
     for _, rows in along.groupby("place", sort=False):
         residuals = rows["alone"].to_numpy()
+        scale = (rows["computed"] / rows["sigma"]).to_numpy()
+        residuals = residuals - np.sum(residuals * scale) / np.sum(scale**2) * scale
         correlation = np.sum(residuals[1:] * residuals[:-1]) / np.sum(residuals**2)
         if correlation * len(rows) ** 0.5 > _CORRELATED and np.max(np.abs(residuals)) > 1:
             yield (
