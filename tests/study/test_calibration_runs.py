@@ -293,15 +293,14 @@ def test_what_a_coarse_grid_cannot_tell_is_left_uncertain():
 
 @pytest.mark.slow
 def test_a_loss_that_was_not_seen_bounds_its_coefficient():
-    """With a loss k F s the limit is met with the probability of the level; no χ² counts it."""
+    """At the bound a reading below the limit has a probability of 1 − level; no χ² counts it."""
     loss = {"body": "disk", "quantity": "mass", "value": f"< {mass(DISK)} kg"}
     data = [BALL_LOSS, {**loss, "uncertainty": mass(DISK) / 4}]
     data = {"measured": data, "fit": [*fitting(BALL_K), *fitting(DISK_K, start=10 * DISK)]}
     found = calibrate(CASE, data)
     ball, disk = found.parameters.itertuples()
     assert (ball.limited, disk.limited, disk.lower) == (False, True, 0)
-    beyond = -norm.ppf(np.exp(-0.5 * norm.ppf(0.975) ** 2)) / 4
-    assert disk.upper == pytest.approx((1 + beyond) * DISK, rel=1e-3, abs=0)
+    assert disk.upper == pytest.approx((1 + norm.ppf(0.95) / 4) * DISK, rel=1e-3, abs=0)
     assert disk.value == pytest.approx(0.01 * DISK, rel=1e-4, abs=0)
     assert (found.degrees_of_freedom, found.chi_square) == (0, pytest.approx(0, abs=1e-6))
     assert any(n.startswith(f"{DISK_K}: what it wears was below") for n in found.notes)

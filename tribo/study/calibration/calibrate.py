@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from scipy.special import chdtrc, chdtri
+from scipy.special import chdtr, chdtrc, chdtri
 
 from tribo.case import Case
 from tribo.config.overrides import apply_settings
@@ -366,8 +366,11 @@ def _estimates(
     lower, upper = table[["lower", "upper"]].to_numpy(float, copy=True).T
     held = (values - lower <= AT_BOUND * values) | (upper - values <= AT_BOUND * values)
     limited = fitted.limited() & ~held
+    # Where only limits of detection bound a parameter, its likelihood is their probability.
+    of_limits = float(chdtr(1, -2 * np.log1p(-level)))
     for i in np.flatnonzero(~held):
-        low, high = values[i] * np.exp(interval(fitted, np.eye(len(values))[i], level))
+        own_level = of_limits if limited[i] else level
+        low, high = values[i] * np.exp(interval(fitted, np.eye(len(values))[i], own_level))
         lower[i], upper[i] = max(0.0 if limited[i] else low, lower[i]), min(high, upper[i])
     standard = np.asarray(np.linalg.pinv(jacobian), dtype=np.float64)
     effect = fitted.weights.weigh_transposed(standard.T).T
